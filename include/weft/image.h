@@ -1,0 +1,74 @@
+/* image.h - pixels in memory, and the files they come from
+ *
+ * Rows run from the top, pixels from the left, channels interleaved without padding.
+ * Integer pixels hold what the file holds (usually sRGB for colour, plain numbers for data: the reader does
+ * not know which); float pixels are linear Rec. 709 radiance. Channels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA;
+ * alpha is straight, never premultiplied. */
+#ifndef WEFT_IMAGE_H
+#define WEFT_IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "weft/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum WeftPixelType { WEFT_PIXEL_U8 = 0, WEFT_PIXEL_U16 = 1, WEFT_PIXEL_F32 = 2 } WeftPixelType;
+
+typedef struct WeftImage {
+    int width, height; /* 1 .. 65536 */
+    int channels;      /* 1 .. 4 */
+    WeftPixelType type;
+    void *pixels; /* width * height * channels of the type; owned, see weft_image_free */
+} WeftImage;
+
+/* A new zeroed image. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_image_create(int width, int height, int channels, WeftPixelType type, WeftImage *out,
+                                      WeftError *error);
+
+/* Releases the pixels and zeroes the struct. image may be NULL or all zero. */
+WEFT_API void weft_image_free(WeftImage *image);
+
+/* Reads PNG, JPEG, TGA, Radiance HDR or OpenEXR, told apart by content (TGA, which has no signature, comes
+ * last). PNG and TGA give U8 or U16, JPEG U8, HDR F32 RGB, EXR F32. log (may be NULL) receives what was
+ * repaired. */
+WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
+
+/* The same from size bytes at data; name is the subject of errors. */
+WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
+                                           const WeftLog *log, WeftError *error);
+
+/* Writes by suffix: .png (U8 or U16 as the image is; F32 is refused: tone-map first), .exr (F32, half float,
+ * ZIP), .hdr (F32, RGBE, no alpha). The file appears complete or not at all. */
+WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
+
+/* Whether weft_image_write knows this suffix, and whether what it writes is linear (EXR, HDR) or
+ * display-referred. */
+WEFT_API int weft_image_suffix_known(const char *path);
+WEFT_API int weft_image_suffix_linear(const char *path);
+
+/* How linear radiance becomes a display value in [0, 1] before the sRGB curve. */
+typedef enum WeftTonemap {
+    WEFT_TONEMAP_PBR_NEUTRAL = 0, /* Khronos PBR Neutral, 2024: keeps base colours, for products */
+    WEFT_TONEMAP_ACES = 1,        /* Narkowicz, "ACES Filmic Tone Mapping Curve", 2015 */
+    WEFT_TONEMAP_NONE = 2         /* clamp */
+} WeftTonemap;
+
+/* Display-referred U8 (sRGB-encoded, alpha kept) from a linear F32 image of 3 or 4 channels; each colour is
+ * first multiplied by 2^exposure. A tiny ordered dither breaks up banding; the same input gives the same
+ * bytes. */
+WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
+                                       WeftImage *out, WeftError *error);
+
+/* Mean over pixels and channels of (a - b)^2 / (b^2 + 1e-2), b being the reference: relMSE, lower is closer.
+ * Both F32 and of one size, else a negative number. */
+WEFT_API double weft_image_relmse(const WeftImage *a, const WeftImage *b);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,107 @@
+/* result.h - how every call of the library answers
+ *
+ * A call that can fail returns a WeftResult and takes a WeftError* (may be NULL) that it fills on failure.
+ * Warnings go to a WeftLog. The library never prints and never exits. */
+#ifndef WEFT_RESULT_H
+#define WEFT_RESULT_H
+
+#if defined(WEFT_BUILD)
+#define WEFT_API __attribute__((visibility("default")))
+#else
+#define WEFT_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The numbers are the exit codes of the weft program. */
+typedef enum WeftResult {
+    WEFT_OK = 0,
+    WEFT_FAILED = 1,       /* a check or a comparison did not hold */
+    WEFT_USAGE = 2,        /* a name, number or descriptor makes no sense */
+    WEFT_INPUT = 3,        /* an input could not be read or is invalid */
+    WEFT_RESOURCES = 4,    /* memory, disk or a device gave out */
+    WEFT_INTERRUPTED = 130 /* stopped by the caller; what there is, is valid */
+} WeftResult;
+
+/* M(id, result, text): every message of the library. Tests assert on ids; people read
+ * "subject: text" or "subject: text: detail". */
+#define WEFT_MESSAGES(M)                                                                                     \
+    M(NONE, OK, "")                                                                                          \
+    M(MEMORY, RESOURCES, "out of memory")                                                                    \
+    M(FILE_OPEN, INPUT, "cannot be opened")                                                                  \
+    M(FILE_READ, INPUT, "cannot be read")                                                                    \
+    M(FILE_LARGE, INPUT, "is too large")                                                                     \
+    M(FILE_WRITE, RESOURCES, "cannot be written")                                                            \
+    M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr)")                     \
+    M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA HDR EXR)")                       \
+    M(IMAGE_SIZE, INPUT, "claims more pixels than can be meant")                                             \
+    M(IMAGE_DAMAGED, INPUT, "is damaged")                                                                    \
+    M(IMAGE_UNSUPPORTED, INPUT, "uses an image feature that is not supported")                               \
+    M(IMAGE_TRUNCATED, WARNING, "ends early; the missing part is black")                                     \
+    M(GLTF_JSON, INPUT, "is not valid JSON")                                                                 \
+    M(GLTF_CONTAINER, INPUT, "is not a valid GLB container")                                                 \
+    M(GLTF_VERSION, INPUT, "is not glTF 2.x")                                                                \
+    M(GLTF_SCHEMA, INPUT, "breaks the glTF 2.0 schema")                                                      \
+    M(GLTF_REFERENCE, INPUT, "refers to something that is not there")                                        \
+    M(GLTF_BOUNDS, INPUT, "reads outside its buffer")                                                        \
+    M(GLTF_URI, INPUT, "has a URI that cannot be used")                                                      \
+    M(GLTF_EXTENSION, INPUT, "requires an extension that is not supported")                                  \
+    M(GLTF_CYCLE, INPUT, "has a node that is its own ancestor")                                              \
+    M(GLTF_TOO_LARGE, INPUT, "describes more than can be meant")                                             \
+    M(GLTF_DECODE, INPUT, "has compressed data that does not decode")                                        \
+    M(GLTF_WARN_EXTENSION, WARNING, "uses an extension that is ignored")                                     \
+    M(GLTF_WARN_IGNORED, WARNING, "has a part that is ignored")                                              \
+    M(GLTF_WARN_REST_POSE, WARNING, "is shown in its rest pose")                                             \
+    M(GLTF_WARN_REPAIRED, WARNING, "was repaired")                                                           \
+    M(SCENE_NAME, USAGE, "is not a built-in scene")                                                          \
+    M(SCENE_EMPTY, INPUT, "has nothing to render")                                                           \
+    M(SCENE_KIND, INPUT, "is not a scene of a known kind (.gltf .glb)")                                      \
+    M(CAMERA_NAME, USAGE, "is not a camera of this scene")                                                   \
+    M(VARIANT_NAME, USAGE, "is not a material variant of this scene")                                        \
+    M(MATERIAL_NAME, USAGE, "is not a material of this scene")                                               \
+    M(PARAM_NAME, USAGE, "is not a parameter")                                                               \
+    M(PARAM_VALUE, USAGE, "is not a value that the parameter takes")                                         \
+    M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
+    M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
+    M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
+    M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
+    M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
+    M(INTERRUPTED, INTERRUPTED, "was stopped")
+
+/* What a warning's result would be; warnings are only ever logged, never returned. */
+#define WEFT_WARNING WEFT_OK
+
+typedef enum WeftMessage {
+#define WEFT_MESSAGE_ENUM(id, result, text) WEFT_MESSAGE_##id,
+    WEFT_MESSAGES(WEFT_MESSAGE_ENUM)
+#undef WEFT_MESSAGE_ENUM
+        WEFT_MESSAGE_COUNT
+} WeftMessage;
+
+/* One failure: which message, and one line for people without a newline at its end. */
+typedef struct WeftError {
+    WeftResult result;
+    WeftMessage message;
+    char text[512];
+} WeftError;
+
+/* Where warnings go. fn may be NULL: then they are dropped. text lives only during the call. fn may be called
+ * from a thread the library made, but never from two at once for one log. */
+typedef struct WeftLog {
+    void (*fn)(void *user, WeftMessage message, const char *text);
+    void *user;
+} WeftLog;
+
+/* The text of a message without subject or detail; never NULL. */
+WEFT_API const char *weft_message_text(WeftMessage message);
+
+/* The library's version, "major.minor.patch". */
+WEFT_API const char *weft_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

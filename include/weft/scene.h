@@ -1,0 +1,78 @@
+/* scene.h - a scene to render: loaded from a file or built in, then dressed and lit
+ *
+ * World space is right-handed, +y up, metres. A WeftScene may be read by several renders at once; the calls
+ * that change it must not run beside anything else on the same scene. */
+#ifndef WEFT_SCENE_PUBLIC_H
+#define WEFT_SCENE_PUBLIC_H
+
+#include <stddef.h>
+
+#include "weft/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WeftScene WeftScene;
+
+/* Loads path: a .gltf or .glb file, or "builtin:NAME". log (may be NULL) receives warnings. On success *out
+ * is owned by the caller: release it with weft_scene_free. */
+WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error);
+
+/* The same from size bytes of a .glb, or of a .gltf that refers to no other file. */
+WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
+                                           const WeftLog *log, WeftError *error);
+
+/* scene may be NULL. */
+WEFT_API void weft_scene_free(WeftScene *scene);
+
+/* The built-in scenes: the name without "builtin:" and a line on what it shows; NULL past the end. */
+WEFT_API const char *weft_builtin_name(int index);
+WEFT_API const char *weft_builtin_help(int index);
+
+typedef struct WeftSceneInfo {
+    int mesh_count, material_count, light_count, camera_count, variant_count, image_count;
+    long long triangle_count;
+    float low[3], high[3]; /* bounding box, m */
+} WeftSceneInfo;
+
+WEFT_API WeftSceneInfo weft_scene_info(const WeftScene *scene);
+
+/* Names by index; "" where the file gives none, NULL out of range. Owned by the scene. */
+WEFT_API const char *weft_scene_material_name(const WeftScene *scene, int index);
+WEFT_API const char *weft_scene_camera_name(const WeftScene *scene, int index);
+WEFT_API const char *weft_scene_variant_name(const WeftScene *scene, int index);
+
+/* Switches to a variant of KHR_materials_variants by name. */
+WEFT_API WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error);
+
+/* Sets "MATERIAL.INPUT" to a number or "r,g,b" and drops its texture; MATERIAL is a name, an index or "*" for
+ * all. Values beyond the plausible range are taken with a warning; non-finite ones are refused. */
+WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value,
+                                   const WeftLog *log, WeftError *error);
+
+/* Every material's sheen lobe or layer rule, by id (weft_lobe_find, weft_layer_id). */
+WEFT_API WeftResult weft_scene_set_sheen(WeftScene *scene, const char *lobe, WeftError *error);
+WEFT_API WeftResult weft_scene_set_layer(WeftScene *scene, const char *layer, WeftError *error);
+
+/* The material inputs weft_scene_set takes: name and help; NULL past the end. */
+WEFT_API const char *weft_material_input_name(int index);
+WEFT_API const char *weft_material_input_help(int index);
+
+/* Lights the scene from a lat-long image file (its columns run towards +x, row 0 is up). */
+WEFT_API WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,
+                                                    WeftError *error);
+
+/* Lights the scene by one radiance from everywhere. */
+WEFT_API WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[3],
+                                                     WeftError *error);
+
+/* Turns the environment about +y (degrees) and scales it. */
+WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
+                                                         WeftError *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

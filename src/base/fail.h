@@ -1,0 +1,17 @@
+/* fail.h - making the errors and warnings of weft/result.h */
+#ifndef WEFT_BASE_FAIL_H
+#define WEFT_BASE_FAIL_H
+
+#include "weft/result.h"
+
+/* Fills *error (may be NULL) with "subject: text" or, where detail is a printf format and not NULL,
+ * "subject: text: detail", and returns the message's result: `return fail(error, WEFT_MESSAGE_X, path,
+ * NULL);`. Control characters in the outcome become '?', so that a hostile name cannot break the line. */
+__attribute__((format(printf, 4, 5))) WeftResult fail(WeftError *error, WeftMessage message,
+                                                      const char *subject, const char *detail, ...);
+
+/* The same line, handed to the log as a warning. log may be NULL. */
+__attribute__((format(printf, 4, 5))) void warn(const WeftLog *log, WeftMessage message, const char *subject,
+                                                const char *detail, ...);
+
+#endif

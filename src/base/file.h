@@ -1,0 +1,34 @@
+/* file.h - whole files in, whole files out */
+#ifndef WEFT_BASE_FILE_H
+#define WEFT_BASE_FILE_H
+
+#include <stdio.h>
+
+#include "weft/result.h"
+
+/* The bytes of a file, followed by one zero byte that size does not count. Release with free(data). */
+typedef struct FileBytes {
+    unsigned char *data;
+    size_t size;
+} FileBytes;
+
+/* Reads all of path (a regular file or a pipe) up to limit bytes. */
+WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error);
+
+/* A file that appears under its name complete or not at all: written beside it, synced and renamed. */
+typedef struct OutputFile {
+    FILE *stream;     /* write here */
+    const char *path; /* borrowed: must outlive the OutputFile */
+    char *temporary;
+} OutputFile;
+
+/* Opens the temporary file beside path. */
+WeftResult output_open(OutputFile *file, const char *path, WeftError *error);
+
+/* Closes and renames; on any failure the temporary is gone and the old file stands. */
+WeftResult output_commit(OutputFile *file, WeftError *error);
+
+/* Closes and removes the temporary. */
+void output_discard(OutputFile *file);
+
+#endif

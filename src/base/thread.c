@@ -1,0 +1,53 @@
+#define _GNU_SOURCE
+#include "base/thread.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+
+enum { THREADS_MAX = 256 };
+
+int thread_count(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+    int count = CPU_COUNT(&set);
+    return count < 1 ? 1 : count > THREADS_MAX ? THREADS_MAX : count;
+}
+
+typedef struct Loop {
+    void (*body)(void *, int, int);
+    void *user;
+    atomic_int next;
+    int items;
+} Loop;
+
+typedef struct Worker {
+    Loop *loop;
+    int thread;
+    pthread_t handle;
+} Worker;
+
+static void *work(void *argument) {
+    Worker *worker = argument;
+    Loop *loop = worker->loop;
+    for (int item; (item = atomic_fetch_add(&loop->next, 1)) < loop->items;)
+        loop->body(loop->user, item, worker->thread);
+    return NULL;
+}
+
+void parallel_for(int threads, int items, void (*body)(void *user, int item, int thread), void *user) {
+    if (threads <= 0) threads = thread_count();
+    if (threads > THREADS_MAX) threads = THREADS_MAX;
+    if (threads > items) threads = items;
+    Loop loop = {.body = body, .user = user, .items = items};
+    Worker workers[THREADS_MAX];
+    int started = 0; /* a thread that cannot start is no loss: the others take its items */
+    for (int t = 1; t < threads; t++) {
+        workers[t] = (Worker){.loop = &loop, .thread = t};
+        if (pthread_create(&workers[t].handle, NULL, work, &workers[t]) != 0) break;
+        started = t;
+    }
+    workers[0] = (Worker){.loop = &loop};
+    work(&workers[0]);
+    for (int t = 1; t <= started; t++) pthread_join(workers[t].handle, NULL);
+}

@@ -1,0 +1,18 @@
+/* gltf.h - glTF 2.0 files into scenes
+ *
+ * Specification: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), and its extension
+ * registry. */
+#ifndef WEFT_GLTF_GLTF_H
+#define WEFT_GLTF_GLTF_H
+
+#include <stddef.h>
+
+#include "scene/scene.h"
+
+/* Reads the file at path, or, where data is not NULL, size bytes of it; path then only names it in messages
+ * and files beside it are refused. Fills scene (made by scene_create) with everything the file's default
+ * scene shows. On failure the scene holds whatever was read so far and can only be freed. */
+WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
+                     WeftError *error);
+
+#endif

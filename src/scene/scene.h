@@ -1,0 +1,92 @@
+/* scene.h - what a file means once loaded: world-space triangles, materials, lights, cameras, environment
+ *
+ * World space is glTF's: right-handed, +y up, metres. A scene is made by gltf/ or builtin.c and read by the
+ * renderers. All memory but the pixels is in one arena. */
+#ifndef WEFT_SCENE_SCENE_H
+#define WEFT_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "scene/material.h"
+#include "scene/texture.h"
+#include "weft/scene.h"
+
+typedef struct Vec3 {
+    float x, y, z;
+} Vec3;
+
+/* One set of triangles with one material, already in world space; front faces wind counter-clockwise. */
+typedef struct Mesh {
+    const char *name; /* never NULL */
+    uint32_t vertex_count, triangle_count;
+    float *position; /* 3 a vertex */
+    float *normal;   /* 3 a vertex, unit; NULL: use the flat face normal */
+    float *tangent; /* 4 a vertex: unit xyz, w = +1 or -1 with bitangent = w cross(n, t); NULL: none needed */
+    float *texcoord[2]; /* 2 a vertex; NULL reads as (0, 0) */
+    float *color;       /* 4 a vertex, linear RGBA, multiplies base_color and opacity; NULL: white */
+    uint32_t *index;    /* 3 a triangle, each < vertex_count */
+    int material;       /* index into materials; always valid */
+    int *
+        variant_material; /* variant_count entries, -1 where a variant leaves this mesh alone; NULL: all -1 */
+} Mesh;
+
+typedef enum LightKind { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } LightKind;
+
+/* Radiometric: color * intensity is W/(m^2) across the beam (directional) or W/sr (point, spot). */
+typedef struct Light {
+    const char *name;
+    LightKind kind;
+    Vec3 position;  /* point, spot */
+    Vec3 direction; /* unit, the way the light travels; directional, spot */
+    float color[3], intensity;
+    float range;                /* m; 0: no limit. Window of KHR_lights_punctual */
+    float cos_inner, cos_outer; /* spot: full inside the inner cone, none outside the outer */
+} Light;
+
+typedef struct Camera {
+    const char *name;
+    Vec3 eye, right, up, forward; /* right, up, forward orthonormal; the camera looks along forward */
+    bool orthographic;
+    float yfov; /* vertical field of view, radians; perspective */
+    float ymag; /* half of the visible height, m; orthographic */
+} Camera;
+
+typedef enum EnvironmentKind {
+    ENVIRONMENT_STUDIO = 0,
+    ENVIRONMENT_CONSTANT,
+    ENVIRONMENT_IMAGE
+} EnvironmentKind;
+
+/* Distant light. An image is lat-long: row 0 is +y, the middle column is -z, columns run towards +x. */
+typedef struct Environment {
+    EnvironmentKind kind;
+    float color[3];  /* CONSTANT: radiance */
+    WeftImage image; /* IMAGE and STUDIO: F32 RGB, owned; all zero until environment_prepare */
+    float rotation;  /* radians about +y, counter-clockwise seen from above */
+    float strength;  /* factor on the radiance */
+} Environment;
+
+struct WeftScene {
+    Arena arena; /* everything below but the pixels of images */
+    const char *name;
+    WeftImage *images;
+    Texture *textures;
+    Material *materials;
+    Mesh *meshes;
+    Light *lights;
+    Camera *cameras;
+    const char **variants;
+    int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
+    Environment environment;
+    Vec3 low, high; /* bounding box of all vertices; low > high when there are none */
+};
+
+/* An empty scene with the studio environment, or NULL when memory is short. */
+WeftScene *scene_create(const char *name);
+
+/* Sets low and high from the meshes. Call once all meshes stand. */
+void scene_bounds(WeftScene *scene);
+
+#endif

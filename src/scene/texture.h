@@ -1,0 +1,26 @@
+/* texture.h - an image with the way it is looked up */
+#ifndef WEFT_SCENE_TEXTURE_H
+#define WEFT_SCENE_TEXTURE_H
+
+#include <stdbool.h>
+
+#include "weft/image.h"
+
+typedef enum Wrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } Wrap;
+
+typedef struct Texture {
+    int image; /* index into the scene's images */
+    Wrap wrap_u, wrap_v;
+    bool nearest; /* no interpolation between texels */
+} Texture;
+
+typedef struct Texel {
+    float c[4]; /* RGBA; a grey image gives r = g = b, a missing alpha gives 1 */
+} Texel;
+
+/* The texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. srgb: integer
+ * RGB is decoded to linear Rec. 709 before it is interpolated; alpha never is. Non-finite coordinates read as
+ * 0. */
+Texel texture_fetch(const Texture *texture, const WeftImage *images, bool srgb, float u, float v);
+
+#endif
