@@ -11,3 +11,16 @@ foreach(file ${WEFT_LOBE_FILES})
   string(APPEND text "#include \"${file}\"\n")
 endforeach()
 file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/lobes.gen.h CONTENT "${text}" @ONLY)
+
+# embedded.c holds the built-in scene files as they are.
+file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/embedded.c @ONLY CONTENT [[
+__asm__(".section .rodata\n"
+        ".global embedded_cloth_glb\n.hidden embedded_cloth_glb\n.balign 16\n"
+        "embedded_cloth_glb:\n.incbin \"@CMAKE_CURRENT_SOURCE_DIR@/scenes/cloth.glb\"\n"
+        ".global embedded_cloth_glb_end\n.hidden embedded_cloth_glb_end\nembedded_cloth_glb_end:\n.byte 0\n"
+        ".previous\n");
+typedef int embedded_file_is_not_empty;
+]])
+list(APPEND WEFT_GENERATED ${WEFT_GENERATED_DIR}/embedded.c)
+set_source_files_properties(${WEFT_GENERATED_DIR}/embedded.c PROPERTIES
+  OBJECT_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/scenes/cloth.glb)

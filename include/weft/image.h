@@ -50,6 +50,11 @@ WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, W
 WEFT_API int weft_image_suffix_known(const char *path);
 WEFT_API int weft_image_suffix_linear(const char *path);
 
+/* Any image as F32: integers become value / 255 or / 65535, colours (not alpha) through the sRGB decoding
+ * curve if srgb is not 0; F32 is copied. For environment maps that come as PNG or JPEG. out must not be in.
+ */
+WEFT_API WeftResult weft_image_convert_f32(const WeftImage *in, int srgb, WeftImage *out, WeftError *error);
+
 /* How linear radiance becomes a display value in [0, 1] before the sRGB curve. */
 typedef enum WeftTonemap {
     WEFT_TONEMAP_PBR_NEUTRAL = 0, /* Khronos PBR Neutral, 2024: keeps base colours, for products */

@@ -39,7 +39,7 @@ typedef enum WeftResult {
     M(IMAGE_SIZE, INPUT, "claims more pixels than can be meant")                                             \
     M(IMAGE_DAMAGED, INPUT, "is damaged")                                                                    \
     M(IMAGE_UNSUPPORTED, INPUT, "uses an image feature that is not supported")                               \
-    M(IMAGE_TRUNCATED, WARNING, "ends early; the missing part is black")                                     \
+    M(IMAGE_REPAIRED, WARNING, "was repaired")                                                               \
     M(GLTF_JSON, INPUT, "is not valid JSON")                                                                 \
     M(GLTF_CONTAINER, INPUT, "is not a valid GLB container")                                                 \
     M(GLTF_VERSION, INPUT, "is not glTF 2.x")                                                                \

@@ -22,7 +22,8 @@ struct ArenaBlock {
     _Alignas(16) unsigned char bytes[];
 };
 
-enum { ARENA_BLOCK = 1 << 16 };
+/* Embree reads the last vertex of a shared buffer with a 16-byte load: the slack keeps that inside the block. */
+enum { ARENA_BLOCK = 1 << 16, ARENA_SLACK = 16 };
 
 void *arena_array(Arena *arena, size_t count, size_t size) {
     if (size && count > SIZE_MAX / 2 / size) return NULL;
@@ -30,7 +31,7 @@ void *arena_array(Arena *arena, size_t count, size_t size) {
     struct ArenaBlock *block = arena->blocks;
     if (!block || block->size - block->used < bytes) {
         size_t room = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
-        struct ArenaBlock *fresh = alloc_array(1, sizeof *fresh + room);
+        struct ArenaBlock *fresh = alloc_array(1, sizeof *fresh + room + ARENA_SLACK);
         if (!fresh) return NULL;
         fresh->size = room;
         /* A large array gets a block of its own behind the current one, which still has room. */

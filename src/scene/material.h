@@ -1,7 +1,5 @@
-/* material.h - what a surface is made of, as a table of inputs: each a number or a texture times a number
- *
- * MATERIAL_INPUTS is the one list; the struct, --set, the docs and (later) sliders and uniforms come from it.
- */
+/* material.h - what a surface is made of: each input of shading/inputs.h as a number or a texture times a
+ * number */
 #ifndef WEFT_SCENE_MATERIAL_H
 #define WEFT_SCENE_MATERIAL_H
 
@@ -9,41 +7,14 @@
 #include <stdint.h>
 
 #include "scene/texture.h"
+#include "shading/inputs.h"
 
-/* SCALAR: value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
+/* How an input's value and texture make the number or direction at a point.
+ * SCALAR: value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
  * NORMAL: value[0] scales x and y of 2 t - 1; without a texture the surface is smooth.
  * DIRECTION: value[0] is an angle (radians, from the tangent towards the bitangent) added to that of 2 t.rg
  * - 1. */
 typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION } InputKind;
-
-/* P(kind, name, default, low, high, help): low .. high is the plausible range; colours use one number for all
- * three channels. */
-#define MATERIAL_INPUTS(P)                                                                                   \
-    P(COLOR, base_color, 0.8f, 0.0f, 1.0f, "diffuse colour of a dielectric, reflectance of a metal")         \
-    P(SCALAR, opacity, 1.0f, 0.0f, 1.0f, "coverage, 0 lets everything through")                              \
-    P(SCALAR, metallic, 0.0f, 0.0f, 1.0f, "0 dielectric, 1 metal")                                           \
-    P(SCALAR, roughness, 0.5f, 0.0f, 1.0f, "of the base; alpha = roughness^2")                               \
-    P(NORMAL, normal, 1.0f, 0.0f, 2.0f, "strength of the normal map")                                        \
-    P(SCALAR, occlusion, 1.0f, 0.0f, 1.0f, "strength of baked occlusion (real-time renderer only)")          \
-    P(COLOR, emission, 0.0f, 0.0f, 1.0f, "radiance sent out, before emission_strength")                      \
-    P(SCALAR, emission_strength, 1.0f, 0.0f, 100.0f, "factor on emission")                                   \
-    P(SCALAR, ior, 1.5f, 1.0f, 2.5f, "index of refraction of the dielectric")                                \
-    P(SCALAR, specular, 1.0f, 0.0f, 1.0f, "strength of the dielectric's reflection")                         \
-    P(COLOR, specular_color, 1.0f, 0.0f, 1.0f, "tint of the dielectric's reflection at normal incidence")    \
-    P(SCALAR, anisotropy, 0.0f, 0.0f, 1.0f, "stretch of the highlight along anisotropy_direction")           \
-    P(DIRECTION, anisotropy_direction, 0.0f, 0.0f, 6.2831853f, "angle from the tangent")                     \
-    P(SCALAR, clearcoat, 0.0f, 0.0f, 1.0f, "amount of clear coat, ior 1.5")                                  \
-    P(SCALAR, clearcoat_roughness, 0.0f, 0.0f, 1.0f, "of the coat")                                          \
-    P(NORMAL, clearcoat_normal, 1.0f, 0.0f, 2.0f, "strength of the coat's own normal map")                   \
-    P(COLOR, sheen_color, 0.0f, 0.0f, 1.0f, "colour of the sheen; black is none")                            \
-    P(SCALAR, sheen_roughness, 0.0f, 0.0f, 1.0f, "of the sheen; each lobe says what alpha it becomes")
-
-typedef enum InputId {
-#define INPUT_ENUM(kind, name, def, low, high, help) INPUT_##name,
-    MATERIAL_INPUTS(INPUT_ENUM)
-#undef INPUT_ENUM
-        INPUT_COUNT
-} InputId;
 
 typedef struct InputInfo {
     InputKind kind;
@@ -79,5 +50,8 @@ typedef struct Material {
 /* A material with every default: identity texture transforms, no textures, opaque, single-sided, sheen lobe
  * charlie-conty-kulla under layer albedo-view as KHR_materials_sheen says. */
 Material material_default(const char *name);
+
+/* Index of an input by name, or -1. */
+int material_input(const char *name);
 
 #endif

@@ -9,13 +9,10 @@
 #include <stdint.h>
 
 #include "base/memory.h"
+#include "base/vec3.h"
 #include "scene/material.h"
 #include "scene/texture.h"
 #include "weft/scene.h"
-
-typedef struct Vec3 {
-    float x, y, z;
-} Vec3;
 
 /* One set of triangles with one material, already in world space; front faces wind counter-clockwise. */
 typedef struct Mesh {
@@ -63,13 +60,14 @@ typedef enum EnvironmentKind {
 typedef struct Environment {
     EnvironmentKind kind;
     float color[3];  /* CONSTANT: radiance */
-    WeftImage image; /* IMAGE and STUDIO: F32 RGB, owned; all zero until environment_prepare */
+    WeftImage image; /* IMAGE and STUDIO: F32 RGB, owned; all zero otherwise */
     float rotation;  /* radians about +y, counter-clockwise seen from above */
     float strength;  /* factor on the radiance */
 } Environment;
 
 struct WeftScene {
     Arena arena; /* everything below but the pixels of images */
+    SrgbTable srgb;
     const char *name;
     WeftImage *images;
     Texture *textures;

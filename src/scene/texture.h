@@ -18,9 +18,16 @@ typedef struct Texel {
     float c[4]; /* RGBA; a grey image gives r = g = b, a missing alpha gives 1 */
 } Texel;
 
-/* The texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. srgb: integer
- * RGB is decoded to linear Rec. 709 before it is interpolated; alpha never is. Non-finite coordinates read as
- * 0. */
-Texel texture_fetch(const Texture *texture, const WeftImage *images, bool srgb, float u, float v);
+/* Linear value of every sRGB byte (IEC 61966-2-1), made once per scene. */
+typedef struct SrgbTable {
+    float linear[256];
+} SrgbTable;
+
+SrgbTable srgb_table(void);
+
+/* The texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. With srgb not
+ * NULL the RGB of integer images is decoded to linear Rec. 709 before it is interpolated; alpha never is.
+ * Non-finite coordinates read as 0. */
+Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v);
 
 #endif

@@ -1,0 +1,85 @@
+/* lobe.h - the catalogue of shading models: what there is, and eval, sample, pdf and albedo of each
+ *
+ * Local frame: +z is the shading normal, +x the tangent. wo points to the viewer, wi to the light, both away
+ * from the surface, unit length. f is in 1/sr and excludes the cosine; pdf is over solid angle, 1/sr. All
+ * functions are pure: they may be called from any number of threads. */
+#ifndef WEFT_LOBE_H
+#define WEFT_LOBE_H
+
+#include "weft/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { WEFT_LOBE_PARAMS_MAX = 8 };
+
+/* Traits: what holds of a lobe over its whole parameter range. */
+enum {
+    WEFT_LOBE_RECIPROCAL = 1,   /* f(wo, wi) = f(wi, wo) */
+    WEFT_LOBE_CONSERVES = 2,    /* E <= 1 */
+    WEFT_LOBE_LOSSLESS = 4,     /* E = 1 when white */
+    WEFT_LOBE_FRESNEL = 8,      /* its colour goes from f0 to f90 towards grazing */
+    WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
+    WEFT_LOBE_REFERENCE = 32    /* for the path tracer only */
+};
+
+typedef struct WeftParamInfo {
+    const char *name, *help;
+    float def;                 /* default */
+    float low, high;           /* plausible range: what a slider spans */
+    float hard_low, hard_high; /* values are clamped to this */
+} WeftParamInfo;
+
+typedef struct WeftLobeInfo {
+    const char *id;
+    unsigned traits;
+    int param_count; /* <= WEFT_LOBE_PARAMS_MAX */
+    const WeftParamInfo *params;
+} WeftLobeInfo;
+
+/* The catalogue: lobes [0, weft_lobe_count()); NULL out of range. */
+WEFT_API int weft_lobe_count(void);
+WEFT_API const WeftLobeInfo *weft_lobe_info(int lobe);
+
+/* The index of an id, or -1. */
+WEFT_API int weft_lobe_find(const char *id);
+
+/* The layer rules by index, and a line on what each does; NULL past the end. */
+WEFT_API const char *weft_layer_id(int layer);
+WEFT_API const char *weft_layer_help(int layer);
+
+/* A lobe with its parameters. Plain data, may be copied. */
+typedef struct WeftLobe {
+    int lobe;
+    float params[WEFT_LOBE_PARAMS_MAX];
+    float f0[3], f90[3]; /* colour; f90 counts only for WEFT_LOBE_FRESNEL */
+} WeftLobe;
+
+/* The lobe with its default parameters, white. Fails with WEFT_MESSAGE_LOBE_NAME. */
+WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error);
+
+/* Sets a parameter by name: one number, or "color" ("f0") and "f90" as "r,g,b" or one number for all three.
+ * Beyond the plausible range the value is taken with a warning and clamped to the hard range; beyond that
+ * range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE. */
+WEFT_API WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
+                                  WeftError *error);
+
+/* f per colour channel, 1/sr; 0 where a direction is not above the horizon. */
+WEFT_API void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], float f[3]);
+
+/* Density of weft_lobe_sample at wi, 1/sr; 0 means that wi is never sampled. */
+WEFT_API float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]);
+
+/* Draws wi for u in [0, 1)^2 and returns its pdf; 0 means no sample, and wi is then not to be used. */
+WEFT_API float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]);
+
+/* Directional albedo E per colour channel for wo = (sin, 0, cos_o), cos_o in (0, 1]: adaptive quadrature to
+ * 1e-4 absolute. */
+WEFT_API void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,86 @@
+/* render.h - path tracing a scene: the reference picture
+ *
+ * Unidirectional, next-event estimation and multiple importance sampling for environment, punctual and
+ * emissive-triangle lights. The same descriptor gives the same bytes on any number of threads.
+ *
+ * DOES:     unbiased but for the shading-terminator offset and the bend of normal-mapped normals towards the
+ * viewer. DOES NOT: refraction, volumes, clamping, denoising. */
+#ifndef WEFT_RENDER_H
+#define WEFT_RENDER_H
+
+#include <stdint.h>
+
+#include "weft/image.h"
+#include "weft/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum WeftBackground {
+    WEFT_BACKGROUND_AUTO = 0,    /* a plain backdrop under the studio light, else the environment */
+    WEFT_BACKGROUND_ENVIRONMENT, /* what lights the scene is seen behind it */
+    WEFT_BACKGROUND_TRANSPARENT, /* alpha 0 where nothing is */
+    WEFT_BACKGROUND_COLOR        /* background_color, linear */
+} WeftBackground;
+
+/* Which strategy finds lights; anything but MIS is for tests and teaching. */
+typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
+
+/* Zero means default, in every member. */
+typedef struct WeftRenderDesc {
+    int width, height; /* pixels, 1 .. 65536; 0: 960 x 720 */
+    int crop[4];       /* x, y, width, height in pixels from the top left; all 0: everything */
+    int max_depth;     /* scattering events on a path, 1 is direct light only; 0: 9 */
+    uint32_t seed;
+    int threads; /* 0: one a processor */
+    /* NULL or "auto" frames the scene; a camera's name or index; or "eye;target;fov" as "x,y,z;x,y,z;degrees"
+     */
+    const char *camera;
+    WeftBackground background;
+    float background_color[3];
+    WeftSampling sampling;
+    int pixel_centre; /* not 0: every camera ray goes through the middle of its pixel, no filter */
+    int no_roulette;  /* not 0: paths end only at max_depth or where nothing is hit */
+} WeftRenderDesc;
+
+typedef struct WeftRender WeftRender;
+
+/* Builds the acceleration structure, the light and albedo tables. scene must outlive the render and not
+ * change meanwhile. Fails with WEFT_MESSAGE_DESC, _CAMERA_NAME, _SCENE_EMPTY, _MEMORY or _RENDER_DEVICE. */
+WEFT_API WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
+                                       WeftError *error);
+
+/* render may be NULL. */
+WEFT_API void weft_render_free(WeftRender *render);
+
+/* Called now and then, from the thread that called weft_render_run, with the finished share of the samples
+ * asked for, in [0, 1]. A result other than 0 stops the render soon. */
+typedef int (*WeftProgress)(void *user, double fraction);
+
+/* Adds up to spp samples to every pixel; stops early when seconds (0: no limit) have passed or progress (may
+ * be NULL) says so: then WEFT_INTERRUPTED, or WEFT_OK for the time limit. What was gathered is kept and can
+ * be added to by another call. */
+WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress,
+                                    void *user);
+
+typedef struct WeftRenderInfo {
+    double samples_per_pixel; /* mean over the picture */
+    long long rays;           /* traced so far, shadow rays among them */
+    long long non_finite;     /* samples that were not finite and were left out; 0 but for a defect */
+    double build_seconds;     /* of weft_render_create */
+    double render_seconds;    /* spent in weft_render_run */
+    float camera_eye[3], camera_target[3], camera_fov; /* what `camera` resolved to; vertical, degrees */
+} WeftRenderInfo;
+
+WEFT_API WeftRenderInfo weft_render_info(const WeftRender *render);
+
+/* The picture so far: F32 RGBA, linear Rec. 709 radiance, straight alpha, of the crop's size. Pixels without
+ * a sample are transparent black. Release with weft_image_free. */
+WEFT_API WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

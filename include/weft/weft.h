@@ -1,0 +1,11 @@
+/* weft.h - all of the library */
+#ifndef WEFT_H
+#define WEFT_H
+
+#include "weft/image.h"
+#include "weft/lobe.h"
+#include "weft/render.h"
+#include "weft/result.h"
+#include "weft/scene.h"
+
+#endif

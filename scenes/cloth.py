@@ -1,0 +1,385 @@
+"""Makes cloth.glb, the scene builtin:cloth: velvet draped over a form on a round plinth, in a photographer's sweep.
+
+    blender -b --factory-startup -noaudio -P scenes/cloth.py -- scenes/cloth.glb [--cells N] [--frames N]
+
+The cloth falls by Blender's cloth simulation; everything else is written down here. World space is glTF's: +y up,
+metres, camera on the +z side. The simulation runs in Blender's z-up space; blender() and gltf() convert.
+"""
+
+import argparse
+import json
+import math
+import struct
+import sys
+
+import bpy
+import numpy as np
+from mathutils import bvhtree
+
+CLOTH_SIDE = 1.36  # m
+CLOTH_TURN = math.radians(33)  # about +y, so that one corner points at the camera
+CLOTH_SHIFT = (0.03, 0.02)  # x and z of its middle before it falls
+UV_SIZE = 0.5  # m of surface a uv unit spans
+
+PLINTH_RADIUS = 0.52
+PLINTH_HEIGHT = 0.34
+PLINTH_BEVEL = 0.012
+PLINTH_FOOT = (0.035, 0.025)  # depth and height of the shadow gap above the floor
+
+# The forms below the cloth: spheres as (x, y, z, radius) over the plinth's top.
+FORMS = [(-0.08, 0.30, -0.04, 0.20), (0.26, 0.10, 0.16, 0.10)]
+
+FLOOR_HALF_WIDTH = 8.0
+FLOOR_FRONT, FLOOR_BACK = 6.0, -3.2  # z where the floor begins and where it starts to rise
+SWEEP_RADIUS, WALL_TOP = 2.4, 6.0
+
+CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV = (0.55, 1.28, 3.0), (0.0, 0.44, 0.0), 26.0
+SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE = (-1.7, 2.2, 1.1), (0.0, 0.5, 0.0), 1.2
+
+MATERIALS = {
+    "Cloth": {
+        "doubleSided": True,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.16, 0.006, 0.018, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9},
+        "extensions": {"KHR_materials_sheen": {
+            "sheenColorFactor": [0.55, 0.16, 0.2], "sheenRoughnessFactor": 0.35}},
+    },
+    "Plinth": {"pbrMetallicRoughness": {
+        "baseColorFactor": [0.62, 0.6, 0.57, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.6}},
+    "Floor": {"pbrMetallicRoughness": {
+        "baseColorFactor": [0.34, 0.325, 0.31, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9}},
+    "Softbox": {
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.0, 0.0, 0.0, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0},
+        "emissiveFactor": [1.0, 0.95, 0.88],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 14.0}},
+    },
+}
+
+
+def blender(p):
+    """From glTF's y-up to Blender's z-up."""
+    return (p[0], -p[2], p[1])
+
+
+def gltf(points):
+    """From Blender's z-up to glTF's y-up, for an array of points."""
+    return np.stack([points[:, 0], points[:, 2], -points[:, 1]], axis=1)
+
+
+def unit(v):
+    v = np.asarray(v, dtype=np.float64)
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+# ---- the drape: Blender's simulation ----------------------------------------------------------------------------
+
+
+def add_object(name, vertices, faces):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(f) for f in faces])
+    mesh.update()
+    thing = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def make_collider(thing, friction):
+    thing.modifiers.new("Collision", "COLLISION")
+    thing.collision.thickness_outer = 0.004
+    thing.collision.thickness_inner = 0.05
+    thing.collision.cloth_friction = friction
+
+
+def add_colliders():
+    for x, y, z, radius in FORMS:
+        bpy.ops.mesh.primitive_ico_sphere_add(
+            subdivisions=5, radius=radius, location=blender((x, y + PLINTH_HEIGHT, z)))
+        make_collider(bpy.context.object, 12.0)
+    make_collider(add_object("plinth", *joined(plinth_parts(segments=96))), 25.0)
+    r = 4.0
+    make_collider(add_object("floor", [(-r, -r, 0), (r, -r, 0), (r, r, 0), (-r, r, 0)], [(0, 1, 2, 3)]), 25.0)
+
+
+def joined(parts):
+    """Vertices, in Blender's space, and triangles of several parts as one mesh."""
+    vertices, faces, base = [], [], 0
+    for part in parts:
+        vertices += [blender(p) for p in part["POSITION"]]
+        faces += [tuple(base + i for i in t) for t in part["index"]]
+        base += len(part["POSITION"])
+    return vertices, faces
+
+
+def cloth_sheet(cells):
+    """A flat square just above the highest form; vertices row by row, as grid_triangles expects."""
+    s = np.linspace(-0.5, 0.5, cells + 1) * CLOTH_SIDE
+    u, v = np.meshgrid(s, s)
+    c, n = math.cos(CLOTH_TURN), math.sin(CLOTH_TURN)
+    top = PLINTH_HEIGHT + max(y + r for _, y, _, r in FORMS) + 0.015
+    x = CLOTH_SHIFT[0] + c * u - n * v
+    z = CLOTH_SHIFT[1] + n * u + c * v
+    vertices = [blender(p) for p in zip(x.ravel(), np.full(x.size, top), z.ravel())]
+    row = cells + 1
+    faces = [(j * row + i, (j + 1) * row + i, (j + 1) * row + i + 1, j * row + i + 1)
+             for j in range(cells) for i in range(cells)]
+    return add_object("cloth", vertices, faces)
+
+
+def drape(cells, frames):
+    """The cloth at rest: subdivided once, (2 cells + 1)^2 points in glTF space, row by row."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, frames
+    add_colliders()
+    cloth = cloth_sheet(cells)
+    modifier = cloth.modifiers.new("Cloth", "CLOTH")
+    settings, contact = modifier.settings, modifier.collision_settings
+    settings.quality = 8
+    settings.mass = 0.4
+    settings.tension_stiffness = settings.compression_stiffness = 30
+    settings.shear_stiffness = 12
+    settings.bending_stiffness = 1.0
+    settings.tension_damping = settings.compression_damping = settings.shear_damping = 10
+    settings.bending_damping = 0.8
+    settings.air_damping = 1.0
+    contact.collision_quality = 4
+    contact.distance_min = 0.004
+    contact.use_self_collision = True
+    contact.self_distance_min = 0.009
+    contact.self_friction = 8
+    modifier.point_cache.frame_start, modifier.point_cache.frame_end = 1, frames
+    for frame in range(1, frames + 1):
+        scene.frame_set(frame)
+        if frame % 10 == 0:
+            print(f"frame {frame} of {frames}", flush=True)
+    return rest_points(cloth)
+
+
+def rest_points(cloth):
+    graph = bpy.context.evaluated_depsgraph_get()
+    mesh = cloth.evaluated_get(graph).to_mesh()
+    points = np.empty(3 * len(mesh.vertices), dtype=np.float64)
+    mesh.vertices.foreach_get("co", points)
+    side = math.isqrt(len(mesh.vertices))
+    return subdivide(gltf(points.reshape(-1, 3)).reshape(side, side, 3))
+
+
+def subdivide(grid):
+    """One step of cubic B-spline subdivision (Catmull and Clark 1978 on a regular grid), borders as curves."""
+    for axis in (0, 1):
+        a = np.moveaxis(grid, axis, 0)
+        fine = np.empty((2 * a.shape[0] - 1,) + a.shape[1:])
+        fine[1::2] = (a[:-1] + a[1:]) / 2
+        fine[0], fine[-1] = a[0], a[-1]
+        fine[2:-1:2] = (a[:-2] + 6 * a[1:-1] + a[2:]) / 8
+        grid = np.moveaxis(fine, 0, axis)
+    return grid
+
+
+# ---- parts: dictionaries of glTF attributes and triangles ---------------------------------------------------------
+
+
+def grid_triangles(rows, columns):
+    """Two triangles a cell of a grid stored row by row, split along alternating diagonals."""
+    j, i = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
+    a = (j * columns + i).ravel()
+    b, c, d = a + columns, a + columns + 1, a + 1
+    odd = ((i + j) % 2 == 1).ravel()[:, None]
+    first = np.where(odd, np.stack([a, b, d], 1), np.stack([a, b, c], 1))
+    second = np.where(odd, np.stack([b, c, d], 1), np.stack([a, c, d], 1))
+    return np.stack([first, second], 1).reshape(-1, 3)
+
+
+def smooth_normals(position, index):
+    """Vertex normals: the area-weighted mean of the triangles around."""
+    p = position[index]
+    face = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    normal = np.zeros_like(position)
+    for corner in range(3):
+        np.add.at(normal, index[:, corner], face)
+    return unit(normal)
+
+
+def cloth_part(grid):
+    rows, columns, _ = grid.shape
+    position = grid.reshape(-1, 3)
+    index = grid_triangles(rows, columns)
+    u, v = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
+    uv = np.stack([u.ravel(), v.ravel()], 1) * CLOTH_SIDE / UV_SIZE
+    return {"POSITION": position, "NORMAL": smooth_normals(position, index), "TEXCOORD_0": uv, "index": index}
+
+
+def swept_part(position, normal, uv):
+    """A part from a grid of points with their normals; triangles face along the normals, empty ones are dropped."""
+    rows, columns, _ = position.shape
+    p, n = position.reshape(-1, 3), normal.reshape(-1, 3)
+    index = grid_triangles(rows, columns)
+    face = np.cross(p[index[:, 1]] - p[index[:, 0]], p[index[:, 2]] - p[index[:, 0]])
+    backwards = np.einsum("ij,ij->i", face, n[index].sum(1)) < 0
+    index[backwards] = index[backwards][:, ::-1]
+    index = index[np.linalg.norm(face, axis=1) > 1e-12]
+    return {"POSITION": p, "NORMAL": n, "TEXCOORD_0": uv.reshape(-1, 2), "index": index}
+
+
+def lathe_part(profile, segments):
+    """Turns a profile, rows of (radius, y, radial normal, y normal), about the y axis."""
+    profile = np.asarray(profile, dtype=np.float64)
+    angle = np.linspace(0, 2 * math.pi, segments + 1)
+    ring = np.stack([np.cos(angle), np.zeros_like(angle), np.sin(angle)], 1)
+    up = np.array([0.0, 1.0, 0.0])
+    radius, y, out, above = (column[:, None, None] for column in profile.T)
+    position, normal = radius * ring + y * up, out * ring + above * up
+    length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(profile[:, :2], axis=0).T))])
+    around = angle * profile[:, 0].max()
+    uv = np.stack(np.broadcast_arrays(around[None, :], length[:, None]), 2) / UV_SIZE
+    return swept_part(position, unit(normal), uv)
+
+
+def arc(radius, y, bevel, start, end, steps=6):
+    """A bevel's profile about (radius, y), angles in degrees from the radial direction."""
+    t = np.radians(np.linspace(start, end, steps + 1))
+    return [(radius + bevel * math.cos(a), y + bevel * math.sin(a), math.cos(a), math.sin(a)) for a in t]
+
+
+def plinth_parts(segments=192):
+    r, h, b = PLINTH_RADIUS, PLINTH_HEIGHT, PLINTH_BEVEL
+    depth, gap = PLINTH_FOOT
+    body = [(0.0, h, 0, 1)] + arc(r - b, h - b, b, 90, 0) + arc(r - b, gap + b, b, 0, -90) + [(r - depth, gap, 0, -1)]
+    foot = [(r - depth, gap, 1, 0), (r - depth, 0.0, 1, 0)]
+    return [lathe_part(body, segments), lathe_part(foot, segments)]
+
+
+def floor_part():
+    """A photographer's sweep: floor, quarter round, wall."""
+    t = np.linspace(0, math.pi / 2, 49)
+    profile = [(FLOOR_FRONT, 0.0, 1.0, 0.0)]
+    profile += [(FLOOR_BACK - SWEEP_RADIUS * math.sin(a), SWEEP_RADIUS * (1 - math.cos(a)), math.cos(a), math.sin(a))
+                for a in t]
+    profile += [(FLOOR_BACK - SWEEP_RADIUS, WALL_TOP, 0.0, 1.0)]
+    z, y, ny, nz = np.array(profile).T
+    x = np.array([-FLOOR_HALF_WIDTH, FLOOR_HALF_WIDTH])
+    grid = np.broadcast_arrays(x[None, :], y[:, None], z[:, None])
+    normal = np.broadcast_arrays(np.zeros((1, 2)), ny[:, None], nz[:, None])
+    length = np.concatenate([[0], np.cumsum(np.hypot(np.diff(z), np.diff(y)))])
+    uv = np.stack(np.broadcast_arrays(x[None, :], length[:, None]), 2) / UV_SIZE
+    return swept_part(np.stack(grid, 2), np.stack(normal, 2), uv)
+
+
+def frame_towards(eye, target):
+    """Right, up and back of something at eye that looks at target."""
+    back = unit(np.subtract(eye, target))
+    right = unit(np.cross([0.0, 1.0, 0.0], back))
+    return right, np.cross(back, right), back
+
+
+def softbox_part():
+    right, up, back = frame_towards(SOFTBOX_CENTRE, SOFTBOX_TARGET)
+    s = np.array([-0.5, 0.5])
+    u, v = np.meshgrid(s, s)
+    position = np.array(SOFTBOX_CENTRE) + SOFTBOX_SIDE * (u[..., None] * right + v[..., None] * up)
+    uv = np.stack([u + 0.5, 0.5 - v], 2)
+    return swept_part(position, np.broadcast_to(-back, position.shape), uv)
+
+
+# ---- checks ---------------------------------------------------------------------------------------------------------
+
+
+def crossings(part):
+    """Pairs of the part's triangles that meet without sharing a vertex."""
+    index = part["index"].tolist()
+    tree = bvhtree.BVHTree.FromPolygons(part["POSITION"].tolist(), index, all_triangles=True)
+    return sum(1 for a, b in tree.overlap(tree) if a < b and not set(index[a]) & set(index[b]))
+
+
+def depth_below(part):
+    """How deep the deepest vertex lies inside a form, the plinth or the floor, m; negative is clearance."""
+    p = part["POSITION"]
+    depth = [-p[:, 1]]
+    for x, y, z, radius in FORMS:
+        depth.append(radius - np.linalg.norm(p - [x, y + PLINTH_HEIGHT, z], axis=1))
+    depth.append(np.minimum(PLINTH_HEIGHT - p[:, 1], PLINTH_RADIUS - np.hypot(p[:, 0], p[:, 2])))
+    return max(float(d.max()) for d in depth)
+
+
+# ---- glTF -------------------------------------------------------------------------------------------------------------
+
+
+class Glb:
+    """Collects meshes, cameras and nodes; writes them as one binary glTF file."""
+
+    def __init__(self):
+        self.binary = bytearray()
+        self.views, self.accessors, self.meshes, self.nodes, self.cameras = [], [], [], [], []
+
+    def accessor(self, array, kind, target, bounds=False):
+        array = np.ascontiguousarray(array)
+        component = {"float32": 5126, "uint16": 5123, "uint32": 5125}[array.dtype.name]
+        self.binary += bytes(-len(self.binary) % 4)
+        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": array.nbytes, "target": target})
+        self.binary += array.tobytes()
+        entry = {"bufferView": len(self.views) - 1, "componentType": component,
+                 "count": array.size if kind == "SCALAR" else len(array), "type": kind}
+        if bounds:
+            entry["min"], entry["max"] = array.min(0).tolist(), array.max(0).tolist()
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
+
+    def primitive(self, part, material):
+        index = part["index"].astype(np.uint16 if len(part["POSITION"]) < 65536 else np.uint32).ravel()
+        attributes = {name: self.accessor(part[name].astype(np.float32), kind, 34962, name == "POSITION")
+                      for name, kind in (("POSITION", "VEC3"), ("NORMAL", "VEC3"), ("TEXCOORD_0", "VEC2"))}
+        return {"attributes": attributes, "indices": self.accessor(index, "SCALAR", 34963),
+                "material": list(MATERIALS).index(material)}
+
+    def add_mesh(self, name, parts):
+        self.meshes.append({"name": name, "primitives": [self.primitive(part, name) for part in parts]})
+        self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
+
+    def add_camera(self, name, eye, target, fov):
+        self.cameras.append({"name": name, "type": "perspective", "perspective": {
+            "yfov": math.radians(fov), "aspectRatio": 4 / 3, "znear": 0.05, "zfar": 100.0}})
+        matrix = np.eye(4)
+        matrix[:3, 0], matrix[:3, 1], matrix[:3, 2] = frame_towards(eye, target)
+        matrix[:3, 3] = eye
+        self.nodes.append({"name": name, "camera": len(self.cameras) - 1, "matrix": matrix.T.ravel().tolist()})
+
+    def write(self, path):
+        document = {
+            "asset": {"version": "2.0", "generator": "weft scenes/cloth.py",
+                      "copyright": "The weft maintainers, MIT licence"},
+            "extensionsUsed": ["KHR_materials_sheen", "KHR_materials_emissive_strength"],
+            "scene": 0, "scenes": [{"name": "cloth", "nodes": list(range(len(self.nodes)))}],
+            "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
+            "materials": [{"name": name, **content} for name, content in MATERIALS.items()],
+            "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": len(self.binary)}],
+        }
+        text = json.dumps(document, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
+        with open(path, "wb") as file:
+            file.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)))
+            file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+            file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="cloth.py")
+    parser.add_argument("output")
+    parser.add_argument("--cells", type=int, default=96, help="simulated cells along a side; the file has twice as many")
+    parser.add_argument("--frames", type=int, default=150, help="simulated frames of 1/24 s")
+    arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
+
+    cloth = cloth_part(drape(arguments.cells, arguments.frames))
+    print(f"cloth: {len(cloth['index'])} triangles, {crossings(cloth)} crossings, "
+          f"deepest {1000 * depth_below(cloth):.1f} mm")
+    glb = Glb()
+    glb.add_mesh("Cloth", [cloth])
+    glb.add_mesh("Plinth", plinth_parts())
+    glb.add_mesh("Floor", [floor_part()])
+    glb.add_mesh("Softbox", [softbox_part()])
+    glb.add_camera("Main", CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV)
+    glb.write(arguments.output)
+
+
+main()

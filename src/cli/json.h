@@ -1,0 +1,34 @@
+/* json.h - writing one JSON value to a stream
+ *
+ * Keys are NULL inside arrays and at the top. Texts may hold any bytes: what is not UTF-8 becomes U+FFFD.
+ * Numbers that JSON cannot say become null. */
+#ifndef WEFT_CLI_JSON_H
+#define WEFT_CLI_JSON_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Zero-initialise but for the stream. compact: all on one line. */
+typedef struct Json {
+    FILE *stream;
+    bool compact;
+    bool follows; /* a value stands before the next one */
+    int depth;
+} Json;
+
+/* open and close take '{' and '}' or '[' and ']'; after the outermost comes a newline. */
+void json_open(Json *json, const char *key, char bracket);
+void json_close(Json *json, char bracket);
+
+void json_text(Json *json, const char *key, const char *text);
+void json_bool(Json *json, const char *key, bool value);
+void json_integer(Json *json, const char *key, long long value);
+
+/* Nine significant digits. */
+void json_number(Json *json, const char *key, double value);
+
+/* The fewest digits that give the same float again; the second as an array. */
+void json_float(Json *json, const char *key, float value);
+void json_floats(Json *json, const char *key, const float *values, int count);
+
+#endif

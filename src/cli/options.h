@@ -1,0 +1,65 @@
+/* options.h - what follows a verb on the command line: one table a verb, from which parsing, checks, help and
+ * docs/cli.md come
+ *
+ * "--name value" and "--name=value" are the same; "--" ends the options; "-" alone is an operand. */
+#ifndef WEFT_CLI_OPTIONS_H
+#define WEFT_CLI_OPTIONS_H
+
+#include <stdbool.h>
+
+typedef struct Option {
+    const char *name;  /* "--spp" or "-o"; NULL: help is a heading over the rows that follow */
+    const char *value; /* stands for the value in help texts; NULL: a switch */
+    const char *help;  /* NULL, with name NULL: the table's end */
+    const char *def;   /* the default as one would type it; NULL: none */
+    double low, high;  /* numbers: the range, both ends included */
+    bool repeats;      /* may be given more than once */
+} Option;
+
+typedef struct Options Options;
+
+typedef struct Verb {
+    const char *name, *operands, *help; /* operands as in a usage line */
+    int operands_least, operands_most;
+    const Option *options;
+    const char *notes; /* the help's end: lines as they are, examples among them */
+    int (*run)(const Options *options);
+} Verb;
+
+/* What was typed. Strings are those of argv. */
+struct Options {
+    const Verb *verb;
+    struct Given *given;
+    const char **operands;
+    int given_count, operand_count;
+};
+
+/* Reads the arguments after the verb. Returns 0, or an exit code after one line on standard error. Release
+ * with options_free in either case. */
+int options_parse(const Verb *verb, int count, char **arguments, Options *options);
+void options_free(Options *options);
+
+/* Prints `weft VERB --help` on standard output. */
+void options_help(const Verb *verb);
+
+/* Whether the option was typed. */
+bool option_given(const Options *options, const char *name);
+
+/* The value typed, else the default, else NULL. */
+const char *option_text(const Options *options, const char *name);
+
+/* The values of an option that repeats, in order: start with *cursor = 0; NULL after the last. */
+const char *option_next(const Options *options, const char *name, int *cursor);
+
+/* The value as a number in the table's range; on failure false after one line on standard error. An option
+ * with neither value nor default leaves *number as it is. */
+bool option_integer(const Options *options, const char *name, int *number);
+bool option_number(const Options *options, const char *name, double *number);
+
+/* The value's index in names, which ends with NULL; failure as above. */
+bool option_choice(const Options *options, const char *name, const char *const *names, int *index);
+
+/* Exactly count finite numbers separated by commas, nothing else; says nothing. */
+bool numbers_parse(const char *text, int count, double *numbers);
+
+#endif

@@ -1,0 +1,56 @@
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "clock.h"
+
+Progress progress_start(bool quiet, int spp, int spp_most, double pixels, double limit) {
+    Progress progress = {.shown = !quiet && isatty(STDERR_FILENO),
+                         .spp = spp,
+                         .spp_most = spp_most,
+                         .pixels = pixels,
+                         .limit = limit,
+                         .started = clock_seconds(),
+                         .width = 80};
+    struct winsize size;
+    if (progress.shown && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
+        progress.width = size.ws_col;
+    return progress;
+}
+
+const char *progress_time(double seconds, char *buffer) {
+    long s = lround(fmin(seconds, 1e9));
+    if (s >= 3600)
+        snprintf(buffer, 24, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+    else
+        snprintf(buffer, 24, "%ld:%02ld", s / 60, s % 60);
+    return buffer;
+}
+
+void progress_draw(Progress *progress, double fraction) {
+    double now = clock_seconds(), elapsed = now - progress->started;
+    if (!progress->shown || now - progress->drawn < 0.1) return;
+    progress->drawn = now;
+
+    double done = fraction; /* of the work: samples or time, whichever ends first */
+    if (progress->limit > 0.0) done = fmin(fmax(done, elapsed / progress->limit), 1.0);
+    char bar[] = "....................", asked[16] = "", past[24], left[24] = "-", line[160];
+    memset(bar, '#', (size_t)(done * (double)(sizeof bar - 1)));
+    if (progress->spp) snprintf(asked, sizeof asked, "/%d", progress->spp);
+    if (done > 0.0) progress_time(elapsed * (1.0 - done) / done, left);
+    double samples = fraction * progress->spp_most;
+    snprintf(line, sizeof line, "%3.0f%% %s %.0f%s spp  %s elapsed, %s left  %.2f M samples/s",
+             floor(100.0 * done), bar, floor(samples), asked, progress_time(elapsed, past), left,
+             elapsed > 0.0 ? 1e-6 * samples * progress->pixels / elapsed : 0.0);
+    fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
+    fflush(stderr);
+}
+
+void progress_finish(Progress *progress) {
+    if (progress->shown && progress->drawn > 0.0) fputs("\r\033[K", stderr);
+    progress->shown = false;
+}

@@ -1,0 +1,29 @@
+/* progress.h - a line on the terminal that says how far a render is; nothing where there is no terminal */
+#ifndef WEFT_CLI_PROGRESS_H
+#define WEFT_CLI_PROGRESS_H
+
+#include <stdbool.h>
+
+typedef struct Progress {
+    bool shown;
+    int spp;       /* samples a pixel asked for; 0: as many as the time allows */
+    int spp_most;  /* what a fraction of 1 means */
+    double pixels; /* in the picture */
+    double limit;  /* s; 0: none */
+    double started, drawn;
+    int width; /* of the terminal, characters */
+} Progress;
+
+/* Shown only where standard error is a terminal and quiet is false. spp may be 0, see above. */
+Progress progress_start(bool quiet, int spp, int spp_most, double pixels, double limit);
+
+/* Redraws the line, at most ten times a second. fraction is of the samples asked for. */
+void progress_draw(Progress *progress, double fraction);
+
+/* Erases the line. */
+void progress_finish(Progress *progress);
+
+/* Seconds as "7 s", "1:05" or "2:00:07" in a buffer of the caller's of at least 24 bytes. */
+const char *progress_time(double seconds, char *buffer);
+
+#endif

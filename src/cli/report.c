@@ -1,0 +1,18 @@
+#include "report.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+int report(int result, const char *format, ...) {
+    char line[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    for (char *c = line; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    fprintf(stderr, "weft: %s\n", line);
+    return result;
+}
+
+int report_error(const WeftError *error) { return report((int)error->result, "%s", error->text); }

@@ -1,0 +1,14 @@
+/* report.h - the one line that says what went wrong */
+#ifndef WEFT_CLI_REPORT_H
+#define WEFT_CLI_REPORT_H
+
+#include "weft/result.h"
+
+/* Prints "weft: ..." and a newline on standard error and returns result, the exit code. Control characters
+ * become '?', so that a hostile name cannot break the line. */
+__attribute__((format(printf, 2, 3))) int report(int result, const char *format, ...);
+
+/* The same for a failure of the library. */
+int report_error(const WeftError *error);
+
+#endif

@@ -1,0 +1,9 @@
+/* verbs.h - what the program can do: one table and one file a verb */
+#ifndef WEFT_CLI_VERBS_H
+#define WEFT_CLI_VERBS_H
+
+#include "options.h"
+
+extern const Verb verb_render, verb_models, verb_eval;
+
+#endif

@@ -1,0 +1,148 @@
+/* asset.h - one glTF file while it is read: what its parts have become so far, and what may still be spent
+ *
+ * Reading is in two passes. The first turns the JSON into the records below, checking every type, range and
+ * reference, used or not (but for cameras, lights, samplers and images, which are checked when shown). The second bakes what the scene shows. Errors are sticky: the first failure is
+ * kept in `result`, readers go on with harmless values, and each stage ends by asking asset->result. */
+#ifndef WEFT_GLTF_ASSET_H
+#define WEFT_GLTF_ASSET_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "gltf/transform.h"
+#include "scene/scene.h"
+#include "weft/result.h"
+
+/* Bytes that belong to somebody else. */
+typedef struct Span {
+    const unsigned char *data; /* NULL: there are none, whatever size says */
+    size_t size;
+} Span;
+
+typedef struct Buffer {
+    Span span;
+    unsigned char *owned; /* what to free when the read ends, or NULL */
+} Buffer;
+
+/* EXT_meshopt_compression of a buffer view. */
+typedef struct Compression {
+    Span source;
+    size_t count, stride;
+    enum { MODE_ATTRIBUTES, MODE_TRIANGLES, MODE_INDICES } mode;
+    enum { FILTER_NONE, FILTER_OCTAHEDRAL, FILTER_QUATERNION, FILTER_EXPONENTIAL } filter;
+} Compression;
+
+typedef struct View {
+    Span span;                /* decoded on first use where compressed */
+    size_t stride;            /* 0: packed */
+    Compression *compression; /* NULL: none */
+} View;
+
+typedef enum Component {
+    COMPONENT_I8 = 5120,
+    COMPONENT_U8 = 5121,
+    COMPONENT_I16 = 5122,
+    COMPONENT_U16 = 5123,
+    COMPONENT_U32 = 5125,
+    COMPONENT_F32 = 5126
+} Component;
+
+typedef struct Accessor {
+    int view; /* -1: zeros */
+    size_t offset, count;
+    Component component;
+    uint8_t columns, rows; /* scalars and vectors have 1 column */
+    bool normalized;
+    /* Sparse replacement: sparse_count elements of values at the places that indices list. */
+    size_t sparse_count;
+    int index_view, value_view;
+    size_t index_offset, value_offset;
+    Component index_component;
+} Accessor;
+
+/* KHR_texture_basisu and the like leave image at -1 where they are the only source. */
+typedef struct TextureSource {
+    int image, sampler;
+    int scene_texture; /* index into the scene's textures, -1 until something shown needs it */
+} TextureSource;
+
+enum { SKIN_SETS = 2, TARGET_ATTRIBUTES = 3 };
+
+typedef struct Primitive {
+    int mode; /* of the specification: 4 triangles, 5 strip, 6 fan; the others are not surfaces */
+    int position, normal, tangent, texcoord[2], color, index; /* accessors, -1: absent */
+    int joints[SKIN_SETS], weights[SKIN_SETS];
+    int material;                      /* of the scene */
+    int *variant_material;             /* as in Mesh */
+    int (*targets)[TARGET_ATTRIBUTES]; /* position, normal, tangent of each morph target */
+    size_t target_count;
+} Primitive;
+
+typedef struct MeshSource {
+    const char *name;
+    Primitive *primitives;
+    size_t primitive_count;
+    float *weights; /* of the morph targets; NULL: all 0 */
+    size_t weight_count;
+} MeshSource;
+
+typedef struct Skin {
+    int *joints;
+    size_t joint_count;
+    int inverse_bind; /* accessor, -1: identities */
+} Skin;
+
+typedef struct Node {
+    const char *name;
+    int parent, mesh, skin, camera, light; /* -1: none */
+    bool shown;                            /* reached from the scene that is shown */
+    float *weights;                        /* instead of the mesh's; NULL: none */
+    size_t weight_count;
+    Transform local, world;
+} Node;
+
+typedef struct Asset {
+    const char *name; /* subject of messages */
+    bool in_memory;   /* then files beside it are refused */
+    const WeftLog *log;
+    WeftError *error;
+    WeftResult result; /* of the first failure */
+    WeftScene *scene;
+    Arena arena; /* dies with the read */
+
+    unsigned char *file; /* owned, NULL where the caller's */
+    json_t *root;
+    Span bin; /* BIN chunk of a GLB */
+
+    /* Bytes that decoding may produce in all. A small hostile file must not become a large scene. */
+    size_t input_bytes, limit, spent;
+    size_t triangles;
+
+    Buffer *buffers;
+    View *views;
+    Accessor *accessors;
+    TextureSource *textures;
+    MeshSource *meshes;
+    Skin *skins;
+    Node *nodes;
+    int *node_order; /* parents before children */
+    size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count,
+        material_count, mesh_count, skin_count, camera_count, light_count, node_count;
+    bool *material_shown; /* material_count + 1, the last for surfaces without a material */
+} Asset;
+
+/* The sticky failure: keeps the first. detail is a printf format or NULL. */
+__attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage message, const char *detail,
+                                                      ...);
+
+/* count * size zeroed bytes from an arena (the asset's or the scene's), charged to the limit for good; NULL
+ * after a sticky GLTF_TOO_LARGE or MEMORY. */
+void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size);
+
+/* A copy in the scene's arena; "" after a sticky failure. */
+const char *asset_text(Asset *asset, const char *text);
+
+#endif

@@ -1,0 +1,146 @@
+#include "gltf/buffer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "gltf/field.h"
+#include "gltf/meshopt.h"
+#include "gltf/uri.h"
+
+/* The decoding limit: this many times the input, but between a floor that every small file may use and a
+ * ceiling. Instances, sparse zeros and compression make a decoded scene larger than its file. */
+static const size_t EXPANSION = 64, LIMIT_LOW = (size_t)256 << 20, LIMIT_HIGH = (size_t)4 << 30;
+
+static void buffer_load(const Field *field, Buffer *buffer, const char *uri) {
+    Asset *asset = field->asset;
+    Field place = field_member(field, "uri");
+    size_t size = 0;
+    if (uri_is_data(uri)) {
+        buffer->owned = uri_decode(&place, uri, &size);
+    } else {
+        const char *path = uri_path(&place, uri);
+        FileBytes file = {0};
+        if (path && asset->result == WEFT_OK)
+            asset->result = file_read(path, LIMIT_HIGH, &file, asset->error);
+        buffer->owned = file.data;
+        size = file.size;
+        asset->input_bytes += size;
+    }
+    buffer->span.data = buffer->owned;
+    if (buffer->owned && size < buffer->span.size)
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", size, buffer->span.size);
+}
+
+void buffers_read(Asset *asset) {
+    Field root = field_root(asset), list = field_member(&root, "buffers");
+    asset->buffer_count = field_count(&list);
+    asset->buffers = asset_array(asset, &asset->arena, asset->buffer_count, sizeof *asset->buffers);
+    for (size_t i = 0; i < asset->buffer_count && asset->result == WEFT_OK; i++) {
+        Field field = field_element(&list, i);
+        Field length = field_member(&field, "byteLength"), uri_field = field_member(&field, "uri");
+        Buffer *buffer = &asset->buffers[i];
+        const char *uri = field_text(&uri_field, NULL);
+        if (!length.json) field_fail(&length, WEFT_MESSAGE_GLTF_SCHEMA, "missing an integer");
+        buffer->span.size = field_size(&length, 0, 1, SIZE_MAX);
+        if (uri) {
+            buffer_load(&field, buffer, uri);
+        } else if (i == 0 && asset->bin.data) {
+            buffer->span.data = asset->bin.data;
+            if (asset->bin.size < buffer->span.size)
+                field_fail(&field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", asset->bin.size,
+                           buffer->span.size);
+        }
+    }
+    size_t expanded =
+        asset->input_bytes < LIMIT_HIGH / EXPANSION ? asset->input_bytes * EXPANSION : LIMIT_HIGH;
+    asset->limit = expanded > LIMIT_LOW ? expanded : LIMIT_LOW;
+}
+
+void buffers_free(Asset *asset) {
+    for (size_t i = 0; i < asset->buffer_count && asset->buffers; i++) free(asset->buffers[i].owned);
+}
+
+/* The byteOffset and byteLength of field, within its buffer. */
+static Span section(const Field *field) {
+    Asset *asset = field->asset;
+    Field buffer_field = field_member(field, "buffer"), offset_field = field_member(field, "byteOffset"),
+          length_field = field_member(field, "byteLength");
+    int index = field_needed_index(&buffer_field, asset->buffer_count);
+    size_t offset = field_size(&offset_field, 0, 0, SIZE_MAX);
+    if (!length_field.json) field_fail(&length_field, WEFT_MESSAGE_GLTF_SCHEMA, "missing an integer");
+    size_t length = field_size(&length_field, 0, 1, SIZE_MAX);
+    if (asset->result != WEFT_OK || index < 0) return (Span){0};
+    Span all = asset->buffers[index].span;
+    if (offset > all.size || length > all.size - offset) {
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu bytes from %zu on, of %zu", length, offset,
+                   all.size);
+        return (Span){0};
+    }
+    return (Span){all.data ? all.data + offset : NULL, length};
+}
+
+/* The index of text among count names; a sticky failure where it is none of them. */
+static int choice(const Field *field, const char *absent, const char *const *names, int count) {
+    const char *text = field_text(field, absent);
+    for (int i = 0; text && i < count; i++)
+        if (strcmp(text, names[i]) == 0) return i;
+    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "not a value of the extension");
+    return 0;
+}
+
+static void compression_read(const Field *field, View *view) {
+    static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+    static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+    Asset *asset = field->asset;
+    Compression *compression = asset_array(asset, &asset->arena, 1, sizeof *compression);
+    if (!compression) return;
+    Field count = field_member(field, "count"), stride = field_member(field, "byteStride"),
+          mode = field_member(field, "mode"), filter = field_member(field, "filter");
+    compression->source = section(field);
+    compression->count = field_size(&count, 0, 1, SIZE_MAX);
+    compression->stride = field_size(&stride, 0, 1, 256);
+    switch (choice(&mode, NULL, modes, 3)) {
+    case 1: compression->mode = MODE_TRIANGLES; break;
+    case 2: compression->mode = MODE_INDICES; break;
+    default: compression->mode = MODE_ATTRIBUTES; break;
+    }
+    switch (choice(&filter, "NONE", filters, 4)) {
+    case 1: compression->filter = FILTER_OCTAHEDRAL; break;
+    case 2: compression->filter = FILTER_QUATERNION; break;
+    case 3: compression->filter = FILTER_EXPONENTIAL; break;
+    default: compression->filter = FILTER_NONE; break;
+    }
+    const char *reason = meshopt_reason(compression, view->span.size);
+    if (reason) field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%s", reason);
+    view->compression = compression;
+    view->span.data = NULL;
+}
+
+void views_read(Asset *asset) {
+    Field root = field_root(asset), list = field_member(&root, "bufferViews");
+    asset->view_count = field_count(&list);
+    asset->views = asset_array(asset, &asset->arena, asset->view_count, sizeof *asset->views);
+    for (size_t i = 0; i < asset->view_count && asset->result == WEFT_OK; i++) {
+        Field field = field_element(&list, i), stride = field_member(&field, "byteStride");
+        Field meshopt = field_extension(&field, "EXT_meshopt_compression");
+        View *view = &asset->views[i];
+        view->span = section(&field);
+        view->stride = field_size(&stride, 0, 4, 252);
+        if (meshopt.json && asset->result == WEFT_OK) compression_read(&meshopt, view);
+    }
+}
+
+Span view_bytes(Asset *asset, int index) {
+    View *view = &asset->views[index];
+    if (!view->span.data && view->compression && asset->result == WEFT_OK) {
+        unsigned char *decoded = asset_array(asset, &asset->arena, view->span.size, 1);
+        if (decoded && !meshopt_decode(view->compression, decoded))
+            asset_fail(asset, WEFT_MESSAGE_GLTF_DECODE, "bufferViews[%d]", index);
+        else
+            view->span.data = decoded;
+    }
+    if (!view->span.data)
+        asset_fail(asset, WEFT_MESSAGE_GLTF_REFERENCE, "bufferViews[%d]: its buffer has no data", index);
+    return asset->result == WEFT_OK ? view->span : (Span){0};
+}

@@ -1,0 +1,460 @@
+/* OpenEXR through its C library. Colours of an EXR file are multiplied by alpha; ours are not. */
+#include <limits.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <openexr.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "image/codec.h"
+
+/* What the library's callbacks see. */
+typedef struct ExrJob {
+    const ImageSource *source; /* when reading */
+    FILE *stream;              /* when writing */
+    char reason[192];          /* the first thing the library complained of */
+} ExrJob;
+
+static ExrJob *exr_job(exr_const_context_t exr) {
+    void *job = NULL;
+    return exr_get_user_data(exr, &job) == EXR_ERR_SUCCESS ? job : NULL;
+}
+
+static void exr_job_error(exr_const_context_t exr, exr_result_t code, const char *text) {
+    (void)code;
+    ExrJob *job = exr_job(exr);
+    if (!job || job->reason[0]) return;
+    snprintf(job->reason, sizeof job->reason, "%s", text);
+    for (char *c = job->reason; *c; c++) /* the library quotes bytes of the file */
+        if ((unsigned char)*c >= 0x7f) *c = '?';
+}
+
+/* Zeroed, so that a chunk that decodes to less than it should shows no old memory; and of a bounded size. */
+static void *exr_job_alloc(size_t size) { return size <= (size_t)1 << 30 ? alloc_array(size, 1) : NULL; }
+
+static int64_t exr_job_read(exr_const_context_t exr, void *user, void *to, uint64_t size, uint64_t offset,
+                            exr_stream_error_func_ptr_t report) {
+    (void)exr;
+    (void)report;
+    const ImageSource *source = ((ExrJob *)user)->source;
+    if (offset >= source->size) return 0;
+    if (size > source->size - offset) size = source->size - offset;
+    memcpy(to, source->data + offset, size);
+    return (int64_t)size;
+}
+
+static int64_t exr_job_size(exr_const_context_t exr, void *user) {
+    (void)exr;
+    return (int64_t)((ExrJob *)user)->source->size;
+}
+
+static int64_t exr_job_write(exr_const_context_t exr, void *user, const void *from, uint64_t size,
+                             uint64_t offset, exr_stream_error_func_ptr_t report) {
+    (void)exr;
+    (void)report;
+    FILE *stream = ((ExrJob *)user)->stream;
+    if (offset > LONG_MAX || fseek(stream, (long)offset, SEEK_SET) != 0) return -1;
+    return (int64_t)fwrite(from, 1, size, stream);
+}
+
+static exr_context_initializer_t exr_job_setup(ExrJob *job) {
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = exr_job_error;
+    setup.alloc_fn = exr_job_alloc;
+    setup.free_fn = free;
+    setup.user_data = job;
+    return setup;
+}
+
+/* ---- reading ---- */
+
+typedef struct Exr {
+    const ImageSource *source;
+    exr_context_t context;
+    int part;
+    exr_attr_box2i_t data, display; /* windows, inclusive */
+    exr_compression_t compression;
+    const exr_attr_chlist_t *channels;
+    int from[4];         /* the file's channel for each of ours, -1: all 0 */
+    int count;           /* of our channels */
+    int64_t pixel_bytes; /* of all the file's channels */
+    bool tiled;
+    int32_t chunk_width, chunk_height; /* of a tile, or of a block of lines; the last ones may be smaller */
+    exr_decode_pipeline_t pipeline;
+} Exr;
+
+static int64_t box_width(exr_attr_box2i_t box) { return (int64_t)box.max.x - box.min.x + 1; }
+static int64_t box_height(exr_attr_box2i_t box) { return (int64_t)box.max.y - box.min.y + 1; }
+
+static int value_bytes(exr_pixel_type_t type) { return type == EXR_PIXEL_HALF ? 2 : 4; }
+
+/* The first part that is not deep, or -1. */
+static int flat_part(exr_context_t context) {
+    int count = 0;
+    exr_get_count(context, &count);
+    for (int part = 0; part < count; part++) {
+        exr_storage_t storage;
+        if (exr_get_storage(context, part, &storage) == EXR_ERR_SUCCESS &&
+            (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED))
+            return part;
+    }
+    return -1;
+}
+
+/* The length of "layer." in "layer.R"; 0 without a layer. */
+static size_t layer_length(const char *channel) {
+    const char *dot = strrchr(channel, '.');
+    return dot ? (size_t)(dot - channel) + 1 : 0;
+}
+
+/* The index of channel `name` in the layer that is the first `length` characters of `of`, or -1. */
+static int channel_find(const exr_attr_chlist_t *channels, const char *of, size_t length, const char *name) {
+    for (int i = 0; i < channels->num_channels; i++) {
+        const char *full = channels->entries[i].name.str;
+        if (strncmp(full, of, length) == 0 && strcmp(full + length, name) == 0) return i;
+    }
+    return -1;
+}
+
+/* Picks R G B (A) or Y (A) of a layer; 0 when it has neither. */
+static int layer_pick(Exr *exr, const char *of, size_t length) {
+    static const char *const colors[] = {"R", "G", "B"};
+    int found = 0;
+    exr->count = 3;
+    for (int c = 0; c < 3; c++) {
+        exr->from[c] = channel_find(exr->channels, of, length, colors[c]);
+        if (exr->from[c] >= 0) found = 1;
+    }
+    if (!found) {
+        exr->from[0] = channel_find(exr->channels, of, length, "Y");
+        exr->count = 1;
+        if (exr->from[0] < 0) return 0;
+    }
+    exr->from[exr->count] = channel_find(exr->channels, of, length, "A");
+    if (exr->from[exr->count] >= 0) exr->count++;
+    return 1;
+}
+
+/* The colours without a layer, else those of the first layer that has any. Subsampling belongs to
+ * luminance-chroma files; other channels that have it would upset the order of the values in a chunk. */
+static WeftResult exr_channels(Exr *exr, WeftError *error) {
+    const char *name = exr->source->name;
+    const exr_attr_chlist_t *channels = exr->channels;
+    for (int i = 0; i < channels->num_channels; i++) {
+        const exr_attr_chlist_entry_t *entry = channels->entries + i;
+        const char *plain = entry->name.str + layer_length(entry->name.str);
+        if (strcmp(plain, "RY") == 0 || strcmp(plain, "BY") == 0)
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels");
+        if (entry->x_sampling != 1 || entry->y_sampling != 1)
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels");
+        exr->pixel_bytes += value_bytes(entry->pixel_type);
+    }
+    int picked = layer_pick(exr, "", 0);
+    for (int i = 0; !picked && i < channels->num_channels; i++)
+        picked = layer_pick(exr, channels->entries[i].name.str, layer_length(channels->entries[i].name.str));
+    return picked ? WEFT_OK
+                  : fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: neither R G B nor Y channels");
+}
+
+/* The most bytes of pixels that a byte of a file can become. Deflate gives 1032 (258 bytes from 2 bits),
+ * before which PXR24 drops one byte of four of a float and DWA makes two bytes of 64 halves. The run lengths
+ * of RLE and PIZ and the fixed blocks of B44 give less than Deflate. */
+static int64_t ratio_most(exr_compression_t compression) {
+    const int64_t deflate = 1032;
+    switch (compression) {
+    case EXR_COMPRESSION_NONE: return 1;
+    case EXR_COMPRESSION_PXR24: return deflate * 4 / 3;
+    case EXR_COMPRESSION_DWAA:
+    case EXR_COMPRESSION_DWAB: return deflate * 64;
+    default: return deflate;
+    }
+}
+
+/* Far windows would overflow the library's sums; the C++ library has this limit too. */
+static int box_sane(exr_attr_box2i_t box) {
+    const int far = INT_MAX / 2;
+    return box.min.x > -far && box.min.y > -far && box.max.x < far && box.max.y < far;
+}
+
+/* How the full image (level 0) is cut into chunks. */
+static exr_result_t exr_chunks(Exr *exr) {
+    exr_storage_t storage = EXR_STORAGE_SCANLINE;
+    exr_result_t status = exr_get_storage(exr->context, exr->part, &storage);
+    exr->tiled = storage == EXR_STORAGE_TILED;
+    exr->chunk_width = (int32_t)box_width(exr->data);
+    if (status == EXR_ERR_SUCCESS)
+        status = exr->tiled ? exr_get_tile_sizes(exr->context, exr->part, 0, 0, &exr->chunk_width,
+                                                 &exr->chunk_height)
+                            : exr_get_scanlines_per_chunk(exr->context, exr->part, &exr->chunk_height);
+    return status;
+}
+
+/* Fills *exr from the header and checks all that sizes depend on. */
+static WeftResult exr_header(Exr *exr, WeftError *error) {
+    const ImageSource *source = exr->source;
+    exr->part = flat_part(exr->context);
+    if (exr->part < 0) return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "EXR: deep pixels");
+    if (exr_get_data_window(exr->context, exr->part, &exr->data) != EXR_ERR_SUCCESS ||
+        exr_get_display_window(exr->context, exr->part, &exr->display) != EXR_ERR_SUCCESS ||
+        exr_get_compression(exr->context, exr->part, &exr->compression) != EXR_ERR_SUCCESS ||
+        exr_get_channels(exr->context, exr->part, &exr->channels) != EXR_ERR_SUCCESS)
+        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name,
+                    "EXR: its header lacks what it must have");
+    if (!box_sane(exr->data) || !box_sane(exr->display))
+        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "EXR: a window too far off");
+    WeftResult result = exr_channels(exr, error);
+    if (result != WEFT_OK) return result;
+
+    const int64_t width = box_width(exr->data), height = box_height(exr->data);
+    if (exr_chunks(exr) != EXR_ERR_SUCCESS)
+        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name, "EXR: its header describes no chunks");
+    /* A chunk is in memory up to three times: packed, unpacked and between. */
+    result = image_believable(source, exr->chunk_width, exr->chunk_height, 3 * exr->pixel_bytes, error);
+    if (result == WEFT_OK) result = image_believable(source, width, height, exr->pixel_bytes, error);
+    if (result == WEFT_OK)
+        result =
+            image_reachable(source, width * height * exr->pixel_bytes / ratio_most(exr->compression), error);
+    if (result == WEFT_OK)
+        result = image_believable(source, box_width(exr->display), box_height(exr->display),
+                                  exr->count * (int64_t)sizeof(float), error);
+    return result;
+}
+
+/* The float of a half. Moved to where a float has them, its exponent and mantissa read as 2^(15 - 127) of the
+ * value, also when subnormal. */
+static float half_value(unsigned half) {
+    if ((half & 0x7c00) == 0x7c00) return NAN; /* or infinite: neither is kept */
+    const uint32_t bits = (uint32_t)(half & 0x7fff) << 13;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    value *= 0x1p112f;
+    return half & 0x8000 ? -value : value;
+}
+
+/* One value of the file, which is little-endian. */
+static float value_read(const unsigned char *at, exr_pixel_type_t type) {
+    if (type == EXR_PIXEL_HALF) return half_value((unsigned)at[0] | (unsigned)at[1] << 8);
+    const uint32_t bits =
+        (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return type == EXR_PIXEL_UINT ? (float)bits : value;
+}
+
+/* Copies the channels that are ours from a line of the file, which holds one channel after another; its first
+ * pixel is at column x of the image, which the line may overhang on both sides. */
+static void line_place(const Exr *exr, const unsigned char *line, int64_t width, int64_t x, float *to,
+                       int64_t to_width) {
+    const int64_t first = x < 0 ? -x : 0, end = x + width > to_width ? to_width - x : width;
+    for (int i = 0; i < exr->channels->num_channels; i++) {
+        const exr_pixel_type_t type = exr->channels->entries[i].pixel_type;
+        for (int c = 0; c < exr->count; c++) {
+            if (exr->from[c] != i) continue;
+            for (int64_t n = first; n < end; n++)
+                to[(x + n) * exr->count + c] = value_read(line + n * value_bytes(type), type);
+        }
+        line += width * value_bytes(type);
+    }
+}
+
+/* Decompresses one chunk, its first pixel at (x, y) of the image, and copies it. The library only reads and
+ * decompresses: its conversions (3.1.5) reverse the channels of interleaved half, and write through the null
+ * pointers of channels that were not asked for when a file has three or four. */
+static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_t x, int64_t y,
+                                 WeftImage *image) {
+    exr_decode_pipeline_t *pipeline = &exr->pipeline;
+    const int64_t line_bytes = chunk->width * exr->pixel_bytes;
+    if (chunk->width < 1 || chunk->height < 1 ||
+        (int64_t)chunk->unpacked_size != line_bytes * chunk->height ||
+        (exr->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size))
+        return EXR_ERR_CORRUPT_CHUNK;
+    exr_result_t status;
+    if (pipeline->channels) {
+        status = exr_decoding_update(exr->context, exr->part, chunk, pipeline);
+    } else {
+        status = exr_decoding_initialize(exr->context, exr->part, chunk, pipeline);
+        if (status == EXR_ERR_SUCCESS)
+            status = exr_decoding_choose_default_routines(exr->context, exr->part, pipeline);
+        pipeline->unpack_and_convert_fn = NULL;
+    }
+    if (status == EXR_ERR_SUCCESS) status = exr_decoding_run(exr->context, exr->part, pipeline);
+    if (status != EXR_ERR_SUCCESS) return status;
+    for (int64_t row = 0; row < chunk->height; row++) {
+        if (y + row < 0 || y + row >= image->height) continue;
+        line_place(exr, (const unsigned char *)pipeline->unpacked_buffer + row * line_bytes, chunk->width, x,
+                   (float *)image->pixels + (y + row) * image->width * exr->count, image->width);
+    }
+    return EXR_ERR_SUCCESS;
+}
+
+/* All chunks of the full image, its first pixel at (left, top) of ours. */
+static exr_result_t chunks_decode(Exr *exr, int64_t left, int64_t top, WeftImage *image) {
+    const int64_t width = exr->chunk_width, height = exr->chunk_height;
+    for (int64_t y = 0; y * height < box_height(exr->data); y++)
+        for (int64_t x = 0; x * width < box_width(exr->data); x++) {
+            exr_chunk_info_t chunk;
+            exr_result_t status =
+                exr->tiled ? exr_read_tile_chunk_info(exr->context, exr->part, (int)x, (int)y, 0, 0, &chunk)
+                           : exr_read_scanline_chunk_info(exr->context, exr->part,
+                                                          (int)(exr->data.min.y + y * height), &chunk);
+            if (status == EXR_ERR_SUCCESS)
+                status = chunk_decode(exr, &chunk, left + x * width, top + y * height, image);
+            if (status != EXR_ERR_SUCCESS) return status;
+        }
+    return EXR_ERR_SUCCESS;
+}
+
+/* Divides colours by alpha. Where alpha is 0 they are light without cover and stay. */
+static void alpha_straighten(WeftImage *image) {
+    const int channels = image->channels;
+    if (channels % 2) return;
+    float *pixel = image->pixels;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++, pixel += channels)
+        for (int c = 0; pixel[channels - 1] > 0.0f && c < channels - 1; c++) pixel[c] /= pixel[channels - 1];
+}
+
+/* What a status of the library means to the reader of the file. */
+static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *error) {
+    WeftMessage message = WEFT_MESSAGE_IMAGE_DAMAGED;
+    if (status == EXR_ERR_FEATURE_NOT_IMPLEMENTED) message = WEFT_MESSAGE_IMAGE_UNSUPPORTED;
+    if (status == EXR_ERR_OUT_OF_MEMORY) message = WEFT_MESSAGE_MEMORY;
+    return fail(error, message, job->source->name, "EXR: %s",
+                job->reason[0] ? job->reason : exr_get_default_error_message(status));
+}
+
+static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftError *error) {
+    WeftResult result = exr_header(exr, error);
+    if (result != WEFT_OK) return result;
+    result = weft_image_create((int)box_width(exr->display), (int)box_height(exr->display), exr->count,
+                               WEFT_PIXEL_F32, out, error);
+    if (result != WEFT_OK) return result;
+    const int64_t left = (int64_t)exr->data.min.x - exr->display.min.x;
+    const int64_t top = (int64_t)exr->data.min.y - exr->display.min.y;
+    exr_result_t status = chunks_decode(exr, left, top, out);
+    if (exr->pipeline.channels) exr_decoding_destroy(exr->context, &exr->pipeline);
+    if (status != EXR_ERR_SUCCESS) return exr_refuse(job, status, error);
+    alpha_straighten(out);
+    image_repair(exr->source, out);
+    return WEFT_OK;
+}
+
+WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error) {
+    ExrJob job = {.source = source};
+    Exr exr = {.source = source};
+    exr_context_initializer_t setup = exr_job_setup(&job);
+    setup.read_fn = exr_job_read;
+    setup.size_fn = exr_job_size;
+    setup.max_image_width = setup.max_image_height = IMAGE_SIDE_MAX;
+    setup.max_tile_width = setup.max_tile_height = IMAGE_SIDE_MAX;
+    setup.flags =
+        EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* a cut file is damaged, not half an image */
+    exr_result_t status = exr_start_read(&exr.context, source->name, &setup);
+    if (status != EXR_ERR_SUCCESS) return exr_refuse(&job, status, error);
+    WeftResult result = exr_decode(&exr, &job, out, error);
+    exr_finish(&exr.context);
+    if (result != WEFT_OK) weft_image_free(out);
+    return result;
+}
+
+/* ---- writing ---- */
+
+/* Names in the alphabetical order that the format wants, and which of our channels each is. */
+static const struct {
+    const char *name;
+    int channel;
+} exr_layouts[5][4] = {
+    {{0}},
+    {{"Y", 0}},
+    {{"A", 1}, {"Y", 0}},
+    {{"B", 2}, {"G", 1}, {"R", 0}},
+    {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}},
+};
+
+static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image) {
+    int part = 0;
+    exr_result_t status = exr_add_part(exr, "image", EXR_STORAGE_SCANLINE, &part);
+    if (status == EXR_ERR_SUCCESS)
+        status =
+            exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP);
+    for (int c = 0; status == EXR_ERR_SUCCESS && c < image->channels; c++)
+        status = exr_add_channel(exr, part, exr_layouts[image->channels][c].name, EXR_PIXEL_HALF,
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (status == EXR_ERR_SUCCESS) status = exr_set_version(exr, part, 1);
+    return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;
+}
+
+/* A value that half can hold; NaN becomes 0. */
+static float half_clamped(float x) {
+    const float half_max = 65504.0f;
+    return isnan(x) ? 0.0f : fminf(fmaxf(x, -half_max), half_max);
+}
+
+/* Lines y .. y + lines as the file has them: one plane a channel, colours times alpha. */
+static void planes_fill(const WeftImage *image, int y, int lines, float *planes) {
+    const size_t plane = (size_t)image->width * (size_t)lines;
+    const int channels = image->channels, alpha = channels % 2 == 0 ? channels - 1 : -1;
+    const float *pixel = (const float *)image->pixels + (size_t)y * (size_t)image->width * (size_t)channels;
+    for (size_t i = 0; i < plane; i++, pixel += channels)
+        for (int c = 0; c < channels; c++) {
+            const int from = exr_layouts[channels][c].channel;
+            const float cover = alpha < 0 || from == alpha ? 1.0f : half_clamped(pixel[alpha]);
+            planes[(size_t)c * plane + i] = half_clamped(half_clamped(pixel[from]) * cover);
+        }
+}
+
+static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float *planes, int chunk_lines) {
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_result_t status = EXR_ERR_SUCCESS;
+    for (int y = 0; status == EXR_ERR_SUCCESS && y < image->height; y += chunk_lines) {
+        exr_chunk_info_t chunk;
+        const int first = pipeline.channels == NULL;
+        status = exr_write_scanline_chunk_info(exr, 0, y, &chunk);
+        if (status == EXR_ERR_SUCCESS)
+            status = first ? exr_encoding_initialize(exr, 0, &chunk, &pipeline)
+                           : exr_encoding_update(exr, 0, &chunk, &pipeline);
+        if (status != EXR_ERR_SUCCESS) break;
+        planes_fill(image, y, chunk.height, planes);
+        for (int c = 0; c < image->channels; c++) {
+            exr_coding_channel_info_t *channel = pipeline.channels + c;
+            channel->encode_from_ptr =
+                (const uint8_t *)(planes + (size_t)c * (size_t)image->width * (size_t)chunk.height);
+            channel->user_data_type = EXR_PIXEL_FLOAT;
+            channel->user_bytes_per_element = sizeof(float);
+            channel->user_pixel_stride = sizeof(float);
+            channel->user_line_stride = (int32_t)sizeof(float) * image->width;
+        }
+        if (first) status = exr_encoding_choose_default_routines(exr, 0, &pipeline);
+        if (status == EXR_ERR_SUCCESS) status = exr_encoding_run(exr, 0, &pipeline);
+    }
+    if (pipeline.channels) exr_encoding_destroy(exr, &pipeline);
+    return status;
+}
+
+WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, WeftError *error) {
+    ExrJob job = {.stream = stream};
+    exr_context_initializer_t setup = exr_job_setup(&job);
+    setup.write_fn = exr_job_write;
+    exr_context_t exr = NULL;
+    exr_result_t status = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &setup);
+    int32_t lines = 0;
+    float *planes = NULL;
+    if (status == EXR_ERR_SUCCESS) status = exr_describe(exr, image);
+    if (status == EXR_ERR_SUCCESS) status = exr_get_scanlines_per_chunk(exr, 0, &lines);
+    if (status == EXR_ERR_SUCCESS) {
+        planes = alloc_array((size_t)image->width * (size_t)image->channels * (size_t)lines, sizeof(float));
+        status = planes ? exr_encode(exr, image, planes, lines) : EXR_ERR_OUT_OF_MEMORY;
+    }
+    free(planes);
+    if (exr) {
+        exr_result_t finished = exr_finish(&exr); /* writes the table of chunks */
+        if (status == EXR_ERR_SUCCESS) status = finished;
+    }
+    if (status == EXR_ERR_SUCCESS && !ferror(stream)) return WEFT_OK;
+    return fail(error, status == EXR_ERR_OUT_OF_MEMORY ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_FILE_WRITE, name,
+                "EXR: %s", job.reason[0] ? job.reason : exr_get_default_error_message(status));
+}

@@ -1,0 +1,164 @@
+#include "weft/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "image/codec.h"
+#include "image/srgb.h"
+
+static size_t type_bytes(WeftPixelType type) {
+    return type == WEFT_PIXEL_U8 ? 1 : type == WEFT_PIXEL_U16 ? 2 : 4;
+}
+
+static size_t value_count(const WeftImage *image) {
+    return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+}
+
+WeftResult weft_image_create(int width, int height, int channels, WeftPixelType type, WeftImage *out,
+                             WeftError *error) {
+    *out = (WeftImage){0};
+    if (width < 1 || width > IMAGE_SIDE_MAX || height < 1 || height > IMAGE_SIDE_MAX || channels < 1 ||
+        channels > 4 || (unsigned)type > WEFT_PIXEL_F32)
+        return fail(error, WEFT_MESSAGE_DESC, "image", "%d x %d pixels of %d channels, type %d", width,
+                    height, channels, (int)type);
+    WeftImage image = {.width = width, .height = height, .channels = channels, .type = type};
+    image.pixels = alloc_array(value_count(&image), type_bytes(type));
+    if (!image.pixels)
+        return fail(error, WEFT_MESSAGE_MEMORY, "image", "%d x %d pixels of %d channels", width, height,
+                    channels);
+    *out = image;
+    return WEFT_OK;
+}
+
+void weft_image_free(WeftImage *image) {
+    if (!image) return;
+    free(image->pixels);
+    *image = (WeftImage){0};
+}
+
+WeftResult image_believable(const ImageSource *source, int64_t width, int64_t height, int64_t bytes_per_pixel,
+                            WeftError *error) {
+    const int64_t always = (int64_t)512 << 20, never = (int64_t)2 << 30;
+    if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld; a side is 1 to %d",
+                    (long long)width, (long long)height, IMAGE_SIDE_MAX);
+    int64_t bytes = width * height * bytes_per_pixel;
+    if (bytes > never || (bytes > always && bytes / 16 > (int64_t)source->size))
+        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld from %zu bytes",
+                    (long long)width, (long long)height, source->size);
+    return WEFT_OK;
+}
+
+WeftResult image_reachable(const ImageSource *source, int64_t fewest_bytes, WeftError *error) {
+    if (fewest_bytes <= (int64_t)source->size) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name,
+                "its pixels take at least %lld bytes, the file has %zu", (long long)fewest_bytes,
+                source->size);
+}
+
+void image_repair(const ImageSource *source, WeftImage *image) {
+    float *values = image->pixels;
+    size_t bad = 0, count = value_count(image);
+    for (size_t i = 0; i < count; i++) {
+        if (isfinite(values[i])) continue;
+        values[i] = 0.0f;
+        bad++;
+    }
+    if (bad)
+        warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name,
+             "%zu of %zu values were not finite; 0 now", bad, count);
+}
+
+static int starts(const ImageSource *source, const char *signature, size_t size) {
+    return source->size >= size && memcmp(source->data, signature, size) == 0;
+}
+
+WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
+                                  const WeftLog *log, WeftError *error) {
+    *out = (WeftImage){0};
+    ImageSource source = {.data = data, .size = size, .name = name, .log = log};
+    if (starts(&source, "\x89PNG", 4)) return image_read_png(&source, out, error);
+    if (starts(&source, "\xff\xd8\xff", 3)) return image_read_jpeg(&source, out, error);
+    if (starts(&source, "#?", 2)) return image_read_hdr(&source, out, error);
+    if (starts(&source, "\x76\x2f\x31\x01", 4)) return image_read_exr(&source, out, error);
+    return image_read_tga(&source, out, error);
+}
+
+WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error) {
+    *out = (WeftImage){0};
+    FileBytes file;
+    WeftResult result = file_read(path, (size_t)1 << 30, &file, error);
+    if (result != WEFT_OK) return result;
+    result = weft_image_read_memory(file.data, file.size, path, out, log, error);
+    free(file.data);
+    return result;
+}
+
+/* One line a format that can be written. */
+typedef struct Writer {
+    const char *suffix;
+    int linear; /* F32 is what it takes; else U8 or U16 */
+    WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, WeftError *error);
+} Writer;
+
+static const Writer writers[] = {
+    {".png", 0, image_write_png},
+    {".exr", 1, image_write_exr},
+    {".hdr", 1, image_write_hdr},
+};
+
+static const Writer *writer_find(const char *path) {
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
+        size_t suffix = strlen(writers[i].suffix);
+        if (length > suffix && strcasecmp(path + length - suffix, writers[i].suffix) == 0) return &writers[i];
+    }
+    return NULL;
+}
+
+int weft_image_suffix_known(const char *path) { return writer_find(path) != NULL; }
+
+int weft_image_suffix_linear(const char *path) {
+    const Writer *writer = writer_find(path);
+    return writer && writer->linear;
+}
+
+WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error) {
+    const Writer *writer = writer_find(path);
+    if (!writer) return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, NULL);
+    if (!image->pixels) return fail(error, WEFT_MESSAGE_DESC, path, "an image without pixels");
+    if (writer->linear != (image->type == WEFT_PIXEL_F32))
+        return fail(error, WEFT_MESSAGE_DESC, path, "%s takes %s pixels", writer->suffix,
+                    writer->linear ? "float" : "8 or 16 bit");
+    OutputFile file;
+    WeftResult result = output_open(&file, path, error);
+    if (result != WEFT_OK) return result;
+    result = writer->write(file.stream, path, image, error);
+    if (result == WEFT_OK) return output_commit(&file, error);
+    output_discard(&file);
+    return result;
+}
+
+WeftResult weft_image_convert_f32(const WeftImage *in, int srgb, WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(in->width, in->height, in->channels, WEFT_PIXEL_F32, out, error);
+    if (result != WEFT_OK) return result;
+    size_t count = value_count(in), channels = (size_t)in->channels;
+    if (in->type == WEFT_PIXEL_F32) {
+        memcpy(out->pixels, in->pixels, count * sizeof(float));
+        return WEFT_OK;
+    }
+    const unsigned char *bytes = in->pixels;
+    const uint16_t *words = in->pixels;
+    float *values = out->pixels;
+    const size_t alpha = channels % 2 == 0 ? channels - 1 : channels; /* channels: none */
+    for (size_t i = 0; i < count; i++) {
+        float value = in->type == WEFT_PIXEL_U8 ? (float)bytes[i] / 255.0f : (float)words[i] / 65535.0f;
+        values[i] = srgb && i % channels != alpha ? srgb_decode(value) : value;
+    }
+    return WEFT_OK;
+}

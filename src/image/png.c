@@ -1,0 +1,127 @@
+#include <png.h>
+#include <setjmp.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "image/codec.h"
+
+/* libpng leaves an error by longjmp: whatever must outlive that lives here, behind a pointer. */
+typedef struct PngJob {
+    jmp_buf escape;
+    char reason[160];
+    const ImageSource *source;
+    size_t position;
+} PngJob;
+
+static _Noreturn void png_job_fail(png_structp png, png_const_charp reason) {
+    PngJob *job = png_get_error_ptr(png);
+    snprintf(job->reason, sizeof job->reason, "%s", reason);
+    longjmp(job->escape, 1);
+}
+
+static void png_job_warn(png_structp png, png_const_charp reason) {
+    (void)png;
+    (void)reason;
+}
+
+static void png_job_read(png_structp png, png_bytep to, size_t size) {
+    PngJob *job = png_get_io_ptr(png);
+    if (size > job->source->size - job->position) png_error(png, "it ends early");
+    memcpy(to, job->source->data + job->position, size);
+    job->position += size;
+}
+
+/* Only what changes pixels is parsed; profiles, texts and the like are skipped unread. */
+static void skip_ancillary(png_structp png) {
+    static const char skipped[] =
+        "bKGD\0cHRM\0cICP\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0"
+        "sPLT\0sRGB\0sTER\0tEXt\0tIME\0zTXt";
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, (png_const_bytep)skipped, sizeof skipped / 5);
+}
+
+/* Everything that can escape. */
+static WeftResult png_decode(png_structp png, png_infop info, const ImageSource *source, WeftImage *out,
+                             WeftError *error) {
+    skip_ancillary(png);
+    png_set_user_limits(png, IMAGE_SIDE_MAX, IMAGE_SIDE_MAX);
+    png_read_info(png, info);
+    const int64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+    /* Deflate's shortest code for its longest match: 258 bytes from 2 bits. */
+    const int64_t deflate = 1032;
+    WeftResult result =
+        image_reachable(source, (int64_t)png_get_rowbytes(png, info) * height / deflate, error);
+    if (result != WEFT_OK) return result;
+
+    png_set_expand(png); /* palette to RGB, 1 2 4 bits to 8, tRNS to alpha */
+    if (png_get_bit_depth(png, info) == 16 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    const int deep = png_get_bit_depth(png, info) == 16, channels = png_get_channels(png, info);
+    result = image_believable(source, width, height, channels * (deep ? 2 : 1), error);
+    if (result != WEFT_OK) return result;
+    result = weft_image_create((int)width, (int)height, channels, deep ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8, out,
+                               error);
+    if (result != WEFT_OK) return result;
+
+    const size_t stride = png_get_rowbytes(png, info);
+    for (int pass = 0; pass < passes; pass++)
+        for (size_t y = 0; y < (size_t)height; y++)
+            png_read_row(png, (png_bytep)out->pixels + y * stride, NULL);
+    png_read_end(png, NULL);
+    return WEFT_OK;
+}
+
+/* Apart from the caller, whose variables a longjmp to here leaves well defined. */
+static WeftResult png_read_guarded(PngJob *job, png_structp png, png_infop info, WeftImage *out,
+                                   WeftError *error) {
+    if (setjmp(job->escape))
+        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, job->source->name, "PNG: %s", job->reason);
+    png_set_read_fn(png, job, png_job_read);
+    return png_decode(png, info, job->source, out, error);
+}
+
+WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *error) {
+    PngJob job = {.source = source};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_job_fail, png_job_warn);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    WeftResult result = info ? png_read_guarded(&job, png, info, out, error)
+                             : fail(error, WEFT_MESSAGE_MEMORY, source->name, NULL);
+    png_destroy_read_struct(&png, &info, NULL);
+    if (result != WEFT_OK) weft_image_free(out);
+    return result;
+}
+
+static void png_encode(png_structp png, png_infop info, const WeftImage *image) {
+    static const int color_types[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                      PNG_COLOR_TYPE_RGB_ALPHA};
+    const int deep = image->type == WEFT_PIXEL_U16;
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, deep ? 16 : 8,
+                 color_types[image->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
+    const size_t stride = (size_t)image->width * (size_t)image->channels * (deep ? 2 : 1);
+    for (size_t y = 0; y < (size_t)image->height; y++)
+        png_write_row(png, (png_const_bytep)image->pixels + y * stride);
+    png_write_end(png, info);
+}
+
+static WeftResult png_write_guarded(PngJob *job, png_structp png, png_infop info, FILE *stream,
+                                    const char *name, const WeftImage *image, WeftError *error) {
+    if (setjmp(job->escape)) return fail(error, WEFT_MESSAGE_FILE_WRITE, name, "PNG: %s", job->reason);
+    png_init_io(png, stream);
+    png_encode(png, info, image);
+    return WEFT_OK;
+}
+
+WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image, WeftError *error) {
+    PngJob job = {0};
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_job_fail, png_job_warn);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    WeftResult result = info ? png_write_guarded(&job, png, info, stream, name, image, error)
+                             : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    png_destroy_write_struct(&png, &info);
+    return result;
+}

@@ -1,0 +1,19 @@
+#include "scene/builtin.h"
+
+#include "scene/spheres.h"
+
+extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[];
+
+static const Builtin builtins[] = {
+    {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb,
+     embedded_cloth_glb_end, NULL},
+    {"spheres", "sheen roughness 0.1 to 1 in five steps, over a dark and a light base", NULL, NULL,
+     spheres_make},
+};
+
+const Builtin *builtin_at(int index) {
+    return index >= 0 && index < (int)(sizeof builtins / sizeof *builtins) ? &builtins[index] : NULL;
+}
+
+const char *weft_builtin_name(int index) { return builtin_at(index) ? builtin_at(index)->name : NULL; }
+const char *weft_builtin_help(int index) { return builtin_at(index) ? builtin_at(index)->help : NULL; }

@@ -1,0 +1,80 @@
+#include "scene/camera.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/number.h"
+
+static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
+    camera->eye = eye;
+    camera->forward = vec3_normal_or(vec3_sub(target, eye), vec3(0.0f, 0.0f, -1.0f));
+    Vec3 up = fabsf(camera->forward.y) > 0.9999f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
+    camera->right = vec3_normal_or(vec3_cross(camera->forward, up), vec3(1.0f, 0.0f, 0.0f));
+    camera->up = vec3_cross(camera->right, camera->forward);
+}
+
+/* The eye moves back along the view until every corner of the box is inside the frustum with a margin. */
+static Camera frame_box(Vec3 low, Vec3 high, float aspect) {
+    const float azimuth = 0.61f, elevation = 0.26f, margin = 1.08f; /* 35 and 15 degrees */
+    Camera camera = {.name = "auto", .yfov = 0.49f}; /* 28 degrees, an 85 mm portrait lens upright */
+    Vec3 centre = vec3_scale(vec3_add(low, high), 0.5f);
+    Vec3 back = vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation));
+    look_at(&camera, vec3_add(centre, back), centre);
+    float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect, distance = 0.0f;
+    for (int corner = 0; corner < 8; corner++) {
+        Vec3 p = vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
+        Vec3 r = vec3_sub(p, centre);
+        float x = fabsf(vec3_dot(r, camera.right)), y = fabsf(vec3_dot(r, camera.up)),
+              z = vec3_dot(r, camera.forward);
+        distance = fmaxf(distance, fmaxf(x / tx, y / ty) - z);
+    }
+    if (!(distance > 0.0f)) distance = 1.0f;
+    camera.eye = vec3_madd(centre, back, distance);
+    return camera;
+}
+
+static bool parse_view(const char *text, Camera *camera) {
+    char copy[256];
+    if (strlen(text) >= sizeof copy) return false;
+    memcpy(copy, text, strlen(text) + 1);
+    char *target = strchr(copy, ';'), *fov = target ? strchr(target + 1, ';') : NULL;
+    if (!fov) return false;
+    *target++ = '\0';
+    *fov++ = '\0';
+    float e[3], t[3], degrees;
+    if (!parse_numbers(copy, ',', 3, e) || !parse_numbers(target, ',', 3, t) || !parse_number(fov, &degrees))
+        return false;
+    if (!(degrees > 0.01f && degrees < 179.0f) || (e[0] == t[0] && e[1] == t[1] && e[2] == t[2]))
+        return false;
+    *camera = (Camera){.name = "", .yfov = degrees * (3.14159265f / 180.0f)};
+    look_at(camera, vec3_load(e), vec3_load(t));
+    return true;
+}
+
+WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out,
+                       WeftError *error) {
+    if (!text || strcmp(text, "auto") == 0) {
+        if (scene->low.x > scene->high.x) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
+        *out = frame_box(scene->low, scene->high, aspect);
+        return WEFT_OK;
+    }
+    for (int k = 0; k < scene->camera_count; k++) {
+        char index[16];
+        snprintf(index, sizeof index, "%d", k);
+        if (strcmp(scene->cameras[k].name, text) == 0 || strcmp(index, text) == 0) {
+            *out = scene->cameras[k];
+            return WEFT_OK;
+        }
+    }
+    if (parse_view(text, out)) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "write auto, a name, an index or \"eye;target;fov\"");
+}
+
+CameraRay camera_ray(const Camera *camera, float aspect, float x, float y) {
+    float half = camera->orthographic ? camera->ymag : tanf(0.5f * camera->yfov);
+    Vec3 across = vec3_add(vec3_scale(camera->right, x * half * aspect), vec3_scale(camera->up, y * half));
+    if (camera->orthographic) return (CameraRay){vec3_add(camera->eye, across), camera->forward};
+    return (CameraRay){camera->eye, vec3_normal_or(vec3_add(camera->forward, across), camera->forward)};
+}

@@ -1,0 +1,12 @@
+/* environment.h - distant light made by rule */
+#ifndef WEFT_SCENE_ENVIRONMENT_H
+#define WEFT_SCENE_ENVIRONMENT_H
+
+#include "scene/scene.h"
+
+/* The studio: a dim room with a large soft box high at the left, a weaker strip at the right, a rim light
+ * behind and a bright floor bounce. F32 RGB lat-long, values in radiance; a product photographer's starting
+ * point. */
+WeftResult environment_studio(WeftImage *out, WeftError *error);
+
+#endif

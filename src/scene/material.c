@@ -1,0 +1,110 @@
+#include "scene/material.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene/shade.h"
+#include "shading/layer.h"
+
+const InputInfo input_infos[INPUT_COUNT] = {
+#define INPUT_INFO(kind, name, def, low, high, help) {INPUT_##kind, #name, help, def, low, high},
+    SURFACE_INPUTS(INPUT_INFO)
+#undef INPUT_INFO
+};
+
+int material_input(const char *name) {
+    for (int k = 0; k < INPUT_COUNT; k++)
+        if (strcmp(input_infos[k].name, name) == 0) return k;
+    return -1;
+}
+
+Material material_default(const char *name) {
+    Material material = {.name = name,
+                         .alpha_cutoff = 0.5f,
+                         .sheen_lobe = LOBE_CHARLIE_CONTY_KULLA,
+                         .layer = LAYER_ALBEDO_VIEW};
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        Input *input = &material.inputs[k];
+        for (int c = 0; c < 3; c++) input->value[c] = input_infos[k].def;
+        input->transform[0] = input->transform[4] = 1.0f;
+    }
+    return material;
+}
+
+/* One point of a material: inputs that share a texture and its placement share the fetch. */
+typedef struct Lookup {
+    const WeftScene *scene;
+    float (*uv)[2];
+    const Input *last;
+    const SrgbTable *last_srgb;
+    Texel texel;
+} Lookup;
+
+static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *srgb) {
+    const Input *last = lookup->last;
+    if (last && last->texture == input->texture && last->texcoord == input->texcoord &&
+        lookup->last_srgb == srgb && memcmp(last->transform, input->transform, sizeof input->transform) == 0)
+        return &lookup->texel;
+    const float *uv = lookup->uv[input->texcoord], *m = input->transform;
+    float u = m[0] * uv[0] + m[1] * uv[1] + m[2], v = m[3] * uv[0] + m[4] * uv[1] + m[5];
+    lookup->last = input;
+    lookup->last_srgb = srgb;
+    lookup->texel =
+        texture_fetch(&lookup->scene->textures[input->texture - 1], lookup->scene->images, srgb, u, v);
+    return &lookup->texel;
+}
+
+static float read_SCALAR(Lookup *lookup, const Input *input) {
+    float value = input->value[0];
+    /* opacity is the alpha of a colour texture: the same texel, and alpha is never decoded */
+    const SrgbTable *srgb = input->channel == 3 ? lookup->last_srgb : NULL;
+    return input->texture ? value * fetch(lookup, input, srgb)->c[input->channel] : value;
+}
+
+static Rgb read_COLOR(Lookup *lookup, const Input *input) {
+    Rgb color = {input->value[0], input->value[1], input->value[2]};
+    if (!input->texture) return color;
+    const float *c = fetch(lookup, input, &lookup->scene->srgb)->c;
+    return (Rgb){color.r * c[0], color.g * c[1], color.b * c[2]};
+}
+
+static Dir read_NORMAL(Lookup *lookup, const Input *input) {
+    if (!input->texture) return dir(0.0f, 0.0f, 1.0f);
+    const float *c = fetch(lookup, input, NULL)->c;
+    Dir n = dir((2.0f * c[0] - 1.0f) * input->value[0], (2.0f * c[1] - 1.0f) * input->value[0],
+                2.0f * c[2] - 1.0f);
+    n.z = max(n.z, 1e-3f); /* a map that points down is damaged */
+    float s = 1.0f / sqrt(dir_dot(n, n));
+    return dir(n.x * s, n.y * s, n.z * s);
+}
+
+static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
+    float x = cos(input->value[0]), y = sin(input->value[0]), tx = 1.0f, ty = 0.0f;
+    if (input->texture) {
+        const float *c = fetch(lookup, input, NULL)->c;
+        tx = 2.0f * c[0] - 1.0f, ty = 2.0f * c[1] - 1.0f;
+        float s = sqrt(tx * tx + ty * ty);
+        tx = s > 1e-3f ? tx / s : 1.0f, ty = s > 1e-3f ? ty / s : 0.0f;
+    }
+    return dir(x * tx - y * ty, x * ty + y * tx, 0.0f);
+}
+
+Surface material_surface(const WeftScene *scene, const Material *material, float uv[2][2],
+                         const float color[4]) {
+    Lookup lookup = {.scene = scene, .uv = uv};
+    Surface s;
+#define READ_INPUT(kind, name, def, low, high, help)                                                         \
+    s.name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
+    SURFACE_INPUTS(READ_INPUT)
+    s.base_color = (Rgb){s.base_color.r * color[0], s.base_color.g * color[1], s.base_color.b * color[2]};
+    s.opacity *= color[3];
+    return s;
+}
+
+float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha) {
+    if (material->alpha_mode == ALPHA_OPAQUE) return 1.0f;
+    Lookup lookup = {.scene = scene, .uv = uv};
+    float opacity = read_SCALAR(&lookup, &material->inputs[INPUT_opacity]) * vertex_alpha;
+    if (material->alpha_mode == ALPHA_MASK) return opacity >= material->alpha_cutoff ? 1.0f : 0.0f;
+    return clamp(opacity, 0.0f, 1.0f);
+}

@@ -1,0 +1,15 @@
+/* shade.h - a material evaluated at a point of a mesh */
+#ifndef WEFT_SCENE_SHADE_H
+#define WEFT_SCENE_SHADE_H
+
+#include "scene/scene.h"
+#include "shading/surface.h"
+
+/* The material's inputs at a point: uv holds the two UV sets, color the linear vertex colour. */
+Surface material_surface(const WeftScene *scene, const Material *material, float uv[2][2],
+                         const float color[4]);
+
+/* Only the opacity there, after the alpha mode's rule (MASK gives 0 or 1); 1 for OPAQUE. */
+float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha);
+
+#endif

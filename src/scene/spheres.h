@@ -1,0 +1,11 @@
+/* spheres.h - the scene builtin:spheres, a sweep of sheen roughness */
+#ifndef WEFT_SCENE_SPHERES_H
+#define WEFT_SCENE_SPHERES_H
+
+#include "scene/scene.h"
+
+/* Two rows of five spheres on a floor: sheen roughness from 0.1 (left) to 1; a dark base in front, a light
+ * one behind. Materials are named dark-0 .. dark-4, light-0 .. light-4 and floor. */
+WeftResult spheres_make(WeftScene *scene, WeftError *error);
+
+#endif

@@ -1,0 +1,141 @@
+#include "shading/albedo.h"
+
+#include "base/thread.h"
+#include "shading/terms/f_schlick.h"
+
+/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o and at the plane of incidence. Each
+ * piece is integrated by the double-exponential rule, whose nodes crowd towards the ends of an interval: that
+ * is where the lobes have their peaks (mirror direction, horizon, backscatter), however narrow. x = 1 / (1 +
+ * exp(-pi sinh t)),  dx/dt = pi cosh t x (1 - x) Hidetosi Takahasi, Masatake Mori, "Double Exponential
+ * Formulas for Numerical Integration", 1974. */
+enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
+
+typedef struct Rule {
+    int count;
+    double x[NODES_MAX], rest[NODES_MAX], w[NODES_MAX]; /* on (0, 1); rest = 1 - x without cancellation */
+} Rule;
+
+static Rule rule_make(double step) {
+    Rule rule = {0};
+    const double reach = 3.1; /* x(-3.1) is 9e-16 */
+    int half = (int)(reach / step);
+    for (int k = -half; k <= half; k++) {
+        double t = k * step, q = 3.14159265358979 * sinh(t);
+        double x = 1.0 / (1.0 + (exp)(-q)), rest = 1.0 / (1.0 + (exp)(q));
+        rule.x[rule.count] = x;
+        rule.rest[rule.count] = rest;
+        rule.w[rule.count++] = step * 3.14159265358979 * cosh(t) * x * rest;
+    }
+    return rule;
+}
+
+typedef struct Sum {
+    double f0, f90;
+} Sum;
+
+/* Sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
+static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double cos_i) {
+    float ox[2 * NODES_MAX], oy[2 * NODES_MAX], oz[2 * NODES_MAX];
+    float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX];
+    double w[2 * NODES_MAX];
+    unsigned traits = weft_lobe_info((int)lobe->id)->traits;
+    int mirrored = traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
+    double s = hypot((double)wo.x, (double)wo.y);
+    double tx = s > 0.0 ? -(double)wo.x / s : -1.0, ty = s > 0.0 ? -(double)wo.y / s : 0.0;
+    size_t n = 0;
+    for (int side = 0; side < mirrored; side++)
+        for (int k = 0; k < rule->count; k++) {
+            double phi = 3.14159265358979 * rule->x[k];
+            double c = (cos)(phi)*sin_i, t = (sin)(phi)*sin_i * (side ? -1.0 : 1.0);
+            ox[n] = wo.x, oy[n] = wo.y, oz[n] = wo.z;
+            ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
+            w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
+        }
+    lobe_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f);
+    Sum sum = {0};
+    for (size_t k = 0; k < n; k++) {
+        double s90 = 0.0;
+        if (traits & TRAIT_FRESNEL) {
+            Dir i = {ix[k], iy[k], iz[k]};
+            s90 = (double)schlick_s(angles_between(wo, i).d);
+        }
+        sum.f0 += w[k] * (double)f[k] * (1.0 - s90);
+        sum.f90 += w[k] * (double)f[k] * s90;
+    }
+    return sum;
+}
+
+static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
+    double theta_o = acos((double)min(wo.z, 1.0f)), half_pi = 1.57079632679490;
+    Sum sum = {0};
+    for (int piece = 0; piece < 2; piece++) {
+        double width = piece ? half_pi - theta_o : theta_o;
+        if (width < 1e-9) continue;
+        for (int k = 0; k < rule->count; k++) {
+            /* the second piece measures from the horizon, where the cosine needs its digits */
+            double a = piece ? width * rule->rest[k] : width * rule->x[k];
+            double sin_i = piece ? (cos)(a) : (sin)(a), cos_i = piece ? (sin)(a) : (cos)(a);
+            Sum part = ring(lobe, wo, rule, sin_i, cos_i);
+            double w = rule->w[k] * width * sin_i * cos_i;
+            sum.f0 += w * part.f0;
+            sum.f90 += w * part.f90;
+        }
+    }
+    return sum;
+}
+
+Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
+    Rule rule = rule_make(0.25);
+    Sum before = hemisphere(lobe, wo, &rule), now = before;
+    for (double step = 0.125; step > 0.03; step *= 0.5) {
+        rule = rule_make(step);
+        now = hemisphere(lobe, wo, &rule);
+        /* halving the step about squares the error, so the last difference is a safe bound */
+        if (fabs(now.f0 - before.f0) + fabs(now.f90 - before.f90) < tolerance) break;
+        before = now;
+    }
+    return (Albedo){(float)now.f0, (float)now.f90};
+}
+
+static float node(int k, int count) { return count > 1 ? (float)k / (float)(count - 1) : 0.0f; }
+
+typedef struct Fill {
+    AlbedoTable *table;
+    const Lobe *lobe;
+} Fill;
+
+static void fill_column(void *user, int column, int thread) {
+    (void)thread;
+    const Fill *fill = user;
+    AlbedoTable *table = fill->table;
+    float x = max(node(column, ALBEDO_MU), 1e-3f), cos_o = x * x;
+    Dir wo = {sqrt(max(1.0f - cos_o * cos_o, 0.0f)), 0.0f, cos_o};
+    for (int row = 0; row < table->rows; row++) {
+        Lobe lobe = *fill->lobe;
+        float root = mix(sqrt(table->low), sqrt(table->high), node(row, table->rows));
+        if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
+        table->e[row][column] = albedo_quadrature(&lobe, wo, 1e-4).f0;
+    }
+}
+
+void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
+    table->lobe = lobe->id;
+    table->low = low;
+    table->high = high;
+    table->rows = low < high ? ALBEDO_ROWS : 1;
+    parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, lobe});
+}
+
+float albedo_table_read(const AlbedoTable *table, float cos_o, float alpha) {
+    float x = sqrt(clamp(cos_o, 0.0f, 1.0f)) * (ALBEDO_MU - 1);
+    int k = (int)min(x, ALBEDO_MU - 2);
+    float t = x - (float)k;
+    const float *e = table->e[0];
+    if (table->rows == 1) return mix(e[k], e[k + 1], t);
+    float y = (sqrt(max(alpha, 0.0f)) - sqrt(table->low)) / (sqrt(table->high) - sqrt(table->low));
+    y = clamp(y, 0.0f, 1.0f) * (float)(table->rows - 1);
+    int j = (int)min(y, (float)(table->rows - 2));
+    e = table->e[j];
+    const float *e1 = table->e[j + 1];
+    return mix(mix(e[k], e[k + 1], t), mix(e1[k], e1[k + 1], t), y - (float)j);
+}

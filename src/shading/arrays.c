@@ -1,0 +1,38 @@
+/* arrays.c - the same text over arrays: one loop per lobe, the widest instructions chosen at start-up
+ *
+ * Only this file is compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test is folded
+ * away. */
+#include "lobes.gen.h"
+#include "shading/registry.h"
+
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define CLONES
+#endif
+
+#define FROM_ARRAY(type, name, def, low, high, hard_low, hard_high, help) m.name = (type)*p++;
+#define LOBE_EVAL_N(id, name, Record, NAME)                                                                  \
+    CLONES static void name##_eval_n(const float *p, size_t n, const float *restrict ox,                     \
+                                     const float *restrict oy, const float *restrict oz,                     \
+                                     const float *restrict ix, const float *restrict iy,                     \
+                                     const float *restrict iz, float *restrict f) {                          \
+        Record m = {0};                                                                                      \
+        NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
+        _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
+            Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                        \
+            float e = name##_eval(m, angles_between(o, i));                                                  \
+            f[k] = o.z > 0.0f && i.z > 0.0f ? e : 0.0f;                                                      \
+        }                                                                                                    \
+    }
+WEFT_LOBES(LOBE_EVAL_N)
+
+void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                 const float *ix, const float *iy, const float *iz, float *f) {
+    switch (lobe->id) {
+#define LOBE_CALL_N(id, name, Record, NAME)                                                                  \
+    case LOBE_##NAME: name##_eval_n(lobe->params, n, ox, oy, oz, ix, iy, iz, f); return;
+        WEFT_LOBES(LOBE_CALL_N)
+    case LOBE_COUNT: return;
+    }
+}

@@ -1,0 +1,90 @@
+/* lang.h - the dialect: what a shading file may use, in C11 and in GLSL (3.30 core, ES 3.00)
+ *
+ * Shading text uses float, int, bool, records and the calls below; nothing else. No vectors: a lobe sees a
+ * pair of directions through Angles (angles.h), so that one text serves a pixel, a ray and an array of
+ * directions. This is the only file that knows which language it is in. */
+#ifndef WEFT_LANG_H
+#define WEFT_LANG_H
+
+#if defined(GL_ES) || defined(GL_core_profile) /* predefined by every GLSL compiler */
+
+#define FN
+#define STRUCT(Name) struct Name
+
+#else
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#define FN static inline __attribute__((always_inline, unused))
+#define STRUCT(Name)                                                                                         \
+    typedef struct Name Name;                                                                                \
+    struct Name
+
+/* log2 of a normal x > 0: degree-7 polynomial for log2(1 + t) / t on the mantissa in [sqrt(1/2), sqrt(2)),
+ * interpolated at Chebyshev nodes. Written here because a library call stops a loop from vectorising. */
+FN float weft_log2(float x) {
+    int32_t i;
+    memcpy(&i, &x, 4);
+    int32_t e = (i - 0x3f3504f3) >> 23; /* 0x3f3504f3 is sqrt(1/2) */
+    i -= (int32_t)((uint32_t)e << 23);
+    float m;
+    memcpy(&m, &i, 4);
+    float t = m - 1.0f, p = -0.142759734f;
+    p = p * t + 0.232652579f;
+    p = p * t - 0.249271822f;
+    p = p * t + 0.287288882f;
+    p = p * t - 0.360225182f;
+    p = p * t + 0.480916708f;
+    p = p * t - 0.721352931f;
+    p = p * t + 1.44269499f;
+    return (float)e + p * t;
+}
+
+/* 2^x, clamped to the normal floats: degree-6 polynomial on the fraction in [-1/2, 1/2], exponent by bits. */
+FN float weft_exp2(float x) {
+    x = x < -126.0f ? -126.0f : x > 127.0f ? 127.0f : x;
+    float k = floorf(x + 0.5f), t = x - k, p = 0.000154531629f;
+    p = p * t + 0.00133908634f;
+    p = p * t + 0.00961808256f;
+    p = p * t + 0.0555035711f;
+    p = p * t + 0.240226508f;
+    p = p * t + 0.693147188f;
+    p = p * t + 1.0f;
+    int32_t i = (int32_t)((uint32_t)((int32_t)k + 127) << 23);
+    float s;
+    memcpy(&s, &i, 4);
+    return p * s;
+}
+
+/* One instruction each; the C library's versions are calls, since they let a number win over a NaN. */
+FN float weft_min(float a, float b) { return a < b ? a : b; }
+FN float weft_max(float a, float b) { return a > b ? a : b; }
+
+FN float weft_mix(float a, float b, float t) { return a + (b - a) * t; }
+
+/* The names below shadow <math.h>: include the dialect only where the catalogue is compiled. */
+#define min(a, b)           weft_min(a, b)
+#define max(a, b)           weft_max(a, b)
+#define clamp(x, low, high) weft_min(weft_max(x, low), high)
+#define abs(x)              fabsf(x)
+#define floor(x)            floorf(x)
+#define sqrt(x)             sqrtf(x)
+#define sin(x)              sinf(x)
+#define cos(x)              cosf(x)
+#define log2(x)             weft_log2(x)
+#define exp2(x)             weft_exp2(x)
+#define exp(x)              weft_exp2((x)*1.44269504f)
+#define pow(x, y)           weft_exp2((y)*weft_log2(x))
+#define mix(a, b, t)        weft_mix(a, b, t)
+
+#endif
+
+#define PI 3.14159265358979f
+
+/* One line of a lobe's parameter table as a member of its record. */
+#define FIELD(type, name, def, low, high, hard_low, hard_high, help) type name;
+
+#endif

@@ -1,0 +1,80 @@
+/* lobe.c - the public face of the registry */
+#include <errno.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "base/number.h"
+#include "shading/albedo.h"
+#include "shading/terms/f_schlick.h"
+
+static Lobe lobe_of(const WeftLobe *public_lobe) {
+    Lobe lobe = {.id = (LobeId)public_lobe->lobe};
+    memcpy(lobe.params, public_lobe->params, sizeof lobe.params);
+    return lobe;
+}
+
+WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
+    int k = weft_lobe_find(id);
+    if (k < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "`weft models` lists them");
+    *out = (WeftLobe){.lobe = k, .f0 = {1.0f, 1.0f, 1.0f}, .f90 = {1.0f, 1.0f, 1.0f}};
+    memcpy(out->params, lobe_default((LobeId)k).params, sizeof out->params);
+    return WEFT_OK;
+}
+
+WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
+                         WeftError *error) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    float v[3];
+    bool f90 = strcmp(param, "f90") == 0 && info->traits & TRAIT_FRESNEL;
+    if (f90 || strcmp(param, "color") == 0 || strcmp(param, "f0") == 0) {
+        if (!parse_color(value, v))
+            return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number or r,g,b", param);
+        memcpy(f90 ? lobe->f90 : lobe->f0, v, sizeof v);
+        return WEFT_OK;
+    }
+    int k = lobe_param((LobeId)lobe->lobe, param);
+    if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
+    if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", param);
+    const WeftParamInfo *p = &info->params[k];
+    Lobe clamped = lobe_of(lobe);
+    lobe_set(&clamped, k, v[0]);
+    if (clamped.params[k] < v[0] || clamped.params[k] > v[0])
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, param, "%g was clamped to %g", (double)v[0],
+             (double)clamped.params[k]);
+    else if (v[0] < p->low || v[0] > p->high)
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, param, "%g is not in %g .. %g", (double)v[0], (double)p->low,
+             (double)p->high);
+    lobe->params[k] = clamped.params[k];
+    return WEFT_OK;
+}
+
+void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], float f[3]) {
+    f[0] = f[1] = f[2] = 0.0f;
+    if (!(wo[2] > 0.0f && wi[2] > 0.0f)) return;
+    Lobe inner = lobe_of(lobe);
+    Angles a = angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2]));
+    float e = lobe_eval(&inner, a);
+    float s = weft_lobe_info(lobe->lobe)->traits & TRAIT_FRESNEL ? schlick_s(a.d) : 0.0f;
+    for (int c = 0; c < 3; c++) f[c] = e * mix(lobe->f0[c], lobe->f90[c], s);
+}
+
+float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]) {
+    if (!(wo[2] > 0.0f && wi[2] > 0.0f)) return 0.0f;
+    Lobe inner = lobe_of(lobe);
+    return lobe_pdf(&inner, angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2])));
+}
+
+float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]) {
+    if (!(wo[2] > 0.0f)) return 0.0f;
+    Lobe inner = lobe_of(lobe);
+    Dir i = lobe_sample(&inner, dir(wo[0], wo[1], wo[2]), u[0], u[1]);
+    wi[0] = i.x, wi[1] = i.y, wi[2] = i.z;
+    return weft_lobe_pdf(lobe, wo, wi);
+}
+
+void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
+    Lobe inner = lobe_of(lobe);
+    float z = clamp(cos_o, 1e-6f, 1.0f);
+    Albedo albedo = albedo_quadrature(&inner, dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z), 2e-5);
+    for (int c = 0; c < 3; c++) e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe->f90[c];
+}

@@ -1,0 +1,31 @@
+/* charlie-conty-kulla - velvet as its authors and the text of glTF have it: the same rim, dimmer at grazing
+ * light
+ *
+ *   f = color D(h) V(wo, wi)                                                                     [1/sr]
+ *
+ *   D: term d_charlie.  V: term v_conty_kulla, the fitted Smith shadowing of the same paper.
+ *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
+ * course; Khronos Group, KHR_materials_sheen, 2020. roughness: alpha = roughness^2 (KHR_materials_sheen).
+ *   reciprocal: yes.  energy: no, E passes 1 near grazing at low alpha, where the fit no longer holds.
+ *   sampling: half by D, half uniform. */
+#ifndef WEFT_CHARLIE_CONTY_KULLA_H
+#define WEFT_CHARLIE_CONTY_KULLA_H
+
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/v_conty_kulla.h"
+
+#define CHARLIE_CONTY_KULLA_PARAMS(P)                                                                        \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
+#define CHARLIE_CONTY_KULLA_TRAITS TRAIT_RECIPROCAL
+
+STRUCT(CharlieContyKulla){CHARLIE_CONTY_KULLA_PARAMS(FIELD)};
+
+FN float charlie_conty_kulla_eval(CharlieContyKulla m, Angles a) {
+    return charlie_d(m.alpha, a.h) * conty_kulla_v(m.alpha, a.o.z, a.i.z);
+}
+FN float charlie_conty_kulla_pdf(CharlieContyKulla m, Angles a) { return charlie_pdf(m.alpha, a); }
+FN Dir charlie_conty_kulla_sample(CharlieContyKulla m, Dir o, float u, float v) {
+    return charlie_sample(m.alpha, o, u, v);
+}
+
+#endif

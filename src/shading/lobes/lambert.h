@@ -1,0 +1,21 @@
+/* lambert - a matt surface, equally bright from everywhere
+ *
+ *   f = color / pi                                                                               [1/sr]
+ *
+ *   Johann Heinrich Lambert, "Photometria", 1760.
+ *   reciprocal: yes.  energy: E = color exactly.  sampling: cosine, weight constant. */
+#ifndef WEFT_LAMBERT_H
+#define WEFT_LAMBERT_H
+
+#include "shading/warp.h"
+
+#define LAMBERT_PARAMS(P)
+#define LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS)
+
+STRUCT(Lambert) { float none; }; /* neither language has empty records */
+
+FN float lambert_eval(Lambert m, Angles a) { return 1.0f / PI; }
+FN float lambert_pdf(Lambert m, Angles a) { return warp_cosine_pdf(a.i); }
+FN Dir lambert_sample(Lambert m, Dir o, float u, float v) { return warp_cosine(u, v); }
+
+#endif

@@ -1,0 +1,80 @@
+#include "shading/registry.h"
+
+#include "lobes.gen.h"
+
+#define PARAM_INFO(type, name, def, low, high, hard_low, hard_high, help)                                    \
+    {#name, help, def, low, high, hard_low, hard_high},
+#define LOBE_PARAM_INFOS(id, name, Record, NAME)                                                             \
+    static const WeftParamInfo name##_params[] = {NAME##_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0}};
+WEFT_LOBES(LOBE_PARAM_INFOS)
+
+#define LOBE_INFO(id, name, Record, NAME)                                                                    \
+    {id, NAME##_TRAITS, (int)(sizeof name##_params / sizeof name##_params[0]) - 1, name##_params},
+static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_LOBES(LOBE_INFO)};
+
+int weft_lobe_count(void) { return LOBE_COUNT; }
+
+const WeftLobeInfo *weft_lobe_info(int lobe) { return lobe >= 0 && lobe < LOBE_COUNT ? &infos[lobe] : NULL; }
+
+int weft_lobe_find(const char *id) {
+    for (int k = 0; k < LOBE_COUNT; k++)
+        if (strcmp(infos[k].id, id) == 0) return k;
+    return -1;
+}
+
+Lobe lobe_default(LobeId id) {
+    Lobe lobe = {.id = id};
+    for (int k = 0; k < infos[id].param_count; k++) lobe.params[k] = infos[id].params[k].def;
+    return lobe;
+}
+
+int lobe_param(LobeId id, const char *name) {
+    for (int k = 0; k < infos[id].param_count; k++)
+        if (strcmp(infos[id].params[k].name, name) == 0) return k;
+    return -1;
+}
+
+void lobe_set(Lobe *lobe, int k, float value) {
+    const WeftParamInfo *info = &infos[lobe->id].params[k];
+    lobe->params[k] = clamp(value, info->hard_low, info->hard_high);
+}
+
+/* The array of parameters as the record that the lobe's text takes. */
+#define FROM_ARRAY(type, name, def, low, high, hard_low, hard_high, help) m.name = (type)*p++;
+#define LOBE_RECORD(id, name, Record, NAME)                                                                  \
+    FN Record name##_record(const float *p) {                                                                \
+        Record m = {0};                                                                                      \
+        NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
+        return m;                                                                                            \
+    }
+WEFT_LOBES(LOBE_RECORD)
+
+float lobe_eval(const Lobe *lobe, Angles a) {
+    switch (lobe->id) {
+#define LOBE_EVAL(id, name, Record, NAME)                                                                    \
+    case LOBE_##NAME: return name##_eval(name##_record(lobe->params), a);
+        WEFT_LOBES(LOBE_EVAL)
+    case LOBE_COUNT: break;
+    }
+    return 0.0f;
+}
+
+float lobe_pdf(const Lobe *lobe, Angles a) {
+    switch (lobe->id) {
+#define LOBE_PDF(id, name, Record, NAME)                                                                     \
+    case LOBE_##NAME: return name##_pdf(name##_record(lobe->params), a);
+        WEFT_LOBES(LOBE_PDF)
+    case LOBE_COUNT: break;
+    }
+    return 0.0f;
+}
+
+Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v) {
+    switch (lobe->id) {
+#define LOBE_SAMPLE(id, name, Record, NAME)                                                                  \
+    case LOBE_##NAME: return name##_sample(name##_record(lobe->params), o, u, v);
+        WEFT_LOBES(LOBE_SAMPLE)
+    case LOBE_COUNT: break;
+    }
+    return dir(0.0f, 0.0f, -1.0f);
+}

@@ -1,0 +1,15 @@
+/* v_neubelt - a smooth stand-in for the shadowing of cloth
+ *
+ *   V = 1 / (4 (cos_o + cos_i - cos_o cos_i))
+ *
+ *   David Neubelt, Matt Pettineo, "Crafting a Next-Gen Material Pipeline for The Order: 1886", SIGGRAPH 2013
+ * course "Physically Based Shading in Theory and Practice"; the denominator is that of Michael Ashikhmin,
+ * Simon Premoze, "Distribution-based BRDFs", 2007. */
+#ifndef WEFT_V_NEUBELT_H
+#define WEFT_V_NEUBELT_H
+
+#include "shading/lang.h"
+
+FN float neubelt_v(float o, float i) { return 1.0f / (4.0f * max(o + i - o * i, 1e-20f)); }
+
+#endif

@@ -1,0 +1,209 @@
+#include <embree3/rtcore.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "trace/geometry.h"
+
+#include "base/fail.h"
+#include "base/random.h"
+#include "scene/shade.h"
+
+struct Geometry {
+    const WeftScene *scene;
+    RTCDevice device;
+    RTCScene accel;
+};
+
+static struct RTCRay to_embree(const Ray *ray) {
+    return (struct RTCRay){.org_x = ray->origin.x,
+                           .org_y = ray->origin.y,
+                           .org_z = ray->origin.z,
+                           .tnear = ray->near,
+                           .dir_x = ray->direction.x,
+                           .dir_y = ray->direction.y,
+                           .dir_z = ray->direction.z,
+                           .tfar = ray->far,
+                           .mask = ~0u};
+}
+
+static Hit from_embree(const struct RTCHit *h, float t) {
+    return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
+}
+
+/* A hit may only count when the surface is there from that side and, by a coin that is a function of ray and
+ * triangle, not transparent. */
+static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint32_t key) {
+    const Mesh *mesh = &scene->meshes[hit->mesh];
+    const Material *material = &scene->materials[mesh->material];
+    if (!material->double_sided && vec3_dot(hit->facing, direction) > 0.0f) return false;
+    if (material->alpha_mode == ALPHA_OPAQUE) return true;
+    Vertex vertex = geometry_vertex(mesh, hit);
+    float opacity = material_opacity(scene, material, vertex.uv, vertex.color[3]);
+    return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
+}
+
+typedef struct Query {
+    struct RTCIntersectContext context; /* first: Embree hands back its address */
+    uint32_t key;
+} Query;
+
+/* Embree asks about every candidate of a mesh that has this filter; only single shadow rays get here, so N is
+ * 1 and the records are plain ones. */
+static void filter_occlusion(const struct RTCFilterFunctionNArguments *a) {
+    const struct RTCHit *h = (const struct RTCHit *)(const void *)a->hit;
+    const struct RTCRay *r = (const struct RTCRay *)(const void *)a->ray;
+    Hit hit = from_embree(h, r->tfar);
+    Vec3 direction = {r->dir_x, r->dir_y, r->dir_z};
+    if (!present(a->geometryUserPtr, &hit, direction, ((const Query *)(const void *)a->context)->key))
+        a->valid[0] = 0;
+}
+
+static bool attach(Geometry *geometry, uint32_t id) {
+    const Mesh *mesh = &geometry->scene->meshes[id];
+    const Material *material = &geometry->scene->materials[mesh->material];
+    RTCGeometry g = rtcNewGeometry(geometry->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (!g) return false;
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0,
+                               3 * sizeof(float), mesh->vertex_count);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
+                               3 * sizeof(uint32_t), mesh->triangle_count);
+    rtcSetGeometryUserData(g, (void *)(uintptr_t)geometry->scene);
+    if (!material->double_sided || material->alpha_mode != ALPHA_OPAQUE)
+        rtcSetGeometryOccludedFilterFunction(g, filter_occlusion);
+    rtcCommitGeometry(g);
+    rtcAttachGeometryByID(geometry->accel, g, id);
+    rtcReleaseGeometry(g);
+    return true;
+}
+
+WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error) {
+    char config[64];
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0", threads);
+    Geometry *geometry = alloc_array(1, sizeof *geometry);
+    if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    geometry->scene = scene;
+    geometry->device = rtcNewDevice(config);
+    geometry->accel = geometry->device ? rtcNewScene(geometry->device) : NULL;
+    bool built = geometry->accel != NULL;
+    for (int k = 0; built && k < scene->mesh_count; k++)
+        if (scene->meshes[k].triangle_count) built = attach(geometry, (uint32_t)k);
+    if (built) {
+        rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST);
+        rtcCommitScene(geometry->accel);
+        built = rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
+    }
+    if (!built) {
+        geometry_free(geometry);
+        return fail(error, WEFT_MESSAGE_RENDER_DEVICE, scene->name, NULL);
+    }
+    *out = geometry;
+    return WEFT_OK;
+}
+
+void geometry_free(Geometry *geometry) {
+    if (!geometry) return;
+    if (geometry->accel) rtcReleaseScene(geometry->accel);
+    if (geometry->device) rtcReleaseDevice(geometry->device);
+    free(geometry);
+}
+
+bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (;;) {
+        struct RTCRayHit query = {.ray = to_embree(&ray), .hit.geomID = RTC_INVALID_GEOMETRY_ID};
+        rtcIntersect1(geometry->accel, &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+        *hit = from_embree(&query.hit, query.ray.tfar);
+        if (present(geometry->scene, hit, ray.direction, ray.key)) return true;
+        ray.near = nextafterf(fmaxf(hit->t, ray.near), INFINITY); /* go on behind it */
+        ray.near += fabsf(ray.near) * 1e-6f;
+    }
+}
+
+void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits) {
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    struct RTCRayHit16 q;
+    _Alignas(64) int valid[GEOMETRY_PACKET];
+    for (int k = 0; k < GEOMETRY_PACKET; k++) {
+        valid[k] = k < count ? -1 : 0;
+        const Ray *ray = &rays[k < count ? k : 0];
+        q.ray.org_x[k] = ray->origin.x, q.ray.org_y[k] = ray->origin.y, q.ray.org_z[k] = ray->origin.z;
+        q.ray.dir_x[k] = ray->direction.x, q.ray.dir_y[k] = ray->direction.y,
+        q.ray.dir_z[k] = ray->direction.z;
+        q.ray.tnear[k] = ray->near, q.ray.tfar[k] = ray->far;
+        q.ray.time[k] = 0.0f, q.ray.mask[k] = ~0u, q.ray.flags[k] = 0, q.ray.id[k] = 0;
+        q.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid, geometry->accel, &context, &q);
+    for (int k = 0; k < count; k++) {
+        hits[k].t = -1.0f;
+        if (q.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+        hits[k] = (Hit){q.ray.tfar[k], q.hit.geomID[k], q.hit.primID[k],
+                        q.hit.u[k],    q.hit.v[k],      {q.hit.Ng_x[k], q.hit.Ng_y[k], q.hit.Ng_z[k]}};
+        if (!present(geometry->scene, &hits[k], rays[k].direction, rays[k].key) &&
+            !geometry_hit(geometry, rays[k], &hits[k]))
+            hits[k].t = -1.0f;
+    }
+}
+
+bool geometry_occluded(const Geometry *geometry, Ray ray) {
+    Query query = {.key = ray.key};
+    rtcInitIntersectContext(&query.context);
+    struct RTCRay r = to_embree(&ray);
+    rtcOccluded1(geometry->accel, &query.context, &r);
+    return r.tfar < 0.0f;
+}
+
+static Vec3 blend(const float *attribute, const uint32_t *index, float w, float u, float v) {
+    return vec3_lerp3(vec3_load(attribute + 3 * (size_t)index[0]),
+                      vec3_load(attribute + 3 * (size_t)index[1]),
+                      vec3_load(attribute + 3 * (size_t)index[2]), w, u, v);
+}
+
+Vertex geometry_vertex(const Mesh *mesh, const Hit *hit) {
+    const uint32_t *index = mesh->index + 3 * (size_t)hit->triangle;
+    float w = 1.0f - hit->u - hit->v, weight[3] = {w, hit->u, hit->v};
+    Vertex vertex = {.position = blend(mesh->position, index, w, hit->u, hit->v),
+                     .color = {1.0f, 1.0f, 1.0f, 1.0f}};
+    vertex.geometric = vec3_normal_or(hit->facing, vec3(0.0f, 1.0f, 0.0f));
+    vertex.normal = vertex.geometric;
+    if (mesh->normal)
+        vertex.normal = vec3_normal_or(blend(mesh->normal, index, w, hit->u, hit->v), vertex.geometric);
+    if (mesh->tangent)
+        for (int k = 0; k < 3; k++) {
+            const float *t = mesh->tangent + 4 * (size_t)index[k];
+            vertex.tangent = vec3_madd(vertex.tangent, vec3_load(t), weight[k]);
+            vertex.handedness = t[3];
+        }
+    for (int set = 0; set < 2; set++)
+        for (int k = 0; mesh->texcoord[set] && k < 3; k++) {
+            const float *uv = mesh->texcoord[set] + 2 * (size_t)index[k];
+            vertex.uv[set][0] += uv[0] * weight[k];
+            vertex.uv[set][1] += uv[1] * weight[k];
+        }
+    if (mesh->color)
+        for (int c = 0; c < 4; c++) {
+            vertex.color[c] = 0.0f;
+            for (int k = 0; k < 3; k++)
+                vertex.color[c] += mesh->color[4 * (size_t)index[k] + (size_t)c] * weight[k];
+        }
+    return vertex;
+}
+
+/* The mean of the point's projections onto the tangent planes of the vertices, outward only. Johannes Hanika,
+ * "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
+Vec3 geometry_lift(const Mesh *mesh, const Hit *hit, const Vertex *vertex, float side) {
+    Vec3 p = vertex->position, lifted = p;
+    if (!mesh->normal) return p;
+    const uint32_t *index = mesh->index + 3 * (size_t)hit->triangle;
+    float weight[3] = {1.0f - hit->u - hit->v, hit->u, hit->v};
+    for (int k = 0; k < 3; k++) {
+        Vec3 n = vec3_scale(vec3_load(mesh->normal + 3 * (size_t)index[k]), side);
+        float below = fminf(vec3_dot(vec3_sub(p, vec3_load(mesh->position + 3 * (size_t)index[k])), n), 0.0f);
+        lifted = vec3_madd(lifted, n, -below * weight[k]);
+    }
+    return lifted;
+}

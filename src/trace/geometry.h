@@ -1,0 +1,55 @@
+/* geometry.h - the scene's triangles behind Embree: nearest hit, occlusion, and what is at a hit */
+#ifndef WEFT_TRACE_GEOMETRY_H
+#define WEFT_TRACE_GEOMETRY_H
+
+#include "scene/scene.h"
+
+typedef struct Geometry Geometry;
+
+/* Builds the acceleration structure over the scene's meshes, whose arrays it shares. */
+WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error);
+void geometry_free(Geometry *geometry);
+
+typedef struct Ray {
+    Vec3 origin, direction; /* unit */
+    float near, far;
+    uint32_t key; /* decides, together with the triangle, whether a half-transparent surface is there */
+} Ray;
+
+typedef struct Hit {
+    float t;
+    uint32_t mesh, triangle;
+    float u, v;  /* barycentric weights of the second and third vertex */
+    Vec3 facing; /* geometric normal by the winding, not normalised */
+} Hit;
+
+/* The nearest surface that is there: not the back of a single-sided one, not a transparent point. */
+bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
+
+/* The same for `count` <= GEOMETRY_PACKET camera rays at once; t < 0 where nothing is hit. */
+enum { GEOMETRY_PACKET = 16 };
+void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits);
+
+/* Whether anything is between near and far. */
+bool geometry_occluded(const Geometry *geometry, Ray ray);
+
+/* A point of a triangle with its interpolated attributes. */
+typedef struct Vertex {
+    Vec3 position;
+    Vec3 geometric;   /* unit, on the side the triangle winds counter-clockwise */
+    Vec3 normal;      /* unit, interpolated; the geometric one where the mesh has none */
+    Vec3 tangent;     /* as stored, not normalised; 0 where the mesh has none */
+    float handedness; /* of the bitangent */
+
+    float uv[2][2];
+    float color[4];
+} Vertex;
+
+Vertex geometry_vertex(const Mesh *mesh, const Hit *hit);
+
+/* The hit point moved out to where the smooth surface that the normals describe would be, on the front
+ * (side 1) or the back (side -1):
+ * rays that leave from there meet no shadow of the triangles' own edges. */
+Vec3 geometry_lift(const Mesh *mesh, const Hit *hit, const Vertex *vertex, float side);
+
+#endif

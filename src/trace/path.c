@@ -1,0 +1,182 @@
+#include "trace/path.h"
+
+#include "scene/shade.h"
+#include "shading/surface.h"
+
+/* A surface point ready to be lit: its lobes and its frame. */
+typedef struct Point3 {
+    Vec3 geometric; /* unit, on the viewer's side */
+    Vec3 origin;    /* where rays that leave start, before their offset */
+    Vec3 x, y, z;   /* shading frame */
+    Dir wo;
+    Stack stack;
+} Point3;
+
+static Dir to_local(const Point3 *p, Vec3 w) {
+    return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z));
+}
+
+static Vec3 to_world(const Point3 *p, Dir w) { return vec3_lerp3(p->x, p->y, p->z, w.x, w.y, w.z); }
+
+/* Frame about n whose x is along `tangent`, or, where that has no direction across n, along any. Without a
+ * tangent: Tom Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
+static void set_frame(Point3 *p, Vec3 n, Vec3 tangent, float handedness) {
+    float sign = copysignf(1.0f, n.z), a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+    Vec3 any = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    p->z = n;
+    p->x = vec3_normal_or(vec3_madd(tangent, n, -vec3_dot(tangent, n)), any);
+    p->y = vec3_scale(vec3_cross(p->z, p->x), handedness < 0.0f ? -1.0f : 1.0f);
+}
+
+/* The normal nearest to n whose mirror direction of wo is not below the surface: else a normal map shows
+ * black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
+ * System", 2017, A.3. */
+static Vec3 bend_normal(Vec3 n, Vec3 geometric, Vec3 wo) {
+    float cosine = vec3_dot(wo, n);
+    Vec3 mirror = vec3_sub(vec3_scale(n, 2.0f * cosine), wo);
+    float least = 0.05f * max(vec3_dot(wo, geometric), 0.0f) + 1e-4f, below = vec3_dot(mirror, geometric);
+    if (cosine > 1e-4f && below >= least) return n;
+    mirror = vec3_normal_or(vec3_madd(mirror, geometric, max(least - below, 0.0f)), geometric);
+    Vec3 bent = vec3_normal_or(vec3_add(wo, mirror), geometric);
+    return vec3_dot(wo, bent) > 1e-4f ? bent : geometric;
+}
+
+/* Carsten Waechter, Nikolaus Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
+ * Gems, 2019: a step of so many units in the last place, or of a fixed length near the origin of the world.
+ */
+static float step_out(float p, float n) {
+    const float near_origin = 1.0f / 32.0f, length = 1.0f / 65536.0f, units = 256.0f;
+    if (fabsf(p) < near_origin) return p + length * n;
+    int32_t bits, step = (int32_t)(units * n);
+    memcpy(&bits, &p, 4);
+    bits += p < 0.0f ? -step : step;
+    memcpy(&p, &bits, 4);
+    return p;
+}
+
+static Vec3 leave(Vec3 p, Vec3 n) { return vec3(step_out(p.x, n.x), step_out(p.y, n.y), step_out(p.z, n.z)); }
+
+static Point3 prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, Rgb *emission) {
+    const Material *material = &context->scene->materials[mesh->material];
+    Vertex vertex = geometry_vertex(mesh, hit);
+    float side = vec3_dot(vertex.geometric, wo) < 0.0f ? -1.0f : 1.0f;
+    Surface surface = material_surface(context->scene, material, vertex.uv, vertex.color);
+    Point3 p = {.geometric = vec3_scale(vertex.geometric, side)};
+    Vec3 normal = vec3_scale(vertex.normal, side);
+
+    *emission =
+        (Rgb){surface.emission.r * surface.emission_strength, surface.emission.g * surface.emission_strength,
+              surface.emission.b * surface.emission_strength};
+    if (side < 0.0f && !material->double_sided) *emission = (Rgb){0};
+    if (material->unlit) {
+        *emission = surface.base_color;
+        return p;
+    }
+    if (vec3_dot(normal, p.geometric) <= 0.0f) normal = p.geometric; /* damaged normals */
+    p.origin = geometry_lift(mesh, hit, &vertex, side);
+    set_frame(&p, normal, vertex.tangent, vertex.handedness);
+    Dir n = surface.normal;
+    if (n.z < 1.0f)
+        set_frame(&p, bend_normal(to_world(&p, n), p.geometric, wo), p.x, vertex.handedness);
+    else if (vec3_dot(normal, wo) <= 1e-4f)
+        set_frame(&p, bend_normal(normal, p.geometric, wo), p.x, vertex.handedness);
+    if (surface.anisotropy > 0.0f) {
+        Vec3 along = to_world(&p, surface.anisotropy_direction);
+        set_frame(&p, p.z, along, vertex.handedness);
+    }
+    p.wo = to_local(&p, wo);
+    int m = mesh->material;
+    p.stack =
+        surface_stack(&surface, p.wo, (LobeId)material->sheen_lobe, material->layer, context->sheen_e[m]);
+    return p;
+}
+
+static void add(Rgb *sum, Rgb a, Rgb b, float k) {
+    sum->r += a.r * b.r * k;
+    sum->g += a.g * b.g * k;
+    sum->b += a.b * b.b * k;
+}
+
+/* Weight of the strategy with density a, beside one of density b. Eric Veach, "Robust Monte Carlo Methods for
+ * Light Transport Simulation", 1997, power heuristic, Equation 9.13. */
+static float mis_weight(const PathContext *context, WeftSampling strategy, float a, float b) {
+    if (context->sampling != WEFT_SAMPLING_MIS)
+        return b > 0.0f && strategy != context->sampling ? 0.0f : 1.0f;
+    return b > 0.0f ? a / (a + b * (b / a)) : 1.0f;
+}
+
+/* One light sample. */
+static void add_direct(const PathContext *context, const Point3 *p, Rgb throughput, Sampler *sampler,
+                       Rgb *sum, long long *rays) {
+    Point uv = sampler_next(sampler), w = sampler_next(sampler);
+    LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v, w.u);
+    if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
+    if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
+    StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi));
+    Rgb f = value.f_cos;
+    if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
+    Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance,
+                  hash32(sampler->key ^ sampler->pair)};
+    if (light.distance < INFINITY) {
+        /* from the moved start to just before the light */
+        Vec3 to = vec3_sub(vec3_madd(p->origin, light.wi, light.distance), shadow.origin);
+        float d = vec3_length(to);
+        shadow.direction = vec3_normal_or(to, light.wi);
+        shadow.far = d * (1.0f - 1e-4f);
+    }
+    ++*rays;
+    if (geometry_occluded(context->geometry, shadow)) return;
+    float weight = light.punctual ? 1.0f : mis_weight(context, WEFT_SAMPLING_LIGHT, light.pdf, value.pdf);
+    Rgb arriving = {f.r * light.radiance.r, f.g * light.radiance.g, f.b * light.radiance.b};
+    add(sum, throughput, arriving, weight / light.pdf);
+}
+
+Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler, long long *rays) {
+    Rgb sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
+    float pdf = 0.0f; /* of the direction by which we came; 0: the camera's */
+    for (int depth = 0;; depth++) {
+        const Mesh *mesh = &context->scene->meshes[hit.mesh];
+        Vec3 wo = vec3_scale(ray.direction, -1.0f);
+        Rgb emission;
+        Point3 p = prepare(context, mesh, &hit, wo, &emission);
+        if (emission.r + emission.g + emission.b > 0.0f) {
+            float cosine = vec3_dot(wo, p.geometric), weight = 1.0f;
+            if (pdf > 0.0f)
+                weight =
+                    mis_weight(context, WEFT_SAMPLING_LOBE, pdf,
+                               lights_triangle_pdf(context->lights, hit.mesh, hit.triangle, hit.t, cosine));
+            add(&sum, throughput, emission, weight);
+        }
+        if (depth == context->max_depth || p.stack.count == 0) return sum;
+        add_direct(context, &p, throughput, sampler, &sum, rays);
+
+        Point uv = sampler_next(sampler);
+        Dir wi = stack_sample(&p.stack, p.wo, uv.u, uv.v);
+        ray.direction = to_world(&p, wi);
+        if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
+        StackValue value = stack_eval(&p.stack, p.wo, wi);
+        if (!(value.pdf > 0.0f)) return sum;
+        float k = 1.0f / value.pdf;
+        throughput = (Rgb){throughput.r * value.f_cos.r * k, throughput.g * value.f_cos.g * k,
+                           throughput.b * value.f_cos.b * k};
+        pdf = value.pdf;
+        float strongest = max(throughput.r, max(throughput.g, throughput.b));
+        if (depth >= 2 && context->roulette) {
+            float survive = min(strongest, 0.95f);
+            if (sampler_random(sampler) >= survive) return sum;
+            throughput = (Rgb){throughput.r / survive, throughput.g / survive, throughput.b / survive};
+        }
+        if (!(strongest > 0.0f)) return sum;
+
+        ray.origin = leave(p.origin, p.geometric);
+        ray.near = 0.0f, ray.far = INFINITY;
+        ray.key = hash32(ray.key + 0x9e3779b9u);
+        ++*rays;
+        if (!geometry_hit(context->geometry, ray, &hit)) {
+            float weight = mis_weight(context, WEFT_SAMPLING_LOBE, pdf,
+                                      lights_environment_pdf(context->lights, ray.direction));
+            add(&sum, throughput, lights_environment(context->lights, ray.direction), weight);
+            return sum;
+        }
+    }
+}

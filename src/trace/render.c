@@ -1,0 +1,338 @@
+#define _POSIX_C_SOURCE 200809L
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "base/fail.h"
+#include "base/thread.h"
+#include "scene/camera.h"
+#include "trace/path.h"
+
+enum {
+    TILE = 16,
+    PASS_SAMPLES = 16,
+    DEFAULT_WIDTH = 960,
+    DEFAULT_HEIGHT = 720,
+    DEFAULT_DEPTH = 9,
+    SIDE_MAX = 65536,
+    FILTER_STEPS = 256
+};
+
+/* One tile's finished work. Only one thread holds a tile at a time. */
+typedef struct Tile {
+    int samples; /* in every pixel of the tile */
+    long long rays, non_finite;
+} Tile;
+
+struct WeftRender {
+    const WeftScene *scene;
+    WeftRenderDesc desc;
+    Geometry *geometry;
+    Lights *lights;
+    AlbedoTable **tables;        /* one a distinct sheen */
+    const AlbedoTable **sheen_e; /* per material, into tables */
+    PathContext context;
+    Camera camera;
+    float filter[FILTER_STEPS + 1];
+    int x0, y0, width, height; /* the crop */
+    int tiles_across, tile_count;
+    Tile *tiles;
+    float *sums; /* RGBA a pixel: radiance times coverage, coverage */
+    double build_seconds, render_seconds;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
+    if (d->width < 1 || d->width > SIDE_MAX || d->height < 1 || d->height > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", d->width,
+                    d->height, SIDE_MAX);
+    const int *c = d->crop;
+    if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > d->width - c[0] || c[3] > d->height - c[1])
+        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
+                    c[3], d->width, d->height);
+    if (d->max_depth < 1) return fail(error, WEFT_MESSAGE_DESC, "max depth", "%d; at least 1", d->max_depth);
+    if (d->threads < 0) return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
+    return WEFT_OK;
+}
+
+static void set_defaults(WeftRenderDesc *d) {
+    if (!d->width) d->width = DEFAULT_WIDTH;
+    if (!d->height) d->height = DEFAULT_HEIGHT;
+    if (!d->max_depth) d->max_depth = DEFAULT_DEPTH;
+    if (!d->crop[0] && !d->crop[1] && !d->crop[2] && !d->crop[3])
+        d->crop[2] = d->width, d->crop[3] = d->height;
+}
+
+/* Whether anything on that material gives it a sheen, and the alpha it may take. */
+static bool sheen_range(const Material *material, float *low, float *high) {
+    const float *color = material->inputs[INPUT_sheen_color].value;
+    const Input *roughness = &material->inputs[INPUT_sheen_roughness];
+    *high = roughness->value[0] * roughness->value[0];
+    *low = roughness->texture ? 0.0f : *high;
+    return color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f;
+}
+
+static WeftResult make_tables(WeftRender *render, WeftError *error) {
+    const WeftScene *scene = render->scene;
+    size_t count = (size_t)scene->material_count;
+    render->tables = alloc_array(count, sizeof(AlbedoTable *));
+    render->sheen_e = alloc_array(count, sizeof(AlbedoTable *));
+    if (!render->tables || !render->sheen_e) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (size_t k = 0; k < count; k++) {
+        const Material *material = &scene->materials[k];
+        float low, high;
+        if (!sheen_range(material, &low, &high)) continue;
+        for (size_t j = 0; j < k && !render->sheen_e[k]; j++) {
+            const AlbedoTable *t = render->tables[j];
+            if (t && (int)t->lobe == material->sheen_lobe && !(t->low < low || t->low > low) &&
+                !(t->high < high || t->high > high))
+                render->sheen_e[k] = t;
+        }
+        if (render->sheen_e[k]) continue;
+        render->tables[k] = alloc_array(1, sizeof(AlbedoTable));
+        if (!render->tables[k]) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        Lobe lobe = lobe_default((LobeId)material->sheen_lobe);
+        albedo_table_fill(render->tables[k], &lobe, low, high, render->desc.threads);
+        render->sheen_e[k] = render->tables[k];
+    }
+    return WEFT_OK;
+}
+
+/* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one
+ * up at random spreads samples as the window weighs them. Fredric J. Harris, "On the Use of Windows for
+ * Harmonic Analysis with the Discrete Fourier Transform", 1978. */
+static void filter_make(float filter[FILTER_STEPS + 1]) {
+    enum { FINE = 16 * FILTER_STEPS };
+    const double radius = 1.5, total = 0.35875;
+    double integral = 0.0;
+    int step = 0;
+    for (int k = 0; k < FINE; k++) {
+        double a = 6.28318530717959 * (k + 0.5) / FINE;
+        double w = 0.35875 - 0.48829 * (cos)(a) + 0.14128 * (cos)(2.0 * a) - 0.01168 * (cos)(3.0 * a),
+               before = integral;
+        integral += w / (total * FINE);
+        for (; step <= FILTER_STEPS && (double)step / FILTER_STEPS <= integral; step++) {
+            double part = ((double)step / FILTER_STEPS - before) / (integral - before);
+            filter[step] = (float)(radius * (2.0 * (k + part) / FINE - 1.0));
+        }
+    }
+    for (; step <= FILTER_STEPS; step++) filter[step] = (float)radius;
+}
+
+static WeftResult build(WeftRender *render, WeftError *error) {
+    const WeftRenderDesc *d = &render->desc;
+    float aspect = (float)d->width / (float)d->height;
+    WeftResult result = camera_find(render->scene, d->camera, aspect, &render->camera, error);
+    render->x0 = d->crop[0], render->y0 = d->crop[1], render->width = d->crop[2], render->height = d->crop[3];
+    render->tiles_across = (render->width + TILE - 1) / TILE;
+    render->tile_count = render->tiles_across * ((render->height + TILE - 1) / TILE);
+    if (result == WEFT_OK) {
+        render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
+        render->sums = alloc_array((size_t)render->width * (size_t)render->height, 4 * sizeof(float));
+        if (!render->tiles || !render->sums)
+            result = fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
+    }
+    if (result == WEFT_OK) result = geometry_create(render->scene, d->threads, &render->geometry, error);
+    if (result == WEFT_OK) result = lights_create(render->scene, &render->lights, error);
+    if (result == WEFT_OK) result = make_tables(render, error);
+    if (result == WEFT_OK)
+        render->context = (PathContext){.scene = render->scene,
+                                        .geometry = render->geometry,
+                                        .lights = render->lights,
+                                        .sheen_e = render->sheen_e,
+                                        .max_depth = d->max_depth,
+                                        .sampling = d->sampling,
+                                        .roulette = !d->no_roulette};
+    return result;
+}
+
+WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
+                              WeftError *error) {
+    double start = now();
+    *out = NULL;
+    WeftRenderDesc d = *desc;
+    set_defaults(&d);
+    WeftResult result = check_desc(&d, error);
+    if (result != WEFT_OK) return result;
+    if (!d.threads) d.threads = thread_count();
+    if (d.background == WEFT_BACKGROUND_AUTO)
+        d.background = scene->environment.kind == ENVIRONMENT_STUDIO ? WEFT_BACKGROUND_COLOR
+                                                                     : WEFT_BACKGROUND_ENVIRONMENT;
+    if (desc->background == WEFT_BACKGROUND_AUTO)
+        for (int c = 0; c < 3; c++) d.background_color[c] = 0.62f; /* a light grey paper roll */
+    WeftRender *render = alloc_array(1, sizeof *render);
+    if (!render) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    render->scene = scene;
+    render->desc = d;
+    filter_make(render->filter);
+    result = build(render, error);
+    render->desc.camera = NULL; /* borrowed only during this call */
+    render->build_seconds = now() - start;
+    if (result == WEFT_OK)
+        *out = render;
+    else
+        weft_render_free(render);
+    return result;
+}
+
+void weft_render_free(WeftRender *render) {
+    if (!render) return;
+    for (int k = 0; render->tables && k < render->scene->material_count; k++) free(render->tables[k]);
+    free(render->tables);
+    free(render->sheen_e);
+    lights_free(render->lights);
+    geometry_free(render->geometry);
+    free(render->tiles);
+    free(render->sums);
+    free(render);
+}
+
+static float filter_offset(const float *filter, float u) {
+    float x = u * FILTER_STEPS;
+    int k = (int)x;
+    return mix(filter[k], filter[k + 1], x - (float)k);
+}
+
+static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *sampler) {
+    const WeftRenderDesc *d = &render->desc;
+    float x = 0.5f, y = 0.5f;
+    if (!d->pixel_centre) {
+        Point p = sampler_next(sampler);
+        x += filter_offset(render->filter, p.u), y += filter_offset(render->filter, p.v);
+    }
+    x = 2.0f * ((float)px + x) / (float)d->width - 1.0f;
+    y = 1.0f - 2.0f * ((float)py + y) / (float)d->height;
+    CameraRay r = camera_ray(&render->camera, (float)d->width / (float)d->height, x, y);
+    return (Ray){r.origin, r.direction, 0.0f, INFINITY, hash32(sampler->key ^ sampler->index)};
+}
+
+/* What is behind everything: colour and coverage. */
+static void add_background(const WeftRender *render, Vec3 direction, float *sum) {
+    const WeftRenderDesc *d = &render->desc;
+    if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;
+    Rgb c = {d->background_color[0], d->background_color[1], d->background_color[2]};
+    if (d->background == WEFT_BACKGROUND_ENVIRONMENT) c = lights_environment(render->lights, direction);
+    sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
+}
+
+static bool finite(Rgb c) { return c.r + c.g + c.b < INFINITY && c.r + c.g + c.b > -INFINITY; }
+
+/* `count` samples of one pixel from sample `first` on. */
+static void sample_pixel(const WeftRender *render, int px, int py, int first, int count, float *sum,
+                         Tile *tile) {
+    Sampler samplers[GEOMETRY_PACKET];
+    Ray rays[GEOMETRY_PACKET] = {0};
+    Hit hits[GEOMETRY_PACKET];
+    for (int k = 0; k < count; k++) {
+        samplers[k] = sampler_start((uint32_t)px, (uint32_t)py, render->desc.seed, (uint32_t)(first + k));
+        rays[k] = camera_sample(render, px, py, &samplers[k]);
+    }
+    geometry_hit_packet(render->geometry, count, rays, hits);
+    tile->rays += count;
+    for (int k = 0; k < count; k++) {
+        if (hits[k].t < 0.0f) {
+            add_background(render, rays[k].direction, sum);
+            continue;
+        }
+        Rgb c = path_radiance(&render->context, rays[k], hits[k], &samplers[k], &tile->rays);
+        if (!finite(c)) {
+            tile->non_finite++;
+            c = (Rgb){0};
+        }
+        sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
+    }
+}
+
+typedef struct Pass {
+    WeftRender *render;
+    int samples; /* per pixel in this pass, <= PASS_SAMPLES */
+    atomic_int stop, finished;
+    double deadline; /* INFINITY: none */
+    WeftProgress progress;
+    void *user;
+    double done_before, share; /* progress before this pass, and what this pass adds */
+    bool asked_to_stop;
+} Pass;
+
+static void render_tile(void *user, int item, int thread) {
+    Pass *pass = user;
+    WeftRender *render = pass->render;
+    if (atomic_load(&pass->stop)) return;
+    Tile *tile = &render->tiles[item];
+    int tx = item % render->tiles_across * TILE, ty = item / render->tiles_across * TILE;
+    for (int y = ty; y < ty + TILE && y < render->height; y++)
+        for (int x = tx; x < tx + TILE && x < render->width; x++) {
+            float *sum = render->sums + 4 * ((size_t)y * (size_t)render->width + (size_t)x);
+            sample_pixel(render, render->x0 + x, render->y0 + y, tile->samples, pass->samples, sum, tile);
+        }
+    tile->samples += pass->samples;
+    int finished = atomic_fetch_add(&pass->finished, 1) + 1;
+    if (now() > pass->deadline) atomic_store(&pass->stop, 1);
+    if (thread != 0 || !pass->progress) return;
+    double fraction = pass->done_before + pass->share * finished / render->tile_count;
+    if (pass->progress(pass->user, fraction)) {
+        pass->asked_to_stop = true;
+        atomic_store(&pass->stop, 1);
+    }
+}
+
+WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
+    double start = now();
+    Pass pass = {.render = render,
+                 .deadline = seconds > 0.0 ? start + seconds : (double)INFINITY,
+                 .progress = progress,
+                 .user = user};
+    atomic_init(&pass.stop, 0);
+    /* The first pass is one sample, so that even a short time shows all of the picture. */
+    for (int done = 0; done < spp && !atomic_load(&pass.stop); done += pass.samples) {
+        int rest = spp - done;
+        pass.samples = done == 0 ? 1 : rest < PASS_SAMPLES ? rest : PASS_SAMPLES;
+        pass.done_before = (double)done / spp;
+        pass.share = (double)pass.samples / spp;
+        atomic_init(&pass.finished, 0);
+        parallel_for(render->desc.threads, render->tile_count, render_tile, &pass);
+    }
+    render->render_seconds += now() - start;
+    return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
+}
+
+WeftRenderInfo weft_render_info(const WeftRender *render) {
+    const Camera *c = &render->camera;
+    Vec3 target = vec3_add(c->eye, c->forward);
+    WeftRenderInfo info = {.build_seconds = render->build_seconds,
+                           .render_seconds = render->render_seconds,
+                           .camera_eye = {c->eye.x, c->eye.y, c->eye.z},
+                           .camera_target = {target.x, target.y, target.z},
+                           .camera_fov = c->yfov * (180.0f / PI)};
+    double samples = 0.0;
+    for (int k = 0; k < render->tile_count; k++) {
+        int x = k % render->tiles_across * TILE, y = k / render->tiles_across * TILE;
+        int w = render->width - x < TILE ? render->width - x : TILE;
+        int h = render->height - y < TILE ? render->height - y : TILE;
+        samples += (double)render->tiles[k].samples * w * h;
+        info.rays += render->tiles[k].rays;
+        info.non_finite += render->tiles[k].non_finite;
+    }
+    info.samples_per_pixel = samples / ((double)render->width * render->height);
+    return info;
+}
+
+WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(render->width, render->height, 4, WEFT_PIXEL_F32, out, error);
+    if (result != WEFT_OK) return result;
+    float *pixel = out->pixels;
+    const float *sum = render->sums;
+    for (int y = 0; y < render->height; y++)
+        for (int x = 0; x < render->width; x++, pixel += 4, sum += 4) {
+            int samples = render->tiles[y / TILE * render->tiles_across + x / TILE].samples;
+            if (!samples || !(sum[3] > 0.0f)) continue;
+            for (int c = 0; c < 3; c++) pixel[c] = sum[c] / sum[3]; /* straight alpha */
+            pixel[3] = sum[3] / (float)samples;
+        }
+    return WEFT_OK;
+}

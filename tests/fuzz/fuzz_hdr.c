@@ -1,0 +1,8 @@
+/* fuzz_hdr - the Radiance HDR reader: header lines, orientations, both run-length codes
+ *
+ * Any input must be read or refused with one line; sanitizers watch the rest. */
+#include "image_input.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    return image_input(image_read_hdr, data, size);
+}

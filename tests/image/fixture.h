@@ -1,0 +1,133 @@
+/* fixture.h - what the image tests share: bytes put together one by one, a folder to write to, a log that is
+ * looked at */
+#ifndef WEFT_TESTS_IMAGE_FIXTURE_H
+#define WEFT_TESTS_IMAGE_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "weft/image.h"
+
+typedef struct Bytes {
+    unsigned char data[1 << 16];
+    size_t size;
+} Bytes;
+
+static inline void put(Bytes *bytes, const void *data, size_t size) {
+    assert_true(size <= sizeof bytes->data - bytes->size);
+    memcpy(bytes->data + bytes->size, data, size);
+    bytes->size += size;
+}
+
+static inline void put_byte(Bytes *bytes, int byte) { put(bytes, &(unsigned char){(unsigned char)byte}, 1); }
+
+static inline void put_word(Bytes *bytes, int word) {
+    put_byte(bytes, word & 255);
+    put_byte(bytes, word >> 8);
+}
+
+static inline void put_text(Bytes *bytes, const char *text) { put(bytes, text, strlen(text)); }
+
+/* Counts warnings; user is an int. */
+static inline void count_warning(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_IMAGE_REPAIRED);
+    assert_null(strchr(text, '\n'));
+    ++*(int *)user;
+}
+
+/* Reads what must be readable without a warning. */
+static inline WeftImage read_bytes(const Bytes *bytes) {
+    WeftImage image;
+    WeftError error = {0};
+    int warnings = 0;
+    const WeftLog log = {count_warning, &warnings};
+    if (weft_image_read_memory(bytes->data, bytes->size, "bytes", &image, &log, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(warnings, 0);
+    return image;
+}
+
+/* Asserts that reading fails with this message, in one line that starts with the name, and leaves no image.
+ * The bytes are copied to a block of their exact size, so that a sanitizer sees a step over their end. */
+static inline void refuse_bytes(const void *data, size_t size, WeftMessage message) {
+    unsigned char *exact = malloc(size ? size : 1);
+    assert_non_null(exact);
+    memcpy(exact, data, size);
+    WeftImage image = {.width = 7};
+    WeftError error = {0};
+    WeftResult result = weft_image_read_memory(exact, size, "bytes", &image, NULL, &error);
+    free(exact);
+    assert_int_equal(result, WEFT_INPUT);
+    assert_string_equal(weft_message_text(error.message), weft_message_text(message));
+    assert_int_equal(strncmp(error.text, "bytes: ", 7), 0);
+    assert_null(strchr(error.text, '\n'));
+    assert_null(image.pixels);
+}
+
+static inline void refuse(const Bytes *bytes, WeftMessage message) {
+    refuse_bytes(bytes->data, bytes->size, message);
+}
+
+/* Every proper prefix of a good file is refused: as cut off, as too small for what it claims, or as nothing.
+ */
+static inline void refuse_prefixes(const Bytes *bytes) {
+    for (size_t size = 0; size < bytes->size; size++) {
+        unsigned char *exact = malloc(size ? size : 1);
+        assert_non_null(exact);
+        memcpy(exact, bytes->data, size);
+        WeftImage image;
+        WeftError error = {0};
+        WeftResult result = weft_image_read_memory(exact, size, "bytes", &image, NULL, &error);
+        free(exact);
+        assert_int_equal(result, WEFT_INPUT);
+    }
+}
+
+static inline WeftImage make_image(int width, int height, int channels, WeftPixelType type) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(width, height, channels, type, &image, NULL), WEFT_OK);
+    return image;
+}
+
+static inline size_t value_total(const WeftImage *image) {
+    return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+}
+
+static inline void assert_shape(const WeftImage *image, int width, int height, int channels,
+                                WeftPixelType type) {
+    assert_int_equal(image->width, width);
+    assert_int_equal(image->height, height);
+    assert_int_equal(image->channels, channels);
+    assert_int_equal(image->type, type);
+}
+
+/* A new folder under $TMPDIR or /tmp for one test; folder_remove empties and removes it. */
+static inline void folder_make(char folder[256]) {
+    const char *root = getenv("TMPDIR");
+    snprintf(folder, 256, "%s/weft-image-XXXXXX", root && *root ? root : "/tmp");
+    assert_non_null(mkdtemp(folder));
+}
+
+/* Writes to a file of the folder, reads that back and removes it. */
+static inline WeftImage write_and_read(const WeftImage *image, const char *suffix) {
+    char folder[256], path[300];
+    folder_make(folder);
+    snprintf(path, sizeof path, "%s/image%s", folder, suffix);
+    WeftError error = {0};
+    if (weft_image_write(path, image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    WeftImage back;
+    if (weft_image_read(path, &back, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0); /* so nothing else was left there */
+    return back;
+}
+
+#endif
