@@ -1,9 +1,10 @@
 """Renders a glTF file with Blender Cycles on the CPU, under settings equal to weft's, and measures it.
 
-    blender -b --factory-startup -noaudio --debug-cycles --verbose 2 -P bench/cycles.py -- SCENE -o OUT.exr [options]
+    blender -b --factory-startup -noaudio --python-exit-code 1 --debug-cycles --verbose 2 \\
+        -P bench/cycles.py -- SCENE -o OUT.exr
 
-The one line on stdout that begins with "{" is the result, in JSON; README.md beside this file says what each figure
-means. Made for Blender 3.4.
+The one line on stdout that begins with "{" is the result, in JSON; README.md beside this file says what each
+figure means, and what is made equal. Made for Blender 3.4.
 """
 
 import argparse
@@ -31,7 +32,7 @@ def parse():
     parser.add_argument("--spp", type=int, default=64, help="samples a pixel")
     parser.add_argument("--time", type=float, help="seconds to sample for, instead of --spp")
     parser.add_argument("--max-depth", type=int, default=8, help="bounces after the first hit")
-    parser.add_argument("--camera", help="'eye;target;fov' as x,y,z;x,y,z;degrees of the vertical; else the file's first")
+    parser.add_argument("--camera", help="eye;target;vertical fov: x,y,z;x,y,z;degrees; else the file's")
     parser.add_argument("--env", help="lat-long .hdr or .exr, or 'r,g,b'; else black")
     parser.add_argument("--env-strength", type=float, default=1.0)
     parser.add_argument("--env-rotation", type=float, default=0.0, help="degrees about +y")
@@ -47,7 +48,7 @@ def numbers(text, count):
     return values
 
 
-# ---- the scene ------------------------------------------------------------------------------------------------------
+# ---- the scene -----------------------------------------------------------------------------------
 
 # glTF's y-up to Blender's z-up, as the importer turns it: (x, y, z) -> (x, -z, y).
 Y_UP_TO_Z_UP = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
@@ -99,9 +100,9 @@ def place_camera(scene, text):
 
 
 def light_environment(scene, text, strength, rotation):
-    """Both programs run a lat-long image's columns clockwise seen from above. weft's middle column looks along
-    glTF's -z, which the importer turns into Blender's +y; Cycles' looks along +x. So what Cycles looks up is the
-    direction turned by a quarter clockwise, less the environment's own turn (counter-clockwise)."""
+    """Both programs run a lat-long image's columns clockwise seen from above. weft's middle column looks
+    along glTF's -z, which the importer turns into Blender's +y; Cycles' looks along +x. So what Cycles looks
+    up is the direction turned by a quarter clockwise, less the environment's own turn (counter-clockwise)."""
     world = scene.world = bpy.data.worlds.new("environment")
     world.use_nodes = True
     tree = world.node_tree
@@ -123,13 +124,14 @@ def light_environment(scene, text, strength, rotation):
     tree.links.new(picture.outputs["Color"], background.inputs["Color"])
 
 
-# ---- the settings ---------------------------------------------------------------------------------------------------
+# ---- the settings --------------------------------------------------------------------------------
 
 
 def equal_settings(scene, arguments):
     scene.render.engine = "CYCLES"
     render, cycles = scene.render, scene.cycles
-    render.resolution_x, render.resolution_y, render.resolution_percentage = arguments.width, arguments.height, 100
+    render.resolution_x, render.resolution_y = arguments.width, arguments.height
+    render.resolution_percentage = 100
     render.threads_mode, render.threads = "FIXED", arguments.threads
     render.use_compositing = render.use_sequencer = render.use_simplify = False
     render.film_transparent = False
@@ -161,7 +163,7 @@ def equal_settings(scene, arguments):
     cycles.transparent_max_bounces = max(8, arguments.max_depth)
 
 
-# ---- the measurement ------------------------------------------------------------------------------------------------
+# ---- the measurement -----------------------------------------------------------------------------
 
 
 def cpu_seconds():
@@ -176,7 +178,7 @@ def resident(kind):
 
 
 class Capture:
-    """What the process writes to stdout and stderr, kept from the terminal and readable as text afterwards."""
+    """What the process writes to stdout and stderr, kept from the terminal; as text once it is over."""
 
     def __enter__(self):
         self.file = tempfile.TemporaryFile()
@@ -200,7 +202,7 @@ class Capture:
 
 
 def render():
-    """Renders and returns (log, moments): Cycles' words, and (clock, CPU seconds) at each change of its status."""
+    """Renders; returns Cycles' words, and the moments (clock, CPU seconds) at which its status changed."""
     moments = []
     bpy.app.handlers.render_stats.append(lambda *_: moments.append((time.perf_counter(), cpu_seconds())))
     with Capture() as capture:
@@ -211,7 +213,7 @@ def render():
 def result(arguments, log, moments, started, before):
     summary = re.search(r"Rendered (\d+) samples in ([\d.]+) seconds\n", log)
     if not summary:
-        raise SystemExit("cycles.py: Cycles said no time: start blender with --debug-cycles --verbose 2\n" + log)
+        raise SystemExit(log + "cycles.py: no timing: start blender with --debug-cycles --verbose 2")
     spp, seconds = int(summary[1]), float(summary[2])
     begin, end = sampling(moments, seconds)
     scene = bpy.context.scene
@@ -233,16 +235,16 @@ def result(arguments, log, moments, started, before):
 
 
 def sampling(moments, seconds):
-    """The moments at which Cycles began and ended to sample: its status changes at both, and the last two changes
-    are its end and Blender's."""
+    """The moments at which Cycles began and ended to sample: its status changes at both, and the last two
+    changes are its end and Blender's."""
     end = moments[-2]
     return min(moments, key=lambda moment: abs(end[0] - seconds - moment[0])), end
 
 
 def triangles():
     graph = bpy.context.evaluated_depsgraph_get()
-    return sum(len(polygon.vertices) - 2 for instance in graph.object_instances if instance.object.type == "MESH"
-               for polygon in instance.object.data.polygons)
+    return sum(len(polygon.vertices) - 2 for instance in graph.object_instances
+               if instance.object.type == "MESH" for polygon in instance.object.data.polygons)
 
 
 def main():

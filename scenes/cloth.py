@@ -1,9 +1,10 @@
-"""Makes cloth.glb, the scene builtin:cloth: velvet draped over a form on a round plinth, in a photographer's sweep.
+"""Makes cloth.glb, the scene builtin:cloth: velvet draped over a ball on a round plinth.
 
     blender -b --factory-startup -noaudio -P scenes/cloth.py -- scenes/cloth.glb [--cells N] [--frames N]
 
-The cloth falls by Blender's cloth simulation; everything else is written down here. World space is glTF's: +y up,
-metres, camera on the +z side. The simulation runs in Blender's z-up space; blender() and gltf() convert.
+The cloth falls by Blender's cloth simulation; everything else is written down here. World space is glTF's:
++y up, metres, camera on the +z side. The simulation runs in Blender's z-up space; blender() and gltf()
+convert.
 """
 
 import argparse
@@ -16,33 +17,33 @@ import bpy
 import numpy as np
 from mathutils import bvhtree
 
-CLOTH_SIDE = 1.36  # m
-CLOTH_TURN = math.radians(33)  # about +y, so that one corner points at the camera
-CLOTH_SHIFT = (0.03, 0.02)  # x and z of its middle before it falls
+CLOTH_SIDE = 1.5  # m
+CLOTH_SHIFT = (0.035, 0.02)  # x and z of its middle before it falls; off the axis, so no two sides fall alike
+CLOTH_TURN = math.radians(70)  # of the drape about +y, to face the camera
 UV_SIZE = 0.5  # m of surface a uv unit spans
 
-PLINTH_RADIUS = 0.52
-PLINTH_HEIGHT = 0.34
+PLINTH_RADIUS = 0.6
+PLINTH_HEIGHT = 0.16
 PLINTH_BEVEL = 0.012
 PLINTH_FOOT = (0.035, 0.025)  # depth and height of the shadow gap above the floor
 
-# The forms below the cloth: spheres as (x, y, z, radius) over the plinth's top.
-FORMS = [(-0.08, 0.30, -0.04, 0.20), (0.26, 0.10, 0.16, 0.10)]
+# What holds the cloth up, not in the file: a ball on the axis, this high above the plinth's top.
+BALL_HEIGHT, BALL_RADIUS = 0.46, 0.2
 
 FLOOR_HALF_WIDTH = 8.0
 FLOOR_FRONT, FLOOR_BACK = 6.0, -3.2  # z where the floor begins and where it starts to rise
 SWEEP_RADIUS, WALL_TOP = 2.4, 6.0
 
-CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV = (0.55, 1.28, 3.0), (0.0, 0.44, 0.0), 26.0
-SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE = (-1.7, 2.2, 1.1), (0.0, 0.5, 0.0), 1.2
+CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV = (0.38, 0.98, 1.8), (0.0, 0.36, 0.0), 35.0
+SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE = (-1.75, 1.55, 0.5), (0.0, 0.4, 0.0), 1.2
 
 MATERIALS = {
     "Cloth": {
         "doubleSided": True,
         "pbrMetallicRoughness": {
-            "baseColorFactor": [0.16, 0.006, 0.018, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9},
+            "baseColorFactor": [0.12, 0.004, 0.012, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9},
         "extensions": {"KHR_materials_sheen": {
-            "sheenColorFactor": [0.55, 0.16, 0.2], "sheenRoughnessFactor": 0.35}},
+            "sheenColorFactor": [0.42, 0.1, 0.13], "sheenRoughnessFactor": 0.35}},
     },
     "Plinth": {"pbrMetallicRoughness": {
         "baseColorFactor": [0.62, 0.6, 0.57, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.6}},
@@ -72,7 +73,7 @@ def unit(v):
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
-# ---- the drape: Blender's simulation ----------------------------------------------------------------------------
+# ---- the drape: Blender's simulation -------------------------------------------------------------
 
 
 def add_object(name, vertices, faces):
@@ -92,10 +93,9 @@ def make_collider(thing, friction):
 
 
 def add_colliders():
-    for x, y, z, radius in FORMS:
-        bpy.ops.mesh.primitive_ico_sphere_add(
-            subdivisions=5, radius=radius, location=blender((x, y + PLINTH_HEIGHT, z)))
-        make_collider(bpy.context.object, 12.0)
+    bpy.ops.mesh.primitive_ico_sphere_add(
+        subdivisions=5, radius=BALL_RADIUS, location=blender((0, PLINTH_HEIGHT + BALL_HEIGHT, 0)))
+    make_collider(bpy.context.object, 40.0)
     make_collider(add_object("plinth", *joined(plinth_parts(segments=96))), 25.0)
     r = 4.0
     make_collider(add_object("floor", [(-r, -r, 0), (r, -r, 0), (r, r, 0), (-r, r, 0)], [(0, 1, 2, 3)]), 25.0)
@@ -112,14 +112,12 @@ def joined(parts):
 
 
 def cloth_sheet(cells):
-    """A flat square just above the highest form; vertices row by row, as grid_triangles expects."""
+    """A flat square just above the ball; vertices row by row, as grid_triangles expects."""
     s = np.linspace(-0.5, 0.5, cells + 1) * CLOTH_SIDE
     u, v = np.meshgrid(s, s)
-    c, n = math.cos(CLOTH_TURN), math.sin(CLOTH_TURN)
-    top = PLINTH_HEIGHT + max(y + r for _, y, _, r in FORMS) + 0.015
-    x = CLOTH_SHIFT[0] + c * u - n * v
-    z = CLOTH_SHIFT[1] + n * u + c * v
-    vertices = [blender(p) for p in zip(x.ravel(), np.full(x.size, top), z.ravel())]
+    x, z = CLOTH_SHIFT[0] + u, CLOTH_SHIFT[1] + v
+    y = np.full_like(x, PLINTH_HEIGHT + BALL_HEIGHT + BALL_RADIUS + 0.015)
+    vertices = [blender(p) for p in zip(x.ravel(), y.ravel(), z.ravel())]
     row = cells + 1
     faces = [(j * row + i, (j + 1) * row + i, (j + 1) * row + i + 1, j * row + i + 1)
              for j in range(cells) for i in range(cells)]
@@ -139,9 +137,9 @@ def drape(cells, frames):
     settings.mass = 0.4
     settings.tension_stiffness = settings.compression_stiffness = 30
     settings.shear_stiffness = 12
-    settings.bending_stiffness = 1.0
+    settings.bending_stiffness = 18.0
     settings.tension_damping = settings.compression_damping = settings.shear_damping = 10
-    settings.bending_damping = 0.8
+    settings.bending_damping = 1.5
     settings.air_damping = 1.0
     contact.collision_quality = 4
     contact.distance_min = 0.004
@@ -165,8 +163,14 @@ def rest_points(cloth):
     return subdivide(gltf(points.reshape(-1, 3)).reshape(side, side, 3))
 
 
+def turned(grid, angle):
+    """About +y. Ball and plinth are round, so a drape may be turned after its fall."""
+    c, s = math.cos(angle), math.sin(angle)
+    return grid @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
+
+
 def subdivide(grid):
-    """One step of cubic B-spline subdivision (Catmull and Clark 1978 on a regular grid), borders as curves."""
+    """One step of cubic B-spline subdivision (Catmull and Clark 1978, regular grid); borders are curves."""
     for axis in (0, 1):
         a = np.moveaxis(grid, axis, 0)
         fine = np.empty((2 * a.shape[0] - 1,) + a.shape[1:])
@@ -177,7 +181,7 @@ def subdivide(grid):
     return grid
 
 
-# ---- parts: dictionaries of glTF attributes and triangles ---------------------------------------------------------
+# ---- parts: dictionaries of glTF attributes and triangles ----------------------------------------
 
 
 def grid_triangles(rows, columns):
@@ -211,7 +215,7 @@ def cloth_part(grid):
 
 
 def swept_part(position, normal, uv):
-    """A part from a grid of points with their normals; triangles face along the normals, empty ones are dropped."""
+    """A part from a grid of points with normals; triangles face along them, empty ones are dropped."""
     rows, columns, _ = position.shape
     p, n = position.reshape(-1, 3), normal.reshape(-1, 3)
     index = grid_triangles(rows, columns)
@@ -245,7 +249,8 @@ def arc(radius, y, bevel, start, end, steps=6):
 def plinth_parts(segments=192):
     r, h, b = PLINTH_RADIUS, PLINTH_HEIGHT, PLINTH_BEVEL
     depth, gap = PLINTH_FOOT
-    body = [(0.0, h, 0, 1)] + arc(r - b, h - b, b, 90, 0) + arc(r - b, gap + b, b, 0, -90) + [(r - depth, gap, 0, -1)]
+    edges = arc(r - b, h - b, b, 90, 0) + arc(r - b, gap + b, b, 0, -90)
+    body = [(0.0, h, 0, 1)] + edges + [(r - depth, gap, 0, -1)]
     foot = [(r - depth, gap, 1, 0), (r - depth, 0.0, 1, 0)]
     return [lathe_part(body, segments), lathe_part(foot, segments)]
 
@@ -253,11 +258,9 @@ def plinth_parts(segments=192):
 def floor_part():
     """A photographer's sweep: floor, quarter round, wall."""
     t = np.linspace(0, math.pi / 2, 49)
-    profile = [(FLOOR_FRONT, 0.0, 1.0, 0.0)]
-    profile += [(FLOOR_BACK - SWEEP_RADIUS * math.sin(a), SWEEP_RADIUS * (1 - math.cos(a)), math.cos(a), math.sin(a))
-                for a in t]
-    profile += [(FLOOR_BACK - SWEEP_RADIUS, WALL_TOP, 0.0, 1.0)]
-    z, y, ny, nz = np.array(profile).T
+    z = np.r_[FLOOR_FRONT, FLOOR_BACK - SWEEP_RADIUS * np.sin(t), FLOOR_BACK - SWEEP_RADIUS]
+    y = np.r_[0, SWEEP_RADIUS * (1 - np.cos(t)), WALL_TOP]
+    ny, nz = np.r_[1, np.cos(t), 0], np.r_[0, np.sin(t), 1]
     x = np.array([-FLOOR_HALF_WIDTH, FLOOR_HALF_WIDTH])
     grid = np.broadcast_arrays(x[None, :], y[:, None], z[:, None])
     normal = np.broadcast_arrays(np.zeros((1, 2)), ny[:, None], nz[:, None])
@@ -282,7 +285,7 @@ def softbox_part():
     return swept_part(position, np.broadcast_to(-back, position.shape), uv)
 
 
-# ---- checks ---------------------------------------------------------------------------------------------------------
+# ---- checks --------------------------------------------------------------------------------------
 
 
 def crossings(part):
@@ -293,16 +296,14 @@ def crossings(part):
 
 
 def depth_below(part):
-    """How deep the deepest vertex lies inside a form, the plinth or the floor, m; negative is clearance."""
+    """How deep the deepest vertex lies inside the ball, the plinth or the floor, m; negative is clearance."""
     p = part["POSITION"]
-    depth = [-p[:, 1]]
-    for x, y, z, radius in FORMS:
-        depth.append(radius - np.linalg.norm(p - [x, y + PLINTH_HEIGHT, z], axis=1))
-    depth.append(np.minimum(PLINTH_HEIGHT - p[:, 1], PLINTH_RADIUS - np.hypot(p[:, 0], p[:, 2])))
-    return max(float(d.max()) for d in depth)
+    ball = BALL_RADIUS - np.linalg.norm(p - [0, PLINTH_HEIGHT + BALL_HEIGHT, 0], axis=1)
+    plinth = np.minimum(PLINTH_HEIGHT - p[:, 1], PLINTH_RADIUS - np.hypot(p[:, 0], p[:, 2]))
+    return float(np.max([ball, plinth, -p[:, 1]]))
 
 
-# ---- glTF -------------------------------------------------------------------------------------------------------------
+# ---- glTF ----------------------------------------------------------------------------------------
 
 
 class Glb:
@@ -316,7 +317,8 @@ class Glb:
         array = np.ascontiguousarray(array)
         component = {"float32": 5126, "uint16": 5123, "uint32": 5125}[array.dtype.name]
         self.binary += bytes(-len(self.binary) % 4)
-        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": array.nbytes, "target": target})
+        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": array.nbytes,
+                           "target": target})
         self.binary += array.tobytes()
         entry = {"bufferView": len(self.views) - 1, "componentType": component,
                  "count": array.size if kind == "SCALAR" else len(array), "type": kind}
@@ -342,7 +344,8 @@ class Glb:
         matrix = np.eye(4)
         matrix[:3, 0], matrix[:3, 1], matrix[:3, 2] = frame_towards(eye, target)
         matrix[:3, 3] = eye
-        self.nodes.append({"name": name, "camera": len(self.cameras) - 1, "matrix": matrix.T.ravel().tolist()})
+        columns = matrix.T.ravel().tolist()
+        self.nodes.append({"name": name, "camera": len(self.cameras) - 1, "matrix": columns})
 
     def write(self, path):
         document = {
@@ -352,7 +355,8 @@ class Glb:
             "scene": 0, "scenes": [{"name": "cloth", "nodes": list(range(len(self.nodes)))}],
             "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
             "materials": [{"name": name, **content} for name, content in MATERIALS.items()],
-            "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": len(self.binary)}],
+            "accessors": self.accessors, "bufferViews": self.views,
+            "buffers": [{"byteLength": len(self.binary)}],
         }
         text = json.dumps(document, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
@@ -366,11 +370,11 @@ class Glb:
 def main():
     parser = argparse.ArgumentParser(prog="cloth.py")
     parser.add_argument("output")
-    parser.add_argument("--cells", type=int, default=96, help="simulated cells along a side; the file has twice as many")
-    parser.add_argument("--frames", type=int, default=150, help="simulated frames of 1/24 s")
+    parser.add_argument("--cells", type=int, default=64, help="simulated a side; the file has twice as many")
+    parser.add_argument("--frames", type=int, default=110, help="simulated frames of 1/24 s")
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
 
-    cloth = cloth_part(drape(arguments.cells, arguments.frames))
+    cloth = cloth_part(turned(drape(arguments.cells, arguments.frames), CLOTH_TURN))
     print(f"cloth: {len(cloth['index'])} triangles, {crossings(cloth)} crossings, "
           f"deepest {1000 * depth_below(cloth):.1f} mm")
     glb = Glb()

@@ -33,8 +33,10 @@ WEFT_API WeftResult weft_image_create(int width, int height, int channels, WeftP
 WEFT_API void weft_image_free(WeftImage *image);
 
 /* Reads PNG, JPEG, TGA, Radiance HDR or OpenEXR, told apart by content (TGA, which has no signature, comes
- * last). PNG and TGA give U8 or U16, JPEG U8, HDR F32 RGB, EXR F32. log (may be NULL) receives what was
- * repaired. */
+ * last). PNG gives U8 or U16, JPEG and TGA U8, HDR F32 RGB, EXR F32 of its display window. Values of HDR and
+ * EXR are finite. log (may be NULL) receives what was repaired. Fails with WEFT_MESSAGE_FILE_OPEN,
+ * _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED, _IMAGE_UNSUPPORTED or _MEMORY; *out is
+ * then zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
 /* The same from size bytes at data; name is the subject of errors. */

@@ -13,11 +13,12 @@
 
 enum { LINE_SIZE = 4096, STREAM_BUFFER = 1 << 20 };
 
-/* Exactly count finite numbers separated by blanks, tabs or commas. */
+/* Exactly count finite numbers separated by blanks and tabs, with at most one comma among them. */
 static bool line_numbers(const char *text, int count, double *numbers) {
     for (int k = 0; k < count; k++) {
         char *end;
-        text += strspn(text, k ? " \t," : " \t");
+        text += strspn(text, " \t");
+        if (k && *text == ',') text += 1 + strspn(text + 1, " \t");
         numbers[k] = strtod(text, &end);
         if (end == text || !isfinite(numbers[k]) || !strchr(" \t,\r\n", *end)) return false;
         text = end;
@@ -70,7 +71,7 @@ static void run_albedo(const WeftLobe *lobe, const double *numbers, bool as_json
         json_open(&json, NULL, '{');
         json_floats(&json, "albedo", e, 3);
         json_close(&json, '}');
-    } else if (memcmp(e, (float[]){e[0], e[0], e[0]}, sizeof e) == 0) {
+    } else if (!(e[0] < e[1] || e[0] > e[1] || e[0] < e[2] || e[0] > e[2])) {
         printf("%.9g\n", (double)e[0]);
     } else {
         printf("%.9g %.9g %.9g\n", (double)e[0], (double)e[1], (double)e[2]);
@@ -116,7 +117,7 @@ static int lobe_make(const Options *options, WeftLobe *lobe) {
         char param[64];
         const char *equals = strchr(text, '=');
         if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)
-            return report(WEFT_USAGE, "-p: \"%s\" is not name=value", text);
+            return report(WEFT_USAGE, "-p: \"%.80s\" is not name=value", text);
         snprintf(param, sizeof param, "%.*s", (int)(equals - text), text);
         if (weft_lobe_set(lobe, param, equals + 1, &log, &error) != WEFT_OK) return report_error(&error);
     }
@@ -142,12 +143,11 @@ static int eval_run(const Options *options) {
 }
 
 static const Option eval_options[] = {
-    {NULL, NULL, "Options", NULL, 0, 0, false},
-    {"-p", "NAME=VALUE", "a parameter of the lobe, color=r,g,b or f90=r,g,b", NULL, 0, 0, true},
-    {"--albedo", NULL, "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4", NULL,
-     0, 0, false},
-    {"--json", NULL, "one JSON object a line instead of numbers", NULL, 0, 0, false},
-    {0},
+    OPTION_HEADING("Options"),
+    OPTION_LIST("-p", "NAME=VALUE", "a parameter of the lobe, color=r,g,b or f90=r,g,b"),
+    OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
+    OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
+    OPTION_END,
 };
 
 const Verb verb_eval = {
@@ -157,12 +157,13 @@ const Verb verb_eval = {
     .operands_least = 1,
     .operands_most = 2,
     .options = eval_options,
-    .notes = "Reads lines \"theta_o phi_o theta_i phi_i\" in degrees from FILE or standard input and\n"
-             "writes a line \"f_r f_g f_b pdf\" for each, both in 1/sr and f without the cosine.\n"
-             "theta is measured from the normal, phi from the tangent; o is towards the viewer,\n"
-             "i towards the light. Below the horizon all is 0. Blanks, tabs and commas separate;\n"
-             "empty lines and lines that start with # are passed over. With --albedo a line is a\n"
-             "cosine, and what is written is E: one number, or three where the colour is not grey.\n\n"
+    .notes = "Reads lines \"theta_o phi_o theta_i phi_i\" in degrees from FILE or standard input\n"
+             "and writes a line \"f_r f_g f_b pdf\" for each: in 1/sr, f without the cosine.\n"
+             "theta is measured from the normal, phi from the tangent; o is towards the\n"
+             "viewer, i towards the light. Below the horizon all is 0. Blanks, tabs and commas\n"
+             "separate; empty lines and lines that start with # are passed over. With --albedo\n"
+             "a line is a cosine and the answer is E: one number, or three where the colour is\n"
+             "not grey.\n\n"
              "Examples\n"
              "  echo 30 0 60 180 | weft eval charlie-neubelt -p alpha=0.25\n"
              "  weft eval ggx -p alpha=0.1 -p color=1,0.8,0.3 angles.txt\n"

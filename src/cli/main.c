@@ -8,12 +8,11 @@
 #include "report.h"
 #include "verbs.h"
 
-static const Verb *const verbs[] = {&verb_render, &verb_models, &verb_eval};
-enum { VERB_COUNT = sizeof verbs / sizeof *verbs };
+static const Verb *const verbs[] = {&verb_render, &verb_models, &verb_eval, NULL};
 
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());
-    for (int k = 0; k < VERB_COUNT; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
+    for (int k = 0; verbs[k]; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
     printf("\n`weft VERB --help` tells all of a verb; `weft --version` the version.\n\nExit codes\n");
     layout_entry(stdout, 12, "0", "done");
     layout_entry(stdout, 12, "1", "a check or a comparison did not hold");
@@ -48,12 +47,12 @@ static int dispatch(int count, char **arguments) {
         return 0;
     }
     Nearest nearest = {.typed = word};
-    for (int k = 0; k < VERB_COUNT; k++) {
+    for (int k = 0; verbs[k]; k++) {
         if (strcmp(word, verbs[k]->name) == 0) return verb_run(verbs[k], count - 2, arguments + 2);
         nearest_offer(&nearest, verbs[k]->name);
     }
     char hint[96];
-    return report(WEFT_USAGE, "%s: is not a verb%s", word,
+    return report(WEFT_USAGE, "%.200s: is not a verb%s", word,
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft --help");
 }
 

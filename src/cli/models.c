@@ -62,22 +62,28 @@ static void print_all(void) {
     print_list("Built-in scenes", "builtin:", weft_builtin_name, weft_builtin_help);
 }
 
+/* One row of a lobe's parameter table. */
+static void print_row(const char *name, const char *def, const char *range, const char *hard,
+                      const char *help) {
+    char left[96];
+    snprintf(left, sizeof left, "%-10s  %-7s  %-9s  %s", name, def, range, hard);
+    layout_entry(stdout, 46, left, help);
+}
+
 static void print_lobe(const WeftLobeInfo *info) {
-    char words[512];
-    lobe_words(info, words, sizeof words);
-    printf("%s: %s\n\n", info->id, words);
-    printf("  %-12s %-8s %-13s %-13s %s\n", "parameter", "default", "range", "clamped to", "");
+    print_lobe_line(info);
+    printf("\n");
+    print_row("parameter", "default", "range", "clamped to", "meaning");
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
-        char range[32], hard[32];
+        char def[16], range[32], hard[32];
+        snprintf(def, sizeof def, "%g", (double)p->def);
         snprintf(range, sizeof range, "%g .. %g", (double)p->low, (double)p->high);
         snprintf(hard, sizeof hard, "%g .. %g", (double)p->hard_low, (double)p->hard_high);
-        printf("  %-12s %-8g %-13s %-13s %s\n", p->name, (double)p->def, range, hard, p->help);
+        print_row(p->name, def, range, hard, p->help);
     }
-    printf("  %-12s %-8s %-13s %-13s %s\n", "color", "1", "0 .. 1", "",
-           "r,g,b or one number; f0 is the same");
-    if (info->traits & WEFT_LOBE_FRESNEL)
-        printf("  %-12s %-8s %-13s %-13s %s\n", "f90", "1", "0 .. 1", "", "colour at grazing");
+    print_row("color", "1", "0 .. 1", "", "r,g,b or one number; also called f0");
+    if (info->traits & WEFT_LOBE_FRESNEL) print_row("f90", "1", "0 .. 1", "", "the colour at grazing");
 }
 
 static void json_lobe(Json *json, const WeftLobeInfo *info) {
@@ -144,9 +150,9 @@ static int models_run(const Options *options) {
 }
 
 static const Option models_options[] = {
-    {NULL, NULL, "Options", NULL, 0, 0, false},
-    {"--json", NULL, "one JSON object instead of text", NULL, 0, 0, false},
-    {0},
+    OPTION_HEADING("Options"),
+    OPTION_SWITCH("--json", "one JSON object instead of text"),
+    OPTION_END,
 };
 
 const Verb verb_models = {

@@ -33,7 +33,7 @@ static int edits(const char *a, const char *b) {
 
 void nearest_offer(Nearest *nearest, const char *name) {
     size_t typed = strlen(nearest->typed), length = strlen(name);
-    if (typed == 0 || typed > NAME_MAX_LENGTH || length > NAME_MAX_LENGTH) return;
+    if (typed < 3 || typed > NAME_MAX_LENGTH || length > NAME_MAX_LENGTH) return;
     int distance = edits(nearest->typed, name);
     int bearable = 1 + (int)typed / 4;
     /* the start of a name is a way to write it: --time for --time-limit */
@@ -59,7 +59,7 @@ static int listed(const char *id, const char *(*name)(int index), WeftMessage me
         if (strcmp(name(k), id) == 0) return k;
         nearest_offer(&nearest, name(k));
     }
-    report(WEFT_USAGE, "%s: %s%s", id, weft_message_text(message),
+    report(WEFT_USAGE, "%.200s: %s%s", id, weft_message_text(message),
            nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
     return -1;
 }

@@ -11,7 +11,7 @@
 
 typedef struct Given {
     const Option *option;
-    const char *value;
+    const char *value; /* "" for a switch */
 } Given;
 
 static bool is_end(const Option *row) { return !row->name && !row->help; }
@@ -46,10 +46,10 @@ static int option_take(Options *options, int count, char **arguments, int *used)
     if (!row) return unknown_option(options->verb, argument, length);
     if (!row->repeats && option_given(options, row->name))
         return report(WEFT_USAGE, "%s: is given twice", row->name);
-    const char *value = equals ? equals + 1 : NULL;
+    const char *value = equals ? equals + 1 : "";
     *used = 1;
-    if (!row->value && value) return report(WEFT_USAGE, "%s: takes no value", row->name);
-    if (row->value && !value) {
+    if (!row->value && equals) return report(WEFT_USAGE, "%s: takes no value", row->name);
+    if (row->value && !equals) {
         /* what looks like an option is one; --name=value has no such doubt */
         if (count < 2 || strncmp(arguments[1], "--", 2) == 0)
             return report(WEFT_USAGE, "%s: needs a value: %s %s", row->name, row->name, row->value);
@@ -75,7 +75,7 @@ int options_parse(const Verb *verb, int count, char **arguments, Options *option
             int result = option_take(options, count - k, arguments + k, &used);
             if (result != 0) return result;
         } else if (options->operand_count == verb->operands_most) {
-            return report(WEFT_USAGE, "%s: is one operand too many; weft %s %s", argument, verb->name,
+            return report(WEFT_USAGE, "%.200s: is one operand too many; weft %s %s", argument, verb->name,
                           verb->operands);
         } else {
             options->operands[options->operand_count++] = argument;
@@ -113,19 +113,17 @@ void options_help(const Verb *verb) {
     printf("\n%s", verb->notes);
 }
 
-bool option_given(const Options *options, const char *name) {
-    int cursor = 0;
-    for (; cursor < options->given_count; cursor++)
-        if (strcmp(options->given[cursor].option->name, name) == 0) return true;
-    return false;
-}
-
 const char *option_next(const Options *options, const char *name, int *cursor) {
     while (*cursor < options->given_count) {
         const Given *given = &options->given[(*cursor)++];
         if (strcmp(given->option->name, name) == 0) return given->value;
     }
     return NULL;
+}
+
+bool option_given(const Options *options, const char *name) {
+    int cursor = 0;
+    return option_next(options, name, &cursor) != NULL;
 }
 
 const char *option_text(const Options *options, const char *name) {
@@ -154,8 +152,8 @@ static bool number_read(const Options *options, const char *name, bool whole, do
         *number = value;
         return true;
     }
-    report(WEFT_USAGE, "%s: \"%s\" is not a %snumber from %.10g to %.10g", name, text, whole ? "whole " : "",
-           row->low, row->high);
+    report(WEFT_USAGE, "%s: \"%.80s\" is not a %snumber from %.10g to %.10g", name, text,
+           whole ? "whole " : "", row->low, row->high);
     return false;
 }
 
@@ -180,6 +178,6 @@ bool option_choice(const Options *options, const char *name, const char *const *
         }
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "", names[k]);
     }
-    report(WEFT_USAGE, "%s: \"%s\" is none of %s", name, text, list);
+    report(WEFT_USAGE, "%s: \"%.80s\" is not one of %s", name, text, list);
     return false;
 }

@@ -6,15 +6,30 @@
 #define WEFT_CLI_OPTIONS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct Option {
-    const char *name;  /* "--spp" or "-o"; NULL: help is a heading over the rows that follow */
+    const char *name;  /* "--spp" or "-o"; NULL: a heading */
     const char *value; /* stands for the value in help texts; NULL: a switch */
     const char *help;  /* NULL, with name NULL: the table's end */
     const char *def;   /* the default as one would type it; NULL: none */
     double low, high;  /* numbers: the range, both ends included */
     bool repeats;      /* may be given more than once */
 } Option;
+
+/* The rows of a table. HEADING stands over those that follow. */
+#define OPTION_HEADING(text)                                                                                 \
+    { .help = (text) }
+#define OPTION_SWITCH(name_, help_)                                                                          \
+    { .name = (name_), .help = (help_) }
+#define OPTION_TEXT(name_, value_, def_, help_)                                                              \
+    { name_, value_, help_, def_, 0, 0, false }
+#define OPTION_LIST(name_, value_, help_)                                                                    \
+    { name_, value_, help_, NULL, 0, 0, true }
+#define OPTION_NUMBER(name_, value_, def_, low_, high_, help_)                                               \
+    { name_, value_, help_, def_, low_, high_, false }
+#define OPTION_END                                                                                           \
+    { .name = NULL }
 
 typedef struct Options Options;
 

@@ -22,13 +22,15 @@ Progress progress_start(bool quiet, int spp, int spp_most, double pixels, double
     return progress;
 }
 
-const char *progress_time(double seconds, char *buffer) {
+enum { TIME_SIZE = 24 };
+
+/* Seconds as "0:07" or "2:00:07". */
+static void clock_text(double seconds, char text[TIME_SIZE]) {
     long s = lround(fmin(seconds, 1e9));
     if (s >= 3600)
-        snprintf(buffer, 24, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+        snprintf(text, TIME_SIZE, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
     else
-        snprintf(buffer, 24, "%ld:%02ld", s / 60, s % 60);
-    return buffer;
+        snprintf(text, TIME_SIZE, "%ld:%02ld", s / 60, s % 60);
 }
 
 void progress_draw(Progress *progress, double fraction) {
@@ -38,14 +40,15 @@ void progress_draw(Progress *progress, double fraction) {
 
     double done = fraction; /* of the work: samples or time, whichever ends first */
     if (progress->limit > 0.0) done = fmin(fmax(done, elapsed / progress->limit), 1.0);
-    char bar[] = "....................", asked[16] = "", past[24], left[24] = "-", line[160];
+    char bar[] = "....................", asked[16] = "", past[TIME_SIZE], left[TIME_SIZE] = "-", line[160];
     memset(bar, '#', (size_t)(done * (double)(sizeof bar - 1)));
     if (progress->spp) snprintf(asked, sizeof asked, "/%d", progress->spp);
-    if (done > 0.0) progress_time(elapsed * (1.0 - done) / done, left);
+    clock_text(elapsed, past);
+    if (done > 0.0) clock_text(elapsed * (1.0 - done) / done, left);
     double samples = fraction * progress->spp_most;
-    snprintf(line, sizeof line, "%3.0f%% %s %.0f%s spp  %s elapsed, %s left  %.2f M samples/s",
-             floor(100.0 * done), bar, floor(samples), asked, progress_time(elapsed, past), left,
-             elapsed > 0.0 ? 1e-6 * samples * progress->pixels / elapsed : 0.0);
+    double rate = elapsed > 0.0 ? samples * progress->pixels / elapsed : 0.0;
+    snprintf(line, sizeof line, "%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
+             floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, asked, past, left, 1e-6 * rate);
     fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
     fflush(stderr);
 }

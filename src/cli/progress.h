@@ -23,7 +23,4 @@ void progress_draw(Progress *progress, double fraction);
 /* Erases the line. */
 void progress_finish(Progress *progress);
 
-/* Seconds as "7 s", "1:05" or "2:00:07" in a buffer of the caller's of at least 24 bytes. */
-const char *progress_time(double seconds, char *buffer);
-
 #endif

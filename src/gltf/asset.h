@@ -1,8 +1,9 @@
 /* asset.h - one glTF file while it is read: what its parts have become so far, and what may still be spent
  *
  * Reading is in two passes. The first turns the JSON into the records below, checking every type, range and
- * reference, used or not (but for cameras, lights, samplers and images, which are checked when shown). The second bakes what the scene shows. Errors are sticky: the first failure is
- * kept in `result`, readers go on with harmless values, and each stage ends by asking asset->result. */
+ * reference, used or not (but for cameras, lights, samplers and images, which are checked when shown). The
+ * second bakes what the scene shows. Errors are sticky: the first failure is kept in `result`, readers go on
+ * with harmless values, and each stage ends by asking asset->result. */
 #ifndef WEFT_GLTF_ASSET_H
 #define WEFT_GLTF_ASSET_H
 

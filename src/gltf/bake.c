@@ -84,17 +84,17 @@ static void bake_triangles(Bake *bake) {
     }
 }
 
-/* values (3 of every stride) through the pose: positions with w = 1, directions with w = 0. */
+/* Positions in the world; all must be finite and within reach. */
 static void bake_positions(Bake *bake) {
     Mesh *mesh = bake->mesh;
     mesh->position = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->position);
     if (!mesh->position) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 0, mesh->position, 3);
+    Transform blend;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *p = mesh->position + 3 * i;
-        Transform t = pose_at(&bake->pose, i);
         double v[3] = {(double)p[0], (double)p[1], (double)p[2]};
-        transform_apply(&t, v, 1.0);
+        transform_apply(pose_at(&bake->pose, i, &blend), v, 1.0);
         for (int c = 0; c < 3; c++) {
             if (!isfinite(v[c]))
                 bake_fail(bake, WEFT_MESSAGE_GLTF_SCHEMA, "a position is not finite");
@@ -142,11 +142,12 @@ static void bake_normals(Bake *bake) {
     mesh->normal = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->normal);
     if (!mesh->normal) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 1, mesh->normal, 3);
+    Transform blend, cofactors = transform_identity;
+    const double sign = bake->pose.mirrored ? -1.0 : 1.0;
     bool good = true;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *n = mesh->normal + 3 * i;
-        Transform t = pose_at(&bake->pose, i), cofactors = transform_cofactors(&t);
-        double sign = bake->pose.mirrored ? -1.0 : 1.0;
+        if (i == 0 || bake->pose.joints) cofactors = transform_cofactors(pose_at(&bake->pose, i, &blend));
         double v[3] = {sign * (double)n[0], sign * (double)n[1], sign * (double)n[2]};
         transform_apply(&cofactors, v, 0.0);
         good &= store_unit(v, n);
@@ -163,12 +164,12 @@ static void bake_tangents(Bake *bake) {
     mesh->tangent = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->tangent);
     if (!mesh->tangent) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 2, mesh->tangent, 4);
+    Transform blend;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *t = mesh->tangent + 4 * i;
         const float *n = mesh->normal + 3 * i;
-        Transform map = pose_at(&bake->pose, i);
         double v[3] = {(double)t[0], (double)t[1], (double)t[2]};
-        transform_apply(&map, v, 0.0);
+        transform_apply(pose_at(&bake->pose, i, &blend), v, 0.0);
         double along = 0.0;
         if (!store_unit(v, t)) t[0] = 1.0f;
         for (int c = 0; c < 3; c++) along += (double)t[c] * (double)n[c];

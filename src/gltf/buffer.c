@@ -8,9 +8,20 @@
 #include "gltf/meshopt.h"
 #include "gltf/uri.h"
 
-/* The decoding limit: this many times the input, but between a floor that every small file may use and a
- * ceiling. Instances, sparse zeros and compression make a decoded scene larger than its file. */
-static const size_t EXPANSION = 64, LIMIT_LOW = (size_t)256 << 20, LIMIT_HIGH = (size_t)4 << 30;
+/* What input may decode to: instances, sparse zeros and compression make a scene larger than its file. Any
+ * file may use the floor, a small one a thousand times its size up to 256 MiB, a large one 64 times up to 4
+ * GiB. */
+static const size_t MIB = (size_t)1 << 20;
+
+static size_t decoding_limit(size_t input) {
+    const size_t floor = 16 * MIB, small = 256 * MIB, large = 4096 * MIB;
+    size_t limit = input < small / 1024 ? input * 1024 : small;
+    if (limit < floor) limit = floor;
+    size_t ample = input < large / 64 ? input * 64 : large;
+    return limit > ample ? limit : ample;
+}
+
+static const size_t BUFFER_FILE_MAX = (size_t)4 << 30;
 
 static void buffer_load(const Field *field, Buffer *buffer, const char *uri) {
     Asset *asset = field->asset;
@@ -22,7 +33,7 @@ static void buffer_load(const Field *field, Buffer *buffer, const char *uri) {
         const char *path = uri_path(&place, uri);
         FileBytes file = {0};
         if (path && asset->result == WEFT_OK)
-            asset->result = file_read(path, LIMIT_HIGH, &file, asset->error);
+            asset->result = file_read(path, BUFFER_FILE_MAX, &file, asset->error);
         buffer->owned = file.data;
         size = file.size;
         asset->input_bytes += size;
@@ -52,9 +63,7 @@ void buffers_read(Asset *asset) {
                            buffer->span.size);
         }
     }
-    size_t expanded =
-        asset->input_bytes < LIMIT_HIGH / EXPANSION ? asset->input_bytes * EXPANSION : LIMIT_HIGH;
-    asset->limit = expanded > LIMIT_LOW ? expanded : LIMIT_LOW;
+    asset->limit = decoding_limit(asset->input_bytes);
 }
 
 void buffers_free(Asset *asset) {

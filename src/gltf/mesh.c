@@ -77,7 +77,8 @@ static void variants_map(const Field *field, Primitive *p) {
     Field mappings = field_member(field, "mappings");
     if (!field->json || !variant_count) return;
     p->variant_material = asset_array(asset, &asset->scene->arena, variant_count, sizeof(int));
-    for (size_t v = 0; v < variant_count && p->variant_material; v++) p->variant_material[v] = -1;
+    if (!p->variant_material) return;
+    for (size_t v = 0; v < variant_count; v++) p->variant_material[v] = -1;
     size_t count = field_count(&mappings);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Field mapping = field_element(&mappings, i), material = field_member(&mapping, "material"),

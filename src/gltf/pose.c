@@ -67,21 +67,21 @@ Pose pose_prepare(Asset *asset, Arena *scratch, const Node *node, const Primitiv
     return pose;
 }
 
-Transform pose_at(const Pose *pose, size_t vertex) {
-    if (!pose->joints) return pose->world;
-    Transform sum = {{{0}}};
+const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend) {
+    if (!pose->joints) return &pose->world;
     double total = 0.0;
+    *blend = (Transform){{{0}}};
     for (int set = 0; set < SKIN_SETS && pose->index[set]; set++)
         for (size_t k = 4 * vertex; k < 4 * vertex + 4; k++) {
             double weight = (double)pose->weight[set][k];
             if (!(weight > 0.0)) continue;
             const Transform *joint = &pose->joints[pose->index[set][k]];
             total += weight;
-            for (int e = 0; e < 12; e++) sum.m[e / 4][e % 4] += weight * joint->m[e / 4][e % 4];
+            for (int e = 0; e < 12; e++) blend->m[e / 4][e % 4] += weight * joint->m[e / 4][e % 4];
         }
-    if (!(total > 0.0)) return pose->world;
-    for (int e = 0; e < 12; e++) sum.m[e / 4][e % 4] /= total;
-    return sum;
+    if (!(total > 0.0)) return &pose->world;
+    for (int e = 0; e < 12; e++) blend->m[e / 4][e % 4] /= total;
+    return blend;
 }
 
 void pose_morph(Asset *asset, Arena *scratch, const Node *node, const Primitive *p, int attribute,

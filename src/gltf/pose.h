@@ -20,7 +20,8 @@ typedef struct Pose {
  * transform. */
 Pose pose_prepare(Asset *asset, Arena *scratch, const Node *node, const Primitive *primitive);
 
-Transform pose_at(const Pose *pose, size_t vertex);
+/* The map of one vertex: the pose's own, or with a skin a blend made in *blend. */
+const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend);
 
 /* Adds the morph targets of attribute (0 position, 1 normal, 2 tangent) to the first three of every `stride`
  * values, with the node's weights, else the mesh's. */

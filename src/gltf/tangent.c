@@ -78,8 +78,15 @@ static Vec2 *coordinates(Asset *asset, Arena *scratch, const Mesh *mesh, const I
     return out;
 }
 
-/* Vertices that differ in none of position, normal and coordinates share the smoothing: the first of them
- * stands for all. An open-addressing hash table over at most half-full slots. */
+/* The bits of what a vertex is for the smoothing: position, normal, coordinates. */
+static void vertex_key(const Mesh *mesh, const Vec2 *uv, size_t i, uint32_t key[8]) {
+    memcpy(key, mesh->position + 3 * i, 12);
+    memcpy(key + 3, mesh->normal + 3 * i, 12);
+    memcpy(key + 6, &uv[i], 8);
+}
+
+/* Vertices with equal keys share the smoothing: the first of them stands for all. An open-addressing hash
+ * table over at most half-full slots. */
 static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2 *uv) {
     size_t slots = 16;
     while (slots < (size_t)2 * mesh->vertex_count) slots *= 2;
@@ -87,17 +94,13 @@ static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2
     uint32_t *leader = asset_array(asset, scratch, mesh->vertex_count, sizeof *leader);
     if (!table || !leader) return NULL;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        uint32_t key[8], hash = 0;
-        memcpy(key, mesh->position + 3 * (size_t)i, 12);
-        memcpy(key + 3, mesh->normal + 3 * (size_t)i, 12);
-        memcpy(key + 6, &uv[i], 8);
+        uint32_t key[8], other[8], hash = 0;
+        vertex_key(mesh, uv, i, key);
         for (int k = 0; k < 8; k++) hash = hash_combine(hash, key[k]);
         size_t slot = hash & (slots - 1);
         for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
-            size_t other = table[slot] - 1;
-            if (memcmp(mesh->position + 3 * other, key, 12) == 0 &&
-                memcmp(mesh->normal + 3 * other, key + 3, 12) == 0 && memcmp(&uv[other], key + 6, 8) == 0)
-                break;
+            vertex_key(mesh, uv, table[slot] - 1, other);
+            if (memcmp(key, other, sizeof key) == 0) break;
         }
         if (!table[slot]) table[slot] = i + 1;
         leader[i] = table[slot] - 1;
@@ -180,7 +183,7 @@ static void smooth(Asset *asset, Arena *scratch, Mesh *mesh, const Input *input)
     uint32_t *source = asset_array(asset, scratch, 2 * old, sizeof *source);
     uint32_t *twin = asset_array(asset, scratch, old, sizeof *twin);
     int8_t *side = asset_array(asset, scratch, 2 * old, sizeof *side);
-    if (asset->result != WEFT_OK) return;
+    if (asset->result != WEFT_OK || !uv || !leader) return;
     accumulate(mesh, uv, leader, sums);
     size_t count = split(mesh, uv, source, side, twin);
     if (count > old) gather_vertices(asset, mesh, source, count);

@@ -85,6 +85,7 @@ typedef struct Exr {
     bool tiled;
     int32_t chunk_width, chunk_height; /* of a tile, or of a block of lines; the last ones may be smaller */
     exr_decode_pipeline_t pipeline;
+    exr_result_t (*decompress)(exr_decode_pipeline_t *); /* the library's, NULL without compression */
 } Exr;
 
 static int64_t box_width(exr_attr_box2i_t box) { return (int64_t)box.max.x - box.min.x + 1; }
@@ -280,7 +281,10 @@ static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_
         if (status == EXR_ERR_SUCCESS)
             status = exr_decoding_choose_default_routines(exr->context, exr->part, pipeline);
         pipeline->unpack_and_convert_fn = NULL;
+        exr->decompress = pipeline->decompress_fn;
     }
+    /* A chunk of the full size is not compressed; the library would take B44 to be so even then. */
+    pipeline->decompress_fn = chunk->packed_size == chunk->unpacked_size ? NULL : exr->decompress;
     if (status == EXR_ERR_SUCCESS) status = exr_decoding_run(exr->context, exr->part, pipeline);
     if (status != EXR_ERR_SUCCESS) return status;
     for (int64_t row = 0; row < chunk->height; row++) {
@@ -407,8 +411,21 @@ static void planes_fill(const WeftImage *image, int y, int lines, float *planes)
         }
 }
 
+/* The library's compression, put right: when it gains nothing at all (3.1.5) it leaves the compressed bytes,
+ * but a reader takes a chunk of the full size as not compressed. */
+static exr_result_t chunk_compress(exr_encode_pipeline_t *pipeline) {
+    exr_result_t (*const *library)(exr_encode_pipeline_t *) = pipeline->encoding_user_data;
+    exr_result_t status = (*library)(pipeline);
+    if (status == EXR_ERR_SUCCESS && pipeline->compressed_bytes >= pipeline->packed_bytes) {
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+        pipeline->compressed_bytes = pipeline->packed_bytes;
+    }
+    return status;
+}
+
 static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float *planes, int chunk_lines) {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_result_t (*library)(exr_encode_pipeline_t *) = NULL;
     exr_result_t status = EXR_ERR_SUCCESS;
     for (int y = 0; status == EXR_ERR_SUCCESS && y < image->height; y += chunk_lines) {
         exr_chunk_info_t chunk;
@@ -428,7 +445,12 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float 
             channel->user_pixel_stride = sizeof(float);
             channel->user_line_stride = (int32_t)sizeof(float) * image->width;
         }
-        if (first) status = exr_encoding_choose_default_routines(exr, 0, &pipeline);
+        if (first) {
+            status = exr_encoding_choose_default_routines(exr, 0, &pipeline);
+            library = pipeline.compress_fn;
+            pipeline.compress_fn = chunk_compress;
+            pipeline.encoding_user_data = &library;
+        }
         if (status == EXR_ERR_SUCCESS) status = exr_encoding_run(exr, 0, &pipeline);
     }
     if (pipeline.channels) exr_encoding_destroy(exr, &pipeline);

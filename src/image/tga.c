@@ -48,7 +48,10 @@ static WeftResult tga_header(const ImageSource *source, Tga *tga, WeftError *err
                  .height = word(head + 14),
                  .pixel_bits = head[16],
                  .from_right = attributes & 0x10,
-                 .from_top = attributes & 0x20};
+                 .from_top = attributes & 0x20,
+                 .map = head,
+                 .pixels = head,
+                 .end = head + source->size};
     tga->color_bits = tga->kind == TGA_MAPPED ? head[7] : tga->pixel_bits;
     if (!tga_possible(tga, map_type, type)) return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, source->name, NULL);
     if (attributes & 0xc0)
@@ -65,7 +68,6 @@ static WeftResult tga_header(const ImageSource *source, Tga *tga, WeftError *err
         return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name, "TGA: it ends within its header");
     tga->map = head + before;
     tga->pixels = tga->map + map_size;
-    tga->end = head + source->size;
     return WEFT_OK;
 }
 
@@ -134,7 +136,7 @@ static const char *tga_decode(const Tga *tga, const WeftImage *image) {
 }
 
 WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *error) {
-    Tga tga = {0};
+    Tga tga = {.map = source->data, .pixels = source->data, .end = source->data};
     WeftResult result = tga_header(source, &tga, error);
     if (result != WEFT_OK) return result;
     /* The longest packet holds 128 pixels in a byte and one pixel. */

@@ -15,23 +15,30 @@ static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
     camera->up = vec3_cross(camera->right, camera->forward);
 }
 
-/* The eye moves back along the view until every corner of the box is inside the frustum with a margin. */
-static Camera frame_box(Vec3 low, Vec3 high, float aspect) {
-    const float azimuth = 0.61f, elevation = 0.26f, margin = 1.08f; /* 35 and 15 degrees */
-    Camera camera = {.name = "auto", .yfov = 0.49f}; /* 28 degrees, an 85 mm portrait lens upright */
-    Vec3 centre = vec3_scale(vec3_add(low, high), 0.5f);
-    Vec3 back = vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation));
-    look_at(&camera, vec3_add(centre, back), centre);
-    float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect, distance = 0.0f;
-    for (int corner = 0; corner < 8; corner++) {
-        Vec3 p = vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
-        Vec3 r = vec3_sub(p, centre);
-        float x = fabsf(vec3_dot(r, camera.right)), y = fabsf(vec3_dot(r, camera.up)),
-              z = vec3_dot(r, camera.forward);
-        distance = fmaxf(distance, fmaxf(x / tx, y / ty) - z);
-    }
-    if (!(distance > 0.0f)) distance = 1.0f;
-    camera.eye = vec3_madd(centre, back, distance);
+/* Where the eye must be for every vertex to be inside the frustum, touching it on at least one pair of sides
+ * and centred between the other. In camera axes, z forward, t the slope of a side: x - ex <= t (z - ez) and
+ * ex - x <= t (z - ez) for all points give ex and the largest ez from the two extremes of x - t z and -x - t
+ * z; y likewise. */
+static Camera frame_scene(const WeftScene *scene, float aspect) {
+    const float azimuth = 0.61f, elevation = 0.26f, margin = 1.12f; /* 35 and 15 degrees */
+    Camera camera = {.name = "auto", .yfov = 0.49f};                /* 28 degrees, a portrait lens */
+    look_at(&camera, vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation)),
+            vec3(0.0f, 0.0f, 0.0f));
+    float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect;
+    float right = -INFINITY, left = -INFINITY, above = -INFINITY, below = -INFINITY;
+    for (int m = 0; m < scene->mesh_count; m++)
+        for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++) {
+            Vec3 p = vec3_load(scene->meshes[m].position + 3 * (size_t)k);
+            float x = vec3_dot(p, camera.right), y = vec3_dot(p, camera.up), z = vec3_dot(p, camera.forward);
+            right = fmaxf(right, x - tx * z), left = fmaxf(left, -x - tx * z);
+            above = fmaxf(above, y - ty * z), below = fmaxf(below, -y - ty * z);
+        }
+    float ez = fminf(-(right + left) / (2.0f * tx), -(above + below) / (2.0f * ty));
+    Vec3 across = vec3_scale(camera.right, 0.5f * (right - left));
+    Vec3 up = vec3_scale(camera.up, 0.5f * (above - below));
+    camera.eye = vec3_add(vec3_add(across, up), vec3_scale(camera.forward, ez));
+    if (vec3_length(vec3_sub(scene->high, scene->low)) <= 0.0f) /* a single point: any distance will do */
+        camera.eye = vec3_sub(camera.eye, camera.forward);
     return camera;
 }
 
@@ -57,7 +64,7 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
                        WeftError *error) {
     if (!text || strcmp(text, "auto") == 0) {
         if (scene->low.x > scene->high.x) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
-        *out = frame_box(scene->low, scene->high, aspect);
+        *out = frame_scene(scene, aspect);
         return WEFT_OK;
     }
     for (int k = 0; k < scene->camera_count; k++) {

@@ -16,9 +16,9 @@ typedef struct Softbox {
 } Softbox;
 
 static const Softbox softboxes[] = {
-    {-0.85f, 0.80f, 0.60f, 0.50f, 11.0f, 0.04f}, /* key */
-    {1.25f, 0.35f, 0.22f, 0.75f, 3.0f, -0.05f},  /* fill strip */
-    {2.75f, 0.60f, 0.55f, 0.18f, 9.0f, 0.0f},    /* rim, behind */
+    {-0.85f, 0.80f, 0.60f, 0.50f, 4.2f, 0.04f}, /* key */
+    {1.25f, 0.35f, 0.22f, 0.75f, 1.6f, -0.05f}, /* fill strip */
+    {2.75f, 0.60f, 0.55f, 0.18f, 4.0f, 0.0f},   /* rim, behind */
 };
 
 static float softbox_cover(const Softbox *box, float x, float y, float z) {
@@ -42,7 +42,7 @@ WeftResult environment_studio(WeftImage *out, WeftError *error) {
             float theta = ((float)row + 0.5f) / HEIGHT * 3.14159265f;
             float phi = (((float)column + 0.5f) / WIDTH - 0.5f) * 6.28318531f;
             float x = sinf(theta) * sinf(phi), y = cosf(theta), z = -sinf(theta) * cosf(phi);
-            float room = 0.25f + 0.35f * smooth(-0.2f, 1.0f, y) + 0.20f * smooth(0.1f, -0.9f, y);
+            float room = 0.14f + 0.16f * smooth(-0.2f, 1.0f, y) + 0.10f * smooth(0.0f, 1.0f, -y);
             float c[3] = {room, room, room};
             for (size_t k = 0; k < sizeof softboxes / sizeof *softboxes; k++) {
                 float light = softboxes[k].radiance * softbox_cover(&softboxes[k], x, y, z);

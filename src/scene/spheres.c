@@ -6,7 +6,7 @@
 #include "base/fail.h"
 
 enum { COLUMNS = 5, ROWS = 2, RINGS = 64, SECTORS = 128 };
-static const float radius = 0.45f, spacing = 1.0f;
+static const float radius = 0.45f, spacing = 1.06f;
 
 /* A latitude-longitude sphere whose texture wraps once; tangents run along the parallels. */
 static bool sphere(Arena *arena, Mesh *mesh, Vec3 centre) {
@@ -82,7 +82,7 @@ WeftResult spheres_make(WeftScene *scene, WeftError *error) {
         char name[16];
         snprintf(name, sizeof name, "%s-%d", row ? "light" : "dark", column);
         char *kept = arena_text(arena, name);
-        Vec3 centre = {((float)column - 2.0f) * spacing, radius, row ? -0.6f * spacing : 0.6f * spacing};
+        Vec3 centre = {((float)column - 2.0f) * spacing, radius, row ? -0.7f * spacing : 0.7f * spacing};
         scene->meshes[k] = (Mesh){.name = kept, .material = k};
         made = kept && sphere(arena, &scene->meshes[k], centre);
         if (made) scene->materials[k] = sphere_material(kept, row == 1, 0.1f + 0.225f * (float)column);
@@ -96,13 +96,13 @@ WeftResult spheres_make(WeftScene *scene, WeftError *error) {
         scene->mesh_count = scene->material_count = count + 1;
     }
     if (!made) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    float pitch = -0.38f; /* looks down on both rows */
+    float pitch = -0.50f; /* looks down on both rows */
     scene->cameras[0] = (Camera){.name = "main",
-                                 .eye = {0.0f, 3.05f, 6.9f},
+                                 .eye = {0.0f, 6.2f, 10.8f},
                                  .right = {1.0f, 0.0f, 0.0f},
                                  .up = {0.0f, cosf(pitch), sinf(pitch)},
                                  .forward = {0.0f, sinf(pitch), -cosf(pitch)},
-                                 .yfov = 0.42f};
+                                 .yfov = 0.345f};
     scene->camera_count = 1;
     scene_bounds(scene);
     return WEFT_OK;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "image/srgb.h"
 
@@ -27,30 +28,41 @@ static int wrapped(int x, int size, Wrap wrap) {
     return k < 0 ? k + size : k;
 }
 
-static Texel texel_u8(const WeftImage *image, const SrgbTable *srgb, size_t at) {
-    const uint8_t *p = (const uint8_t *)image->pixels + at;
-    int channels = image->channels, g = channels >= 3 ? 1 : 0, b = channels >= 3 ? 2 : 0;
-    float alpha = channels == 2 || channels == 4 ? (float)p[channels - 1] * (1.0f / 255.0f) : 1.0f;
-    if (srgb) return (Texel){{srgb->linear[p[0]], srgb->linear[p[g]], srgb->linear[p[b]], alpha}};
-    const float s = 1.0f / 255.0f;
-    return (Texel){{(float)p[0] * s, (float)p[g] * s, (float)p[b] * s, alpha}};
+/* One texel's channels as they are stored, scaled to [0, 1] where they are integers. */
+static inline void load(const WeftImage *image, const SrgbTable *srgb, size_t at, int channels, float *c) {
+    int colors = channels - !(channels & 1); /* without alpha */
+    switch (image->type) {
+    case WEFT_PIXEL_U8: {
+        const uint8_t *p = (const uint8_t *)image->pixels + at;
+        for (int k = 0; k < channels; k++)
+            c[k] = srgb && k < colors ? srgb->linear[p[k]] : (float)p[k] * (1.0f / 255.0f);
+        return;
+    }
+    case WEFT_PIXEL_U16: {
+        const uint16_t *p = (const uint16_t *)image->pixels + at;
+        for (int k = 0; k < channels; k++) {
+            float value = (float)p[k] * (1.0f / 65535.0f);
+            c[k] = srgb && k < colors ? srgb_decode(value) : value;
+        }
+        return;
+    }
+    case WEFT_PIXEL_F32: memcpy(c, (const float *)image->pixels + at, (size_t)channels * sizeof *c); return;
+    }
 }
 
-static Texel texel(const WeftImage *image, const SrgbTable *srgb, int x, int y) {
-    int channels = image->channels;
-    size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)channels;
-    if (image->type == WEFT_PIXEL_U8) return texel_u8(image, srgb, at);
-    Texel t = {{0.0f, 0.0f, 0.0f, 1.0f}};
-    for (int k = 0; k < channels; k++) {
-        bool alpha = k == channels - 1 && channels % 2 == 0;
-        float value = image->type == WEFT_PIXEL_F32
-                          ? ((const float *)image->pixels)[at + (size_t)k]
-                          : (float)((const uint16_t *)image->pixels)[at + (size_t)k] / 65535.0f;
-        if (srgb && !alpha && image->type == WEFT_PIXEL_U16) value = srgb_decode(value);
-        t.c[alpha ? 3 : k] = value;
+/* The mean of four texels with weights, channels known to the compiler so that its loops unroll. */
+static inline Texel blend(const WeftImage *image, const SrgbTable *srgb, const size_t at[4],
+                          const float weight[4], int channels) {
+    float sum[4] = {0}, c[4] = {0};
+    for (int corner = 0; corner < 4; corner++) {
+        load(image, srgb, at[corner] * (size_t)channels, channels, c);
+        for (int k = 0; k < channels; k++) sum[k] += c[k] * weight[corner];
     }
-    if (channels < 3) t.c[1] = t.c[2] = t.c[0];
-    return t;
+    bool grey = channels < 3;
+    return (Texel){{sum[0], sum[grey ? 0 : 1], sum[grey ? 0 : 2],
+                    channels == 2   ? sum[1]
+                    : channels == 4 ? sum[3]
+                                    : 1.0f}};
 }
 
 /* Bounded, so that the conversion to int is defined whatever a file holds. */
@@ -62,18 +74,19 @@ Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbT
                     float v) {
     const WeftImage *image = &images[texture->image];
     float x = coordinate(u, image->width), y = coordinate(v, image->height);
-    if (texture->nearest)
-        return texel(image, srgb, wrapped((int)floorf(x), image->width, texture->wrap_u),
-                     wrapped((int)floorf(y), image->height, texture->wrap_v));
-    x -= 0.5f, y -= 0.5f; /* texel centres */
-    float fx = floorf(x), fy = floorf(y), s = x - fx, t = y - fy;
-    int x0 = wrapped((int)fx, image->width, texture->wrap_u),
-        x1 = wrapped((int)fx + 1, image->width, texture->wrap_u);
-    int y0 = wrapped((int)fy, image->height, texture->wrap_v);
-    int y1 = wrapped((int)fy + 1, image->height, texture->wrap_v);
-    Texel a = texel(image, srgb, x0, y0), b = texel(image, srgb, x1, y0);
-    Texel c = texel(image, srgb, x0, y1), d = texel(image, srgb, x1, y1), sum;
-    for (int k = 0; k < 4; k++)
-        sum.c[k] = (a.c[k] * (1.0f - s) + b.c[k] * s) * (1.0f - t) + (c.c[k] * (1.0f - s) + d.c[k] * s) * t;
-    return sum;
+    if (!texture->nearest) x -= 0.5f, y -= 0.5f; /* texel centres */
+    float fx = floorf(x), fy = floorf(y), s = texture->nearest ? 0.0f : x - fx,
+          t = texture->nearest ? 0.0f : y - fy;
+    size_t x0 = (size_t)wrapped((int)fx, image->width, texture->wrap_u);
+    size_t x1 = (size_t)wrapped((int)fx + 1, image->width, texture->wrap_u);
+    size_t y0 = (size_t)wrapped((int)fy, image->height, texture->wrap_v) * (size_t)image->width;
+    size_t y1 = (size_t)wrapped((int)fy + 1, image->height, texture->wrap_v) * (size_t)image->width;
+    const size_t at[4] = {y0 + x0, y0 + x1, y1 + x0, y1 + x1};
+    const float weight[4] = {(1.0f - s) * (1.0f - t), s * (1.0f - t), (1.0f - s) * t, s * t};
+    switch (image->channels) {
+    case 1: return blend(image, srgb, at, weight, 1);
+    case 2: return blend(image, srgb, at, weight, 2);
+    case 3: return blend(image, srgb, at, weight, 3);
+    default: return blend(image, srgb, at, weight, 4);
+    }
 }

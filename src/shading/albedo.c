@@ -13,6 +13,7 @@ enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
 typedef struct Rule {
     int count;
     double x[NODES_MAX], rest[NODES_MAX], w[NODES_MAX]; /* on (0, 1); rest = 1 - x without cancellation */
+    double cos_phi[NODES_MAX], sin_phi[NODES_MAX];      /* of phi = pi x */
 } Rule;
 
 static Rule rule_make(double step) {
@@ -24,6 +25,8 @@ static Rule rule_make(double step) {
         double x = 1.0 / (1.0 + (exp)(-q)), rest = 1.0 / (1.0 + (exp)(q));
         rule.x[rule.count] = x;
         rule.rest[rule.count] = rest;
+        rule.cos_phi[rule.count] = (cos)(3.14159265358979 * x);
+        rule.sin_phi[rule.count] = (sin)(3.14159265358979 * (x < rest ? x : rest));
         rule.w[rule.count++] = step * 3.14159265358979 * cosh(t) * x * rest;
     }
     return rule;
@@ -45,8 +48,7 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
     size_t n = 0;
     for (int side = 0; side < mirrored; side++)
         for (int k = 0; k < rule->count; k++) {
-            double phi = 3.14159265358979 * rule->x[k];
-            double c = (cos)(phi)*sin_i, t = (sin)(phi)*sin_i * (side ? -1.0 : 1.0);
+            double c = rule->cos_phi[k] * sin_i, t = rule->sin_phi[k] * (side ? -sin_i : sin_i);
             ox[n] = wo.x, oy[n] = wo.y, oz[n] = wo.z;
             ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
             w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
@@ -66,7 +68,7 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
 }
 
 static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
-    double theta_o = acos((double)min(wo.z, 1.0f)), half_pi = 1.57079632679490;
+    double theta_o = atan2(hypot((double)wo.x, (double)wo.y), (double)wo.z), half_pi = 1.57079632679490;
     Sum sum = {0};
     for (int piece = 0; piece < 2; piece++) {
         double width = piece ? half_pi - theta_o : theta_o;
@@ -97,7 +99,8 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
     return (Albedo){(float)now.f0, (float)now.f90};
 }
 
-static float node(int k, int count) { return count > 1 ? (float)k / (float)(count - 1) : 0.0f; }
+static float fourth_root(float x) { return sqrt(sqrt(x)); }
+static float eighth_root(float x) { return sqrt(fourth_root(x)); }
 
 typedef struct Fill {
     AlbedoTable *table;
@@ -108,34 +111,60 @@ static void fill_column(void *user, int column, int thread) {
     (void)thread;
     const Fill *fill = user;
     AlbedoTable *table = fill->table;
-    float x = max(node(column, ALBEDO_MU), 1e-3f), cos_o = x * x;
+    float x = (float)column / (ALBEDO_MU - 1), cos_o = max(x * x * x * x, 1e-7f);
     Dir wo = {sqrt(max(1.0f - cos_o * cos_o, 0.0f)), 0.0f, cos_o};
     for (int row = 0; row < table->rows; row++) {
         Lobe lobe = *fill->lobe;
-        float root = mix(sqrt(table->low), sqrt(table->high), node(row, table->rows));
-        if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
-        table->e[row][column] = albedo_quadrature(&lobe, wo, 1e-4).f0;
+        float t = table->rows > 1 ? (float)row / (ALBEDO_ROWS - 1) : 0.0f;
+        float r = mix(table->root_low, table->root_high, t), r2 = r * r, r4 = r2 * r2;
+        if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, r4 * r4);
+        Albedo e = albedo_quadrature(&lobe, wo, 1e-4);
+        table->e[row][column] = e.f0 + e.f90;
     }
 }
 
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
+    const WeftLobeInfo *info = weft_lobe_info((int)lobe->id);
     table->lobe = lobe->id;
     table->low = low;
     table->high = high;
-    table->rows = low < high ? ALBEDO_ROWS : 1;
+    if (info->param_count > 0) {
+        low = clamp(low, info->params[0].hard_low, info->params[0].hard_high);
+        high = clamp(high, info->params[0].hard_low, info->params[0].hard_high);
+    }
+    table->root_low = eighth_root(low);
+    table->root_high = eighth_root(high);
+    table->rows = info->param_count > 0 && low < high ? ALBEDO_ROWS : 1;
     parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, lobe});
 }
 
+/* Four neighbouring nodes and their weights. */
+typedef struct Taps {
+    int first;
+    float w[4];
+} Taps;
+
+/* The cubic through x (in nodes) whose slope at a node is that between its neighbours; beyond its ends the
+ * table goes on as a parabola. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating Splines", 1974. */
+static Taps taps(float x, int count) {
+    int k = (int)clamp(x, 0.0f, (float)(count - 2));
+    float t = clamp(x - (float)k, 0.0f, 1.0f), s = 1.0f - t;
+    float a = -0.5f * t * s * s, d = -0.5f * t * t * s;
+    float b = s * (1.0f + t - 1.5f * t * t), c = t * (1.0f + s - 1.5f * s * s);
+    if (k == 0) return (Taps){0, {b + 3.0f * a, c - 3.0f * a, d + a, 0.0f}};
+    if (k == count - 2) return (Taps){k - 2, {0.0f, a + d, b - 3.0f * d, c + 3.0f * d}};
+    return (Taps){k - 1, {a, b, c, d}};
+}
+
 float albedo_table_read(const AlbedoTable *table, float cos_o, float alpha) {
-    float x = sqrt(clamp(cos_o, 0.0f, 1.0f)) * (ALBEDO_MU - 1);
-    int k = (int)min(x, ALBEDO_MU - 2);
-    float t = x - (float)k;
-    const float *e = table->e[0];
-    if (table->rows == 1) return mix(e[k], e[k + 1], t);
-    float y = (sqrt(max(alpha, 0.0f)) - sqrt(table->low)) / (sqrt(table->high) - sqrt(table->low));
-    y = clamp(y, 0.0f, 1.0f) * (float)(table->rows - 1);
-    int j = (int)min(y, (float)(table->rows - 2));
-    e = table->e[j];
-    const float *e1 = table->e[j + 1];
-    return mix(mix(e[k], e[k + 1], t), mix(e1[k], e1[k + 1], t), y - (float)j);
+    Taps column = taps(fourth_root(max(cos_o, 0.0f)) * (ALBEDO_MU - 1), ALBEDO_MU), row = {0, {1.0f}};
+    if (table->rows > 1) {
+        float y = (eighth_root(max(alpha, 0.0f)) - table->root_low) / (table->root_high - table->root_low);
+        row = taps(y * (ALBEDO_ROWS - 1), ALBEDO_ROWS);
+    }
+    float e = 0.0f;
+    for (int j = 0; j < 4 && j < table->rows; j++)
+        for (int k = 0; k < 4; k++)
+            e += row.w[j] * column.w[k] * table->e[row.first + j][column.first + k];
+    return max(e, 0.0f);
 }

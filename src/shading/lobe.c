@@ -1,7 +1,4 @@
 /* lobe.c - the public face of the registry */
-#include <errno.h>
-#include <stdlib.h>
-
 #include "base/fail.h"
 #include "base/number.h"
 #include "shading/albedo.h"
@@ -21,6 +18,19 @@ WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
     return WEFT_OK;
 }
 
+static const WeftParamInfo color_info = {"color", "", 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f};
+
+/* The value clamped to the hard range; a warning where it is not plausible. */
+static float ranged(float value, const WeftParamInfo *p, const char *name, const WeftLog *log) {
+    float taken = clamp(value, p->hard_low, p->hard_high);
+    if (taken < value || taken > value)
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g was clamped to %g", (double)value, (double)taken);
+    else if (value < p->low || value > p->high)
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is not in %g .. %g", (double)value, (double)p->low,
+             (double)p->high);
+    return taken;
+}
+
 WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                          WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -29,22 +39,13 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
     if (f90 || strcmp(param, "color") == 0 || strcmp(param, "f0") == 0) {
         if (!parse_color(value, v))
             return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number or r,g,b", param);
-        memcpy(f90 ? lobe->f90 : lobe->f0, v, sizeof v);
+        for (int c = 0; c < 3; c++) (f90 ? lobe->f90 : lobe->f0)[c] = ranged(v[c], &color_info, param, log);
         return WEFT_OK;
     }
     int k = lobe_param((LobeId)lobe->lobe, param);
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
     if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", param);
-    const WeftParamInfo *p = &info->params[k];
-    Lobe clamped = lobe_of(lobe);
-    lobe_set(&clamped, k, v[0]);
-    if (clamped.params[k] < v[0] || clamped.params[k] > v[0])
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, param, "%g was clamped to %g", (double)v[0],
-             (double)clamped.params[k]);
-    else if (v[0] < p->low || v[0] > p->high)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, param, "%g is not in %g .. %g", (double)v[0], (double)p->low,
-             (double)p->high);
-    lobe->params[k] = clamped.params[k];
+    lobe->params[k] = ranged(v[0], &info->params[k], param, log);
     return WEFT_OK;
 }
 

@@ -32,14 +32,16 @@ static void set_coat_frame(Stack *stack, Dir n) {
     stack->coat_z = n;
 }
 
-Stack surface_stack(const Surface *s, Dir wo, LobeId sheen, int layer, const AlbedoTable *sheen_e) {
-    Stack stack = {0};
+void surface_stack(Stack *stack, const Surface *s, Dir wo, LobeId sheen, int layer,
+                   const AlbedoTable *sheen_e) {
+    stack->count = 0;
+    stack->under_f0 = stack->under_f90 = 0.0f;
     float left = 1.0f; /* what the layers above let through */
 
     if (s->clearcoat > 0.0f) {
-        set_coat_frame(&stack, s->clearcoat_normal);
-        float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(dir_dot(wo, stack.coat_z)));
-        StackLobe *coat = push(&stack, LOBE_GGX, (Rgb){f, f, f}, (Rgb){f, f, f}, f);
+        set_coat_frame(stack, s->clearcoat_normal);
+        float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(dir_dot(wo, stack->coat_z)));
+        StackLobe *coat = push(stack, LOBE_GGX, (Rgb){f, f, f}, (Rgb){f, f, f}, f);
         lobe_set(&coat->lobe, 0, s->clearcoat_roughness * s->clearcoat_roughness);
         coat->coat = true;
         left -= f;
@@ -48,7 +50,7 @@ Stack surface_stack(const Surface *s, Dir wo, LobeId sheen, int layer, const Alb
     if (rgb_max(s->sheen_color) > 0.0f) {
         float alpha = s->sheen_roughness * s->sheen_roughness, e = albedo_table_read(sheen_e, wo.z, alpha);
         Rgb color = rgb_scale(s->sheen_color, left);
-        StackLobe *top = push(&stack, sheen, color, color, rgb_mean(color) * e);
+        StackLobe *top = push(stack, sheen, color, color, rgb_mean(color) * e);
         if (weft_lobe_info((int)sheen)->param_count > 0) lobe_set(&top->lobe, 0, alpha);
         left *= layer_base((LayerId)layer, s->sheen_color, e);
     }
@@ -58,24 +60,23 @@ Stack surface_stack(const Surface *s, Dir wo, LobeId sheen, int layer, const Alb
     if (rgb_max(f0) > 0.0f || f90 > 0.0f) {
         Rgb f90_left = {left * f90, left * f90, left * f90};
         float share = left * mix(rgb_mean(f0), f90, s_o);
-        StackLobe *specular = push(&stack, LOBE_GGX, rgb_scale(f0, left), f90_left, share);
+        StackLobe *specular = push(stack, LOBE_GGX, rgb_scale(f0, left), f90_left, share);
         lobe_set(&specular->lobe, 0, s->roughness * s->roughness);
         lobe_set(&specular->lobe, 1, s->anisotropy);
     }
 
     Rgb diffuse = rgb_scale(s->base_color, left * (1.0f - s->metallic));
     if (rgb_max(diffuse) > 0.0f) {
-        stack.under_f0 = rgb_max(f0_dielectric);
-        stack.under_f90 = s->specular;
-        float share = rgb_mean(diffuse) * (1.0f - mix(stack.under_f0, stack.under_f90, s_o));
-        push(&stack, LOBE_LAMBERT, diffuse, diffuse, share);
+        stack->under_f0 = rgb_max(f0_dielectric);
+        stack->under_f90 = s->specular;
+        float share = rgb_mean(diffuse) * (1.0f - mix(stack->under_f0, stack->under_f90, s_o));
+        push(stack, LOBE_LAMBERT, diffuse, diffuse, share);
     }
 
     /* a floor keeps every lobe reachable, so that no weight is unbounded */
     float total = 0.0f;
-    for (int k = 0; k < stack.count; k++) total += stack.lobes[k].pick = max(stack.lobes[k].pick, 1e-3f);
-    float floor_pick = 0.05f / max((float)stack.count, 1.0f);
-    for (int k = 0; k < stack.count; k++)
-        stack.lobes[k].pick = 0.95f * stack.lobes[k].pick / total + floor_pick;
-    return stack;
+    for (int k = 0; k < stack->count; k++) total += stack->lobes[k].pick = max(stack->lobes[k].pick, 1e-3f);
+    float floor_pick = 0.05f / max((float)stack->count, 1.0f);
+    for (int k = 0; k < stack->count; k++)
+        stack->lobes[k].pick = 0.95f * stack->lobes[k].pick / total + floor_pick;
 }

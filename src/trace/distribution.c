@@ -1,8 +1,6 @@
 #include "trace/distribution.h"
 
-#include <math.h>
-
-double distribution_make(float *cdf, int n) {
+double distribution_make(Distribution *distribution, int n, float *cdf, uint32_t *guide) {
     double sum = 0.0, running = 0.0;
     for (int k = 1; k <= n; k++) sum += (double)cdf[k];
     cdf[0] = 0.0f;
@@ -10,19 +8,16 @@ double distribution_make(float *cdf, int n) {
         running += sum > 0.0 ? (double)cdf[k] / sum : 1.0 / n;
         cdf[k] = (float)running;
     }
-    cdf[n] = 1.0f;
-    return sum;
-}
-
-Choice distribution_choose(const float *cdf, int n, float u) {
-    /* the last k with cdf[k] <= u, by halving without branches to predict */
-    const float *base = cdf;
-    for (int length = n; length > 1;) {
-        int half = length / 2;
-        base = base[half] <= u ? base + half : base;
-        length -= half;
+    /* from the last thing with any weight on, exactly 1, so that no u < 1 finds one without */
+    float last = cdf[n];
+    for (int k = n; k > 0 && !(cdf[k] < last); k--) cdf[k] = 1.0f;
+    uint32_t k = 0;
+    for (int step = 0; step < n; step++) {
+        /* u * n may round up across a step: one before is safe */
+        float u = (float)step / (float)n * (1.0f - 0x1p-22f);
+        while (cdf[k + 1] <= u) k++;
+        guide[step] = k;
     }
-    float width = base[1] - base[0];
-    float rest = width > 0.0f ? (u - base[0]) / width : 0.0f;
-    return (Choice){(int)(base - cdf), width, fminf(fmaxf(rest, 0.0f), 0x1.fffffep-1f)};
+    *distribution = (Distribution){n, cdf, guide};
+    return sum;
 }

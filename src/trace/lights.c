@@ -21,16 +21,29 @@ typedef enum Group { GROUP_ENVIRONMENT, GROUP_EMITTER, GROUP_PUNCTUAL, GROUP_COU
 
 struct Lights {
     const WeftScene *scene;
+    Arena arena;
     float cos_turn, sin_turn; /* of the environment's rotation */
     int map_width, map_height;
-    float *map_rows, *map_columns; /* cdf over rows; one cdf of columns a row */
+    Distribution map_rows, *map_columns; /* columns: one a row */
     Emitter *emitters;
     int emitter_count;
-    float *emitter_cdf;
+    Distribution emitter_choice;
     uint32_t *mesh_first; /* emitter of a mesh's triangle 0, + 1; 0: emits nothing */
-    float *punctual_cdf;
-    float group_cdf[GROUP_COUNT + 1];
+    Distribution punctual_choice;
+    Distribution group_choice;
+    bool dark; /* nothing shines */
 };
+
+/* Arrays for a distribution of n things; the weights go into cdf[1 .. n]. */
+typedef struct Weights {
+    float *cdf;
+    uint32_t *guide;
+} Weights;
+
+static Weights weights_alloc(Arena *arena, int n) {
+    return (Weights){arena_array(arena, (size_t)n + 1, sizeof(float)),
+                     arena_array(arena, (size_t)n, sizeof(uint32_t))};
+}
 
 static float luminance(const float *c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
@@ -68,14 +81,13 @@ Rgb lights_environment(const Lights *lights, Vec3 direction) {
 }
 
 static float group_share(const Lights *lights, Group group) {
-    return lights->group_cdf[group + 1] - lights->group_cdf[group];
+    return lights->dark ? 0.0f : distribution_probability(&lights->group_choice, (int)group);
 }
 
 /* pdf over the sphere of a point of cell (row, column), from the density on the unit square. */
 static float map_pdf(const Lights *lights, int row, int column, float v) {
-    const float *columns = lights->map_columns + (size_t)row * (size_t)(lights->map_width + 1);
-    float square = (lights->map_rows[row + 1] - lights->map_rows[row]) *
-                   (columns[column + 1] - columns[column]) * (float)lights->map_height *
+    float square = distribution_probability(&lights->map_rows, row) *
+                   distribution_probability(&lights->map_columns[row], column) * (float)lights->map_height *
                    (float)lights->map_width;
     return square / (TWO_PI * PI * max(sin(v * PI), 1e-6f));
 }
@@ -101,9 +113,8 @@ static LightSample sample_environment(const Lights *lights, float u, float v) {
         s.pdf = share / (2.0f * TWO_PI);
         return s;
     }
-    Choice row = distribution_choose(lights->map_rows, lights->map_height, v);
-    Choice column = distribution_choose(
-        lights->map_columns + (size_t)row.index * (size_t)(lights->map_width + 1), lights->map_width, u);
+    Choice row = distribution_choose(&lights->map_rows, v);
+    Choice column = distribution_choose(&lights->map_columns[row.index], u);
     float mu = ((float)column.index + column.rest) / (float)lights->map_width;
     float mv = ((float)row.index + row.rest) / (float)lights->map_height;
     s.wi = map_to_direction(lights, mu, mv);
@@ -120,11 +131,11 @@ static double map_make(Lights *lights) {
     int w = image->width < MAP_WIDTH_MAX ? image->width : MAP_WIDTH_MAX;
     int h = image->height < MAP_HEIGHT_MAX ? image->height : MAP_HEIGHT_MAX;
     lights->map_width = w, lights->map_height = h;
-    lights->map_rows = alloc_array((size_t)h + 1, sizeof(float));
-    lights->map_columns = alloc_array((size_t)h * ((size_t)w + 1), sizeof(float));
+    Weights rows = weights_alloc(&lights->arena, h);
+    lights->map_columns = arena_array(&lights->arena, (size_t)h, sizeof(Distribution));
     double *sums = alloc_array((size_t)w * (size_t)h, sizeof(double));
     double mean = 0.0, total = 0.0;
-    if (!lights->map_rows || !lights->map_columns || !sums) {
+    if (!rows.cdf || !rows.guide || !lights->map_columns || !sums) {
         free(sums);
         return -1.0;
     }
@@ -144,13 +155,17 @@ static double map_make(Lights *lights) {
     for (int r = 0; r < h; r++) {
         double solid =
             (sin)(3.14159265358979 * (r + 0.5) / h) * image->width * image->height / ((double)w * h);
-        float *columns = lights->map_columns + (size_t)r * ((size_t)w + 1);
+        Weights columns = weights_alloc(&lights->arena, w);
+        if (!columns.cdf || !columns.guide) {
+            mean = -1.0;
+            break;
+        }
         for (int c = 0; c < w; c++)
-            columns[c + 1] = (float)(sums[(size_t)r * (size_t)w + (size_t)c] + 0.02 * mean * solid);
-        lights->map_rows[r + 1] = (float)distribution_make(columns, w);
+            columns.cdf[c + 1] = (float)(sums[(size_t)r * (size_t)w + (size_t)c] + 0.02 * mean * solid);
+        rows.cdf[r + 1] = (float)distribution_make(&lights->map_columns[r], w, columns.cdf, columns.guide);
     }
     free(sums);
-    distribution_make(lights->map_rows, h);
+    if (mean >= 0.0) distribution_make(&lights->map_rows, h, rows.cdf, rows.guide);
     return mean;
 }
 
@@ -214,10 +229,10 @@ static bool emitters_make(Lights *lights, double *power) {
     *power = 0.0;
     if (!count) return true;
     if (count > 1 << 30) return false;
-    lights->emitters = alloc_array(count, sizeof(Emitter));
-    lights->emitter_cdf = alloc_array(count + 1, sizeof(float));
-    lights->mesh_first = alloc_array((size_t)scene->mesh_count, sizeof(uint32_t));
-    if (!lights->emitters || !lights->emitter_cdf || !lights->mesh_first) return false;
+    Weights weights = weights_alloc(&lights->arena, (int)count);
+    lights->emitters = arena_array(&lights->arena, count, sizeof(Emitter));
+    lights->mesh_first = arena_array(&lights->arena, (size_t)scene->mesh_count, sizeof(uint32_t));
+    if (!lights->emitters || !weights.cdf || !weights.guide || !lights->mesh_first) return false;
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         if (!emits(&scene->materials[mesh->material])) continue;
@@ -228,16 +243,16 @@ static bool emitters_make(Lights *lights, double *power) {
                                                        vec3_sub(corner(mesh, t, 2), a)));
             int k = lights->emitter_count++;
             lights->emitters[k] = (Emitter){(uint32_t)m, t, area};
-            lights->emitter_cdf[k + 1] = area > 0.0f ? emitter_power(scene, mesh, t, area) : 0.0f;
+            weights.cdf[k + 1] = area > 0.0f ? emitter_power(scene, mesh, t, area) : 0.0f;
         }
     }
-    *power = distribution_make(lights->emitter_cdf, lights->emitter_count);
+    *power = distribution_make(&lights->emitter_choice, lights->emitter_count, weights.cdf, weights.guide);
     if (*power <= 0.0) lights->emitter_count = 0;
     return true;
 }
 
 static LightSample sample_emitter(const Lights *lights, Vec3 point, float u, float v, float w) {
-    Choice choice = distribution_choose(lights->emitter_cdf, lights->emitter_count, w);
+    Choice choice = distribution_choose(&lights->emitter_choice, w);
     const Emitter *emitter = &lights->emitters[choice.index];
     const Mesh *mesh = &lights->scene->meshes[emitter->mesh];
     const Material *material = &lights->scene->materials[mesh->material];
@@ -271,7 +286,7 @@ static LightSample sample_emitter(const Lights *lights, Vec3 point, float u, flo
 float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, float t, float cosine) {
     if (!lights->emitter_count || !lights->mesh_first[mesh]) return 0.0f;
     uint32_t k = lights->mesh_first[mesh] - 1 + triangle;
-    float choice = lights->emitter_cdf[k + 1] - lights->emitter_cdf[k];
+    float choice = distribution_probability(&lights->emitter_choice, (int)k);
     float area = lights->emitters[k].area;
     if (!(area > 0.0f)) return 0.0f;
     return group_share(lights, GROUP_EMITTER) * choice * t * t / (area * max(abs(cosine), 1e-6f));
@@ -281,7 +296,7 @@ float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle
 
 /* The cone and window of KHR_lights_punctual (Khronos Group, 2018-2020). */
 static LightSample sample_punctual(const Lights *lights, Vec3 point, float w) {
-    Choice choice = distribution_choose(lights->punctual_cdf, lights->scene->light_count, w);
+    Choice choice = distribution_choose(&lights->punctual_choice, w);
     const Light *light = &lights->scene->lights[choice.index];
     LightSample s = {.distance = INFINITY, .punctual = true};
     s.pdf = group_share(lights, GROUP_PUNCTUAL) * choice.probability;
@@ -314,14 +329,14 @@ static bool punctual_make(Lights *lights, float radius, double *power) {
     const WeftScene *scene = lights->scene;
     *power = 0.0;
     if (!scene->light_count) return true;
-    lights->punctual_cdf = alloc_array((size_t)scene->light_count + 1, sizeof(float));
-    if (!lights->punctual_cdf) return false;
+    Weights weights = weights_alloc(&lights->arena, scene->light_count);
+    if (!weights.cdf || !weights.guide) return false;
     for (int k = 0; k < scene->light_count; k++) {
         const Light *light = &scene->lights[k];
         float spread = light->kind == LIGHT_DIRECTIONAL ? PI * radius * radius : 2.0f * TWO_PI;
-        lights->punctual_cdf[k + 1] = max(luminance(light->color) * light->intensity, 1e-6f) * spread;
+        weights.cdf[k + 1] = max(luminance(light->color) * light->intensity, 1e-6f) * spread;
     }
-    *power = distribution_make(lights->punctual_cdf, scene->light_count);
+    *power = distribution_make(&lights->punctual_choice, scene->light_count, weights.cdf, weights.guide);
     return true;
 }
 
@@ -334,7 +349,8 @@ WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error)
     lights->scene = scene;
     lights->cos_turn = cos(e->rotation);
     lights->sin_turn = sin(e->rotation);
-    float radius = max(0.5f * vec3_length(vec3_sub(scene->high, scene->low)), 1e-6f);
+    float radius = 0.5f * vec3_length(vec3_sub(scene->high, scene->low));
+    if (!(radius > 1e-6f && radius < INFINITY)) radius = 1.0f; /* a point, or nothing at all */
     double power[GROUP_COUNT] = {0};
     double mean = e->kind == ENVIRONMENT_CONSTANT ? (double)luminance(e->color) : map_make(lights);
     bool made = mean >= 0.0 && emitters_make(lights, &power[GROUP_EMITTER]) &&
@@ -349,27 +365,28 @@ WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error)
     for (int g = 0; g < GROUP_COUNT; g++) total += power[g];
     /* power says little about what reaches a point: no group that shines gets less than a fifth of an equal
      * share */
+    Weights groups = weights_alloc(&lights->arena, GROUP_COUNT);
+    if (!groups.cdf || !groups.guide) {
+        lights_free(lights);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
     for (int g = 0; g < GROUP_COUNT; g++)
-        lights->group_cdf[g + 1] = power[g] > 0.0 ? (float)(power[g] / total + 0.2) : 0.0f;
-    if (total > 0.0) distribution_make(lights->group_cdf, GROUP_COUNT);
+        groups.cdf[g + 1] = power[g] > 0.0 ? (float)(power[g] / total + 0.2) : 0.0f;
+    lights->dark = !(total > 0.0);
+    distribution_make(&lights->group_choice, GROUP_COUNT, groups.cdf, groups.guide);
     *out = lights;
     return WEFT_OK;
 }
 
 void lights_free(Lights *lights) {
     if (!lights) return;
-    free(lights->map_rows);
-    free(lights->map_columns);
-    free(lights->emitters);
-    free(lights->emitter_cdf);
-    free(lights->mesh_first);
-    free(lights->punctual_cdf);
+    arena_free(&lights->arena);
     free(lights);
 }
 
 LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v, float w) {
-    if (lights->group_cdf[GROUP_COUNT] <= 0.0f) return (LightSample){0};
-    Choice group = distribution_choose(lights->group_cdf, GROUP_COUNT, w);
+    if (lights->dark) return (LightSample){0};
+    Choice group = distribution_choose(&lights->group_choice, w);
     switch ((Group)group.index) {
     case GROUP_ENVIRONMENT: return sample_environment(lights, u, v);
     case GROUP_EMITTER: return sample_emitter(lights, point, u, v, group.rest);

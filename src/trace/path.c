@@ -56,39 +56,37 @@ static float step_out(float p, float n) {
 
 static Vec3 leave(Vec3 p, Vec3 n) { return vec3(step_out(p.x, n.x), step_out(p.y, n.y), step_out(p.z, n.z)); }
 
-static Point3 prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, Rgb *emission) {
+/* Fills p for a hit seen from wo and returns what the surface itself sends there. */
+static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, Point3 *p) {
     const Material *material = &context->scene->materials[mesh->material];
     Vertex vertex = geometry_vertex(mesh, hit);
     float side = vec3_dot(vertex.geometric, wo) < 0.0f ? -1.0f : 1.0f;
     Surface surface = material_surface(context->scene, material, vertex.uv, vertex.color);
-    Point3 p = {.geometric = vec3_scale(vertex.geometric, side)};
+    p->geometric = vec3_scale(vertex.geometric, side);
+    p->stack.count = 0;
     Vec3 normal = vec3_scale(vertex.normal, side);
 
-    *emission =
-        (Rgb){surface.emission.r * surface.emission_strength, surface.emission.g * surface.emission_strength,
-              surface.emission.b * surface.emission_strength};
-    if (side < 0.0f && !material->double_sided) *emission = (Rgb){0};
-    if (material->unlit) {
-        *emission = surface.base_color;
-        return p;
-    }
-    if (vec3_dot(normal, p.geometric) <= 0.0f) normal = p.geometric; /* damaged normals */
-    p.origin = geometry_lift(mesh, hit, &vertex, side);
-    set_frame(&p, normal, vertex.tangent, vertex.handedness);
+    float strength = side < 0.0f && !material->double_sided ? 0.0f : surface.emission_strength;
+    Rgb emission = {surface.emission.r * strength, surface.emission.g * strength,
+                    surface.emission.b * strength};
+    if (material->unlit) return surface.base_color;
+    if (vec3_dot(normal, p->geometric) <= 0.0f) normal = p->geometric; /* damaged normals */
+    p->origin = geometry_lift(mesh, hit, &vertex, side);
+    set_frame(p, normal, vertex.tangent, vertex.handedness);
     Dir n = surface.normal;
     if (n.z < 1.0f)
-        set_frame(&p, bend_normal(to_world(&p, n), p.geometric, wo), p.x, vertex.handedness);
+        set_frame(p, bend_normal(to_world(p, n), p->geometric, wo), p->x, vertex.handedness);
     else if (vec3_dot(normal, wo) <= 1e-4f)
-        set_frame(&p, bend_normal(normal, p.geometric, wo), p.x, vertex.handedness);
+        set_frame(p, bend_normal(normal, p->geometric, wo), p->x, vertex.handedness);
     if (surface.anisotropy > 0.0f) {
-        Vec3 along = to_world(&p, surface.anisotropy_direction);
-        set_frame(&p, p.z, along, vertex.handedness);
+        Vec3 along = to_world(p, surface.anisotropy_direction);
+        set_frame(p, p->z, along, vertex.handedness);
     }
-    p.wo = to_local(&p, wo);
+    p->wo = to_local(p, wo);
     int m = mesh->material;
-    p.stack =
-        surface_stack(&surface, p.wo, (LobeId)material->sheen_lobe, material->layer, context->sheen_e[m]);
-    return p;
+    surface_stack(&p->stack, &surface, p->wo, (LobeId)material->sheen_lobe, material->layer,
+                  context->sheen_e[m]);
+    return emission;
 }
 
 static void add(Rgb *sum, Rgb a, Rgb b, float k) {
@@ -133,12 +131,12 @@ static void add_direct(const PathContext *context, const Point3 *p, Rgb throughp
 
 Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler, long long *rays) {
     Rgb sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
+    Point3 p;
     float pdf = 0.0f; /* of the direction by which we came; 0: the camera's */
     for (int depth = 0;; depth++) {
         const Mesh *mesh = &context->scene->meshes[hit.mesh];
         Vec3 wo = vec3_scale(ray.direction, -1.0f);
-        Rgb emission;
-        Point3 p = prepare(context, mesh, &hit, wo, &emission);
+        Rgb emission = prepare(context, mesh, &hit, wo, &p);
         if (emission.r + emission.g + emission.b > 0.0f) {
             float cosine = vec3_dot(wo, p.geometric), weight = 1.0f;
             if (pdf > 0.0f)

@@ -18,8 +18,7 @@ static void demand(int condition) {
 static void check_mesh(const WeftScene *scene, const Mesh *mesh) {
     demand(mesh->name && mesh->triangle_count && mesh->material >= 0 &&
            mesh->material < scene->material_count);
-    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
-        demand(mesh->index[i] < mesh->vertex_count);
+    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) demand(mesh->index[i] < mesh->vertex_count);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const float *p = mesh->position + 3 * i, *n = mesh->normal ? mesh->normal + 3 * i : NULL,
                     *t = mesh->tangent ? mesh->tangent + 4 * i : NULL;
@@ -50,8 +49,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     demand(scene != NULL);
     WeftError error;
     WeftResult result = gltf_read("fuzz", data, size, scene, NULL, &error);
-    if (result == WEFT_OK) check_scene(scene);
-    else demand(error.result == result && strchr(error.text, '\n') == NULL && error.text[0]);
+    if (result == WEFT_OK)
+        check_scene(scene);
+    else
+        demand(error.result == result && strchr(error.text, '\n') == NULL && error.text[0]);
     weft_scene_free(scene);
     return 0;
 }

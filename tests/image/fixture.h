@@ -3,6 +3,7 @@
 #ifndef WEFT_TESTS_IMAGE_FIXTURE_H
 #define WEFT_TESTS_IMAGE_FIXTURE_H
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,6 +36,13 @@ static inline void put_word(Bytes *bytes, int word) {
 }
 
 static inline void put_text(Bytes *bytes, const char *text) { put(bytes, text, strlen(text)); }
+
+/* A function, where cmocka's macro would cast the first part of an expression only; and NaN is near nothing.
+ */
+static inline void assert_near(float got, float want, float most) {
+    if (!(fabsf(got - want) <= most))
+        fail_msg("%g is not %g within %g", (double)got, (double)want, (double)most);
+}
 
 /* Counts warnings; user is an int. */
 static inline void count_warning(void *user, WeftMessage message, const char *text) {

@@ -124,11 +124,12 @@ static void test_grey(void **state) {
     (void)state;
     for (int i = 0; i < 4; i++) {
         const int packed = i % 2, bits = i / 2 ? 16 : 8, step = bits / 8;
+        const size_t length = (size_t)step + 1;
         Bytes bytes = header((Header){
             .type = packed ? 11 : 3, .width = WIDTH, .height = HEIGHT, .bits = bits, .descriptor = 0x20});
         if (packed) {
-            put(&bytes, (unsigned char[]){0x84, 9, 200}, (size_t)(1 + step)); /* five */
-            put(&bytes, (unsigned char[]){0x00, 8, 100}, (size_t)(1 + step)); /* one */
+            put(&bytes, (unsigned char[]){0x84, 9, 200}, length); /* five */
+            put(&bytes, (unsigned char[]){0x00, 8, 100}, length); /* one */
         } else {
             for (int n = 0; n < 5; n++) put(&bytes, (unsigned char[]){9, 200}, (size_t)step);
             put(&bytes, (unsigned char[]){8, 100}, (size_t)step);

@@ -42,7 +42,8 @@ static void test_monotone_and_grey(void **state) {
     for (int k = 0; k < 3; k++) {
         WeftImage before = flat(0.0f, 0.0f, 0.0f), last = tonemapped(&before, curves[k], 0.0f);
         weft_image_free(&before);
-        for (float x = 1e-4f; x < 1e5f; x *= 1.05f) {
+        for (int step = -270; step < 240; step++) {
+            const float x = powf(1.05f, (float)step); /* 2e-6 to 1e5 */
             WeftImage image = flat(x, x, x), next = tonemapped(&image, curves[k], 0.0f);
             const unsigned char *lower = last.pixels, *higher = next.pixels;
             for (size_t i = 0; i < value_total(&next); i++) {
@@ -58,13 +59,13 @@ static void test_monotone_and_grey(void **state) {
     }
 }
 
-/* Khronos' aim: a base colour of 0.08 to 0.8, lit by 1, plus the 4 % of a dielectric's reflection, shows as
+/* Khronos' aim: a base colour of 0.08 to 0.76, lit by 1, plus the 4 % of a dielectric's reflection, shows as
  * the base colour. */
 static void test_neutral_keeps_base_colors(void **state) {
     (void)state;
-    for (float r = 0.08f; r <= 0.75f; r += 0.11f)
-        for (float g = 0.08f; g <= 0.75f; g += 0.13f) {
-            const float b = 0.3f;
+    for (int i = 0; i <= 6; i++)
+        for (int j = 0; j <= 5; j++) {
+            const float r = 0.08f + 0.11f * (float)i, g = 0.08f + 0.13f * (float)j, b = 0.3f;
             double shown[3];
             mean(r + 0.04f, g + 0.04f, b + 0.04f, WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, shown);
             const float want[] = {srgb_encode(r), srgb_encode(g), srgb_encode(b)};

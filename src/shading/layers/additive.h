@@ -3,7 +3,9 @@
  *   f = sheen + base
  *
  *   As in engines without energy bookkeeping (Brent Burley, "Physically Based Shading at Disney", SIGGRAPH
- * 2012 course, adds its sheen so).  energy: gains E(wo) of the sheen. */
+ * 2012 course, adds its sheen so).
+ *   energy: gains E(wo) of the sheen.
+ *   reciprocal: yes. */
 #ifndef WEFT_LAYER_ADDITIVE_H
 #define WEFT_LAYER_ADDITIVE_H
 

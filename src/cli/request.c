@@ -1,0 +1,173 @@
+#include "request.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "names.h"
+#include "report.h"
+
+const Option request_options[] = {
+    OPTION_HEADING("Pictures"),
+    OPTION_LIST("-o", "OUT", "write OUT: .exr and .hdr linear, .png as displayed"),
+    OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
+    OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
+    OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
+    OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),
+    OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),
+    OPTION_TEXT("--background", "WHAT", "auto", "auto, environment, transparent or a linear r,g,b"),
+
+    OPTION_HEADING("View and light"),
+    OPTION_TEXT("--camera", "CAMERA", NULL,
+                "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "
+                "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),
+    OPTION_TEXT("--env", "FILE|r,g,b", NULL,
+                "light from a lat-long picture, or one radiance from everywhere [a studio]"),
+    OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
+    OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
+
+    OPTION_HEADING("Materials"),
+    OPTION_TEXT("--variant", "NAME", NULL, "switch to a material variant of the file"),
+    OPTION_TEXT("--sheen", "LOBE", NULL, "the lobe of every sheen; `weft models` lists them"),
+    OPTION_TEXT("--layer", "RULE", NULL, "how every sheen sits on its base; `weft models` lists them"),
+    OPTION_LIST("--set", "MAT.INPUT=VALUE",
+                "set an input of material MAT (name, index or *) to a number or r,g,b; wins over --sheen and "
+                "--layer"),
+
+    OPTION_HEADING("Sampling"),
+    OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
+                  "samples a pixel; without end where only --time-limit is given"),
+    OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
+    OPTION_NUMBER("--max-depth", "COUNT", "9", 1, 1000, "scattering events on a path; 1 is direct light"),
+    OPTION_TEXT("--sampling", "STRATEGY", "mis", "find lights by mis, light or lobe"),
+    OPTION_NUMBER("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
+    OPTION_NUMBER("--threads", "COUNT", NULL, 1, 1024,
+                  "processors to use; no influence on the picture [all]"),
+
+    OPTION_HEADING("Reports"),
+    OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
+    OPTION_SWITCH("--json", "print a JSON object with figures on standard output"),
+    OPTION_END,
+};
+
+static bool colors(const char *text, float color[3]) {
+    double c[3];
+    bool good = numbers_parse(text, 3, c);
+    for (int k = 0; good && k < 3; k++) {
+        good = c[k] >= 0.0 && c[k] <= 1e30;
+        if (good) color[k] = (float)c[k];
+    }
+    return good;
+}
+
+static bool read_crop(const Options *options, WeftRenderDesc *desc) {
+    const char *text = option_text(options, "--crop");
+    double v[4];
+    if (!text) return true;
+    bool good = numbers_parse(text, 4, v);
+    for (int k = 0; good && k < 4; k++) {
+        good = v[k] >= (k < 2 ? 0.0 : 1.0) && v[k] <= (k % 2 ? desc->height : desc->width) &&
+               !(v[k] > floor(v[k]));
+        if (good) desc->crop[k] = (int)v[k];
+    }
+    if (good && desc->crop[0] + desc->crop[2] <= desc->width && desc->crop[1] + desc->crop[3] <= desc->height)
+        return true;
+    report(WEFT_USAGE, "--crop: \"%.80s\" is not X,Y,W,H within %d x %d pixels", text, desc->width,
+           desc->height);
+    return false;
+}
+
+static bool read_background(const Options *options, WeftRenderDesc *desc) {
+    static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", NULL};
+    int choice = WEFT_BACKGROUND_COLOR;
+    bool good = colors(option_text(options, "--background"), desc->background_color) ||
+                (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);
+    desc->background = (WeftBackground)choice;
+    return good;
+}
+
+static bool read_desc(const Options *options, WeftRenderDesc *desc) {
+    static const char *const strategies[] = {"mis", "light", "lobe", NULL};
+    int seed = 0, sampling = 0;
+    bool good = option_integer(options, "--width", &desc->width) &&
+                option_integer(options, "--height", &desc->height) && read_crop(options, desc) &&
+                option_integer(options, "--max-depth", &desc->max_depth) &&
+                option_integer(options, "--seed", &seed) &&
+                option_integer(options, "--threads", &desc->threads) && read_background(options, desc) &&
+                option_choice(options, "--sampling", strategies, &sampling);
+    desc->seed = (uint32_t)seed;
+    desc->sampling = (WeftSampling)sampling;
+    desc->camera = option_text(options, "--camera");
+    return good;
+}
+
+/* Whether every --set has the right form; what it names is for the library to judge. */
+static bool check_sets(const Options *options) {
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--set", &cursor));)
+        if (!strchr(text, '.') || !strchr(text, '=')) {
+            report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
+            return false;
+        }
+    return true;
+}
+
+bool request_read(const Options *options, Request *request) {
+    static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
+    *request = (Request){
+        .options = options, .scene = options->operands[0], .quiet = option_given(options, "--quiet")};
+    const char *env = option_text(options, "--env"), *sheen = option_text(options, "--sheen"),
+               *layer = option_text(options, "--layer");
+    request->env_is_color = env && colors(env, request->env_color);
+    bool good = read_desc(options, &request->desc) && option_integer(options, "--spp", &request->spp) &&
+                option_number(options, "--time-limit", &request->time_limit) &&
+                option_number(options, "--exposure", &request->exposure) &&
+                option_number(options, "--env-rotation", &request->env_rotation) &&
+                option_number(options, "--env-strength", &request->env_strength) &&
+                option_choice(options, "--tonemap", curves, &request->tonemap) &&
+                (!sheen || lobe_named(sheen) >= 0) && (!layer || layer_named(layer) >= 0) &&
+                check_sets(options);
+    if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
+    return good;
+}
+
+/* Whether a file can come to be beside path, found out by making one. */
+static int output_possible(const char *path) {
+    struct stat status;
+    size_t size = strlen(path) + 16;
+    char *probe = malloc(size);
+    if (!probe) return report(WEFT_RESOURCES, "out of memory");
+    snprintf(probe, size, "%s.XXXXXX", path);
+    int handle = -1, reason = EISDIR;
+    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        handle = mkstemp(probe);
+        reason = errno;
+    }
+    if (handle >= 0) {
+        close(handle);
+        unlink(probe);
+    }
+    free(probe);
+    if (handle >= 0) return 0;
+    return report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE),
+                  strerror(reason));
+}
+
+int request_outputs_check(const Options *options) {
+    int cursor = 0, result = 0;
+    if (!option_given(options, "-o"))
+        return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr or .hdr file");
+    for (const char *path; (path = option_next(options, "-o", &cursor));)
+        if (!weft_image_suffix_known(path))
+            return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+    for (cursor = 0; result == 0;) {
+        const char *path = option_next(options, "-o", &cursor);
+        if (!path) break;
+        result = output_possible(path);
+    }
+    return result;
+}

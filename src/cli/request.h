@@ -1,0 +1,32 @@
+/* request.h - what a `weft render` command line asks for */
+#ifndef WEFT_CLI_REQUEST_H
+#define WEFT_CLI_REQUEST_H
+
+#include "options.h"
+#include "weft/render.h"
+
+enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
+
+extern const Option request_options[];
+
+/* What the command line asks for, checked. */
+typedef struct Request {
+    const Options *options;
+    const char *scene;
+    WeftRenderDesc desc;
+    int spp; /* 0: until the time is up */
+    double time_limit, exposure, env_rotation, env_strength;
+    int tonemap; /* WeftTonemap */
+    bool env_is_color;
+    float env_color[3];
+    bool quiet;
+} Request;
+
+/* Reads and checks all that can be judged without the scene. False after one line on standard error. */
+bool request_read(const Options *options, Request *request);
+
+/* Whether every -o names a format and a place that can be written, found out by making a file there: what can
+ * be known of the outputs before hours of rendering. Returns 0, or an exit code after one line. */
+int request_outputs_check(const Options *options);
+
+#endif

@@ -1,0 +1,250 @@
+/* `weft eval` against formulas written out here in double precision, independently of the catalogue. */
+#include "run.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+typedef struct Vector {
+    double x, y, z;
+} Vector;
+
+static Vector vector(double theta, double phi) {
+    double t = theta * pi / 180.0, p = phi * pi / 180.0;
+    return (Vector){sin(t) * cos(p), sin(t) * sin(p), cos(t)};
+}
+static double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static Vector half(Vector o, Vector i) {
+    Vector s = {o.x + i.x, o.y + i.y, o.z + i.z};
+    double l = sqrt(dot(s, s));
+    return (Vector){s.x / l, s.y / l, s.z / l};
+}
+
+/* Walter et al. 2007 with the height-correlated Smith term by Lambda, Heitz 2014. */
+static double lambda_ggx(double alpha, Vector w) {
+    double tan2 = (1.0 - w.z * w.z) / (w.z * w.z);
+    return 0.5 * (sqrt(1.0 + alpha * alpha * tan2) - 1.0);
+}
+static double d_ggx(double alpha, double cos_h) {
+    double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
+    return alpha * alpha / (pi * t * t);
+}
+static double f_ggx(double alpha, Vector o, Vector i) {
+    double g2 = 1.0 / (1.0 + lambda_ggx(alpha, o) + lambda_ggx(alpha, i));
+    return d_ggx(alpha, half(o, i).z) * g2 / (4.0 * o.z * i.z);
+}
+static double pdf_ggx(double alpha, Vector o, Vector i) {
+    return d_ggx(alpha, half(o, i).z) / ((1.0 + lambda_ggx(alpha, o)) * 4.0 * o.z);
+}
+
+/* Conty Estevez and Kulla 2017, equation 2, over the denominator of Neubelt and Pettineo 2013. */
+static double f_charlie_neubelt(double alpha, Vector o, Vector i) {
+    double cos_h = half(o, i).z, sin_h = sqrt(1.0 - cos_h * cos_h);
+    double d = (2.0 + 1.0 / alpha) * pow(sin_h, 1.0 / alpha) / (2.0 * pi);
+    return d / (4.0 * (o.z + i.z - o.z * i.z));
+}
+
+static void assert_near(double value, double expected, double relative, const char *what) {
+    if (!(fabs(value - expected) <= relative * fabs(expected) + 1e-9))
+        fail_msg("%s: %.9g, expected %.9g", what, value, expected);
+}
+
+/* Directions over the hemisphere, degrees: rows theta_o phi_o theta_i phi_i. */
+enum { ANGLES = 200 };
+static double angles[ANGLES][4];
+static char angle_lines[ANGLES * 64];
+
+static void make_angles(void) {
+    size_t used = 0;
+    for (int k = 0; k < ANGLES; k++) {
+        double u[4]; /* fractions of irrational multiples fill a box evenly */
+        for (int d = 0; d < 4; d++)
+            u[d] = fmod((k + 1) * pow(0.5 * (sqrt(5.0) - 1.0), d + 1.0) * 1.3247, 1.0);
+        double row[4] = {1.0 + 84.0 * u[0], 360.0 * u[1], 1.0 + 84.0 * u[2], 360.0 * u[3]};
+        int length = snprintf(angle_lines + used, sizeof angle_lines - used, "%.6f %.6f\t%.6f,%.6f\n", row[0],
+                              row[1], row[2], row[3]);
+        assert_int_equal(sscanf(angle_lines + used, "%lf %lf %lf,%lf", &angles[k][0], &angles[k][1],
+                                &angles[k][2], &angles[k][3]),
+                         4);
+        used += (size_t)length;
+    }
+}
+
+/* Evaluates all angles; rows are f_r f_g f_b pdf. */
+static void evaluate(const char *const *arguments, double rows[ANGLES][4]) {
+    Ran ran = run_with(angle_lines, arguments);
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    const char *text = ran.out;
+    for (int k = 0; k < ANGLES; k++) {
+        int used = 0;
+        assert_int_equal(
+            sscanf(text, "%lf %lf %lf %lf%n", &rows[k][0], &rows[k][1], &rows[k][2], &rows[k][3], &used), 4);
+        assert_int_equal(text[used], '\n');
+        text += used + 1;
+    }
+    assert_int_equal(*text, '\0');
+    ran_free(&ran);
+}
+
+static void lambert_is_one_over_pi(void **state) {
+    (void)state;
+    double rows[ANGLES][4];
+    evaluate(LIST("eval", "lambert", "-p", "color=1,0.5,0.25"), rows);
+    for (int k = 0; k < ANGLES; k++) {
+        assert_near(rows[k][0], 1.0 / pi, 1e-6, "red");
+        assert_near(rows[k][1], 0.5 / pi, 1e-6, "green");
+        assert_near(rows[k][2], 0.25 / pi, 1e-6, "blue");
+        assert_near(rows[k][3], cos(angles[k][2] * pi / 180.0) / pi, 1e-5, "pdf");
+    }
+}
+
+static void ggx_is_its_formula(void **state) {
+    (void)state;
+    double rows[ANGLES][4];
+    evaluate(LIST("eval", "ggx", "-p", "alpha=0.3", "-p", "f0=0.04,0.5,1", "-p", "f90=1"), rows);
+    for (int k = 0; k < ANGLES; k++) {
+        Vector o = vector(angles[k][0], angles[k][1]), i = vector(angles[k][2], angles[k][3]);
+        double s = pow(1.0 - dot(i, half(o, i)), 5.0), f = f_ggx(0.3, o, i);
+        assert_near(rows[k][0], f * (0.04 + 0.96 * s), 1e-4, "red");
+        assert_near(rows[k][1], f * (0.5 + 0.5 * s), 1e-4, "green");
+        assert_near(rows[k][2], f, 1e-4, "blue");
+        assert_near(rows[k][3], pdf_ggx(0.3, o, i), 1e-4, "pdf");
+    }
+}
+
+static void charlie_neubelt_is_its_formula(void **state) {
+    (void)state;
+    double rows[ANGLES][4];
+    evaluate(LIST("eval", "charlie-neubelt", "-p", "alpha=0.25"), rows);
+    for (int k = 0; k < ANGLES; k++) {
+        Vector o = vector(angles[k][0], angles[k][1]), i = vector(angles[k][2], angles[k][3]);
+        double f = f_charlie_neubelt(0.25, o, i);
+        for (int c = 0; c < 3; c++) assert_near(rows[k][c], f, 1e-3, "f");
+        assert_true(rows[k][3] > 0.0);
+    }
+}
+
+static void file_and_input_are_the_same(void **state) {
+    (void)state;
+    file_make("angles.txt", angle_lines, strlen(angle_lines));
+    Ran piped = run_with(angle_lines, LIST("eval", "ggx")), filed = RUN("eval", "ggx", "angles.txt"),
+        dashed = run_with(angle_lines, LIST("eval", "ggx", "-"));
+    assert_int_equal(filed.code, 0);
+    assert_string_equal(piped.out, filed.out);
+    assert_string_equal(piped.out, dashed.out);
+    ran_free(&piped), ran_free(&filed), ran_free(&dashed);
+}
+
+static void horizon_and_beyond_are_zero(void **state) {
+    (void)state;
+    static const char lines[] = "90 0 10 0\n10 0 90 0\n100 0 10 0\n10 0 91 45\n180 0 180 0\n";
+    Ran ran = run_with(lines, LIST("eval", "charlie-neubelt"));
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.out, "0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n");
+    ran_free(&ran);
+}
+
+static void lines_that_say_nothing_are_passed_over(void **state) {
+    (void)state;
+    Ran ran = run_with("# angles\n\n  \t\r\n10,20, 30 ,40\r\n  10\t20 30 40", LIST("eval", "lambert"));
+    assert_int_equal(ran.code, 0);
+    const char *second = strchr(ran.out, '\n') + 1;
+    assert_int_equal(strlen(ran.out), 2 * strlen(second)); /* two equal lines */
+    assert_memory_equal(ran.out, second, strlen(second));
+    ran_free(&ran);
+}
+
+/* What comes before the bad line is answered, the line is named, nothing after it is read. */
+static void malformed_lines_are_named(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"1 2 3",     "1 2 3 4 5", "1 2 3 x", "1 2 3 4x", "1,,2,3,4",
+                                        "1 2 3 nan", "1 2 inf 4", "1;2;3;4", ",1,2,3,4", "1 2 3 4,"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char input[128];
+        snprintf(input, sizeof input, "0 0 0 0\n# note\n%s\n0 0 0 0\n", wrong[k]);
+        Ran ran = run_with(input, LIST("eval", "lambert"));
+        if (ran.code != 3 || !one_complaint(ran.err) || !strstr(ran.err, "line 3"))
+            fail_msg("\"%s\": %d, %s", wrong[k], ran.code, ran.err);
+        assert_int_equal(strcspn(ran.out, "\n") + 1, strlen(ran.out));
+        ran_free(&ran);
+    }
+    char *endless = malloc(100001);
+    assert_non_null(endless);
+    memset(endless, '1', 100000);
+    endless[100000] = '\0';
+    assert_complaint(endless, LIST("eval", "lambert"), 3, "line 1: is too long");
+    free(endless);
+    assert_complaint(NULL, LIST("eval", "lambert", "no such file"), 3, "no such file: cannot be opened");
+    assert_complaint(NULL, LIST("eval", "lambert", "/"), 3, "/: cannot be read");
+}
+
+static void albedo_of_lambert_is_one(void **state) {
+    (void)state;
+    Ran ran = run_with("1\n0.5\n0.01\n", LIST("eval", "lambert", "--albedo"));
+    assert_int_equal(ran.code, 0);
+    const char *text = ran.out;
+    for (int k = 0; k < 3; k++) {
+        char *end;
+        assert_near(strtod(text, &end), 1.0, 1e-4, "albedo");
+        assert_int_equal(*end, '\n');
+        text = end + 1;
+    }
+    assert_int_equal(*text, '\0');
+    ran_free(&ran);
+}
+
+/* Midpoints over (cos_i, phi): enough for a lobe as smooth as alpha 0.5. */
+static double albedo_charlie_neubelt(double alpha, double cos_o) {
+    const int n = 400;
+    Vector o = {sqrt(1.0 - cos_o * cos_o), 0.0, cos_o};
+    double sum = 0.0;
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < n; b++) {
+            double z = (a + 0.5) / n, phi = 2.0 * pi * (b + 0.5) / n, r = sqrt(1.0 - z * z);
+            sum += f_charlie_neubelt(alpha, o, (Vector){r * cos(phi), r * sin(phi), z}) * z;
+        }
+    return sum * 2.0 * pi / n / n;
+}
+
+static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
+    (void)state;
+    Ran ran = run_with("0.7 \n",
+                       LIST("eval", "charlie-neubelt", "-p", "alpha=0.5", "-p", "color=1,0.5,0", "--albedo"));
+    double e[3], expected = albedo_charlie_neubelt(0.5, 0.7);
+    assert_int_equal(ran.code, 0);
+    assert_int_equal(sscanf(ran.out, "%lf %lf %lf", &e[0], &e[1], &e[2]), 3);
+    assert_near(e[0], expected, 1e-3, "red");
+    assert_near(e[1], 0.5 * expected, 1e-3, "green");
+    assert_near(e[2], 0.0, 1e-3, "blue");
+    ran_free(&ran);
+    assert_complaint("0\n", LIST("eval", "lambert", "--albedo"), 3, "line 1: is not a cosine");
+    assert_complaint("1.01\n", LIST("eval", "lambert", "--albedo"), 3, "line 1: is not a cosine");
+}
+
+static void implausible_parameters_are_warned_of(void **state) {
+    (void)state;
+    Ran ran = run_with("10 0 20 0\n", LIST("eval", "ggx", "-p", "alpha=9"));
+    assert_int_equal(ran.code, 0);
+    assert_true(one_complaint(ran.err));
+    assert_memory_equal(ran.err, "weft: warning: alpha", 20);
+    ran_free(&ran);
+}
+
+int main(void) {
+    make_angles();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lambert_is_one_over_pi),
+        cmocka_unit_test(ggx_is_its_formula),
+        cmocka_unit_test(charlie_neubelt_is_its_formula),
+        cmocka_unit_test(file_and_input_are_the_same),
+        cmocka_unit_test(horizon_and_beyond_are_zero),
+        cmocka_unit_test(lines_that_say_nothing_are_passed_over),
+        cmocka_unit_test(malformed_lines_are_named),
+        cmocka_unit_test(albedo_of_lambert_is_one),
+        cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),
+        cmocka_unit_test(implausible_parameters_are_warned_of),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}

@@ -1,0 +1,250 @@
+/* `weft render`: pictures come out, as asked for, and nothing is lost when they cannot. */
+#include "run.h"
+
+#include <jansson.h>
+#include <math.h>
+
+#include "weft/weft.h"
+
+#define TINY "--width", "32", "--height", "24", "--spp", "4"
+
+static WeftImage picture(const char *path) {
+    WeftImage image;
+    WeftError error = {0};
+    if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+static void assert_size(const char *path, int width, int height) {
+    WeftImage image = picture(path);
+    assert_int_equal(image.width, width);
+    assert_int_equal(image.height, height);
+    weft_image_free(&image);
+}
+
+static json_t *parsed(const char *text) {
+    json_error_t error;
+    json_t *value = json_loads(text, 0, &error);
+    if (!value) fail_msg("not JSON: line %d: %s\n%s", error.line, error.text, text);
+    return value;
+}
+
+static double number(json_t *object, const char *key) {
+    assert_true(json_is_number(json_object_get(object, key)));
+    return json_number_value(json_object_get(object, key));
+}
+
+/* Runs and asserts exit 0. */
+static Ran done(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+    return ran;
+}
+
+static void quietly(const char *const *arguments) {
+    Ran ran = done(arguments);
+    assert_string_equal(ran.err, "");
+    assert_string_equal(ran.out, "");
+    ran_free(&ran);
+}
+
+static void builtin_scene_comes_out_in_three_formats(void **state) {
+    (void)state;
+    Ran ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr"));
+    assert_string_equal(ran.out, "");
+    assert_true(one_complaint(ran.err)); /* the summary; no progress bar: this is no terminal */
+    assert_non_null(strstr(ran.err, "4 samples/pixel in "));
+    assert_non_null(strstr(ran.err, " M samples/s; wrote a.png, a.exr, a.hdr\n"));
+    assert_size("a.png", 32, 24);
+    assert_size("a.exr", 32, 24);
+    assert_size("a.hdr", 32, 24);
+    WeftImage linear = picture("a.exr");
+    assert_int_equal(linear.type, WEFT_PIXEL_F32);
+    weft_image_free(&linear);
+    ran_free(&ran);
+}
+
+static void seed_alone_decides(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.png", "-o", "a.exr", "--threads", "1"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.png", "-o", "b.exr", "--seed=0",
+                 "--threads=3"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "c.exr", "--seed", "1"));
+    size_t png_size, exr_size;
+    char *png = file_bytes("a.png", &png_size), *exr = file_bytes("a.exr", &exr_size);
+    assert_true(same_bytes("b.png", png, png_size));
+    assert_true(same_bytes("b.exr", exr, exr_size));
+    assert_false(same_bytes("c.exr", exr, exr_size));
+    free(png), free(exr);
+}
+
+static float mean(const char *path) {
+    WeftImage raw = picture(path), image;
+    assert_int_equal(weft_image_convert_f32(&raw, 0, &image, NULL), WEFT_OK);
+    const float *values = image.pixels;
+    int pixels = image.width * image.height, colors = image.channels < 3 ? image.channels : 3;
+    double sum = 0.0;
+    for (int k = 0; k < pixels; k++)
+        for (int c = 0; c < colors; c++) sum += (double)values[k * image.channels + c];
+    weft_image_free(&raw);
+    weft_image_free(&image);
+    return (float)(sum / (pixels * colors));
+}
+
+static void light_and_picture_options_work(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "dark.exr", "--env", "0,0,0",
+                 "--background=environment"));
+    assert_true(mean("dark.exr") == 0.0f);
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "one.exr", "-o", "one.png", "--env",
+                 "0.25,0.25,0.25", "--env-strength=4", "--background=environment", "--camera",
+                 "0,0,3;0,0,9;30"));
+    assert_true(fabsf(mean("one.exr") - 1.0f) < 1e-3f); /* it looks away from all there is */
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "low.exr", "-o", "low.png", "--exposure=-12",
+                 "--env", "1,1,1", "--background", "environment", "--tonemap=none"));
+    assert_true(mean("low.exr") > 0.3f); /* exposure is for display */
+    assert_true(mean("low.png") < 0.02f);
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "clear.png", "--background=transparent",
+                 "--camera", "0,0,3;0,0,9;30"));
+    WeftImage clear = picture("clear.png");
+    assert_int_equal(clear.channels, 4);
+    for (int k = 0; k < 32 * 24; k++) assert_int_equal(((unsigned char *)clear.pixels)[4 * k + 3], 0);
+    weft_image_free(&clear);
+}
+
+static void crop_is_a_part_of_the_whole(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "crop.exr", "--crop", "8,6,16,12"));
+    assert_size("crop.exr", 16, 12);
+}
+
+static void materials_can_be_set(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.exr", "--camera=front"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.exr", "--camera=0", "--set",
+                 "cloth.base_color=0", "--set=*.sheen_color=0,0,0", "--sheen", "charlie-neubelt",
+                 "--layer=additive"));
+    assert_true(mean("b.exr") < mean("a.exr"));
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--set=wool.ior=1.5"), 2,
+                     "wool: is not a material");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--set=cloth.iro=1.5"), 2,
+                     "iro: is not a parameter");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--variant=x"), 2,
+                     "x: is not a material variant");
+}
+
+static void json_holds_the_figures(void **state) {
+    (void)state;
+    static const char odd[] = "o\"\\\n\xc3\xa4\xff.png"; /* quote, backslash, newline, UTF-8 and not */
+    Ran ran = done(LIST("render", "scene.gltf", TINY, "--json", "-o", odd, "-o", "a.exr", "--set=cloth.ior=3",
+                        "--camera", "0,0,4;0,0,0;40"));
+    assert_non_null(strstr(ran.err, "weft: warning: "));
+    json_t *all = parsed(ran.out), *camera = json_object_get(all, "camera"),
+           *seconds = json_object_get(all, "seconds");
+    assert_string_equal(json_string_value(json_object_get(all, "scene")), "scene.gltf");
+    assert_true(number(all, "width") == 32.0 && number(all, "height") == 24.0);
+    assert_true(number(all, "triangles") == 1.0);
+    assert_true(number(all, "samples_per_pixel") == 4.0);
+    assert_true(json_is_false(json_object_get(all, "interrupted")));
+    assert_true(number(seconds, "load") >= 0.0 && number(seconds, "build") >= 0.0 &&
+                number(seconds, "render") > 0.0);
+    assert_true(number(all, "rays") >= 32.0 * 24.0 * 4.0);
+    double rate = number(all, "samples_per_second") * number(seconds, "render");
+    assert_true(fabs(rate - 32.0 * 24.0 * 4.0) < 1.0);
+    assert_true(number(all, "rays_per_second") > 0.0 && number(all, "peak_memory_bytes") > 1e6);
+    assert_true(fabs(number(camera, "fov") - 40.0) < 1e-3);
+    assert_true(json_number_value(json_array_get(json_object_get(camera, "eye"), 2)) == 4.0);
+    assert_int_equal(json_array_size(json_object_get(all, "warnings")), 1);
+    json_t *outputs = json_object_get(all, "outputs");
+    assert_int_equal(json_array_size(outputs), 2);
+    assert_string_equal(json_string_value(json_array_get(outputs, 0)), "o\"\\\n\xc3\xa4\xef\xbf\xbd.png");
+    json_decref(all);
+    ran_free(&ran);
+    ran = done(LIST("render", "scene.gltf", TINY, "--json", "--quiet", "-o", "a.png", "--set=cloth.ior=3"));
+    assert_string_equal(ran.err, "");
+    ran_free(&ran);
+}
+
+static void time_limit_ends_it_well(void **state) {
+    (void)state;
+    Ran ran = done(LIST("render", "scene.gltf", "--width=32", "--height=24", "--time-limit=0.3", "--json",
+                        "-o", "a.png"));
+    json_t *all = parsed(ran.out);
+    double render = number(json_object_get(all, "seconds"), "render");
+    assert_true(render >= 0.25 && render < 5.0);
+    assert_true(number(all, "samples_per_pixel") > 0.0);
+    assert_true(json_is_false(json_object_get(all, "interrupted")));
+    assert_size("a.png", 32, 24);
+    json_decref(all);
+    ran_free(&ran);
+    ran = done(LIST("render", "scene.gltf", TINY, "--time-limit=100", "-o", "a.png"));
+    assert_non_null(strstr(ran.err, " 4 samples/pixel"));
+    ran_free(&ran);
+}
+
+/* Interrupts a long render after some seconds; longer and longer until it had taken a sample. */
+static void interrupt_writes_what_there_is(void **state) {
+    (void)state;
+    static const int signals[] = {SIGINT, SIGTERM};
+    for (int s = 0; s < 2; s++) {
+        file_make("a.png", "old", 3);
+        Ran ran;
+        bool early = true;
+        for (double pause = 0.5; early && pause < 20.0; pause *= 2.0) {
+            pid_t child = program_start(WEFT_PROGRAM, NULL,
+                                        LIST("render", "scene.gltf", "--time-limit=60", "-o", "a.png"));
+            sleep_seconds(pause);
+            kill(child, signals[s]);
+            ran = program_end(child);
+            early = strstr(ran.err, "before the first sample") != NULL;
+            if (early) ran_free(&ran);
+        }
+        assert_false(early);
+        assert_int_equal(ran.code, 130);
+        assert_true(one_complaint(ran.err));
+        assert_non_null(strstr(ran.err, "interrupted at "));
+        assert_size("a.png", 960, 720);
+        ran_free(&ran);
+    }
+}
+
+static void failures_keep_the_old_picture(void **state) {
+    (void)state;
+    file_make("a.png", "old", 3);
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
+    assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
+                     "builtin:none: is not a built-in scene");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
+                     "back: is not a camera");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--env=none.hdr"), 3,
+                     "none.hdr: cannot be opened");
+    assert_complaint(NULL, LIST("render", "stdin", "-o", "a.png"), 3, "stdin: ");
+    assert_true(same_bytes("a.png", "old", 3));
+}
+
+/* No scene is there to be read, so exit 4 shows that the outputs come first. */
+static void outputs_are_tried_first(void **state) {
+    (void)state;
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "no/folder/a.png"), 4,
+                     "no/folder/a.png: cannot be written");
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "/proc/a.exr"), 4,
+                     "/proc/a.exr: cannot be written");
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "b.jpg"), 2,
+                     "b.jpg: has no suffix");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(builtin_scene_comes_out_in_three_formats),
+        cmocka_unit_test(seed_alone_decides),
+        cmocka_unit_test(light_and_picture_options_work),
+        cmocka_unit_test(crop_is_a_part_of_the_whole),
+        cmocka_unit_test(materials_can_be_set),
+        cmocka_unit_test(json_holds_the_figures),
+        cmocka_unit_test(time_limit_ends_it_well),
+        cmocka_unit_test(interrupt_writes_what_there_is),
+        cmocka_unit_test(failures_keep_the_old_picture),
+        cmocka_unit_test(outputs_are_tried_first),
+    };
+    return cmocka_run_group_tests(tests, scene_begin, work_end);
+}

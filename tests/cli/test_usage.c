@@ -1,0 +1,130 @@
+/* Help, version, and every way to type something wrong. */
+#include "run.h"
+
+static const char *const render_options[] = {
+    "-o",      "--width",      "--height",   "--spp",      "--max-depth",    "--time-limit",
+    "--crop",  "--camera",     "--env",      "--exposure", "--env-rotation", "--tonemap",
+    "--seed",  "--background", "--quiet",    "--threads",  "--variant",      "--set",
+    "--sheen", "--layer",      "--sampling", "--json",     "--help",         "--env-strength",
+    NULL};
+
+/* The help of a verb holds each option at the start of a line, and fits. */
+static void check_help(const char *verb, const char *const *options) {
+    Ran ran = RUN(verb, "--help");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    for (int k = 0; options[k]; k++) {
+        char row[64];
+        snprintf(row, sizeof row, "\n  %s ", options[k]);
+        if (!strstr(ran.out, row)) fail_msg("weft %s --help lacks %s", verb, options[k]);
+    }
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") > 80) fail_msg("weft %s --help: over 80 columns: %.100s", verb, line);
+    assert_non_null(strstr(ran.out, "Usage: weft "));
+    assert_non_null(strstr(ran.out, "\nExamples\n"));
+    ran_free(&ran);
+}
+
+static void help_is_complete(void **state) {
+    (void)state;
+    check_help("render", render_options);
+    check_help("models", LIST("--json", "--help"));
+    check_help("eval", LIST("-p", "--albedo", "--json", "--help"));
+    Ran ran = RUN("--help");
+    assert_int_equal(ran.code, 0);
+    assert_true(strstr(ran.out, "\n  render ") && strstr(ran.out, "\n  models ") &&
+                strstr(ran.out, "\n  eval "));
+    ran_free(&ran);
+    ran = RUN("--version");
+    assert_int_equal(ran.code, 0);
+    assert_memory_equal(ran.out, "weft ", 5);
+    ran_free(&ran);
+}
+
+static void usage_errors_are_one_line(void **state) {
+    (void)state;
+    assert_complaint(NULL, (const char *const[]){NULL}, 2, "weft --help");
+    assert_complaint(NULL, LIST("rendr"), 2, "did you mean render?");
+    assert_complaint(NULL, LIST("x\ny"), 2, "x?y: is not a verb");
+    assert_complaint(NULL, LIST("render"), 2, "SCENE -o OUT");
+    assert_complaint(NULL, LIST("render", "a.glb"), 2, "-o OUT");
+    assert_complaint(NULL, LIST("render", "a.glb", "b.glb", "-o", "o.png"), 2, "b.glb");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o"), 2, "-o: needs a value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "--quiet"), 2,
+                     "--spp: needs a value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--time", "3"), 2,
+                     "did you mean --time-limit?");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--widht=3"), 2, "did you mean --width?");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--zzzzzz"), 2, "weft render --help");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--quiet=1"), 2, "takes no value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "3", "--spp=4"), 2, "given twice");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.jpg"), 2, "o.jpg: has no suffix");
+    assert_complaint(NULL, LIST("models", "charlie"), 2, "did you mean charlie-neubelt?");
+    assert_complaint(NULL, LIST("eval"), 2, "LOBE");
+    assert_complaint(NULL, LIST("eval", "gx"), 2, "did you mean ggx?");
+    assert_complaint(NULL, LIST("eval", "ggx", "-p", "alpha"), 2, "name=value");
+    assert_complaint(NULL, LIST("eval", "ggx", "-p", "beta=1"), 2, "beta: is not a parameter");
+    assert_complaint(NULL, LIST("eval", "ggx", "-p", "alpha=1x"), 2, "1x: is not a value");
+}
+
+/* Every wrong number is refused before anything is read: there is no a.glb. */
+static void numbers_are_checked(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"--width=0",         "--width=65537",
+                                        "--width=1.5",       "--height=-3",
+                                        "--height=",         "--spp=0",
+                                        "--spp=12x",         "--spp=nan",
+                                        "--spp=1e99",        "--max-depth=0",
+                                        "--time-limit=0",    "--time-limit=inf",
+                                        "--time-limit=3s",   "--seed=-1",
+                                        "--threads=0",       "--exposure=nan",
+                                        "--exposure=1,2",    "--env-rotation=x",
+                                        "--env-strength=-1", "--crop=1,2,3",
+                                        "--crop=0,0,0,5",    "--crop=0,0,5,5,",
+                                        "--crop=950,0,20,5", "--crop=0.5,0,2,2",
+                                        "--crop=nan,0,2,2",  "--tonemap=filmic",
+                                        "--sampling=all",    "--background=blue",
+                                        "--background=1,2",  "--background=-1,0,0",
+                                        "--sheen=velvet",    "--layer=glue",
+                                        "--set=roughness=1", "--set=cloth.roughness"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(wrong[k], "="), wrong[k]);
+        bool by_value = strcmp(name, "--sheen") == 0 || strcmp(name, "--layer") == 0;
+        assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", wrong[k]), 2,
+                         by_value ? "is not a" : name);
+    }
+}
+
+static void pipes_end_quietly(void **state) {
+    (void)state;
+    Ran ran = run_shell("\"$0\" models | head -n 1");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    assert_string_equal(ran.out, "Lobes\n");
+    ran_free(&ran);
+    ran = run_shell("yes 30 0 60 180 | \"$0\" eval lambert | head -n 1"); /* ends only if the pipe ends it */
+    assert_string_equal(ran.err, "");
+    ran_free(&ran);
+}
+
+static void full_output_is_reported(void **state) {
+    (void)state;
+    static const char *const lines[] = {"\"$0\" models > /dev/full", "\"$0\" --help > /dev/full",
+                                        "yes 30 0 60 180 | \"$0\" eval lambert > /dev/full"};
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        Ran ran = run_shell(lines[k]);
+        assert_int_equal(ran.code, 4);
+        assert_true(one_complaint(ran.err));
+        ran_free(&ran);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_is_complete),        cmocka_unit_test(usage_errors_are_one_line),
+        cmocka_unit_test(numbers_are_checked),     cmocka_unit_test(pipes_end_quietly),
+        cmocka_unit_test(full_output_is_reported),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}

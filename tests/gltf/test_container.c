@@ -1,0 +1,251 @@
+/* GLB and JSON containers, versions, extensions, URIs. */
+#include "reading.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void put_word(unsigned char *p, size_t value) {
+    for (int k = 0; k < 4; k++) p[k] = (unsigned char)(value >> 8 * k);
+}
+
+/* A chunk at an offset of out; the offset behind it. */
+static size_t put_chunk(unsigned char *out, size_t at, size_t kind, const void *body, size_t size) {
+    put_word(out + at, size);
+    put_word(out + at + 4, kind);
+    memcpy(out + at + 8, body, size);
+    return at + 8 + size;
+}
+
+enum { KIND_JSON = 0x4e4f534a, KIND_BIN = 0x004e4942, MAGIC = 0x46546c67 };
+
+/* A GLB of the text and bin (NULL: no second chunk) in out; its size. */
+static size_t glb(unsigned char *out, const char *text, const void *bin, size_t bin_size) {
+    size_t size = put_chunk(out, 12, KIND_JSON, text, strlen(text));
+    if (bin) size = put_chunk(out, size, KIND_BIN, bin, bin_size);
+    put_word(out, MAGIC);
+    put_word(out + 4, 2);
+    put_word(out + 8, size);
+    return size;
+}
+
+static const char triangle_text[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+    "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":"
+    "[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0}]}";
+static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+static void reads_glb(void **state) {
+    (void)state;
+    unsigned char bytes[1024];
+    size_t size = glb(bytes, triangle_text, triangle, sizeof triangle);
+    Reading *reading = read_gltf("triangle.glb", bytes, size);
+    assert_read(reading);
+    assert_int_equal(reading->scene->mesh_count, 1);
+    assert_int_equal(reading->scene->meshes[0].triangle_count, 1);
+    assert_memory_equal(reading->scene->meshes[0].position, triangle, sizeof triangle);
+    assert_null(reading->scene->meshes[0].normal);
+    done(reading);
+    /* What lies behind the end is reported, not read. */
+    reading = read_gltf("triangle.glb", bytes, size + 4);
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
+    done(reading);
+}
+
+static void refuses_damaged_glb(void **state) {
+    (void)state;
+    unsigned char bytes[1024];
+    size_t size = glb(bytes, triangle_text, triangle, sizeof triangle);
+    for (size_t cut = 0; cut < size; cut++) {
+        Reading *reading = read_gltf("cut.glb", bytes, cut);
+        assert_int_equal(reading->result, WEFT_INPUT);
+        assert_int_equal(reading->error.message, WEFT_MESSAGE_GLTF_CONTAINER);
+        done(reading);
+    }
+    put_word(bytes + 4, 1);
+    assert_refused(read_gltf("old.glb", bytes, size), WEFT_MESSAGE_GLTF_VERSION, "GLB version 1");
+    put_word(bytes + 4, 2);
+    put_word(bytes + 12, 1 << 20);
+    assert_refused(read_gltf("chunk.glb", bytes, size), WEFT_MESSAGE_GLTF_CONTAINER, "chunk 0");
+    size = glb(bytes, triangle_text, triangle, sizeof triangle);
+    bytes[16] = 'X';
+    assert_refused(read_gltf("kind.glb", bytes, size), WEFT_MESSAGE_GLTF_CONTAINER, "first chunk");
+    size = glb(bytes, triangle_text, triangle, 32);
+    assert_refused(read_gltf("short.glb", bytes, size), WEFT_MESSAGE_GLTF_BOUNDS, "buffers[0]: 32 of 36");
+}
+
+static void refuses_text(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        WeftMessage message;
+        const char *part;
+    } cases[] = {
+        {"", WEFT_MESSAGE_GLTF_CONTAINER, "neither"},
+        {"P6 1 1", WEFT_MESSAGE_GLTF_CONTAINER, "neither"},
+        {"{\"asset\":", WEFT_MESSAGE_GLTF_JSON, "line 1"},
+        {"{}\n{}", WEFT_MESSAGE_GLTF_JSON, "line 2"},
+        {"{\"a\":1e999}", WEFT_MESSAGE_GLTF_JSON, "overflow"},
+        {"{}", WEFT_MESSAGE_GLTF_VERSION, "asset.version"},
+        {"{\"asset\":{\"version\":\"1.0\"}}", WEFT_MESSAGE_GLTF_VERSION, "1.0"},
+        {"{\"asset\":{\"version\":\"2.0\",\"minVersion\":\"2.1\"}}", WEFT_MESSAGE_GLTF_VERSION, "2.1"},
+        {"{\"asset\":{\"version\":2}}", WEFT_MESSAGE_GLTF_SCHEMA, "asset.version: expected a string"},
+        {"{\"asset\":[]}", WEFT_MESSAGE_GLTF_SCHEMA, "asset: expected an object"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_refused(read_gltf("text", cases[i].text, strlen(cases[i].text)), cases[i].message,
+                       cases[i].part);
+    /* Nesting is bounded, so that no file can exhaust the stack. */
+    size_t size = 5000000;
+    char *text = malloc(size);
+    memset(text, '[', size);
+    text[0] = '{';
+    assert_refused(read_gltf("deep", text, 100), WEFT_MESSAGE_GLTF_JSON, "line 1");
+    memcpy(text, (const char[]){'{', '"', 'a', '"', ':'}, 5);
+    assert_refused(read_gltf("deep", text, 100000), WEFT_MESSAGE_GLTF_JSON, "depth");
+    assert_refused(read_gltf("many", text, size), WEFT_MESSAGE_GLTF_TOO_LARGE, "JSON values");
+    free(text);
+}
+
+static void names_extensions(void **state) {
+    (void)state;
+    assert_refused(read_rest("'extensionsRequired':['KHR_draco_mesh_compression']"),
+                   WEFT_MESSAGE_GLTF_EXTENSION, "KHR_draco_mesh_compression");
+    assert_refused(read_rest("'extensionsRequired':['KHR_mesh_quantization','KHR_texture_basisu']"),
+                   WEFT_MESSAGE_GLTF_EXTENSION, "KHR_texture_basisu");
+    assert_refused(read_rest("'extensionsRequired':['line\\nbreak']"), WEFT_MESSAGE_GLTF_EXTENSION,
+                   "line?break");
+    Reading *reading =
+        read_rest("'extensionsUsed':['KHR_materials_iridescence','KHR_materials_sheen','X_Y']");
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_EXTENSION], 2);
+    assert_non_null(strstr(reading->warning, "X_Y"));
+    done(reading);
+}
+
+static void decodes_base64(void **state) {
+    (void)state;
+    static const char *const good[] = {"AAAA", "AAAAAAAA", "////", "AAA=", "AAA", "AA=="};
+    static const char *const bad[] = {"AAA?", "A", "AAAAA", "AA AA", "AA=A", "===="};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        Reading *reading =
+            read_rest("'buffers':[{'byteLength':1,'uri':'data:application/gltf-buffer;base64,%s'}]", good[i]);
+        assert_read(reading);
+        done(reading);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:;base64,%s'}]", bad[i]),
+                       WEFT_MESSAGE_GLTF_URI, "base64");
+    assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:,hello'}]"), WEFT_MESSAGE_GLTF_URI,
+                   "must be base64");
+    assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:'}]"), WEFT_MESSAGE_GLTF_URI,
+                   "must be base64");
+    assert_refused(read_rest("'buffers':[{'byteLength':4,'uri':'data:;base64,AAAA'}]"),
+                   WEFT_MESSAGE_GLTF_BOUNDS, "3 of 4");
+}
+
+/* --- files beside the asset --- */
+
+static char folder[] = "/tmp/weft-gltf-XXXXXX";
+
+static void write_file(const char *name, const void *data, size_t size) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    fclose(file);
+}
+
+/* Reads an asset of the folder whose one buffer of 4 bytes lies at reference. */
+static Reading *read_referring(const char *reference) {
+    char path[256];
+    char *text = json("{'asset':{'version':'2.0'},'buffers':[{'byteLength':4,'uri':'%s'}]}", reference);
+    write_file("a b/asset.gltf", text, strlen(text));
+    free(text);
+    snprintf(path, sizeof path, "%s/a b/asset.gltf", folder);
+    return read_gltf(path, NULL, 0);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    char path[256];
+    if (!mkdtemp(folder)) return -1;
+    snprintf(path, sizeof path, "%s/a b", folder);
+    if (mkdir(path, 0700)) return -1;
+    snprintf(path, sizeof path, "%s/a b/sub", folder);
+    if (mkdir(path, 0700)) return -1;
+    write_file("outside.bin", "1234", 4);
+    write_file("a b/in side.bin", "1234", 4);
+    write_file("a b/sub/\xc3\xa9%.bin", "1234", 4);
+    return 0;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    static const char *const names[] = {"/outside.bin", "/a b/in side.bin", "/a b/sub/\xc3\xa9%.bin",
+                                        "/a b/asset.gltf"};
+    static const char *const folders[] = {"/a b/sub", "/a b", ""};
+    char path[256];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(path, sizeof path, "%s%s", folder, names[i]);
+        unlink(path);
+    }
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        snprintf(path, sizeof path, "%s%s", folder, folders[i]);
+        rmdir(path);
+    }
+    return 0;
+}
+
+static void finds_files(void **state) {
+    (void)state;
+    static const char *const good[] = {"in%20side.bin",           "in side.bin",
+                                       "./sub/../in%20side.bin",  "sub/%C3%A9%25.bin",
+                                       "sub//.././in%20side.bin", "sub%2f%c3%a9%25.bin"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        Reading *reading = read_referring(good[i]);
+        assert_read(reading);
+        done(reading);
+    }
+    assert_refused(read_referring("missing.bin"), WEFT_MESSAGE_FILE_OPEN, "missing.bin");
+    assert_refused(read_referring("sub"), WEFT_MESSAGE_FILE_READ, "folder");
+}
+
+static void stays_in_folder(void **state) {
+    (void)state;
+    static const struct {
+        const char *uri, *reason;
+    } cases[] = {
+        {"../outside.bin", "out of the asset's folder"},
+        {"sub/../../outside.bin", "out of the asset's folder"},
+        {"%2e%2e/outside.bin", "out of the asset's folder"},
+        {"..%2foutside.bin", "out of the asset's folder"},
+        {"..", "out of the asset's folder"},
+        {"/etc/passwd", "absolute"},
+        {"%2Fetc/passwd", "absolute"},
+        {"file:///etc/passwd", "only files and data"},
+        {"https://example.org/a.bin", "only files and data"},
+        {"C:/a.bin", "only files and data"},
+        {"in%2", "percent"},
+        {"%%", "percent"},
+        {"in%00side.bin", "percent"},
+        {"", "empty"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_refused(read_referring(cases[i].uri), WEFT_MESSAGE_GLTF_URI, cases[i].reason);
+    assert_refused(read_rest("'buffers':[{'byteLength':4,'uri':'in%%20side.bin'}]"), WEFT_MESSAGE_GLTF_URI,
+                   "in memory");
+    assert_refused(read_gltf("/nowhere/at/all.gltf", NULL, 0), WEFT_MESSAGE_FILE_OPEN, "all.gltf");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reads_glb),       cmocka_unit_test(refuses_damaged_glb),
+        cmocka_unit_test(refuses_text),    cmocka_unit_test(names_extensions),
+        cmocka_unit_test(decodes_base64),  cmocka_unit_test(finds_files),
+        cmocka_unit_test(stays_in_folder),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,297 @@
+/* Materials, textures, images and variants. */
+#include "reading.h"
+
+#include <math.h>
+
+/* PNG, 2 x 1: sRGB bytes 255 128 0, then 0 64 255. */
+static const char png[] = "data:image/png;base64,"
+                          "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4"
+                          "38DA4PAfAAoAAr+GE93DAAAAAElFTkSuQmCC";
+
+/* The square with materials[0] = { material }, and before them what comes first: textures and so on. */
+static Reading *read_material(const char *first, const char *material) {
+    return read_rest(SQUARE_DATA ",%s'materials':[{%s}],'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
+                                 ",'material':0}]}],'nodes':[{'mesh':0}]",
+                     SQUARE_URI, first, material);
+}
+
+static char textures_text[512];
+
+static const char *textures(void) {
+    snprintf(textures_text, sizeof textures_text,
+             "'images':[{'uri':'%s'}],'samplers':[{'wrapS':33071,'wrapT':33648,'magFilter':9728},{}],"
+             "'textures':[{'source':0,'sampler':0},{'source':0,'sampler':1},{'source':0}],",
+             png);
+    return textures_text;
+}
+
+static void assert_input(const Reading *reading, InputId id, float r, float g, float b, int channel) {
+    const Input *input = &reading->scene->materials[0].inputs[id];
+    const float expected[3] = {r, g, b};
+    assert_all_near(input->value, expected, input_infos[id].kind == INPUT_COLOR ? 3 : 1, 1e-6f);
+    assert_int_equal(input->texture > 0, channel >= 0);
+    if (channel >= 0) assert_int_equal(input->channel, channel);
+}
+
+static void has_the_defaults(void **state) {
+    (void)state;
+    Reading *reading = read_material("", "");
+    assert_read(reading);
+    const Material *m = reading->scene->materials;
+    assert_input(reading, INPUT_base_color, 1, 1, 1, -1);
+    assert_input(reading, INPUT_opacity, 1, 0, 0, -1);
+    assert_input(reading, INPUT_metallic, 1, 0, 0, -1);
+    assert_input(reading, INPUT_roughness, 1, 0, 0, -1);
+    assert_input(reading, INPUT_emission, 0, 0, 0, -1);
+    assert_input(reading, INPUT_emission_strength, 1, 0, 0, -1);
+    assert_input(reading, INPUT_ior, 1.5f, 0, 0, -1);
+    assert_input(reading, INPUT_specular, 1, 0, 0, -1);
+    assert_input(reading, INPUT_specular_color, 1, 1, 1, -1);
+    assert_input(reading, INPUT_anisotropy, 0, 0, 0, -1);
+    assert_input(reading, INPUT_clearcoat, 0, 0, 0, -1);
+    assert_input(reading, INPUT_sheen_color, 0, 0, 0, -1);
+    assert_input(reading, INPUT_sheen_roughness, 0, 0, 0, -1);
+    assert_int_equal(m->alpha_mode, ALPHA_OPAQUE);
+    assert_near(m->alpha_cutoff, 0.5f, 0.0f);
+    assert_false(m->double_sided);
+    assert_false(m->unlit);
+    assert_string_equal(m->name, "");
+    done(reading);
+    /* A surface without a material wears these defaults too, in a material behind the file's. */
+    reading = read_rest(SQUARE_DATA ",'materials':[{'name':'x'}],'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
+                                    "}]}],'nodes':[{'mesh':0}]",
+                        SQUARE_URI);
+    assert_read(reading);
+    assert_int_equal(reading->scene->material_count, 2);
+    assert_int_equal(reading->scene->meshes[0].material, 1);
+    assert_near(reading->scene->materials[1].inputs[INPUT_metallic].value[0], 1.0f, 0.0f);
+    done(reading);
+}
+
+static void reads_everything(void **state) {
+    (void)state;
+    Reading *reading = read_material(
+        textures(),
+        "'name':'velvet','alphaMode':'MASK','alphaCutoff':0.25,'doubleSided':true,"
+        "'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],'baseColorTexture':{'index':0},"
+        "'metallicFactor':0.5,'roughnessFactor':0.6,'metallicRoughnessTexture':{'index':1,'texCoord':1}},"
+        "'normalTexture':{'index':0,'scale':0.7},'occlusionTexture':{'index':0,'strength':0.8},"
+        "'emissiveFactor':[0.9,0.8,0.7],'emissiveTexture':{'index':0},'extensions':{"
+        "'KHR_materials_emissive_strength':{'emissiveStrength':5},'KHR_materials_ior':{'ior':1.33},"
+        "'KHR_materials_specular':{'specularFactor':0.3,'specularTexture':{'index':0},"
+        "'specularColorFactor':[2,1,0.5],'specularColorTexture':{'index':0}},"
+        "'KHR_materials_anisotropy':{'anisotropyStrength':0.6,'anisotropyRotation':-1,"
+        "'anisotropyTexture':{'index':0}},"
+        "'KHR_materials_clearcoat':{'clearcoatFactor':0.9,'clearcoatTexture':{'index':0},"
+        "'clearcoatRoughnessFactor':0.2,'clearcoatRoughnessTexture':{'index':0},"
+        "'clearcoatNormalTexture':{'index':0,'scale':0.5}},"
+        "'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.5,0.6],'sheenColorTexture':{'index':0},"
+        "'sheenRoughnessFactor':0.35,'sheenRoughnessTexture':{'index':2}},'KHR_materials_unlit':{}}");
+    assert_read(reading);
+    const Material *m = reading->scene->materials;
+    enum { R, G, B, A };
+    assert_string_equal(m->name, "velvet");
+    assert_int_equal(m->alpha_mode, ALPHA_MASK);
+    assert_near(m->alpha_cutoff, 0.25f, 0.0f);
+    assert_true(m->double_sided && m->unlit);
+    assert_input(reading, INPUT_base_color, 0.1f, 0.2f, 0.3f, R);
+    assert_input(reading, INPUT_opacity, 0.4f, 0, 0, A);
+    assert_input(reading, INPUT_metallic, 0.5f, 0, 0, B);
+    assert_input(reading, INPUT_roughness, 0.6f, 0, 0, G);
+    assert_int_equal(m->inputs[INPUT_roughness].texcoord, 1);
+    assert_input(reading, INPUT_normal, 0.7f, 0, 0, R);
+    assert_input(reading, INPUT_occlusion, 0.8f, 0, 0, R);
+    assert_input(reading, INPUT_emission, 0.9f, 0.8f, 0.7f, R);
+    assert_input(reading, INPUT_emission_strength, 5, 0, 0, -1);
+    assert_input(reading, INPUT_ior, 1.33f, 0, 0, -1);
+    assert_input(reading, INPUT_specular, 0.3f, 0, 0, A);
+    assert_input(reading, INPUT_specular_color, 2, 1, 0.5f, R);
+    assert_input(reading, INPUT_anisotropy, 0.6f, 0, 0, B);
+    assert_input(reading, INPUT_anisotropy_direction, -1, 0, 0, R);
+    assert_input(reading, INPUT_clearcoat, 0.9f, 0, 0, R);
+    assert_input(reading, INPUT_clearcoat_roughness, 0.2f, 0, 0, G);
+    assert_input(reading, INPUT_clearcoat_normal, 0.5f, 0, 0, R);
+    assert_input(reading, INPUT_sheen_color, 0.4f, 0.5f, 0.6f, R);
+    assert_input(reading, INPUT_sheen_roughness, 0.35f, 0, 0, A);
+    /* Three textures of one image, decoded once. */
+    assert_int_equal(reading->scene->texture_count, 3);
+    assert_int_equal(reading->scene->image_count, 1);
+    const Texture *sampled = &reading->scene->textures[m->inputs[INPUT_base_color].texture - 1];
+    assert_int_equal(sampled->wrap_u, WRAP_CLAMP);
+    assert_int_equal(sampled->wrap_v, WRAP_MIRROR);
+    assert_true(sampled->nearest);
+    sampled = &reading->scene->textures[m->inputs[INPUT_metallic].texture - 1];
+    assert_int_equal(sampled->wrap_u, WRAP_REPEAT);
+    assert_false(sampled->nearest);
+    const WeftImage *image = reading->scene->images;
+    assert_int_equal(image->width, 2);
+    assert_int_equal(image->height, 1);
+    assert_memory_equal(image->pixels, ((const unsigned char[]){255, 128, 0, 0, 64, 255}), 6);
+    done(reading);
+}
+
+static void transforms_textures(void **state) {
+    (void)state;
+    Reading *reading = read_material(
+        textures(), "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':1,'extensions':{"
+                    "'KHR_texture_transform':{'offset':[-0.2,-0.1],'rotation':0.3,'scale':[1.5,1.5],"
+                    "'texCoord':0}}}}");
+    assert_read(reading);
+    /* The corner of the asset TextureTransformTest: (0.43, 0.75) must land on the arrow's tip. */
+    for (int id = INPUT_base_color; id <= INPUT_opacity; id++) {
+        const Input *input = &reading->scene->materials[0].inputs[id];
+        const float *m = input->transform;
+        assert_int_equal(input->texcoord, 0);
+        assert_near(m[0] * 0.43f + m[1] * 0.75f + m[2], 0.75f, 0.01f);
+        assert_near(m[3] * 0.43f + m[4] * 0.75f + m[5], 0.78f, 0.01f);
+    }
+    done(reading);
+}
+
+static void repairs_ranges(void **state) {
+    (void)state;
+    Reading *reading = read_material("", "'pbrMetallicRoughness':{'roughnessFactor':1.5,'baseColorFactor':"
+                                         "[2,-1,0.5,1]},'extensions':{'KHR_materials_ior':{'ior':0.5}}");
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED], 4);
+    assert_input(reading, INPUT_roughness, 1, 0, 0, -1);
+    assert_input(reading, INPUT_base_color, 1, 0, 0.5f, -1);
+    assert_input(reading, INPUT_ior, 1, 0, 0, -1);
+    done(reading);
+    reading = read_material("", "'extensions':{'KHR_materials_ior':{'ior':0}}");
+    assert_read(reading);
+    float ior = reading->scene->materials[0].inputs[INPUT_ior].value[0];
+    assert_near((ior - 1.0f) / (ior + 1.0f), 1.0f, 1e-5f); /* reflects everything */
+    done(reading);
+    reading = read_material(textures(), "'normalTexture':{'index':0,'texCoord':4}");
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
+    assert_input(reading, INPUT_normal, 1, 0, 0, -1);
+    done(reading);
+}
+
+static void names_wrong_types(void **state) {
+    (void)state;
+    static const struct {
+        const char *material;
+        WeftMessage message;
+        const char *part;
+    } cases[] = {
+        {"'pbrMetallicRoughness':{'roughnessFactor':'1'}", WEFT_MESSAGE_GLTF_SCHEMA,
+         "materials[0].pbrMetallicRoughness.roughnessFactor: expected a number"},
+        {"'pbrMetallicRoughness':{'baseColorFactor':[1,1,1]}", WEFT_MESSAGE_GLTF_SCHEMA,
+         "materials[0].pbrMetallicRoughness.baseColorFactor: expected an array of 4 numbers"},
+        {"'pbrMetallicRoughness':{'baseColorFactor':[1,1,null,1]}", WEFT_MESSAGE_GLTF_SCHEMA,
+         "baseColorFactor[2]: expected a number"},
+        {"'pbrMetallicRoughness':3", WEFT_MESSAGE_GLTF_SCHEMA, "pbrMetallicRoughness: expected an object"},
+        {"'alphaMode':'CUTOUT'", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].alphaMode: expected OPAQUE"},
+        {"'doubleSided':1", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].doubleSided: expected true or false"},
+        {"'name':7", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].name: expected a string"},
+        {"'normalTexture':{}", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].normalTexture.index: missing"},
+        {"'normalTexture':{'index':0}", WEFT_MESSAGE_GLTF_REFERENCE,
+         "materials[0].normalTexture.index: 0 of 0"},
+        {"'extensions':{'KHR_materials_sheen':[]}", WEFT_MESSAGE_GLTF_SCHEMA,
+         "materials[0].extensions.KHR_materials_sheen: expected an object"},
+        {"'extensions':{'KHR_materials_sheen':{'sheenColorFactor':1}}", WEFT_MESSAGE_GLTF_SCHEMA,
+         "materials[0].extensions.KHR_materials_sheen.sheenColorFactor: expected an array of 3"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_refused(read_material("", cases[i].material), cases[i].message, cases[i].part);
+    assert_refused(
+        read_material("'samplers':[{'wrapS':1}],'images':[{}],'textures':[{'source':0,'sampler':0}],",
+                      "'normalTexture':{'index':0}"),
+        WEFT_MESSAGE_GLTF_SCHEMA, "samplers[0].wrapS: 1 is not");
+    assert_refused(read_material("'textures':[{'source':3}],", ""), WEFT_MESSAGE_GLTF_REFERENCE,
+                   "textures[0].source: 3 of 0");
+}
+
+#define MAPPED "'normalTexture':{'index':0}"
+
+static void finds_images(void **state) {
+    (void)state;
+    /* In a buffer view. */
+    static const unsigned char bytes[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+        0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+        0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x10, 0x04, 0x00, 0x00, 0x13, 0x00, 0x12,
+        0xa6, 0x0c, 0xbe, 0xd5, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    char *whole = json("{'asset':{'version':'2.0'},'buffers':[{'byteLength':%zu,'uri':'%s'},"
+                       "{'byteLength':48,'uri':'%s'}],'bufferViews':[{'buffer':0,'byteLength':%zu},"
+                       "{'buffer':1,'byteLength':48}],'accessors':[{'bufferView':1,'componentType':5126,"
+                       "'count':4,'type':'VEC3'}],'images':[{'bufferView':0}],'textures':[{'source':0}],"
+                       "'materials':[{" MAPPED "}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
+                       "'mode':5,'material':0}]}],'nodes':[{'mesh':0}]}",
+                       sizeof bytes, uri(bytes, sizeof bytes), SQUARE_URI, sizeof bytes);
+    Reading *reading = read_gltf("view", whole, strlen(whole));
+    free(whole);
+    assert_read(reading);
+    assert_int_equal(reading->scene->images[0].channels, 1);
+    done(reading);
+    /* One that does not decode is named, where it is needed; else nobody looks. */
+    static const char bad[] =
+        "'images':[{'uri':'data:image/png;base64,AAAAAAAA'}],'textures':[{'source':0}],";
+    Reading *refused = read_material(bad, MAPPED);
+    assert_int_equal(refused->result, WEFT_INPUT);
+    assert_non_null(strstr(refused->error.text, "memory: images[0]"));
+    done(refused);
+    reading = read_material(bad, "");
+    assert_read(reading);
+    assert_int_equal(reading->scene->image_count, 0);
+    done(reading);
+    assert_refused(read_material("'images':[{}],'textures':[{'source':0}],", MAPPED),
+                   WEFT_MESSAGE_GLTF_SCHEMA, "images[0]: it has neither");
+    assert_refused(read_material("'images':[{'uri':'a.png'}],'textures':[{'source':0}],", MAPPED),
+                   WEFT_MESSAGE_GLTF_URI, "in memory");
+}
+
+/* Containers that cannot be read are offers: the plain source counts. */
+static void falls_back(void **state) {
+    (void)state;
+    char *first = json("'extensionsUsed':['KHR_texture_basisu'],'images':[{'uri':'%s'},{'uri':'x.ktx2'}],"
+                       "'textures':[{'source':0,'extensions':{'KHR_texture_basisu':{'source':1}}}],",
+                       png);
+    Reading *reading = read_material(first, MAPPED);
+    free(first);
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_EXTENSION], 1);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
+    assert_int_equal(reading->scene->image_count, 1);
+    done(reading);
+    reading = read_material("'textures':[{'extensions':{'EXT_texture_webp':{'source':1}}}],", MAPPED);
+    assert_read(reading);
+    assert_non_null(strstr(reading->warning, "EXT_texture_webp"));
+    assert_input(reading, INPUT_normal, 1, 0, 0, -1);
+    done(reading);
+}
+
+static void reads_variants(void **state) {
+    (void)state;
+    static const char form[] = SQUARE_DATA
+        ",'extensions':{'KHR_materials_variants':{'variants':[{'name':'Mango'},{'name':'Peacock'},"
+        "{'name':'Plain'}]}},'materials':[{},{},{" MAPPED
+        "}],'textures':[{}],'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
+        ",'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,"
+        "'variants':[0]},{'material':%d,'variants':[%d]}]}}}]}],'nodes':[{'mesh':0}]";
+    Reading *reading = read_rest(form, SQUARE_URI, 2, 2);
+    assert_read(reading);
+    assert_int_equal(reading->scene->variant_count, 3);
+    assert_string_equal(reading->scene->variants[1], "Peacock");
+    const Mesh *mesh = reading->scene->meshes;
+    assert_int_equal(mesh->material, 0);
+    assert_memory_equal(mesh->variant_material, ((const int[]){1, -1, 2}), 3 * sizeof(int));
+    assert_non_null(mesh->tangent); /* which only the variant needs */
+    done(reading);
+    assert_refused(read_rest(form, SQUARE_URI, 3, 2), WEFT_MESSAGE_GLTF_REFERENCE,
+                   "mappings[1].material: 3 of 3");
+    assert_refused(read_rest(form, SQUARE_URI, 2, 3), WEFT_MESSAGE_GLTF_REFERENCE, "variants[0]: 3 of 3");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(has_the_defaults),    cmocka_unit_test(reads_everything),
+        cmocka_unit_test(transforms_textures), cmocka_unit_test(repairs_ranges),
+        cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
+        cmocka_unit_test(falls_back),          cmocka_unit_test(reads_variants),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,165 @@
+/* The dialect's own functions against double precision, and the warps against their densities */
+#include "cases.h"
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/d_ggx.h"
+#include "shading/warp.h"
+
+static void logarithm(void **state) {
+    (void)state;
+    double absolute = 0.0, relative = 0.0;
+    for (int n = 0; n < 2000000; n++) {
+        /* all normal exponents, and densely about 1, where the result vanishes */
+        double x = n % 2 ? (pow)(2.0, -125.9 + 253.0 * n / 2e6) : (pow)(2.0, -1.0 + 2.0 * n / 2e6);
+        float f = (float)x;
+        double exact = (log2)((double)f), d = fabs((double)weft_log2(f) - exact);
+        absolute = fmax(absolute, d / fmax(fabs(exact), 1.0));
+        if (exact < 0.0 || exact > 0.0) relative = fmax(relative, d / fabs(exact));
+    }
+    print_message("log2: error %.2e of max(1, |log2 x|), relative %.2e\n", absolute, relative);
+    assert_true(absolute < 1.6e-7 && relative < 3.1e-7);
+    assert_true(!(weft_log2(1.0f) != 0.0f));
+}
+
+static void exponential(void **state) {
+    (void)state;
+    double relative = 0.0;
+    for (int n = 0; n < 2000000; n++) {
+        float x = (float)(-126.0 + 253.0 * n / 2e6);
+        double exact = (exp2)((double)x);
+        relative = fmax(relative, fabs((double)weft_exp2(x) - exact) / exact);
+    }
+    print_message("exp2: relative error %.2e\n", relative);
+    assert_true(relative < 1e-7);
+    assert_true(!(weft_exp2(0.0f) != 1.0f) && !(weft_exp2(1.0f) != 2.0f));
+    /* clamped to the normal floats, never 0, infinity or NaN */
+    assert_true(!(weft_exp2(-1e30f) != 0x1p-126f) && !(weft_exp2(1e30f) != 0x1p127f));
+}
+
+/* Relative error of x^y grows with |y log2 x|, as the comment in lang.h says. */
+static void power(void **state) {
+    (void)state;
+    Random random = {31};
+    double worst = 0.0;
+    for (int n = 0; n < 1000000; n++) {
+        float x = (float)(pow)(10.0, -7.0 * (double)random_unit(&random));
+        float y = (float)(pow)(10.0, -1.0 + 3.0 * (double)random_unit(&random));
+        double l = (double)y * (log2)((double)x);
+        if (l < -125.0) continue;
+        double exact = (pow)((double)x, (double)y), d = fabs((double)pow(x, y) - exact) / exact;
+        worst = fmax(worst, d / (1.0 + fabs(l)));
+    }
+    print_message("pow: relative error %.2e (1 + |y log2 x|)\n", worst);
+    assert_true(worst < 2e-7);
+}
+
+static void mixing(void **state) {
+    (void)state;
+    assert_float_equal(mix(2.0f, 4.0f, 0.25f), 2.5f, 1e-7f);
+    assert_true(!(mix(2.0f, 4.0f, 0.0f) != 2.0f));
+    assert_float_equal(clamp(3.0f, 0.0f, 1.0f), 1.0f, 0.0f);
+    assert_float_equal(clamp(-3.0f, 0.0f, 1.0f), 0.0f, 0.0f);
+    assert_float_equal(exp(1.0f), 2.71828183f, 1e-6f);
+}
+
+/* A warp and its density: as many points fall under each ring as the density says. */
+static void check_warp(Dir (*warp)(float, float), float (*density)(Dir)) {
+    enum { RINGS = 32, SIDE = 512 };
+    double counts[RINGS] = {0};
+    for (int j = 0; j < SIDE; j++)
+        for (int k = 0; k < SIDE; k++) {
+            Dir w = warp(((float)j + 0.5f) / SIDE, ((float)k + 0.5f) / SIDE);
+            assert_float_equal(w.x * w.x + w.y * w.y + w.z * w.z, 1.0f, 1e-6f);
+            assert_true(w.z > 0.0f);
+            int ring = (int)((double)w.z * RINGS);
+            counts[ring < RINGS ? ring : RINGS - 1] += 1.0 / ((double)SIDE * SIDE);
+        }
+    for (int ring = 0; ring < RINGS; ring++) {
+        double z = (ring + 0.5) / RINGS;
+        double share = (double)density(direction_cos(z, 1.0)) * 2.0 * TEST_PI / RINGS;
+        assert_true(fabs(counts[ring] - share) < 4e-3);
+    }
+}
+
+static Dir cosine(float u, float v) { return warp_cosine(u, v); }
+static float cosine_pdf(Dir w) { return warp_cosine_pdf(w); }
+static Dir uniform(float u, float v) { return warp_uniform(u, v); }
+static float uniform_pdf(Dir w) { return warp_uniform_pdf(w); }
+
+static void warps_follow_their_densities(void **state) {
+    (void)state;
+    check_warp(cosine, cosine_pdf);
+    check_warp(uniform, uniform_pdf);
+    Dir below = dir(0.6f, 0.0f, -0.8f);
+    assert_true(!(warp_cosine_pdf(below) != 0.0f) && !(warp_uniform_pdf(below) != 0.0f));
+}
+
+static void half_vectors(void **state) {
+    (void)state;
+    Random random = {13};
+    for (int n = 0; n < 200000; n++) {
+        Dir o = random_direction(&random), i = random_direction(&random);
+        Angles a = angles_between(o, i);
+        assert_float_equal(dir_dot(a.h, a.h), 1.0f, 1e-6f);
+        assert_float_equal(a.d, dir_dot(o, a.h), 2e-6f);
+        assert_true(a.h.z > 0.0f);
+        Dir m = dir_mirror(o, a.h);
+        assert_float_equal(m.x, i.x, 3e-6f);
+        assert_float_equal(m.z, i.z, 3e-6f);
+    }
+    Angles opposite = angles_between(dir(1.0f, 0.0f, 0.0f), dir(-1.0f, 0.0f, 0.0f));
+    assert_float_equal(dir_dot(opposite.h, opposite.h), 1.0f, 1e-6f);
+    assert_true(opposite.d > 0.0f);
+}
+
+/* Microfacet normals are upper, unit, and seen from wo, so that wi is wo mirrored and never behind a facet. */
+static void facet_normals_are_visible(void **state) {
+    (void)state;
+    Random random = {14};
+    for (int n = 0; n < 300000; n++) {
+        float alpha = (float)(pow)(10.0, -3.0 + 3.5 * (double)random_unit(&random));
+        float ax = n % 2 ? alpha : (float)(pow)(10.0, -3.0 + 3.0 * (double)random_unit(&random));
+        Dir o = n % 3 ? random_direction(&random) : direction_cos((pow)(10.0, -7.0 * (double)random_unit(&random)), n);
+        float u = random_unit(&random), v = random_unit(&random);
+        Dir h = ggx_sample_h(ax, alpha, o, u, v);
+        assert_true(h.z >= 0.0f);
+        assert_float_equal(dir_dot(h, h), 1.0f, 1e-5f);
+        assert_true(dir_dot(o, h) > -1e-5f);
+        h = charlie_sample_h(max(alpha, 0.005f), o, u, v);
+        assert_true(h.z >= 0.0f);
+        assert_float_equal(dir_dot(h, h), 1.0f, 1e-5f);
+        assert_true(dir_dot(o, h) > -1e-6f);
+    }
+}
+
+/* Both distributions: the integral of D cos_h is 1. */
+static void distributions_are_normalised(void **state) {
+    (void)state;
+    static const float alphas[] = {0.01f, 0.05f, 0.25f, 0.6f, 1.0f};
+    for (int k = 0; k < 5; k++) {
+        double ggx = 0.0, charlie = 0.0;
+        enum { STEPS = 20000 };
+        for (int n = 0; n < STEPS; n++) {
+            double t = stretch((n + 0.5) / STEPS), theta = t * TEST_PI / 2.0;
+            double w = stretch_slope((n + 0.5) / STEPS) / STEPS * TEST_PI * TEST_PI * (sin)(theta) * (cos)(theta);
+            Dir h = direction(theta, 0.7);
+            ggx += w * (double)ggx_d(alphas[k], alphas[k], h);
+            charlie += w * (double)charlie_d(alphas[k], h);
+        }
+        assert_true(fabs(ggx - 1.0) < 2e-5);
+        assert_true(fabs(charlie - 1.0) < 2e-5);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(logarithm),
+        cmocka_unit_test(exponential),
+        cmocka_unit_test(power),
+        cmocka_unit_test(mixing),
+        cmocka_unit_test(warps_follow_their_densities),
+        cmocka_unit_test(half_vectors),
+        cmocka_unit_test(facet_normals_are_visible),
+        cmocka_unit_test(distributions_are_normalised),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

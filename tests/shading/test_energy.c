@@ -1,0 +1,216 @@
+/* E by quadrature, by other means, by closed forms and by table; and what the lobes claim about it */
+#include "cases.h"
+#include "shading/terms/f_schlick.h"
+#include "shading/warp.h"
+
+static const double cosines[] = {1.0, 0.9, 0.6, 0.3, 0.1, 0.02};
+enum { COSINES = sizeof cosines / sizeof cosines[0] };
+
+static float fresnel_share(const Lobe *lobe, Angles a) {
+    return weft_lobe_info((int)lobe->id)->traits & TRAIT_FRESNEL ? schlick_s(a.d) : 0.0f;
+}
+
+/* Midpoint sum over the stretched grid of cases.h: nothing in common with the rule of albedo.c. */
+static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
+    Grid grid = grid_about(o);
+    double step = 2.0 / cells, f0 = 0.0, f90 = 0.0;
+    for (int j = 0; j < cells; j++)
+        for (int k = 0; k < cells; k++) {
+            double area;
+            Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
+            if (i.z <= 0.0f) continue;
+            Angles a = angles_between(o, i);
+            double e = (double)lobe_eval(lobe, a) * (double)i.z * area * step * step;
+            double s = (double)fresnel_share(lobe, a);
+            f0 += e * (1.0 - s);
+            f90 += e * s;
+        }
+    return (Albedo){(float)f0, (float)f90};
+}
+
+/* Mean and its standard error of f cos / pdf. */
+typedef struct Estimate {
+    double mean, error;
+} Estimate;
+
+static Estimate sampled_albedo(const Lobe *lobe, Dir o, bool by_cosine, int count) {
+    Random random = {11};
+    double sum = 0.0, squares = 0.0;
+    for (int n = 0; n < count; n++) {
+        float u = random_unit(&random), v = random_unit(&random);
+        Dir i = by_cosine ? warp_cosine(u, v) : lobe_sample(lobe, o, u, v);
+        if (i.z <= 0.0f) continue;
+        Angles a = angles_between(o, i);
+        double pdf = (double)(by_cosine ? warp_cosine_pdf(i) : lobe_pdf(lobe, a));
+        double x = (double)lobe_eval(lobe, a) * (double)i.z / pdf;
+        sum += x;
+        squares += x * x;
+    }
+    double mean = sum / count;
+    return (Estimate){mean, (sqrt)(fmax(squares / count - mean * mean, 0.0) / count)};
+}
+
+/* A ridge as thin as 1/500 of its length is what no product grid resolves: sampling alone checks it. */
+static bool is_ridge(const Lobe *lobe) {
+    int k = lobe_param(lobe->id, "anisotropy");
+    return k >= 0 && lobe->params[k] > 0.0f && lobe->params[0] < 0.05f;
+}
+
+static void quadrature_agrees_with_other_estimators(void **state) {
+    (void)state;
+    int cells = test_long() ? 2000 : 200, samples = test_long() ? 4000000 : 40000;
+    double worst = 0.0;
+    for (int id = 0; id < weft_lobe_count(); id++)
+        for (int k = 0; k < case_count((LobeId)id); k++)
+            for (int c = 0; c < COSINES; c++) {
+                Lobe lobe = case_lobe((LobeId)id, k);
+                Dir o = direction_cos(cosines[c], 0.3);
+                const char *name = case_name(&lobe, o).text;
+                Albedo e = albedo_quadrature(&lobe, o, 1e-5);
+                double all = (double)(e.f0 + e.f90);
+                if (!is_ridge(&lobe)) {
+                    Albedo m = midpoint_albedo(&lobe, o, cells);
+                    double d = fmax(fabs((double)(m.f0 - e.f0)), fabs((double)(m.f90 - e.f90)));
+                    if (d > worst) worst = d;
+                    if (d > 1e-3)
+                        fail_msg("%s: E %.5f + %.5f, midpoint rule %.5f + %.5f", name, (double)e.f0,
+                                 (double)e.f90, (double)m.f0, (double)m.f90);
+                }
+                Estimate s = sampled_albedo(&lobe, o, false, samples);
+                if (fabs(s.mean - all) > 5.0 * s.error + 1e-3)
+                    fail_msg("%s: E %.5f, sampling %.5f +- %.5f", name, all, s.mean, s.error);
+                if (weft_lobe_info(id)->param_count && lobe.params[0] < 0.1f) continue; /* rare hits */
+                s = sampled_albedo(&lobe, o, true, samples);
+                if (fabs(s.mean - all) > 5.0 * s.error + 1e-3)
+                    fail_msg("%s: E %.5f, cosine sampling %.5f +- %.5f", name, all, s.mean, s.error);
+            }
+    print_message("largest difference between quadrature and midpoint rule: %.1e\n", worst);
+}
+
+static void traits_about_energy_hold(void **state) {
+    (void)state;
+    static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f};
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        unsigned traits = weft_lobe_info(id)->traits;
+        double highest = 0.0, lowest = 1e9;
+        for (int k = 0; k < case_count((LobeId)id); k++)
+            for (size_t c = 0; c < sizeof grazing / sizeof grazing[0]; c++) {
+                Lobe lobe = case_lobe((LobeId)id, k);
+                Dir o = direction_cos((double)grazing[c], 0.3);
+                if (is_ridge(&lobe)) continue;
+                Albedo e = albedo_quadrature(&lobe, o, 1e-5);
+                double all = (double)(e.f0 + e.f90);
+                highest = fmax(highest, all);
+                lowest = fmin(lowest, all);
+                if (traits & TRAIT_CONSERVES && all > 1.0 + 1e-3)
+                    fail_msg("%s reflects %.5f", case_name(&lobe, o).text, all);
+                if (traits & TRAIT_LOSSLESS && fabs(all - 1.0) > 1e-4)
+                    fail_msg("%s reflects %.6f", case_name(&lobe, o).text, all);
+            }
+        print_message("%-20s E from %.4f to %.4f\n", weft_lobe_info(id)->id, lowest, highest);
+        /* a lobe that conserves says so */
+        if (highest <= 1.0 + 1e-4) assert_true(traits & TRAIT_CONSERVES);
+        if (highest <= 1.0 + 1e-4 && lowest > 1.0 - 1e-4) assert_true(traits & TRAIT_LOSSLESS);
+    }
+}
+
+static double albedo(const char *id, const char *alpha, float cos_o) {
+    WeftLobe lobe;
+    float e[3];
+    assert_int_equal(weft_lobe_create(id, &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_set(&lobe, "alpha", alpha, NULL, NULL), WEFT_OK);
+    weft_lobe_albedo(&lobe, cos_o, e);
+    return (double)e[0];
+}
+
+static double highest_albedo(const char *id, const char *alpha) {
+    double highest = 0.0;
+    for (double c = 1e-4; c < 1.0; c *= 1.1) highest = fmax(highest, albedo(id, alpha, (float)c));
+    return highest;
+}
+
+static double lowest_albedo(const char *id, const char *alpha) {
+    double lowest = 1e9;
+    for (double c = 0.01; c <= 1.0; c += 0.0198) lowest = fmin(lowest, albedo(id, alpha, (float)c));
+    return lowest;
+}
+
+static void known_values_come_out(void **state) {
+    (void)state;
+    /* Charlie passes 1: what the lobe headers say */
+    assert_true(fabs(albedo("charlie-neubelt", "0.01", 0.02f) - 2.69) < 0.005);
+    assert_true(fabs(albedo("charlie-neubelt", "0.0625", 0.02f) - 1.38) < 0.005);
+    assert_true(fabs(albedo("charlie-conty-kulla", "0.01", 0.02f) - 1.63) < 0.005);
+    /* the least alpha that conserves; and the horizon, where conty-kulla never does */
+    assert_true(highest_albedo("charlie-neubelt", "0.20") > 1.0 && highest_albedo("charlie-neubelt", "0.215") < 1.0);
+    assert_true(highest_albedo("charlie-conty-kulla", "0.06") > 1.0);
+    assert_true(highest_albedo("charlie-conty-kulla", "0.07") < 1.0);
+    assert_true(albedo("charlie-conty-kulla", "0.99", 1e-6f) > 1.0);
+    /* what GGX loses between its facets */
+    assert_true(fabs(1.0 - lowest_albedo("ggx", "0.25") - 0.16) < 0.005);
+    assert_true(fabs(1.0 - lowest_albedo("ggx", "0.5") - 0.32) < 0.005);
+    assert_true(fabs(1.0 - lowest_albedo("ggx", "1") - 0.693) < 0.005);
+    /* GGX of alpha 1 at normal incidence: the integral of c / (1 + c) is 1 - ln 2 */
+    WeftLobe ggx;
+    float e[3], black[3] = {0}, white[3] = {1.0f, 1.0f, 1.0f};
+    weft_lobe_create("ggx", &ggx, NULL);
+    weft_lobe_set(&ggx, "alpha", "1", NULL, NULL);
+    weft_lobe_albedo(&ggx, 1.0f, e);
+    assert_float_equal(e[0], (1.0f - 0.693147181f), 1e-4f);
+    /* its colour counts, f0 and f90 apart */
+    memcpy(ggx.f0, black, sizeof black);
+    memcpy(ggx.f90, white, sizeof white);
+    weft_lobe_albedo(&ggx, 1.0f, e);
+    assert_true(e[1] > 0.0f && e[1] < 1e-3f);
+}
+
+static void the_table_is_close_off_its_nodes(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    Random random = {5};
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        fill_albedo(&table, (LobeId)id);
+        const WeftLobeInfo *info = weft_lobe_info(id);
+        double worst = 0.0, worst_cos = 0.0, worst_alpha = 0.0;
+        for (int n = 0; n < (test_long() ? 20000 : 1000); n++) {
+            double x = (double)random_unit(&random), y = (double)random_unit(&random);
+            double low = info->param_count ? fmax((double)table.low, 0.005) : 0.0, high = (double)table.high;
+            double alpha = n % 2 && low > 0.0 ? low * (pow)(high / low, y) : low + (high - low) * y * y;
+            Dir o = direction_cos(fmax(n % 4 < 2 ? x * x * x * x : x, 1e-3), 0.0);
+            Lobe lobe = lobe_default((LobeId)id);
+            if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
+            Albedo e = albedo_quadrature(&lobe, o, 1e-5);
+            double d = fabs((double)(e.f0 + e.f90 - albedo_table_read(&table, o.z, (float)alpha)));
+            if (d > worst) worst = d, worst_cos = (double)o.z, worst_alpha = alpha;
+        }
+        print_message("%-20s table within %.1e (at alpha %.4g, cos_o %.4g)\n", info->id, worst, worst_alpha,
+                      worst_cos);
+        if (worst > 2e-3) fail_msg("%s: the table errs by %.5f", info->id, worst);
+    }
+}
+
+/* One parameter value, and values beyond the range that was asked for. */
+static void the_table_has_ends(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    Lobe lobe = lobe_default(LOBE_CHARLIE_NEUBELT);
+    albedo_table_fill(&table, &lobe, 0.25f, 0.25f, 1);
+    assert_int_equal(table.rows, 1);
+    Dir o = direction_cos(0.3, 0.0);
+    assert_float_equal(albedo_table_read(&table, 0.3f, 0.7f), albedo_quadrature(&lobe, o, 1e-5).f0, 1e-3f);
+    albedo_table_fill(&table, &lobe, 0.0f, 0.5f, 2); /* 0 is below the hard range: the rows begin at its end */
+    assert_float_equal(albedo_table_read(&table, 0.3f, 0.0f), albedo_table_read(&table, 0.3f, 0.005f), 1e-6f);
+    assert_float_equal(albedo_table_read(&table, 0.3f, 9.0f), albedo_table_read(&table, 0.3f, 0.5f), 1e-6f);
+    assert_float_equal(albedo_table_read(&table, 2.0f, 0.5f), albedo_table_read(&table, 1.0f, 0.5f), 1e-6f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quadrature_agrees_with_other_estimators),
+        cmocka_unit_test(traits_about_energy_hold),
+        cmocka_unit_test(known_values_come_out),
+        cmocka_unit_test(the_table_is_close_off_its_nodes),
+        cmocka_unit_test(the_table_has_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

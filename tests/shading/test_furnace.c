@@ -1,0 +1,111 @@
+/* Whole materials in a white furnace */
+#include "cases.h"
+
+/* What a stack reflects of a uniform light, per channel. Midpoint sum on the grid of cases.h. */
+static Rgb furnace(const Stack *stack, Dir o, int cells) {
+    Grid grid = grid_about(o);
+    double step = 2.0 / cells, r = 0.0, g = 0.0, b = 0.0;
+    for (int j = 0; j < cells; j++)
+        for (int k = 0; k < cells; k++) {
+            double area;
+            Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
+            if (i.z <= 0.0f) continue;
+            Rgb f = stack_eval(stack, o, i).f_cos;
+            r += (double)f.r * area * step * step;
+            g += (double)f.g * area * step * step;
+            b += (double)f.b * area * step * step;
+        }
+    return (Rgb){(float)r, (float)g, (float)b};
+}
+
+/* The same by sampling, and its standard error in *error. */
+static double sampled_furnace(const Stack *stack, Dir o, int count, double *error) {
+    Random random = {23};
+    double sum = 0.0, squares = 0.0;
+    for (int n = 0; n < count; n++) {
+        float u = random_unit(&random), v = random_unit(&random);
+        Dir i = stack_sample(stack, o, u, v);
+        if (i.z <= 0.0f) continue;
+        StackValue value = stack_eval(stack, o, i);
+        double x = (double)max(value.f_cos.r, max(value.f_cos.g, value.f_cos.b)) / (double)value.pdf;
+        sum += x;
+        squares += x * x;
+    }
+    double mean = sum / count;
+    *error = (sqrt)(fmax(squares / count - mean * mean, 0.0) / count);
+    return mean;
+}
+
+/* A white Lambert base without an interface, under a white sheen. */
+static Surface white_cloth(float roughness) {
+    return (Surface){.base_color = {1.0f, 1.0f, 1.0f}, .sheen_color = {1.0f, 1.0f, 1.0f}, .ior = 1.0f,
+                     .sheen_roughness = roughness, .normal = {0.0f, 0.0f, 1.0f}};
+}
+
+static int layer_named(const char *id) {
+    int k = 0;
+    while (weft_layer_id(k) && strcmp(weft_layer_id(k), id) != 0) k++;
+    assert_non_null(weft_layer_id(k));
+    return k;
+}
+
+static void albedo_view_returns_what_it_receives(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0;
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        fill_albedo(&table, (LobeId)id);
+        for (int r = 2; r <= 10; r++)
+            for (int c = 1; c <= 10; c++) {
+                Surface cloth = white_cloth((float)r / 10.0f);
+                Dir o = direction_cos(c / 10.0 - 0.05, 0.2);
+                Stack stack, base;
+                float alpha = cloth.sheen_roughness * cloth.sheen_roughness;
+                float e = albedo_table_read(&table, o.z, alpha);
+                surface_stack(&stack, &cloth, o, (LobeId)id, view, &table);
+                double all = (double)furnace(&stack, o, 150).g;
+                if (e <= 1.0f) {
+                    checked++;
+                    if (fabs(all - 1.0) > 1e-3)
+                        fail_msg("%s alpha %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)alpha,
+                                 (double)o.z, all);
+                }
+                surface_stack(&base, &cloth, o, (LobeId)id, additive, &table);
+                assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (1e-3f + 1e-3f * e));
+            }
+    }
+    assert_true(checked > weft_lobe_count() * 50);
+}
+
+/* Surfaces whose lobes and layer all conserve: what they reflect is bounded. */
+static void no_surface_reflects_more_than_it_receives(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    fill_albedo(&table, LOBE_LAMBERT); /* as a sheen: conserves exactly */
+    Random random = {17};
+    double highest = 0.0;
+    int surfaces = test_long() ? 2000 : 300, samples = test_long() ? 100000 : 4000;
+    for (int k = 0; k < surfaces; k++) {
+        Surface surface = random_surface(&random, k % 2);
+        if (k % 4 < 2) surface.base_color = surface.specular_color = (Rgb){1.0f, 1.0f, 1.0f};
+        for (int c = 0; c < 4; c++) {
+            double error, cos_o = 0.02 + 0.98 * (double)random_unit(&random);
+            Dir o = direction_cos(cos_o, 0.5 + k);
+            Stack stack;
+            surface_stack(&stack, &surface, o, LOBE_LAMBERT, LAYER_ALBEDO_VIEW, &table);
+            double all = sampled_furnace(&stack, o, samples, &error);
+            highest = fmax(highest, all - 4.0 * error);
+            if (all > 1.0 + 1e-2 + 4.0 * error)
+                fail_msg("surface %d at cos_o %.3f reflects %.4f +- %.4f", k, cos_o, all, error);
+        }
+    }
+    print_message("no random surface surely reflects more than %.4f\n", highest);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(albedo_view_returns_what_it_receives),
+        cmocka_unit_test(no_surface_reflects_more_than_it_receives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

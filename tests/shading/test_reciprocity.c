@@ -1,0 +1,75 @@
+/* Symmetries that the lobes claim: reciprocal, isotropic, anisotropic */
+#include "cases.h"
+
+enum { PAIRS = 100000 };
+
+static bool close_to(float a, float b) { return fabsf(a - b) <= 1e-5f * fmaxf(fabsf(a), fabsf(b)) + 1e-30f; }
+
+static Dir turned(Dir w, double angle) {
+    float c = (float)(cos)(angle), s = (float)(sin)(angle);
+    return dir(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
+}
+
+static void reciprocal_lobes_are(void **state) {
+    (void)state;
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        if (!(weft_lobe_info(id)->traits & TRAIT_RECIPROCAL)) continue;
+        Random random = {2};
+        for (int n = 0; n < PAIRS; n++) {
+            Lobe lobe = case_lobe((LobeId)id, n % case_count((LobeId)id));
+            Dir o = random_direction(&random), i = random_direction(&random);
+            float f = lobe_eval(&lobe, angles_between(o, i)), g = lobe_eval(&lobe, angles_between(i, o));
+            if (!close_to(f, g))
+                fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f, (double)g);
+        }
+    }
+}
+
+/* Turning rounds the directions, and a lobe of alpha magnifies that by up to 1/alpha^2. */
+static float turning_error(const Lobe *lobe) {
+    float alpha = weft_lobe_info((int)lobe->id)->param_count ? min(lobe->params[0], 1.0f) : 1.0f;
+    return 1e-5f / (alpha * alpha);
+}
+
+static void isotropic_lobes_do_not_see_azimuth(void **state) {
+    (void)state;
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        bool anisotropic = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
+        int k = lobe_param((LobeId)id, "anisotropy");
+        assert_int_equal(anisotropic, k >= 0);
+        Random random = {4};
+        for (int n = 0; n < PAIRS; n++) {
+            Lobe lobe = case_lobe((LobeId)id, n % case_count((LobeId)id));
+            if (anisotropic) lobe_set(&lobe, k, 0.0f);
+            if (turning_error(&lobe) > 0.1f) continue;
+            double angle = 6.0 * (double)random_unit(&random);
+            Dir o = random_direction(&random), i = random_direction(&random);
+            float f = lobe_eval(&lobe, angles_between(o, i));
+            float g = lobe_eval(&lobe, angles_between(turned(o, angle), turned(i, angle)));
+            if (fabsf(f - g) > turning_error(&lobe) * max(f, g) + 1e-5f)
+                fail_msg("%s: f = %.9g, turned %.9g", case_name(&lobe, o).text, (double)f, (double)g);
+        }
+    }
+}
+
+static void anisotropic_lobes_see_azimuth(void **state) {
+    (void)state;
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        if (!(weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC)) continue;
+        Lobe lobe = lobe_default((LobeId)id);
+        lobe_set(&lobe, lobe_param((LobeId)id, "anisotropy"), 0.8f);
+        Dir o = direction(0.2, 0.0), i = direction(1.2, 0.3);
+        float f = lobe_eval(&lobe, angles_between(o, i));
+        float g = lobe_eval(&lobe, angles_between(turned(o, 1.5), turned(i, 1.5)));
+        assert_true(fabsf(f - g) > 0.2f * max(f, g));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reciprocal_lobes_are),
+        cmocka_unit_test(isotropic_lobes_do_not_see_azimuth),
+        cmocka_unit_test(anisotropic_lobes_see_azimuth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

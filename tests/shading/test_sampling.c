@@ -1,0 +1,162 @@
+/* sample agrees with pdf: chi-square for every lobe of the registry and for stacks of them */
+#include "cases.h"
+
+/* Something to sample: a lobe or a stack. */
+typedef struct Proposal {
+    const Lobe *lobe;
+    const Stack *stack;
+} Proposal;
+
+static float proposal_pdf(Proposal p, Dir o, Dir i) {
+    return p.stack ? stack_eval(p.stack, o, i).pdf : lobe_pdf(p.lobe, angles_between(o, i));
+}
+
+static Dir proposal_sample(Proposal p, Dir o, float u, float v) {
+    return p.stack ? stack_sample(p.stack, o, u, v) : lobe_sample(p.lobe, o, u, v);
+}
+
+/* Bins along one side of the grid, and cells along one side of a bin for the integral of the pdf. */
+enum { BINS = 20, CELLS = 20, ALL_BINS = BINS * BINS + 1 }; /* the last counts "no sample" */
+
+/* The expected share of each bin; returns the integral over the hemisphere. */
+static double integrate_pdf(Proposal p, Dir o, Grid grid, double *share) {
+    const double step = 2.0 / (BINS * CELLS);
+    double all = 0.0;
+    for (int k = 0; k < BINS * BINS; k++) {
+        share[k] = 0.0;
+        for (int cell = 0; cell < CELLS * CELLS; cell++) {
+            double s = -1.0 + step * ((k / BINS) * CELLS + cell / CELLS + 0.5);
+            double t = -1.0 + step * ((k % BINS) * CELLS + cell % CELLS + 0.5), area;
+            Dir i = grid_direction(grid, s, t, &area);
+            if (i.z > 0.0f) share[k] += (double)proposal_pdf(p, o, i) * area * step * step;
+        }
+        all += share[k];
+    }
+    return all;
+}
+
+/* Upper tail of the chi-square distribution (Edwin B. Wilson, Margaret M. Hilferty, "The Distribution of
+ * Chi-square", 1931). */
+static double chi_square_p(double statistic, int freedom) {
+    double v = 2.0 / (9.0 * freedom), z = (cbrt(statistic / freedom) - (1.0 - v)) / (sqrt)(v);
+    return 0.5 * erfc(z / (sqrt)(2.0));
+}
+
+typedef struct Bin {
+    double expected, seen;
+} Bin;
+
+static int by_expectation(const void *a, const void *b) {
+    double x = ((const Bin *)a)->expected, y = ((const Bin *)b)->expected;
+    return (x > y) - (x < y);
+}
+
+/* p-value of the counts; bins of little expectation are counted as one. */
+static double test_bins(Bin *bins) {
+    qsort(bins, ALL_BINS, sizeof *bins, by_expectation);
+    double statistic = 0.0;
+    int used = 0;
+    Bin pool = {0};
+    for (int k = 0; k < ALL_BINS; k++) {
+        pool.expected += bins[k].expected;
+        pool.seen += bins[k].seen;
+        if (pool.expected < 8.0 && k + 1 < ALL_BINS) continue;
+        double d = pool.seen - pool.expected;
+        statistic += d * d / pool.expected;
+        used++;
+        pool = (Bin){0};
+    }
+    return used > 1 ? chi_square_p(statistic, used - 1) : 1.0;
+}
+
+/* How many tests share the significance of 1 %. */
+enum { TESTS = 400 };
+
+static void check_proposal(Proposal p, Dir o, const char *name) {
+    static double share[BINS * BINS];
+    static Bin bins[ALL_BINS];
+    Grid grid = grid_about(o);
+    double all = integrate_pdf(p, o, grid, share), count = test_long() ? 2e6 : 6e4;
+    if (all > 1.0 + 1e-3) fail_msg("%s: the pdf integrates to %.5f", name, all);
+
+    for (int k = 0; k < ALL_BINS; k++) bins[k] = (Bin){.expected = k < BINS * BINS ? count * share[k] : 0.0};
+    bins[ALL_BINS - 1].expected = count * (all < 1.0 ? 1.0 - all : 0.0);
+    Random random = {1};
+    double valid = 0.0;
+    for (int n = 0; n < (int)count; n++) {
+        float u = random_unit(&random), v = random_unit(&random);
+        Dir i = proposal_sample(p, o, u, v);
+        int k = ALL_BINS - 1;
+        if (i.z > 0.0f) {
+            double s, t;
+            grid_place(grid, i, &s, &t);
+            int row = (int)((s + 1.0) * 0.5 * BINS), column = (int)((t + 1.0) * 0.5 * BINS);
+            k = (row < BINS ? row : BINS - 1) * BINS + (column < BINS ? column : BINS - 1);
+            valid += 1.0;
+            if (!(proposal_pdf(p, o, i) > 0.0f)) fail_msg("%s: a sample with pdf 0", name);
+        }
+        bins[k].seen += 1.0;
+    }
+    double fraction = valid / count, sigma = (sqrt)(fraction * (1.0 - fraction) / count);
+    if (fabs(fraction - all) > 5.0 * sigma + 1e-3)
+        fail_msg("%s: %.5f of the samples are valid, the pdf integrates to %.5f", name, fraction, all);
+    double value = test_bins(bins), significance = 1.0 - (pow)(1.0 - 0.01, 1.0 / TESTS);
+    if (value < significance) fail_msg("%s: sample and pdf disagree, p = %.2g", name, value);
+}
+
+static const double elevations[] = {1.0, 0.9, 0.5, 0.15, 0.02};
+enum { ELEVATIONS = sizeof elevations / sizeof elevations[0] };
+
+static void lobes_sample_what_their_pdf_says(void **state) {
+    (void)state;
+    int tests = 0;
+    for (int id = 0; id < weft_lobe_count(); id++)
+        for (int k = 0; k < case_count((LobeId)id); k++)
+            for (int e = 0; e < ELEVATIONS; e++, tests++) {
+                Lobe lobe = case_lobe((LobeId)id, k);
+                Dir o = direction_cos(elevations[e], 0.4 + e);
+                check_proposal((Proposal){.lobe = &lobe}, o, case_name(&lobe, o).text);
+            }
+    assert_true(tests <= TESTS - 60);
+}
+
+static void stacks_sample_what_their_pdf_says(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    Random random = {7};
+    for (int k = 0; k < 30; k++) {
+        LobeId sheen = (LobeId)(k % weft_lobe_count());
+        if (k < weft_lobe_count()) fill_albedo(&table, sheen);
+        Surface surface = random_surface(&random, k % 2);
+        for (int e = 1; e < ELEVATIONS; e += 2) {
+            Dir o = direction_cos(elevations[e], 1.0 + k);
+            Stack stack;
+            surface_stack(&stack, &surface, o, table.lobe, k % LAYER_COUNT, &table);
+            char name[64];
+            snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
+            check_proposal((Proposal){.stack = &stack}, o, name);
+        }
+    }
+}
+
+/* A test that cannot fail would be none: a pdf that is 5 % off somewhere is found. */
+static void a_wrong_pdf_is_found(void **state) {
+    (void)state;
+    static Bin bins[ALL_BINS];
+    Random random = {3};
+    for (int k = 0; k < ALL_BINS; k++) bins[k].expected = 1e5 / ALL_BINS * (k % 2 ? 1.05 : 0.95);
+    for (int n = 0; n < 100000; n++) bins[random_bits(&random) % ALL_BINS].seen += 1.0;
+    assert_true(test_bins(bins) < 1e-6);
+    for (int k = 0; k < ALL_BINS; k++) bins[k] = (Bin){.expected = 1e5 / ALL_BINS};
+    for (int n = 0; n < 100000; n++) bins[random_bits(&random) % ALL_BINS].seen += 1.0;
+    assert_true(test_bins(bins) > 1e-3);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lobes_sample_what_their_pdf_says),
+        cmocka_unit_test(stacks_sample_what_their_pdf_says),
+        cmocka_unit_test(a_wrong_pdf_is_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

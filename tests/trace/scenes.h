@@ -1,0 +1,92 @@
+/* scenes.h - small scenes made in memory for the tests of trace/ */
+#ifndef WEFT_TEST_TRACE_SCENES_H
+#define WEFT_TEST_TRACE_SCENES_H
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+enum { TEST_MESHES = 16 };
+
+static inline WeftScene *test_scene(void) {
+    WeftScene *scene = scene_create("test");
+    scene->meshes = arena_array(&scene->arena, TEST_MESHES, sizeof(Mesh));
+    scene->materials = arena_array(&scene->arena, TEST_MESHES, sizeof(Material));
+    scene->lights = arena_array(&scene->arena, TEST_MESHES, sizeof(Light));
+    return scene;
+}
+
+static inline void test_environment(WeftScene *scene, float radiance) {
+    weft_scene_set_environment_color(scene, (float[3]){radiance, radiance, radiance}, NULL);
+}
+
+static inline void test_color(Material *material, InputId input, float value) {
+    for (int c = 0; c < 3; c++) material->inputs[input].value[c] = value;
+}
+
+/* A purely diffuse material: no specular layer. */
+static inline Material *test_material(WeftScene *scene, float base_color) {
+    int k = scene->material_count++;
+    Material *material = &scene->materials[k];
+    *material = material_default("matt");
+    material->double_sided = true;
+    test_color(material, INPUT_base_color, base_color);
+    test_color(material, INPUT_specular, 0.0f);
+    return material;
+}
+
+static inline Mesh *test_mesh(WeftScene *scene, uint32_t vertices, uint32_t triangles) {
+    Mesh *mesh = &scene->meshes[scene->mesh_count++];
+    *mesh = (Mesh){.name = "mesh", .vertex_count = vertices, .triangle_count = triangles};
+    mesh->material = scene->material_count - 1;
+    mesh->position = arena_array(&scene->arena, vertices, 3 * sizeof(float));
+    mesh->index = arena_array(&scene->arena, triangles, 3 * sizeof(uint32_t));
+    return mesh;
+}
+
+/* A parallelogram a, a + u, a + u + v, a + v of the last material; its front is towards cross(u, v). */
+static inline Mesh *test_quad(WeftScene *scene, Vec3 a, Vec3 u, Vec3 v) {
+    static const uint32_t order[6] = {0, 1, 2, 0, 2, 3};
+    Mesh *mesh = test_mesh(scene, 4, 2);
+    Vec3 p[4] = {a, vec3_add(a, u), vec3_add(vec3_add(a, u), v), vec3_add(a, v)};
+    memcpy(mesh->position, p, sizeof p);
+    memcpy(mesh->index, order, sizeof order);
+    return mesh;
+}
+
+/* A finely tessellated sphere of the last material, with smooth normals. */
+static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
+    enum { RINGS = 96, SECTORS = 192, ACROSS = SECTORS + 1 };
+    Mesh *mesh = test_mesh(scene, (RINGS + 1) * ACROSS, 2 * SECTORS * (RINGS - 1));
+    mesh->normal = arena_array(&scene->arena, mesh->vertex_count, 3 * sizeof(float));
+    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
+        float theta = (float)(k / ACROSS) * 3.14159265f / RINGS,
+              phi = (float)(k % ACROSS) * 6.28318531f / SECTORS;
+        Vec3 n = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
+        Vec3 p = vec3_madd(centre, n, radius);
+        memcpy(mesh->normal + 3 * k, &n, sizeof n);
+        memcpy(mesh->position + 3 * k, &p, sizeof p);
+    }
+    uint32_t *index = mesh->index;
+    for (uint32_t ring = 0; ring < RINGS; ring++)
+        for (uint32_t sector = 0; sector < SECTORS; sector++) {
+            uint32_t a = ring * ACROSS + sector, b = a + ACROSS;
+            if (ring > 0) *index++ = a, *index++ = b, *index++ = a + 1;
+            if (ring + 1 < RINGS) *index++ = a + 1, *index++ = b, *index++ = b + 1;
+        }
+    return mesh;
+}
+
+/* Six quads facing inward around [-half, half]^3. */
+static inline void test_box(WeftScene *scene, float h) {
+    test_quad(scene, vec3(-h, -h, h), vec3(2 * h, 0, 0), vec3(0, 0, -2 * h)); /* floor, up */
+    test_quad(scene, vec3(-h, h, -h), vec3(2 * h, 0, 0), vec3(0, 0, 2 * h));  /* ceiling, down */
+    test_quad(scene, vec3(-h, -h, -h), vec3(2 * h, 0, 0), vec3(0, 2 * h, 0)); /* back, +z */
+    test_quad(scene, vec3(-h, -h, h), vec3(0, 2 * h, 0), vec3(2 * h, 0, 0));  /* front, -z */
+    test_quad(scene, vec3(-h, -h, h), vec3(0, 0, -2 * h), vec3(0, 2 * h, 0)); /* left, +x */
+    test_quad(scene, vec3(h, -h, -h), vec3(0, 0, 2 * h), vec3(0, 2 * h, 0));  /* right, -x */
+}
+
+#endif

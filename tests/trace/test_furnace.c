@@ -1,0 +1,212 @@
+/* The path tracer against integrals that are known: white furnaces and directional albedo. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "scenes.h"
+#include "weft/weft.h"
+
+/* Mean and standard error of a picture's red over pixels with full coverage. */
+typedef struct Estimate {
+    double mean, error;
+    int count;
+} Estimate;
+
+static Estimate estimate(const WeftImage *image) {
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (int k = 0; k < image->width * image->height; k++) {
+        const float *p = (const float *)image->pixels + 4 * k;
+        if (p[3] < 0.9999f) continue;
+        sum += (double)p[0];
+        squares += (double)p[0] * (double)p[0];
+        count++;
+    }
+    double mean = sum / count, variance = fmax(squares / count - mean * mean, 0.0);
+    return (Estimate){mean, sqrt(variance / count), count};
+}
+
+static WeftImage render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
+    WeftRender *r = NULL;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &r, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_render_run(r, spp, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_info(r).non_finite, 0);
+    assert_int_equal(weft_render_image(r, &image, &error), WEFT_OK);
+    weft_render_free(r);
+    return image;
+}
+
+/* Two-sided 1 % test, Sidak-corrected over `tests` of them: |z| below the normal quantile of 1 - p/2 with
+ * p = 1 - 0.99^(1/tests); the quantile by bisection on erfc. */
+static double sidak_quantile(int tests) {
+    double p = 1.0 - pow(0.99, 1.0 / tests), low = 0.0, high = 10.0;
+    while (high - low > 1e-6) {
+        double middle = 0.5 * (low + high);
+        if (erfc(middle / sqrt(2.0)) > p)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}
+
+/* A sheen over white lambert: lossless under albedo-view where the sheen's own E stays below 1. */
+static void set_sheen(Material *material, const char *lobe, float alpha) {
+    material->sheen_lobe = weft_lobe_find(lobe);
+    test_color(material, INPUT_sheen_color, 1.0f);
+    material->inputs[INPUT_sheen_roughness].value[0] = sqrtf(alpha);
+}
+
+static bool conserves_at(int lobe, float alpha) {
+    WeftLobe l;
+    char text[32];
+    float e[3];
+    if (weft_lobe_create(weft_lobe_info(lobe)->id, &l, NULL) != WEFT_OK) return false;
+    snprintf(text, sizeof text, "%g", (double)alpha);
+    if (weft_lobe_info(lobe)->param_count && weft_lobe_set(&l, "alpha", text, NULL, NULL) != WEFT_OK)
+        return false;
+    for (float mu = 0.005f; mu <= 1.0f; mu *= 1.3f) {
+        weft_lobe_albedo(&l, mu, e);
+        if (e[0] > 1.0f) return false;
+    }
+    return true;
+}
+
+/* A closed room whose walls emit 1 - albedo: radiance is 1 everywhere, so a lossless sphere within is
+ * invisible. */
+static void closed_furnace_is_one(void **state) {
+    (void)state;
+    static const float alphas[] = {0.25f, 0.5f, 1.0f};
+    int cases = 0;
+    double z[64];
+    for (int lobe = -1; lobe < weft_lobe_count(); lobe++)
+        for (int a = 0; a < (lobe < 0 ? 1 : 3); a++) {
+            if (lobe >= 0 &&
+                (weft_lobe_info(lobe)->traits & WEFT_LOBE_FRESNEL || !conserves_at(lobe, alphas[a])))
+                continue;
+            WeftScene *scene = test_scene();
+            test_environment(scene, 0.0f);
+            test_color(test_material(scene, 0.5f), INPUT_emission, 0.5f);
+            test_box(scene, 2.0f);
+            Material *white = test_material(scene, 1.0f);
+            if (lobe >= 0) set_sheen(white, weft_lobe_info(lobe)->id, alphas[a]);
+            test_sphere(scene, vec3(0, 0, 0), 1.0f);
+            scene_bounds(scene);
+            WeftImage image = render(
+                scene,
+                (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,1.95;0,0,0;60", .max_depth = 400},
+                256);
+            Estimate e = estimate(&image);
+            z[cases] = (e.mean - 1.0) / e.error;
+            printf("  closed furnace %-22s alpha %.2f: %.5f +- %.5f\n",
+                   lobe < 0 ? "(no sheen)" : weft_lobe_info(lobe)->id, (double)alphas[a], e.mean, e.error);
+            cases++;
+            weft_image_free(&image);
+            weft_scene_free(scene);
+        }
+    assert_true(cases >= 4);
+    double limit = sidak_quantile(cases);
+    for (int k = 0; k < cases; k++)
+        if (!(fabs(z[k]) < limit))
+            fail_msg("case %d is %.2f standard errors from 1; the limit is %.2f", k, z[k], limit);
+}
+
+/* The furnace test can fail: an additive sheen returns more than it receives. */
+static void additive_layer_breaks_the_furnace(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    test_environment(scene, 1.0f);
+    set_sheen(test_material(scene, 1.0f), "charlie-neubelt", 0.5f);
+    assert_int_equal(weft_scene_set_layer(scene, "additive", NULL), WEFT_OK);
+    test_sphere(scene, vec3(0, 0, 0), 1.0f);
+    scene_bounds(scene);
+    WeftImage image =
+        render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = "0,0,3;0,0,0;20"}, 64);
+    assert_true(estimate(&image).mean > 1.02);
+    weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
+/* A lone lobe on a plane under radiance 1 shows E: camera straight at a wall from one direction. */
+static void plane_shows_albedo(void **state) {
+    (void)state;
+    static const float cosines[] = {0.1f, 0.4f, 0.9f};
+    for (int lobe = 0; lobe < weft_lobe_count(); lobe++) {
+        const WeftLobeInfo *info = weft_lobe_info(lobe);
+        if (info->traits & WEFT_LOBE_FRESNEL) continue;
+        for (int k = 0; k < 3; k++) {
+            float mu = cosines[k], e[3];
+            WeftScene *scene = test_scene();
+            test_environment(scene, 1.0f);
+            set_sheen(test_material(scene, 0.0f), info->id, 0.36f);
+            test_quad(scene, vec3(-100, 0, 100), vec3(200, 0, 0), vec3(0, 0, -200));
+            scene_bounds(scene);
+            char camera[96];
+            snprintf(camera, sizeof camera, "0,%g,%g;0,0,0;0.2", (double)mu, (double)sqrtf(1.0f - mu * mu));
+            WeftImage image = render(
+                scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = camera, .max_depth = 1}, 1024);
+            Estimate found = estimate(&image);
+            WeftLobe l;
+            assert_int_equal(weft_lobe_create(info->id, &l, NULL), WEFT_OK);
+            if (info->param_count) assert_int_equal(weft_lobe_set(&l, "alpha", "0.36", NULL, NULL), WEFT_OK);
+            weft_lobe_albedo(&l, mu, e);
+            printf("  plane %-22s cos %.1f: %.5f +- %.5f, E %.5f\n", info->id, (double)mu, found.mean,
+                   found.error, (double)e[0]);
+            assert_true(fabs(found.mean - (double)e[0]) < 0.005 * (double)e[0]);
+            weft_image_free(&image);
+            weft_scene_free(scene);
+        }
+    }
+}
+
+/* A sphere in a uniform environment: the mean over its disc of E(cos_o), cos_o^2 being uniform there. */
+static void sphere_shows_albedo(void **state) {
+    (void)state;
+    for (int lobe = 0; lobe < weft_lobe_count(); lobe++) {
+        const WeftLobeInfo *info = weft_lobe_info(lobe);
+        if (info->traits & WEFT_LOBE_FRESNEL) continue;
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        set_sheen(test_material(scene, 0.0f), info->id, 0.36f);
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        scene_bounds(scene);
+        /* far away, so that directions are parallel; black around, so that the silhouette's coverage does not
+         * count */
+        WeftImage image = render(scene,
+                                 (WeftRenderDesc){.width = 48,
+                                                  .height = 48,
+                                                  .camera = "0,0,1000;0,0,0;0.13",
+                                                  .background = WEFT_BACKGROUND_COLOR},
+                                 512);
+        double light = 0.0, pixel = 2000.0 * tan(0.065 * 3.14159265358979 / 180.0) / 48.0;
+        for (int k = 0; k < 48 * 48; k++) light += (double)((float *)image.pixels)[4 * k] * pixel * pixel;
+        WeftLobe l;
+        assert_int_equal(weft_lobe_create(info->id, &l, NULL), WEFT_OK);
+        if (info->param_count) assert_int_equal(weft_lobe_set(&l, "alpha", "0.36", NULL, NULL), WEFT_OK);
+        double truth = 0.0;
+        enum { STEPS = 400 };
+        for (int k = 0; k < STEPS; k++) {
+            float e[3];
+            weft_lobe_albedo(&l, sqrtf(((float)k + 0.5f) / STEPS), e);
+            truth += 3.14159265358979 * (double)e[0] / STEPS;
+        }
+        printf("  sphere %-22s %.5f, by quadrature %.5f\n", info->id, light, truth);
+        assert_true(fabs(light - truth) < 0.005 * truth);
+        weft_image_free(&image);
+        weft_scene_free(scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_furnace_is_one),
+        cmocka_unit_test(additive_layer_breaks_the_furnace),
+        cmocka_unit_test(plane_shows_albedo),
+        cmocka_unit_test(sphere_shows_albedo),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,207 @@
+/* What a ray meets: sides, transparency, offsets, interpolation. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "scenes.h"
+#include "trace/geometry.h"
+#include "weft/weft.h"
+
+static Geometry *build(WeftScene *scene) {
+    Geometry *geometry = NULL;
+    scene_bounds(scene);
+    assert_int_equal(geometry_create(scene, 2, &geometry, NULL), WEFT_OK);
+    return geometry;
+}
+
+static Ray down(float x, float z) { return (Ray){{x, 5.0f, z}, {0.0f, -1.0f, 0.0f}, 0.0f, INFINITY, 1}; }
+
+/* Three floors: a single-sided one facing down at y = 2, one facing up at 1, and a two-sided one at 0. */
+static WeftScene *floors(void) {
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f)->double_sided = false;
+    test_quad(scene, vec3(-1, 2, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+    test_quad(scene, vec3(-1, 1, 1), vec3(2, 0, 0), vec3(0, 0, -2));
+    test_material(scene, 0.5f);
+    test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+    return scene;
+}
+
+static void backs_of_single_sided_surfaces_are_not_there(void **state) {
+    (void)state;
+    WeftScene *scene = floors();
+    Geometry *geometry = build(scene);
+    Hit hit;
+    assert_true(geometry_hit(geometry, down(0.1f, 0.2f), &hit));
+    assert_int_equal(hit.mesh, 1);
+    assert_true(fabsf(hit.t - 4.0f) < 1e-5f);
+    Ray up = {{0.1f, -5.0f, 0.2f}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, 1};
+    assert_true(geometry_hit(geometry, up, &hit));
+    assert_int_equal(hit.mesh, 2); /* the two-sided one, from behind */
+    up.origin.y = 0.5f;
+    assert_true(geometry_hit(geometry, up, &hit));
+    assert_int_equal(hit.mesh, 0);
+    Ray part = down(0.1f, 0.2f);
+    part.far = 3.5f;
+    assert_false(geometry_occluded(geometry, part));
+    part.far = 4.5f;
+    assert_true(geometry_occluded(geometry, part));
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
+static void packets_agree_with_single_rays(void **state) {
+    (void)state;
+    WeftScene *scene = floors();
+    test_sphere(scene, vec3(0.3f, 3, 0.1f), 0.5f);
+    Geometry *geometry = build(scene);
+    for (int count = 1; count <= GEOMETRY_PACKET; count++) {
+        Ray rays[GEOMETRY_PACKET];
+        Hit hits[GEOMETRY_PACKET], one;
+        for (int k = 0; k < count; k++) rays[k] = down(-1.2f + 0.15f * (float)k, 0.03f * (float)k);
+        geometry_hit_packet(geometry, count, rays, hits);
+        for (int k = 0; k < count; k++) {
+            bool found = geometry_hit(geometry, rays[k], &one);
+            assert_int_equal(found, hits[k].t >= 0.0f);
+            if (!found) continue;
+            assert_int_equal(one.mesh, hits[k].mesh);
+            assert_true(fabsf(one.t - hits[k].t) < 1e-5f);
+        }
+    }
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
+/* Coverage is a coin per ray and triangle: its mean is the opacity, and occlusion sees the same surface. */
+static void transparency_is_a_fair_coin(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    Material *veil = test_material(scene, 0.5f);
+    veil->alpha_mode = ALPHA_BLEND;
+    veil->inputs[INPUT_opacity].value[0] = 0.3f;
+    test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+    Geometry *geometry = build(scene);
+    enum { N = 20000 };
+    int hits = 0, blocked = 0;
+    for (uint32_t k = 0; k < N; k++) {
+        Ray ray = down(0.3f, 0.1f);
+        ray.key = hash32(k);
+        Hit hit;
+        bool there = geometry_hit(geometry, ray, &hit);
+        hits += there;
+        blocked += geometry_occluded(geometry, ray) == there;
+    }
+    double sigma = sqrt(0.3 * 0.7 * N);
+    assert_true(fabs(hits - 0.3 * N) < 4.0 * sigma);
+    assert_int_equal(blocked, N);
+    veil->alpha_mode = ALPHA_MASK;
+    Hit hit;
+    assert_false(geometry_hit(geometry, down(0.3f, 0.1f), &hit));
+    veil->alpha_cutoff = 0.25f;
+    assert_true(geometry_hit(geometry, down(0.3f, 0.1f), &hit));
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
+/* Many coincident sheets: the walk past refused hits ends. */
+static void stacked_sheets_end(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    Material *glass = test_material(scene, 0.5f);
+    glass->alpha_mode = ALPHA_MASK;
+    glass->inputs[INPUT_opacity].value[0] = 0.0f;
+    for (int k = 0; k < 12; k++) test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+    Geometry *geometry = build(scene);
+    Hit hit;
+    assert_false(geometry_hit(geometry, down(0.1f, 0.3f), &hit));
+    Ray near = down(0.1f, 0.3f);
+    near.origin.y = 0.0f; /* starts on them, at distance 0 */
+    assert_false(geometry_hit(geometry, near, &hit));
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
+static void lifted_points_lie_on_the_smooth_surface(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f);
+    Mesh *mesh = test_sphere(scene, vec3(0, 0, 0), 1.0f);
+    double flat = 0.0, lifted = 0.0;
+    for (uint32_t k = 0; k < mesh->triangle_count; k += 7) {
+        Hit hit = {.triangle = k, .u = 0.33f, .v = 0.33f, .facing = {0, 1, 0}};
+        Vertex v = geometry_vertex(mesh, &hit);
+        Vec3 p = geometry_lift(mesh, &hit, &v, 1.0f);
+        flat = fmax(flat, fabs(1.0 - (double)vec3_length(v.position)));
+        assert_true(vec3_length(p) > 1.0f - 1e-6f); /* tangent planes lie outside a ball */
+        lifted = fmax(lifted, (double)vec3_length(p) - 1.0);
+        Vec3 inside = geometry_lift(mesh, &hit, &v, -1.0f); /* seen from within nothing bulges */
+        assert_true(vec3_length(vec3_sub(inside, v.position)) < 1e-6f);
+    }
+    assert_true(flat > 1e-4 && lifted < 1.1 * flat);
+    weft_scene_free(scene);
+}
+
+/* A convex ball does not shadow itself: every point facing the light is lit, at three scales of the world. */
+static void a_ball_does_not_shadow_itself(void **state) {
+    (void)state;
+    static const float scales[] = {0.01f, 1.0f, 1000.0f};
+    for (int k = 0; k < 3; k++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 0.0f);
+        test_material(scene, 1.0f);
+        test_sphere(scene, vec3(0, 0, 0), scales[k]);
+        scene->lights[scene->light_count++] = (Light){.name = "sun",
+                                                      .kind = LIGHT_DIRECTIONAL,
+                                                      .direction = {0, 0, -1},
+                                                      .color = {1, 1, 1},
+                                                      .intensity = 3.14159265f};
+        scene_bounds(scene);
+        char camera[64];
+        snprintf(camera, sizeof camera, "0,0,%g;0,0,0;12", (double)(10.0f * scales[k]));
+        WeftRender *r;
+        WeftImage image;
+        assert_int_equal(
+            weft_render_create(
+                scene,
+                &(WeftRenderDesc){
+                    .width = 64, .height = 64, .camera = camera, .max_depth = 1, .pixel_centre = 1},
+                &r, NULL),
+            WEFT_OK);
+        assert_int_equal(weft_render_run(r, 1, 0.0, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_render_image(r, &image, NULL), WEFT_OK);
+        int checked = 0;
+        double half = 10.0 * tan(6.0 * 3.14159265358979 / 180.0);
+        for (int y = 0; y < 64; y++)
+            for (int x = 0; x < 64; x++) {
+                /* the ray (0, 0, 10) + t (px, py, -10) meets the unit ball where t solves a quadratic */
+                double px = ((x + 0.5) / 32.0 - 1.0) * half, py = ((y + 0.5) / 32.0 - 1.0) * half;
+                double a = px * px + py * py + 100.0, root = 100.0 * 100.0 - a * 99.0;
+                if (root <= 0.0) continue;
+                double z = 10.0 - 10.0 * (100.0 - sqrt(root)) / a;
+                if (z < 0.3) continue;
+                float lit = ((float *)image.pixels)[4 * (64 * y + x)];
+                assert_true(fabs((double)lit - z) <
+                            0.01); /* lambert under a sun of irradiance pi: the cosine */
+                checked++;
+            }
+        assert_true(checked > 1500);
+        weft_image_free(&image);
+        weft_render_free(r);
+        weft_scene_free(scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(backs_of_single_sided_surfaces_are_not_there),
+        cmocka_unit_test(packets_agree_with_single_rays),
+        cmocka_unit_test(transparency_is_a_fair_coin),
+        cmocka_unit_test(stacked_sheets_end),
+        cmocka_unit_test(lifted_points_lie_on_the_smooth_surface),
+        cmocka_unit_test(a_ball_does_not_shadow_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,129 @@
+/* The sampler's points are Owen-scrambled Sobol points, and choices follow their weights. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "trace/distribution.h"
+#include "trace/sampler.h"
+
+/* Bit j of the second Sobol dimension's k-th direction number is (k choose j) mod 2, by the recurrence of its
+ * primitive polynomial x + 1: v_k = v_{k-1} xor (v_{k-1} >> 1). */
+static uint32_t sobol_by_definition(uint32_t i) {
+    uint32_t v = 0x80000000u, x = 0;
+    for (; i; i >>= 1, v ^= v >> 1)
+        if (i & 1) x ^= v;
+    return x;
+}
+
+static void pascal_matrix_is_sobol(void **state) {
+    (void)state;
+    for (uint32_t k = 0; k < 100000; k++) {
+        uint32_t i = k < 50000 ? k : hash32(k);
+        assert_int_equal(reverse_bits(pascal_bits(i)), sobol_by_definition(i));
+    }
+}
+
+/* Every aligned block of 2^m samples of a pair has one point in each elementary interval of area 2^-m. */
+static void pairs_are_stratified(void **state) {
+    (void)state;
+    enum { M = 8, N = 1 << M };
+    for (uint32_t pixel = 0; pixel < 5; pixel++)
+        for (int pair = 0; pair < 6; pair++)
+            for (int split = 0; split <= M; split++)
+                for (uint32_t block = 0; block < 2; block++) {
+                    unsigned char seen[N] = {0};
+                    for (uint32_t k = 0; k < N; k++) {
+                        Sampler s = sampler_start(pixel, 3, 9, block * N + k);
+                        Point p = {0};
+                        for (int j = 0; j <= pair; j++) p = sampler_next(&s);
+                        int column = (int)(p.u * (float)(1 << split)),
+                            row = (int)(p.v * (float)(1 << (M - split)));
+                        seen[column * (1 << (M - split)) + row]++;
+                    }
+                    for (int k = 0; k < N; k++) assert_int_equal(seen[k], 1);
+                }
+}
+
+static void pixels_and_pairs_are_decorrelated(void **state) {
+    (void)state;
+    enum { N = 4096 };
+    double sum = 0.0;
+    for (uint32_t k = 0; k < N; k++) {
+        Sampler a = sampler_start(k, 0, 1, 0), b = sampler_start(k + 1, 0, 1, 0);
+        sum += ((double)sampler_next(&a).u - 0.5) * ((double)sampler_next(&b).u - 0.5) * 12.0;
+        Point second = sampler_next(&a);
+        sum += ((double)second.u - 0.5) * ((double)second.v - 0.5) * 12.0;
+    }
+    assert_true(sum * sum < 16.0 * 2.0 * N); /* 4 standard errors of a sum of 2 N products of variance 1 */
+}
+
+static void choices_follow_weights(void **state) {
+    (void)state;
+    enum { N = 7, U = 70000 };
+    static const float weights[N] = {0.0f, 3.0f, 0.5f, 0.0f, 4.0f, 2.5f, 0.0f};
+    float cdf[N + 1] = {0};
+    uint32_t guide[N];
+    memcpy(cdf + 1, weights, sizeof weights);
+    Distribution d;
+    assert_true(distribution_make(&d, N, cdf, guide) == 10.0);
+    int count[N] = {0};
+    for (int k = 0; k < U; k++) {
+        float u = ((float)k + 0.5f) / U;
+        Choice c = distribution_choose(&d, u);
+        assert_in_range(c.index, 0, N - 1);
+        assert_true(c.rest >= 0.0f && c.rest < 1.0f);
+        assert_true(d.cdf[c.index] <= u && u < d.cdf[c.index + 1]);
+        count[c.index]++;
+    }
+    for (int k = 0; k < N; k++)
+        assert_in_range(count[k], (int)(weights[k] * U / 10) - 2 < 0 ? 0 : (int)(weights[k] * U / 10) - 2,
+                        (int)(weights[k] * U / 10) + 2);
+    assert_true(distribution_choose(&d, 0x1.fffffep-1f).index == 5);
+    assert_true(distribution_choose(&d, 0.0f).index == 1);
+}
+
+static void no_weight_gives_equal_shares(void **state) {
+    (void)state;
+    float cdf[5] = {0};
+    uint32_t guide[4];
+    Distribution d;
+    assert_true(distribution_make(&d, 4, cdf, guide) == 0.0);
+    for (int k = 0; k < 4; k++) assert_int_equal(distribution_choose(&d, (float)k / 4 + 0.1f).index, k);
+}
+
+/* Many sizes and uneven weights: the guide never starts behind the answer. */
+static void search_finds_the_cell(void **state) {
+    (void)state;
+    enum { MAX = 1000 };
+    static float cdf[MAX + 1];
+    static uint32_t guide[MAX];
+    for (uint32_t n = 1; n <= MAX; n += 37) {
+        for (uint32_t k = 1; k <= n; k++) {
+            float r = unit_float(hash_combine(n, k));
+            cdf[k] = r < 0.3f ? 0.0f : r * r * r * r;
+        }
+        Distribution d;
+        distribution_make(&d, (int)n, cdf, guide);
+        for (uint32_t k = 0; k < 2000; k++) {
+            float u = k < 1000 ? unit_float(hash32(k)) : (float)(k % (n + 1)) / (float)(n + 1);
+            Choice c = distribution_choose(&d, u);
+            assert_true(d.cdf[c.index] <= u && u < d.cdf[c.index + 1]);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pascal_matrix_is_sobol),
+        cmocka_unit_test(pairs_are_stratified),
+        cmocka_unit_test(pixels_and_pairs_are_decorrelated),
+        cmocka_unit_test(choices_follow_weights),
+        cmocka_unit_test(no_weight_gives_equal_shares),
+        cmocka_unit_test(search_finds_the_cell),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,215 @@
+/* Light sampling, lobe sampling and MIS find the same picture; threads and tiles do not change a byte. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "scenes.h"
+#include "weft/weft.h"
+
+/* A glossy coated floor with a sheen ball, lit by a quad, a bright spot in an image environment and a
+ * constant part. */
+static WeftScene *lit_scene(void) {
+    WeftScene *scene = test_scene();
+    WeftImage map;
+    assert_int_equal(weft_image_create(64, 32, 3, WEFT_PIXEL_F32, &map, NULL), WEFT_OK);
+    for (int k = 0; k < 64 * 32 * 3; k++) ((float *)map.pixels)[k] = 0.2f;
+    for (int y = 8; y < 12; y++)
+        for (int x = 20; x < 26; x++) ((float *)map.pixels)[3 * (64 * y + x)] = 12.0f;
+    weft_image_free(&scene->environment.image);
+    scene->environment.image = map;
+    scene->environment.kind = ENVIRONMENT_IMAGE;
+    scene->environment.rotation = 0.7f;
+
+    Material *floor = test_material(scene, 0.4f);
+    test_color(floor, INPUT_specular, 1.0f);
+    test_color(floor, INPUT_roughness, 0.45f);
+    test_color(floor, INPUT_clearcoat, 0.7f);
+    test_color(floor, INPUT_clearcoat_roughness, 0.35f);
+    test_quad(scene, vec3(-4, 0, 4), vec3(8, 0, 0), vec3(0, 0, -8));
+    Material *ball = test_material(scene, 0.3f);
+    test_color(ball, INPUT_sheen_color, 0.8f);
+    test_color(ball, INPUT_sheen_roughness, 0.5f);
+    test_color(ball, INPUT_anisotropy, 0.6f);
+    test_color(ball, INPUT_specular, 1.0f);
+    test_sphere(scene, vec3(0, 1, 0), 1.0f);
+    Material *lamp = test_material(scene, 0.0f);
+    lamp->double_sided = false;
+    test_color(lamp, INPUT_emission, 6.0f);
+    test_quad(scene, vec3(-2.2f, 2.6f, -1), vec3(1.2f, 0.4f, 0), vec3(0, 0, 1.4f));
+    scene_bounds(scene);
+    return scene;
+}
+
+static const WeftRenderDesc small = {
+    .width = 24, .height = 18, .camera = "0,2.4,6;0,0.8,0;32", .max_depth = 4};
+
+static WeftImage render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
+    WeftRender *r = NULL;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &r, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_render_run(r, spp, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_info(r).non_finite, 0);
+    assert_int_equal(weft_render_image(r, &image, &error), WEFT_OK);
+    weft_render_free(r);
+    return image;
+}
+
+enum { BATCHES = 12, BATCH_SPP = 96 };
+
+/* Mean picture value of a strategy in each of BATCHES independent renders, over a left and a right half. */
+static void batch_means(const WeftScene *scene, WeftSampling sampling, double means[2][BATCHES]) {
+    for (int b = 0; b < BATCHES; b++) {
+        WeftRenderDesc desc = small;
+        desc.sampling = sampling;
+        desc.seed = 1000u + (uint32_t)b;
+        WeftImage image = render(scene, desc, BATCH_SPP);
+        double sum[2] = {0};
+        for (int k = 0; k < image.width * image.height; k++)
+            for (int c = 0; c < 3; c++)
+                sum[k % image.width >= image.width / 2] += (double)((float *)image.pixels)[4 * k + c];
+        for (int half = 0; half < 2; half++) means[half][b] = sum[half] / (image.width * image.height * 1.5);
+        weft_image_free(&image);
+    }
+}
+
+static void moments(const double *x, double *mean, double *error) {
+    double sum = 0.0, squares = 0.0;
+    for (int b = 0; b < BATCHES; b++) sum += x[b];
+    *mean = sum / BATCHES;
+    for (int b = 0; b < BATCHES; b++) squares += (x[b] - *mean) * (x[b] - *mean);
+    *error = sqrt(squares / (BATCHES - 1) / BATCHES);
+}
+
+static void strategies_agree(void **state) {
+    (void)state;
+    static const char *const names[] = {"mis", "light", "lobe"};
+    WeftScene *scene = lit_scene();
+    double means[3][2][BATCHES], m[3][2], e[3][2];
+    for (int s = 0; s < 3; s++) {
+        batch_means(scene, (WeftSampling)s, means[s]);
+        for (int half = 0; half < 2; half++) moments(means[s][half], &m[s][half], &e[s][half]);
+        printf("  %-5s %.5f +- %.5f | %.5f +- %.5f\n", names[s], m[s][0], e[s][0], m[s][1], e[s][1]);
+    }
+    for (int s = 1; s < 3; s++)
+        for (int half = 0; half < 2; half++) {
+            /* Student's t with about 11 degrees of freedom a side, four comparisons, 1 % together: 3.7 */
+            double z = (m[s][half] - m[0][half]) / hypot(e[s][half], e[0][half]);
+            if (!(fabs(z) < 3.7)) fail_msg("%s differs from mis by %.2f standard errors", names[s], z);
+        }
+    for (int half = 0; half < 2; half++) {
+        assert_true(e[0][half] < e[1][half] * 1.5); /* MIS is never much worse than either */
+        assert_true(e[0][half] < e[2][half] * 1.5);
+        assert_true(e[0][half] < 0.02 * m[0][half]); /* else the comparison above could not fail */
+    }
+    weft_scene_free(scene);
+}
+
+static void threads_do_not_matter(void **state) {
+    (void)state;
+    WeftScene *scene = lit_scene();
+    WeftRenderDesc desc = small;
+    desc.width = 70, desc.height = 50;
+    desc.threads = 1;
+    WeftImage one = render(scene, desc, 20);
+    static const int counts[] = {2, 7};
+    for (int k = 0; k < 2; k++) {
+        desc.threads = counts[k];
+        WeftImage many = render(scene, desc, 20);
+        assert_memory_equal(one.pixels, many.pixels, 70 * 50 * 4 * sizeof(float));
+        weft_image_free(&many);
+    }
+    desc.seed = 5; /* and another seed does change them */
+    WeftImage other = render(scene, desc, 20);
+    assert_memory_not_equal(one.pixels, other.pixels, 70 * 50 * 4 * sizeof(float));
+    weft_image_free(&other);
+    weft_image_free(&one);
+    weft_scene_free(scene);
+}
+
+static void a_crop_is_a_part_of_the_picture(void **state) {
+    (void)state;
+    WeftScene *scene = lit_scene();
+    WeftRenderDesc desc = small;
+    desc.width = 60, desc.height = 40;
+    WeftImage whole = render(scene, desc, 3);
+    memcpy(desc.crop, (int[4]){13, 7, 21, 19}, sizeof desc.crop);
+    WeftImage part = render(scene, desc, 3);
+    assert_int_equal(part.width, 21);
+    assert_int_equal(part.height, 19);
+    for (int y = 0; y < 19; y++)
+        assert_memory_equal((float *)part.pixels + 4 * 21 * y,
+                            (float *)whole.pixels + 4 * (60 * (y + 7) + 13), 21 * 4 * sizeof(float));
+    weft_image_free(&whole);
+    weft_image_free(&part);
+    weft_scene_free(scene);
+}
+
+static int stop_at_half(void *user, double fraction) {
+    *(double *)user = fraction;
+    return fraction > 0.5;
+}
+
+static void runs_add_up_and_stop(void **state) {
+    (void)state;
+    WeftScene *scene = lit_scene();
+    WeftRenderDesc desc = small;
+    WeftRender *r;
+    assert_int_equal(weft_render_create(scene, &desc, &r, NULL), WEFT_OK);
+    assert_int_equal(weft_render_run(r, 3, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_run(r, 4, 0.0, NULL, NULL), WEFT_OK);
+    assert_true(weft_render_info(r).samples_per_pixel == 7.0);
+    double fraction = 0.0;
+    assert_int_equal(weft_render_run(r, 16, 0.0, stop_at_half, &fraction), WEFT_INTERRUPTED);
+    assert_true(fraction > 0.5 && fraction <= 1.0);
+    weft_render_free(r);
+
+    assert_int_equal(weft_render_create(scene, &desc, &r, NULL), WEFT_OK);
+    assert_int_equal(weft_render_run(r, 1 << 28, 0.2, NULL, NULL),
+                     WEFT_OK); /* the time limit is no failure */
+    assert_true(weft_render_info(r).samples_per_pixel >= 1.0);
+    assert_true(weft_render_info(r).render_seconds < 5.0);
+    weft_render_free(r);
+    weft_scene_free(scene);
+}
+
+static void descriptors_are_checked(void **state) {
+    (void)state;
+    WeftScene *scene = lit_scene();
+    static const WeftRenderDesc wrong[] = {{.width = -1},
+                                           {.width = 70000},
+                                           {.height = 1, .width = 1, .crop = {0, 0, 2, 1}},
+                                           {.max_depth = -2},
+                                           {.threads = -1}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        WeftRender *r;
+        WeftError error;
+        assert_int_equal(weft_render_create(scene, &wrong[k], &r, &error), WEFT_USAGE);
+        assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+        assert_null(r);
+    }
+    WeftRender *r;
+    WeftError error;
+    assert_int_equal(weft_render_create(scene, &(WeftRenderDesc){.camera = "nowhere"}, &r, &error),
+                     WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_CAMERA_NAME);
+    WeftScene *empty = test_scene();
+    scene_bounds(empty);
+    assert_int_equal(weft_render_create(empty, &(WeftRenderDesc){0}, &r, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_SCENE_EMPTY);
+    weft_scene_free(empty);
+    weft_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(a_crop_is_a_part_of_the_picture),
+        cmocka_unit_test(runs_add_up_and_stop),
+        cmocka_unit_test(descriptors_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
