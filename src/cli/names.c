@@ -33,9 +33,9 @@ static int edits(const char *a, const char *b) {
 
 void nearest_offer(Nearest *nearest, const char *name) {
     size_t typed = strlen(nearest->typed), length = strlen(name);
-    if (typed < 3 || typed > NAME_MAX_LENGTH || length > NAME_MAX_LENGTH) return;
+    if (typed == 0 || typed > NAME_MAX_LENGTH || length > NAME_MAX_LENGTH) return;
     int distance = edits(nearest->typed, name);
-    int bearable = 1 + (int)typed / 4;
+    int bearable = least(1 + (int)typed / 4, ((int)length - 1) / 2); /* most of the name must be there */
     /* the start of a name is a way to write it: --time for --time-limit */
     if (typed > 2 && strncmp(nearest->typed, name, typed) == 0) distance = least(distance, 1);
     if (distance > bearable || (nearest->name && distance >= nearest->distance)) return;

@@ -164,7 +164,6 @@ float albedo_table_read(const AlbedoTable *table, float cos_o, float alpha) {
     }
     float e = 0.0f;
     for (int j = 0; j < 4 && j < table->rows; j++)
-        for (int k = 0; k < 4; k++)
-            e += row.w[j] * column.w[k] * table->e[row.first + j][column.first + k];
+        for (int k = 0; k < 4; k++) e += row.w[j] * column.w[k] * table->e[row.first + j][column.first + k];
     return max(e, 0.0f);
 }

@@ -16,8 +16,8 @@ typedef struct Albedo {
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 
 /* E of a white lobe (f0 = f90 = 1) over cos_o, ALBEDO_MU nodes uniform in its fourth root, and over one
- * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends about
- * equally everywhere, though it changes fastest near grazing at low alpha. */
+ * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends
+ * about equally everywhere, though it changes fastest near grazing at low alpha. */
 enum { ALBEDO_MU = 32, ALBEDO_ROWS = 32 };
 
 typedef struct AlbedoTable {

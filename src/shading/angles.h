@@ -29,8 +29,8 @@ FN Dir dir(float x, float y, float z) {
 
 FN float dir_dot(Dir a, Dir b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* Directions that graze from opposite sides cancel to almost nothing: the floor on z keeps h a unit vector (the
- * normal, if all is lost) and d above zero. A lobe is never asked about directions below the horizon. */
+/* Directions that graze from opposite sides cancel to almost nothing: the floor on z keeps h a unit vector
+ * (the normal, if all is lost) and d above zero. A lobe is never asked about directions below the horizon. */
 FN Angles angles_between(Dir o, Dir i) {
     Angles a;
     a.o = o;

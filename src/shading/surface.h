@@ -25,12 +25,13 @@ typedef struct Surface {
  *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
  *   A      = what the layer rule leaves for the base under the sheen
  *
- * Khronos Group, "glTF 2.0 Specification", 2021, Appendix B; KHR_materials_specular, _ior, _clearcoat, _sheen,
- * _anisotropy. sheen is any lobe of the catalogue; sheen_e holds its E (may be NULL when sheen_color is black).
+ * Khronos Group, "glTF 2.0 Specification", 2021, Appendix B; KHR_materials_specular, _ior, _clearcoat,
+ * _sheen, _anisotropy. sheen is any lobe of the catalogue; sheen_e holds its E (may be NULL when sheen_color
+ * is black).
  *
  * Departure: F_min, which dims the diffuse lobe, is that of a dielectric at the least of wi . h, cos_o and
- * cos_i. With wi . h alone, as glTF has it, a smooth white dielectric reflects up to 1.45 times what it receives
- * at grazing; so it never passes 1 (tests/shading/test_furnace). */
+ * cos_i. With wi . h alone, as glTF has it, a smooth white dielectric reflects up to 1.45 times what it
+ * receives at grazing; so it never passes 1 (tests/shading/test_furnace). */
 void surface_stack(Stack *stack, const Surface *surface, Dir wo, LobeId sheen, int layer,
                    const AlbedoTable *sheen_e);
 

@@ -303,7 +303,9 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
 
 WeftRenderInfo weft_render_info(const WeftRender *render) {
     const Camera *c = &render->camera;
-    Vec3 target = vec3_add(c->eye, c->forward);
+    Vec3 middle = vec3_scale(vec3_add(render->scene->low, render->scene->high), 0.5f);
+    float depth = max(vec3_dot(vec3_sub(middle, c->eye), c->forward), 1e-3f);
+    Vec3 target = vec3_madd(c->eye, c->forward, depth); /* the point of the view's axis beside the scene's middle */
     WeftRenderInfo info = {.build_seconds = render->build_seconds,
                            .render_seconds = render->render_seconds,
                            .camera_eye = {c->eye.x, c->eye.y, c->eye.z},

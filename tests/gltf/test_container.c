@@ -71,6 +71,8 @@ static void refuses_damaged_glb(void **state) {
     size = glb(bytes, triangle_text, triangle, sizeof triangle);
     bytes[16] = 'X';
     assert_refused(read_gltf("kind.glb", bytes, size), WEFT_MESSAGE_GLTF_CONTAINER, "first chunk");
+    size = glb(bytes, "[1] ", NULL, 0);
+    assert_refused(read_gltf("array.glb", bytes, size), WEFT_MESSAGE_GLTF_JSON, "not an object");
     size = glb(bytes, triangle_text, triangle, 32);
     assert_refused(read_gltf("short.glb", bytes, size), WEFT_MESSAGE_GLTF_BOUNDS, "buffers[0]: 32 of 36");
 }

@@ -105,6 +105,13 @@ static void refuses_attributes(void **state) {
                    WEFT_MESSAGE_GLTF_SCHEMA, "not finite");
     assert_refused(read_square(",'scale':[1e20,1,1]", SQUARE_PRIMITIVE), WEFT_MESSAGE_GLTF_TOO_LARGE,
                    "too far away");
+    assert_refused(read_square("},{'children':[2],'scale':[1e30,1,1]},{'scale':[1e30,1,1]", SQUARE_PRIMITIVE),
+                   WEFT_MESSAGE_GLTF_TOO_LARGE, "nodes[2]: its transform");
+    Reading *reading = read_square("", "'attributes':{'NORMAL':1}");
+    assert_read(reading);
+    assert_int_equal(reading->scene->mesh_count, 0);
+    assert_non_null(strstr(reading->warning, "no positions"));
+    done(reading);
 }
 
 static void transforms_agree(void **state) {
@@ -323,6 +330,31 @@ static void survives_degenerate_map(void **state) {
     done(reading);
 }
 
+/* The file's own tangents: kept, made unit and square to the normals, turned around by a mirroring node. */
+static void keeps_tangents(void **state) {
+    (void)state;
+    static const float tangents[16] = {2, 0, 0.5f, 1, 0, 3, 0, -1, 0, 0, 1, 1, 0, 0, 0, -1};
+    static const char form[] =
+        "'buffers':[{'byteLength':140,'uri':'%s'},{'byteLength':64,'uri':'%s'}],'bufferViews':[{'buffer':0,"
+        "'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':48},{'buffer':1,'byteLength':64}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':1,"
+        "'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':2,'componentType':5126,'count':4,"
+        "'type':'VEC4'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TANGENT':2},"
+        "'mode':5}]}],'nodes':[{'mesh':0,'scale':[%d,1,1]}]";
+    for (int x = -1; x <= 1; x += 2) {
+        Reading *reading = read_rest(form, SQUARE_URI, uri(tangents, sizeof tangents), x);
+        assert_read(reading);
+        const float *t = reading->scene->meshes[0].tangent, sign = (float)x;
+        assert_all_near(t, (const float[]){sign, 0, 0, sign}, 4, 1e-6f);
+        assert_all_near(t + 4, (const float[]){0, 1, 0, -sign}, 4, 1e-6f);
+        for (int v = 2; v < 4; v++) { /* along the normal, and nothing: some direction across */
+            assert_near(t[4 * v] * t[4 * v] + t[4 * v + 1] * t[4 * v + 1], 1.0f, 1e-6f);
+            assert_near(t[4 * v + 2], 0.0f, 1e-6f);
+        }
+        done(reading);
+    }
+}
+
 /* --- rest pose --- */
 
 static void poses_skins(void **state) {
@@ -415,6 +447,7 @@ int main(void) {
         cmocka_unit_test(makes_tangents),
         cmocka_unit_test(splits_mirrored),
         cmocka_unit_test(survives_degenerate_map),
+        cmocka_unit_test(keeps_tangents),
         cmocka_unit_test(poses_skins),
         cmocka_unit_test(poses_morphs),
         cmocka_unit_test(limits_zeros),

@@ -1,5 +1,5 @@
-/* cases.h - what the shading tests loop over: every lobe at a spread of parameters, directions, random surfaces;
- * and a hemisphere cut into cells
+/* cases.h - what the shading tests loop over: every lobe at a spread of parameters, directions, random
+ * surfaces; and a hemisphere cut into cells
  *
  * Include it after the standard headers and cmocka: the dialect's names shadow <math.h>, so a double function
  * is called as (exp)(x). */
@@ -28,8 +28,8 @@ static inline bool test_long(void) {
     return value && value[0] == '1';
 }
 
-/* Random numbers that are the same in every run: splitmix64 (Guy L. Steele, Doug Lea, Christine H. Flood, "Fast
- * Splittable Pseudorandom Number Generators", 2014). */
+/* Random numbers that are the same in every run: splitmix64 (Guy L. Steele, Doug Lea, Christine H. Flood,
+ * "Fast Splittable Pseudorandom Number Generators", 2014). */
 typedef struct Random {
     uint64_t state;
 } Random;
@@ -56,8 +56,8 @@ static inline Dir random_direction(Random *random) {
     return direction_cos(z, 2.0 * TEST_PI * (double)random_unit(random));
 }
 
-/* Parameter spread: the default; each parameter alone at both ends of its plausible and of its hard range and in
- * between; and, for lobes of several parameters, some random combinations. */
+/* Parameter spread: the default; each parameter alone at both ends of its plausible and of its hard range and
+ * in between; and, for lobes of several parameters, some random combinations. */
 enum { CASE_VALUES = 5, CASE_COMBINATIONS = 4 };
 
 static inline int case_count(LobeId id) {
@@ -107,9 +107,9 @@ static inline CaseName case_name(const Lobe *lobe, Dir o) {
     return name;
 }
 
-/* The hemisphere of wi as a square [-1, 1]^2 stretched about the direction that mirrors wo: both theta and phi
- * move slowly there, and again at the far ends (normal, horizon, backscatter), since that is where lobes change
- * fast. Cells are unit steps of that square; integrals are midpoint sums over them. */
+/* The hemisphere of wi as a square [-1, 1]^2 stretched about the direction that mirrors wo: both theta and
+ * phi move slowly there, and again at the far ends (normal, horizon, backscatter), since that is where lobes
+ * change fast. Cells are unit steps of that square; integrals are midpoint sums over them. */
 typedef struct Grid {
     double theta, phi; /* of the mirror direction */
 } Grid;
@@ -152,7 +152,8 @@ static inline void grid_place(Grid grid, Dir i, double *s, double *t) {
     *t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / TEST_PI);
 }
 
-/* A plausible surface with everything switched on now and then. With tilt, the coat has a normal of its own. */
+/* A plausible surface with everything switched on now and then. With tilt, the coat has a normal of its own.
+ */
 static inline Surface random_surface(Random *random, bool tilt) {
     Surface s = {.opacity = 1.0f, .occlusion = 1.0f, .ior = 1.0f + 1.2f * random_unit(random)};
     s.base_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
@@ -165,7 +166,8 @@ static inline Surface random_surface(Random *random, bool tilt) {
     s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
     s.clearcoat = max(2.0f * random_unit(random) - 1.0f, 0.0f);
     s.clearcoat_roughness = weft_mix(tilt ? 0.4f : 0.0f, 1.0f, random_unit(random));
-    if (tilt) s.clearcoat_normal = direction(0.5 * (double)random_unit(random), 6.0 * (double)random_unit(random));
+    if (tilt)
+        s.clearcoat_normal = direction(0.5 * (double)random_unit(random), 6.0 * (double)random_unit(random));
     if (random_unit(random) < 0.5f)
         s.sheen_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
     s.sheen_roughness = random_unit(random);

@@ -111,14 +111,16 @@ static void half_vectors(void **state) {
     assert_true(opposite.d > 0.0f);
 }
 
-/* Microfacet normals are upper, unit, and seen from wo, so that wi is wo mirrored and never behind a facet. */
+/* Microfacet normals are upper, unit, and seen from wo, so that wi is wo mirrored and never behind a facet.
+ */
 static void facet_normals_are_visible(void **state) {
     (void)state;
     Random random = {14};
     for (int n = 0; n < 300000; n++) {
         float alpha = (float)(pow)(10.0, -3.0 + 3.5 * (double)random_unit(&random));
         float ax = n % 2 ? alpha : (float)(pow)(10.0, -3.0 + 3.0 * (double)random_unit(&random));
-        Dir o = n % 3 ? random_direction(&random) : direction_cos((pow)(10.0, -7.0 * (double)random_unit(&random)), n);
+        Dir o = n % 3 ? random_direction(&random)
+                      : direction_cos((pow)(10.0, -7.0 * (double)random_unit(&random)), n);
         float u = random_unit(&random), v = random_unit(&random);
         Dir h = ggx_sample_h(ax, alpha, o, u, v);
         assert_true(h.z >= 0.0f);
@@ -140,7 +142,8 @@ static void distributions_are_normalised(void **state) {
         enum { STEPS = 20000 };
         for (int n = 0; n < STEPS; n++) {
             double t = stretch((n + 0.5) / STEPS), theta = t * TEST_PI / 2.0;
-            double w = stretch_slope((n + 0.5) / STEPS) / STEPS * TEST_PI * TEST_PI * (sin)(theta) * (cos)(theta);
+            double w =
+                stretch_slope((n + 0.5) / STEPS) / STEPS * TEST_PI * TEST_PI * (sin)(theta) * (cos)(theta);
             Dir h = direction(theta, 0.7);
             ggx += w * (double)ggx_d(alphas[k], alphas[k], h);
             charlie += w * (double)charlie_d(alphas[k], h);

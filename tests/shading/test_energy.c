@@ -89,7 +89,8 @@ static void quadrature_agrees_with_other_estimators(void **state) {
 
 static void traits_about_energy_hold(void **state) {
     (void)state;
-    static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f};
+    static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f,
+                                    0.2f,  0.35f, 0.5f,   0.7f,  0.85f, 1.0f};
     for (int id = 0; id < weft_lobe_count(); id++) {
         unsigned traits = weft_lobe_info(id)->traits;
         double highest = 0.0, lowest = 1e9;
@@ -142,7 +143,8 @@ static void known_values_come_out(void **state) {
     assert_true(fabs(albedo("charlie-neubelt", "0.0625", 0.02f) - 1.38) < 0.005);
     assert_true(fabs(albedo("charlie-conty-kulla", "0.01", 0.02f) - 1.63) < 0.005);
     /* the least alpha that conserves; and the horizon, where conty-kulla never does */
-    assert_true(highest_albedo("charlie-neubelt", "0.20") > 1.0 && highest_albedo("charlie-neubelt", "0.215") < 1.0);
+    assert_true(highest_albedo("charlie-neubelt", "0.20") > 1.0 &&
+                highest_albedo("charlie-neubelt", "0.215") < 1.0);
     assert_true(highest_albedo("charlie-conty-kulla", "0.06") > 1.0);
     assert_true(highest_albedo("charlie-conty-kulla", "0.07") < 1.0);
     assert_true(albedo("charlie-conty-kulla", "0.99", 1e-6f) > 1.0);
@@ -198,7 +200,8 @@ static void the_table_has_ends(void **state) {
     assert_int_equal(table.rows, 1);
     Dir o = direction_cos(0.3, 0.0);
     assert_float_equal(albedo_table_read(&table, 0.3f, 0.7f), albedo_quadrature(&lobe, o, 1e-5).f0, 1e-3f);
-    albedo_table_fill(&table, &lobe, 0.0f, 0.5f, 2); /* 0 is below the hard range: the rows begin at its end */
+    albedo_table_fill(&table, &lobe, 0.0f, 0.5f,
+                      2); /* 0 is below the hard range: the rows begin at its end */
     assert_float_equal(albedo_table_read(&table, 0.3f, 0.0f), albedo_table_read(&table, 0.3f, 0.005f), 1e-6f);
     assert_float_equal(albedo_table_read(&table, 0.3f, 9.0f), albedo_table_read(&table, 0.3f, 0.5f), 1e-6f);
     assert_float_equal(albedo_table_read(&table, 2.0f, 0.5f), albedo_table_read(&table, 1.0f, 0.5f), 1e-6f);

@@ -35,8 +35,8 @@ static Dir hard_direction(Random *random) {
 static Dir partner(Random *random, Dir o) {
     switch (random_bits(random) % 6) {
     case 0: return o;
-    case 1: return dir(-o.x, -o.y, o.z);                         /* the mirror direction */
-    case 2: return dir(-o.x, -o.y, o.z > 0.5f ? o.z : 1e-7f);    /* opposite, or nearly */
+    case 1: return dir(-o.x, -o.y, o.z);                      /* the mirror direction */
+    case 2: return dir(-o.x, -o.y, o.z > 0.5f ? o.z : 1e-7f); /* opposite, or nearly */
     default: return hard_direction(random);
     }
 }
@@ -95,8 +95,9 @@ static void public_calls_stay_finite(void **state) {
         WeftLobe lobe;
         assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
         for (int p = 0; p < info->param_count; p++)
-            assert_int_equal(weft_lobe_set(&lobe, info->params[p].name, values[random_bits(&random) % 9], NULL, NULL),
-                             WEFT_OK);
+            assert_int_equal(
+                weft_lobe_set(&lobe, info->params[p].name, values[random_bits(&random) % 9], NULL, NULL),
+                WEFT_OK);
         weft_lobe_set(&lobe, "color", values[random_bits(&random) % 9], NULL, NULL);
         Dir o = hard_direction(&random), i = partner(&random, o);
         float wo[3] = {o.x, o.y, o.z}, wi[3] = {i.x, i.y, i.z}, f[3];

@@ -38,8 +38,11 @@ static double sampled_furnace(const Stack *stack, Dir o, int count, double *erro
 
 /* A white Lambert base without an interface, under a white sheen. */
 static Surface white_cloth(float roughness) {
-    return (Surface){.base_color = {1.0f, 1.0f, 1.0f}, .sheen_color = {1.0f, 1.0f, 1.0f}, .ior = 1.0f,
-                     .sheen_roughness = roughness, .normal = {0.0f, 0.0f, 1.0f}};
+    return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
+                     .sheen_color = {1.0f, 1.0f, 1.0f},
+                     .ior = 1.0f,
+                     .sheen_roughness = roughness,
+                     .normal = {0.0f, 0.0f, 1.0f}};
 }
 
 static int layer_named(const char *id) {

@@ -22,8 +22,8 @@ static void put(Text *text, const char *bytes, size_t size) {
 
 static void put_line(Text *text, const char *line) { put(text, line, strlen(line)); }
 
-/* Appends a file of src/ with its own includes in place of the lines that name them; without comments, strings
- * and joined lines, none of which GLSL 3.30 has. */
+/* Appends a file of src/ with its own includes in place of the lines that name them; without comments,
+ * strings and joined lines, none of which GLSL 3.30 has. */
 static void inline_file(Text *text, const char *file) {
     char path[512];
     snprintf(path, sizeof path, "%s/src/%s", WEFT_SOURCE_DIR, file);
@@ -62,8 +62,8 @@ static int compile(const char *version, const char *body) {
     int handle = mkstemp(path);
     assert_true(handle >= 0);
     FILE *stream = fdopen(handle, "wb");
-    fprintf(stream, "#version %s\n%s%s", version, strstr(version, "es") ? "precision highp float;\nprecision highp int;\n" : "",
-            body);
+    fprintf(stream, "#version %s\n%s%s", version,
+            strstr(version, "es") ? "precision highp float;\nprecision highp int;\n" : "", body);
     assert_int_equal(fclose(stream), 0);
     snprintf(command, sizeof command, "glslangValidator -S frag %s >%s.log 2>&1", path, path);
     int status = system(command);
@@ -138,7 +138,8 @@ static void every_lobe_compiles(void **state) {
     put_line(&calls, "    color *= " #name "_base(c, u[3]);\n");
     WEFT_LAYERS(CHECK_LAYER)
 #undef CHECK_LAYER
-    put_line(&all, "void main() {\n    Rgb c;\n    c.r = u[0];\n    c.g = u[1];\n    c.b = u[2];\n    color = vec4(0.0);\n");
+    put_line(&all, "void main() {\n    Rgb c;\n    c.r = u[0];\n    c.g = u[1];\n    c.b = u[2];\n    color "
+                   "= vec4(0.0);\n");
     put(&all, calls.bytes, calls.size);
     put_line(&all, "}\n");
     check_both("all of the catalogue together", &all);

@@ -20,7 +20,8 @@ static void reciprocal_lobes_are(void **state) {
             Dir o = random_direction(&random), i = random_direction(&random);
             float f = lobe_eval(&lobe, angles_between(o, i)), g = lobe_eval(&lobe, angles_between(i, o));
             if (!close_to(f, g))
-                fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f, (double)g);
+                fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f,
+                         (double)g);
         }
     }
 }

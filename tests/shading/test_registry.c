@@ -140,7 +140,8 @@ static void lobe_headers_say_what_they_must(void **state) {
         snprintf(opening, sizeof opening, "/* %s - ", info->id);
         if (strncmp(text, opening, strlen(opening)) != 0) fail_msg("%s does not begin with its id", file);
         for (int p = 0; p < 5; p++)
-            if (!strstr(text, phrases[p])) fail_msg("%s has no \"%s\" in its opening comment", file, phrases[p]);
+            if (!strstr(text, phrases[p]))
+                fail_msg("%s has no \"%s\" in its opening comment", file, phrases[p]);
         if (info->param_count && !strstr(text, "roughness: ")) fail_msg("%s has no \"roughness: \"", file);
         if (!has_year(text)) fail_msg("%s cites nothing with a year", file);
         bool reciprocal = strstr(text, "reciprocal: yes") != NULL, gains = strstr(text, "energy: no") != NULL;
@@ -154,7 +155,8 @@ static void lobe_headers_say_what_they_must(void **state) {
 static void shading_text_keeps_to_the_dialect(void **state) {
     (void)state;
     static const char *const folders[] = {"terms", "lobes", "layers"};
-    static const char *const foreign[] = {"double ", "->", "##", "sizeof", "static ", "const float ", "printf"};
+    static const char *const foreign[] = {"double ", "->",           "##",    "sizeof",
+                                          "static ", "const float ", "printf"};
     for (int f = 0; f < 3; f++) {
         DIR *folder = open_folder(folders[f]);
         for (struct dirent *entry; (entry = readdir(folder));) {
@@ -165,7 +167,8 @@ static void shading_text_keeps_to_the_dialect(void **state) {
             const char *body = strstr(text, "*/");
             assert_non_null(body);
             for (size_t k = 0; k < sizeof foreign / sizeof foreign[0]; k++)
-                if (strstr(body, foreign[k])) fail_msg("%s/%s has \"%s\"", folders[f], entry->d_name, foreign[k]);
+                if (strstr(body, foreign[k]))
+                    fail_msg("%s/%s has \"%s\"", folders[f], entry->d_name, foreign[k]);
             free(text);
         }
         closedir(folder);

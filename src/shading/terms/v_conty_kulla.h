@@ -10,8 +10,8 @@
  * alpha.
  *
  *   Departures: cos_o cos_i is at least 1e-7, since a Lambda that stays finite at the horizon lets E grow as
- * 1 / cos_o without bound. And both branches are one evaluation of L at min(x, 1 - x), since L(1/2) needs no second power and
- * the result is the same. */
+ * 1 / cos_o without bound. And both branches are one evaluation of L at min(x, 1 - x), since L(1/2) needs no
+ * second power and the result is the same. */
 #ifndef WEFT_V_CONTY_KULLA_H
 #define WEFT_V_CONTY_KULLA_H
 

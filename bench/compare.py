@@ -1,0 +1,73 @@
+"""weft and Blender Cycles side by side, one run: rate, memory, and error after equal time.
+
+    python3 bench/compare.py [--quick]
+
+Equal picture size, light, camera, depth and pixel filter, two threads each. A rate is samples over the time spent
+sampling, start-up and building left out on both sides. The error is relMSE against each renderer's own converged
+picture, since their sheens differ. Cycles counts bounces after the first hit, weft scattering events: 8 is 9.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WEFT = ROOT / "build/release/weft"
+RELMSE = ROOT / "build/release/bench/bench_relmse"
+CHAIR = ROOT.parent / "shared/data/gltf/SheenChair/SheenChair.gltf"
+STUDIO = ROOT.parent / "shared/data/env/studio_small_03_1k.hdr"
+QUICK = "--quick" in sys.argv
+RATE_SPP = 16 if QUICK else 64
+TIME = 2 if QUICK else 5
+CONVERGED_SPP = 128 if QUICK else 1024
+
+
+def weft(scene, out, common, extra):
+    command = [WEFT, "render", scene, "-o", out, "--json", "--quiet", "--max-depth", "9", *common, *extra]
+    result = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return {"rate": result["samples_per_second"], "memory": result["peak_memory_bytes"], "info": result}
+
+
+def cycles(scene, out, common, extra):
+    command = ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--debug-cycles",
+               "--verbose", "2", "-P", ROOT / "bench/cycles.py", "--", scene, "-o", out, "--max-depth", "8",
+               *common, *extra]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    line = next(line for line in done.stdout.splitlines() if line.startswith("{"))
+    result = json.loads(line)
+    return {"rate": result["samples_per_second"], "memory": result["peak_resident_bytes"], "info": result}
+
+
+def relmse(a, b):
+    return float(subprocess.run([RELMSE, a, b], check=True, capture_output=True, text=True).stdout)
+
+
+def compare(name, weft_scene, cycles_scene, light, folder):
+    camera = weft(weft_scene, f"{folder}/camera.exr", ["--width", "64", "--height", "48"], ["--spp", "1"])["info"]
+    eye, target = (",".join(f"{v:.7g}" for v in camera["camera"][key]) for key in ("eye", "target"))
+    common = ["--camera", f"{eye};{target};{camera['camera']['fov']:.7g}", "--env", light, "--threads", "2"]
+    big, small = ["--width", "640", "--height", "480"], ["--width", "320", "--height", "240"]
+    rows = {}
+    for renderer, run, scene in (("weft", weft, weft_scene), ("cycles", cycles, cycles_scene)):
+        picture, truth = f"{folder}/{renderer}.exr", f"{folder}/{renderer}-converged.exr"
+        timing = ["--time-limit", str(TIME)] if renderer == "weft" else ["--time", str(TIME)]
+        rows[renderer] = run(scene, picture, common + big, ["--spp", str(RATE_SPP)])
+        run(scene, truth, common + small, ["--spp", str(CONVERGED_SPP), "--seed", "7"])
+        run(scene, picture, common + small, timing)
+        rows[renderer]["error"] = relmse(picture, truth)
+    print(f"\n{name}, 640 x 480, {RATE_SPP} samples a pixel; error after {TIME} s at 320 x 240")
+    print(f"{'':8}{'M samples/s':>12}{'peak MiB':>10}{'relMSE':>12}")
+    for renderer, row in rows.items():
+        print(f"{renderer:8}{row['rate'] * 1e-6:12.3f}{row['memory'] / 2**20:10.0f}{row['error']:12.3e}")
+    w, c = rows["weft"], rows["cycles"]
+    print(f"{'ratio':8}{w['rate'] / c['rate']:12.2f}{w['memory'] / c['memory']:10.3f}{w['error'] / c['error']:12.3f}")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    compare("builtin:cloth", "builtin:cloth", ROOT / "scenes/cloth.glb", "0.4,0.4,0.4", folder)
+    if CHAIR.exists() and STUDIO.exists():
+        compare("SheenChair", CHAIR, CHAIR, STUDIO, folder)
+    else:
+        print("\nSheenChair: skipped, the asset is not here")

@@ -1,0 +1,166 @@
+/* Whole files in, whole files out */
+#include <dirent.h>
+#include <fcntl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+
+static char folder[64];
+
+static int make_folder(void **state) {
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/weft-test-file-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static const char *in_folder(char path[128], const char *name) {
+    snprintf(path, 128, "%.63s/%.60s", folder, name);
+    return path;
+}
+
+static int count_files(void) {
+    int files = 0;
+    DIR *open = opendir(folder);
+    assert_non_null(open);
+    for (struct dirent *entry; (entry = readdir(open));) files += entry->d_name[0] != '.';
+    closedir(open);
+    return files;
+}
+
+static void write_text(const char *path, const char *text) {
+    OutputFile file;
+    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
+    assert_true(fputs(text, file.stream) >= 0);
+    assert_int_equal(output_commit(&file, NULL), WEFT_OK);
+}
+
+static void check_text(const char *path, const char *text) {
+    FileBytes bytes;
+    assert_int_equal(file_read(path, 1000, &bytes, NULL), WEFT_OK);
+    assert_int_equal(bytes.size, strlen(text));
+    assert_memory_equal(bytes.data, text, bytes.size + 1); /* with the zero behind */
+    free(bytes.data);
+}
+
+static void a_file_appears_complete_or_not_at_all(void **state) {
+    (void)state;
+    char path[128];
+    in_folder(path, "a");
+    write_text(path, "old");
+    OutputFile file;
+    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
+    fputs("half of the new", file.stream);
+    fflush(file.stream);
+    check_text(path, "old");
+    output_discard(&file);
+    check_text(path, "old");
+    assert_int_equal(count_files(), 1);
+    output_discard(&file); /* twice does no harm */
+    write_text(path, "new");
+    check_text(path, "new");
+    assert_int_equal(count_files(), 1);
+    unlink(path);
+}
+
+static void permissions_follow_the_umask(void **state) {
+    (void)state;
+    char path[128];
+    struct stat status;
+    mode_t before = umask(022);
+    write_text(in_folder(path, "b"), "x");
+    umask(before);
+    assert_int_equal(stat(path, &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0644);
+    unlink(path);
+}
+
+static void what_cannot_be_written_is_an_error(void **state) {
+    (void)state;
+    char path[128], inner[192];
+    OutputFile file;
+    WeftError error;
+    snprintf(inner, sizeof inner, "%s/x", in_folder(path, "missing"));
+    assert_int_equal(output_open(&file, inner, &error), WEFT_RESOURCES);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+    assert_null(file.stream);
+    /* renaming over a folder that is not empty fails: the temporary is gone, the folder stands */
+    assert_int_equal(mkdir(in_folder(path, "d"), 0755), 0);
+    snprintf(inner, sizeof inner, "%s/x", path);
+    write_text(inner, "kept");
+    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
+    assert_int_equal(output_commit(&file, &error), WEFT_RESOURCES);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+    assert_int_equal(count_files(), 1);
+    check_text(inner, "kept");
+    unlink(inner);
+    rmdir(path);
+}
+
+static void a_full_disk_is_an_error(void **state) {
+    (void)state;
+    char path[128];
+    OutputFile file;
+    WeftError error;
+    write_text(in_folder(path, "e"), "old");
+    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
+    /* /dev/full answers every write with "no space left" */
+    FILE *full = freopen("/dev/full", "wb", file.stream);
+    if (!full) skip();
+    for (int k = 0; k < 100000; k++) fputc('x', file.stream);
+    assert_int_equal(output_commit(&file, &error), WEFT_RESOURCES);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+    check_text(path, "old");
+    assert_int_equal(count_files(), 1);
+    unlink(path);
+}
+
+static void what_cannot_be_read_is_an_error(void **state) {
+    (void)state;
+    char path[128];
+    FileBytes bytes;
+    WeftError error;
+    assert_int_equal(file_read(in_folder(path, "none"), 10, &bytes, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_OPEN);
+    assert_null(bytes.data);
+    assert_int_equal(file_read(folder, 10, &bytes, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_READ);
+    write_text(in_folder(path, "f"), "0123456789");
+    assert_int_equal(file_read(path, 9, &bytes, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_LARGE);
+    assert_null(bytes.data);
+    assert_int_equal(file_read(path, 10, &bytes, &error), WEFT_OK);
+    assert_int_equal(bytes.size, 10);
+    free(bytes.data);
+    write_text(path, "");
+    check_text(path, "");
+    unlink(path);
+    /* an endless device stops at the limit */
+    assert_int_equal(file_read("/dev/zero", 1 << 20, &bytes, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_LARGE);
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    return rmdir(folder); /* fails if a test left something behind */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_appears_complete_or_not_at_all),
+        cmocka_unit_test(permissions_follow_the_umask),
+        cmocka_unit_test(what_cannot_be_written_is_an_error),
+        cmocka_unit_test(a_full_disk_is_an_error),
+        cmocka_unit_test(what_cannot_be_read_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

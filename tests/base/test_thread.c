@@ -1,0 +1,81 @@
+/* parallel_for does every item once, whatever the number of threads */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/thread.h"
+
+enum { ITEMS = 5000 };
+
+typedef struct Work {
+    atomic_int done[ITEMS];
+    atomic_int highest_thread;
+} Work;
+
+static void body(void *user, int item, int thread) {
+    Work *work = user;
+    atomic_fetch_add(&work->done[item], 1);
+    int seen = atomic_load(&work->highest_thread);
+    while (thread > seen && !atomic_compare_exchange_weak(&work->highest_thread, &seen, thread)) {
+    }
+}
+
+static void every_item_is_done_once(void **state) {
+    (void)state;
+    static const int threads[] = {1, 2, 7, 64, 1000};
+    for (int k = 0; k < 5; k++) {
+        static Work work;
+        memset(&work, 0, sizeof work);
+        parallel_for(threads[k], ITEMS, body, &work);
+        for (int n = 0; n < ITEMS; n++) assert_int_equal(atomic_load(&work.done[n]), 1);
+        assert_true(atomic_load(&work.highest_thread) < threads[k]);
+    }
+}
+
+static void odd_counts_are_fine(void **state) {
+    (void)state;
+    static Work work;
+    memset(&work, 0, sizeof work);
+    parallel_for(4, 0, body, &work);
+    assert_int_equal(atomic_load(&work.done[0]), 0);
+    parallel_for(4, 1, body, &work);
+    parallel_for(0, 2, body, &work);
+    parallel_for(-3, 2, body, &work);
+    assert_int_equal(atomic_load(&work.done[0]), 3);
+    assert_int_equal(atomic_load(&work.done[1]), 2);
+    assert_int_equal(atomic_load(&work.done[2]), 0);
+    assert_true(thread_count() >= 1);
+}
+
+static void inner_body(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    atomic_fetch_add(&work->done[item], 1);
+}
+
+static void outer_body(void *user, int item, int thread) {
+    (void)item, (void)thread;
+    parallel_for(3, 100, inner_body, user);
+}
+
+static void loops_nest(void **state) {
+    (void)state;
+    static Work work;
+    memset(&work, 0, sizeof work);
+    parallel_for(3, 10, outer_body, &work);
+    for (int n = 0; n < 100; n++) assert_int_equal(atomic_load(&work.done[n]), 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_item_is_done_once),
+        cmocka_unit_test(odd_counts_are_fine),
+        cmocka_unit_test(loops_nest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
