@@ -17,9 +17,9 @@ import bpy
 import numpy as np
 from mathutils import bvhtree
 
-CLOTH_SIDE = 1.5  # m
+CLOTH_SIDE = 1.45  # m
 CLOTH_SHIFT = (0.035, 0.02)  # x and z of its middle before it falls; off the axis, so no two sides fall alike
-CLOTH_TURN = math.radians(70)  # of the drape about +y, to face the camera
+CLOTH_TURN = math.radians(112)  # of the drape about +y, to face the camera
 UV_SIZE = 0.5  # m of surface a uv unit spans
 
 PLINTH_RADIUS = 0.6
@@ -34,8 +34,8 @@ FLOOR_HALF_WIDTH = 8.0
 FLOOR_FRONT, FLOOR_BACK = 6.0, -3.2  # z where the floor begins and where it starts to rise
 SWEEP_RADIUS, WALL_TOP = 2.4, 6.0
 
-CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV = (0.38, 0.98, 1.8), (0.0, 0.36, 0.0), 35.0
-SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE = (-1.75, 1.55, 0.5), (0.0, 0.4, 0.0), 1.2
+CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV = (0.4, 1.02, 1.9), (0.0, 0.33, 0.0), 35.0
+SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE = (-1.6, 1.7, 0.7), (0.0, 0.4, 0.0), 1.2
 
 MATERIALS = {
     "Cloth": {
@@ -137,7 +137,7 @@ def drape(cells, frames):
     settings.mass = 0.4
     settings.tension_stiffness = settings.compression_stiffness = 30
     settings.shear_stiffness = 12
-    settings.bending_stiffness = 18.0
+    settings.bending_stiffness = 9.0
     settings.tension_damping = settings.compression_damping = settings.shear_damping = 10
     settings.bending_damping = 1.5
     settings.air_damping = 1.0

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "image/srgb.h"
 
@@ -12,81 +11,84 @@ SrgbTable srgb_table(void) {
     return table;
 }
 
-/* Texel index after wrapping; x may be any int. */
-static int wrapped(int x, int size, Wrap wrap) {
-    switch (wrap) {
-    case WRAP_CLAMP: return x < 0 ? 0 : x >= size ? size - 1 : x;
-    case WRAP_MIRROR: {
-        int period = 2 * size, k = x % period;
-        if (k < 0) k += period;
-        return k < size ? k : period - 1 - k;
+/* A texel's four channels, in one register. */
+typedef float Channels __attribute__((vector_size(16)));
+
+/* The two texels around a coordinate and how far it is from the first. */
+typedef struct Span {
+    size_t first, second;
+    float t;
+} Span;
+
+/* Where u falls after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
+static inline Span span(float u, int size, Wrap wrap, bool nearest) {
+    if (!(fabsf(u) < 1e6f)) u = 0.0f;
+    float period = wrap == WRAP_MIRROR ? 0.5f * u : u;
+    if (wrap != WRAP_CLAMP) u = period - floorf(period); /* in [0, 1]; rounding can reach 1 */
+    if (wrap == WRAP_MIRROR) u = 1.0f - fabsf(2.0f * u - 1.0f);
+    float x = fminf(fmaxf(u, -1.0f), 2.0f) * (float)size - (nearest ? 0.0f : 0.5f),
+          whole = floorf(x); /* texel centres */
+    int last = size - 1, first = (int)whole, second = first + 1;
+    if (wrap == WRAP_REPEAT) { /* one step over either end comes back in at the other */
+        if (first < 0) first = last;
+        if (first > last) first = 0;
+        if (second > last) second = 0;
     }
-    case WRAP_REPEAT: break;
-    }
-    if ((unsigned)x < (unsigned)size) return x;
-    int k = x % size;
-    return k < 0 ? k + size : k;
+    first = first < 0 ? 0 : first > last ? last : first;
+    second = second < 0 ? 0 : second > last ? last : second;
+    return (Span){(size_t)first, (size_t)(nearest ? first : second), nearest ? 0.0f : x - whole};
 }
 
-/* One texel's channels as they are stored, scaled to [0, 1] where they are integers. */
-static inline void load(const WeftImage *image, const SrgbTable *srgb, size_t at, int channels, float *c) {
-    int colors = channels - !(channels & 1); /* without alpha */
-    switch (image->type) {
-    case WEFT_PIXEL_U8: {
-        const uint8_t *p = (const uint8_t *)image->pixels + at;
-        for (int k = 0; k < channels; k++)
-            c[k] = srgb && k < colors ? srgb->linear[p[k]] : (float)p[k] * (1.0f / 255.0f);
-        return;
-    }
-    case WEFT_PIXEL_U16: {
-        const uint16_t *p = (const uint16_t *)image->pixels + at;
-        for (int k = 0; k < channels; k++) {
-            float value = (float)p[k] * (1.0f / 65535.0f);
-            c[k] = srgb && k < colors ? srgb_decode(value) : value;
-        }
-        return;
-    }
-    case WEFT_PIXEL_F32: memcpy(c, (const float *)image->pixels + at, (size_t)channels * sizeof *c); return;
-    }
+static inline Channels read_u8(const uint8_t *p, const SrgbTable *srgb, int channels) {
+    const float scale = 1.0f / 255.0f;
+    float alpha = channels & 1 ? 1.0f : (float)p[channels - 1] * scale;
+    int g = channels < 3 ? 0 : 1, b = channels < 3 ? 0 : 2;
+    if (srgb) return (Channels){srgb->linear[p[0]], srgb->linear[p[g]], srgb->linear[p[b]], alpha};
+    return (Channels){(float)p[0] * scale, (float)p[g] * scale, (float)p[b] * scale, alpha};
 }
 
-/* The mean of four texels with weights, channels known to the compiler so that its loops unroll. */
-static inline Texel blend(const WeftImage *image, const SrgbTable *srgb, const size_t at[4],
-                          const float weight[4], int channels) {
-    float sum[4] = {0}, c[4] = {0};
-    for (int corner = 0; corner < 4; corner++) {
-        load(image, srgb, at[corner] * (size_t)channels, channels, c);
-        for (int k = 0; k < channels; k++) sum[k] += c[k] * weight[corner];
-    }
-    bool grey = channels < 3;
-    return (Texel){{sum[0], sum[grey ? 0 : 1], sum[grey ? 0 : 2],
-                    channels == 2   ? sum[1]
-                    : channels == 4 ? sum[3]
-                                    : 1.0f}};
+static inline Channels read_u16(const uint16_t *p, const SrgbTable *srgb, int channels) {
+    float c[4] = {0};
+    for (int k = 0; k < channels; k++) c[k] = (float)p[k] * (1.0f / 65535.0f);
+    float alpha = channels & 1 ? 1.0f : c[channels - 1];
+    for (int k = 0; srgb && k < channels; k++) c[k] = srgb_decode(c[k]);
+    int g = channels < 3 ? 0 : 1, b = channels < 3 ? 0 : 2;
+    return (Channels){c[0], c[g], c[b], alpha};
 }
 
-/* Bounded, so that the conversion to int is defined whatever a file holds. */
-static float coordinate(float u, int size) {
-    return isfinite(u) ? fminf(fmaxf(u, -1e4f), 1e4f) * (float)size : 0.0f;
+static inline Channels read_f32(const float *p, int channels) {
+    int g = channels < 3 ? 0 : 1, b = channels < 3 ? 0 : 2;
+    return (Channels){p[0], p[g], p[b], channels & 1 ? 1.0f : p[channels - 1]};
+}
+
+static inline Channels read_texel(const WeftImage *image, const SrgbTable *srgb, size_t x, size_t y) {
+    size_t channels = (size_t)image->channels, at = (y * (size_t)image->width + x) * channels;
+    /* the channel counts of colour and of data, spelt out so that the compiler sees them */
+    if (image->type == WEFT_PIXEL_F32) {
+        const float *p = (const float *)image->pixels + at;
+        return channels == 3 ? read_f32(p, 3) : read_f32(p, image->channels);
+    }
+    if (image->type == WEFT_PIXEL_U16)
+        return read_u16((const uint16_t *)image->pixels + at, srgb, image->channels);
+    const uint8_t *p = (const uint8_t *)image->pixels + at;
+    return channels == 3   ? read_u8(p, srgb, 3)
+           : channels == 4 ? read_u8(p, srgb, 4)
+                           : read_u8(p, srgb, image->channels);
 }
 
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u,
                     float v) {
     const WeftImage *image = &images[texture->image];
-    float x = coordinate(u, image->width), y = coordinate(v, image->height);
-    if (!texture->nearest) x -= 0.5f, y -= 0.5f; /* texel centres */
-    float fx = floorf(x), fy = floorf(y), s = texture->nearest ? 0.0f : x - fx,
-          t = texture->nearest ? 0.0f : y - fy;
-    size_t x0 = (size_t)wrapped((int)fx, image->width, texture->wrap_u);
-    size_t x1 = (size_t)wrapped((int)fx + 1, image->width, texture->wrap_u);
-    size_t y0 = (size_t)wrapped((int)fy, image->height, texture->wrap_v) * (size_t)image->width;
-    size_t y1 = (size_t)wrapped((int)fy + 1, image->height, texture->wrap_v) * (size_t)image->width;
-    const size_t at[4] = {y0 + x0, y0 + x1, y1 + x0, y1 + x1};
-    const float weight[4] = {(1.0f - s) * (1.0f - t), s * (1.0f - t), (1.0f - s) * t, s * t};
-    switch (image->channels) {
-    case 1: return blend(image, srgb, at, weight, 1);
-    case 2: return blend(image, srgb, at, weight, 2);
-    case 3: return blend(image, srgb, at, weight, 3);
-    default: return blend(image, srgb, at, weight, 4);
+    Span x = span(u, image->width, texture->wrap_u, texture->nearest);
+    Span y = span(v, image->height, texture->wrap_v, texture->nearest);
+    Channels c = read_texel(image, srgb, x.first, y.first);
+    if (!texture->nearest) {
+        Channels right = read_texel(image, srgb, x.second, y.first);
+        Channels below = read_texel(image, srgb, x.first, y.second);
+        Channels across = read_texel(image, srgb, x.second, y.second);
+        c += (right - c) * x.t;
+        below += (across - below) * x.t;
+        c += (below - c) * y.t;
     }
+    return (Texel){{c[0], c[1], c[2], c[3]}};
 }

@@ -89,8 +89,8 @@ static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
     Rule rule = rule_make(0.25);
     Sum before = hemisphere(lobe, wo, &rule), now = before;
-    for (double step = 0.125; step > 0.03; step *= 0.5) {
-        rule = rule_make(step);
+    for (int halving = 3; halving <= 5; halving++) {
+        rule = rule_make(ldexp(1.0, -halving));
         now = hemisphere(lobe, wo, &rule);
         /* halving the step about squares the error, so the last difference is a safe bound */
         if (fabs(now.f0 - before.f0) + fabs(now.f90 - before.f90) < tolerance) break;

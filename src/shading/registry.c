@@ -49,24 +49,17 @@ void lobe_set(Lobe *lobe, int k, float value) {
     }
 WEFT_LOBES(LOBE_RECORD)
 
-float lobe_eval(const Lobe *lobe, Angles a) {
+LobeValue lobe_value(const Lobe *lobe, Angles a) {
     switch (lobe->id) {
-#define LOBE_EVAL(id, name, Record, NAME)                                                                    \
-    case LOBE_##NAME: return name##_eval(name##_record(lobe->params), a);
-        WEFT_LOBES(LOBE_EVAL)
+#define LOBE_VALUE(id, name, Record, NAME)                                                                   \
+    case LOBE_##NAME: {                                                                                      \
+        Record m = name##_record(lobe->params);                                                              \
+        return (LobeValue){name##_eval(m, a), name##_pdf(m, a)};                                             \
+    }
+        WEFT_LOBES(LOBE_VALUE)
     case LOBE_COUNT: break;
     }
-    return 0.0f;
-}
-
-float lobe_pdf(const Lobe *lobe, Angles a) {
-    switch (lobe->id) {
-#define LOBE_PDF(id, name, Record, NAME)                                                                     \
-    case LOBE_##NAME: return name##_pdf(name##_record(lobe->params), a);
-        WEFT_LOBES(LOBE_PDF)
-    case LOBE_COUNT: break;
-    }
-    return 0.0f;
+    return (LobeValue){0.0f, 0.0f};
 }
 
 Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v) {

@@ -51,12 +51,19 @@ int lobe_param(LobeId id, const char *name);
 /* Sets parameter k, clamped to its hard range. */
 void lobe_set(Lobe *lobe, int k, float value);
 
-/* f without colour or Fresnel: a lobe with TRAIT_FRESNEL is weighed by F0 (1 - s) + f90 s outside, with
- * s = schlick_s(a.d). Both directions must be above the horizon (z > 0), unit length. */
-float lobe_eval(const Lobe *lobe, Angles a);
+/* What a pair of directions gets from a lobe. */
+typedef struct LobeValue {
+    float f;   /* 1/sr, without colour or Fresnel: a lobe with TRAIT_FRESNEL is weighed by F0 (1 - s) + f90 s
+                * outside,   with s = schlick_s(a.d) */
+    float pdf; /* density of lobe_sample at a.i, 1/sr */
+} LobeValue;
 
-/* Density of lobe_sample at a.i. */
-float lobe_pdf(const Lobe *lobe, Angles a);
+/* Both directions must be above the horizon (z > 0), unit length. Together they cost less than apart: the
+ * distribution is in both. */
+LobeValue lobe_value(const Lobe *lobe, Angles a);
+
+static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
+static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
 Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);

@@ -5,15 +5,19 @@
 
 #include <stdint.h>
 
+typedef struct Step {
+    float cdf;      /* cumulative weight of all things before this one: 0 at the first, 1 past the last */
+    uint32_t guide; /* where the search begins for the u of this one of n equal parts; Chen, Asau 1974 */
+} Step;
+
 typedef struct Distribution {
     int n;
-    float *cdf;      /* cumulative weights: cdf[0] = 0, cdf[n] = 1 */
-    uint32_t *guide; /* for each of n equal steps of u, where the search begins; Chen, Asau 1974 */
+    Step *steps; /* n + 1 */
 } Distribution;
 
-/* Turns n weights >= 0 in cdf[1 .. n] (n + 1 floats) into the distribution and returns their sum. guide takes
- * n integers. Both arrays stay the caller's. A sum of 0 gives equal shares. */
-double distribution_make(Distribution *distribution, int n, float *cdf, uint32_t *guide);
+/* Turns n weights >= 0 in steps[1 .. n].cdf into the distribution and returns their sum. The array (n + 1
+ * entries) stays the caller's. A sum of 0 gives equal shares. */
+double distribution_make(Distribution *distribution, int n, Step *steps);
 
 typedef struct Choice {
     int index;
@@ -23,15 +27,14 @@ typedef struct Choice {
 
 /* u in [0, 1). */
 static inline Choice distribution_choose(const Distribution *distribution, float u) {
-    const float *cdf = distribution->cdf;
-    uint32_t k = distribution->guide[(int)(u * (float)distribution->n)];
-    while (cdf[k + 1] <= u) k++;
-    float width = cdf[k + 1] - cdf[k], rest = (u - cdf[k]) / width;
-    return (Choice){(int)k, width, rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f};
+    const Step *step = &distribution->steps[distribution->steps[(int)(u * (float)distribution->n)].guide];
+    while (step[1].cdf <= u) step++;
+    float width = step[1].cdf - step[0].cdf, rest = (u - step[0].cdf) / width;
+    return (Choice){(int)(step - distribution->steps), width, rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f};
 }
 
 static inline float distribution_probability(const Distribution *distribution, int k) {
-    return distribution->cdf[k + 1] - distribution->cdf[k];
+    return distribution->steps[k + 1].cdf - distribution->steps[k].cdf;
 }
 
 #endif

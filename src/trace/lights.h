@@ -15,22 +15,18 @@ void lights_free(Lights *lights);
 typedef struct LightSample {
     Vec3 wi;        /* unit, from the point to the light */
     float distance; /* to it; INFINITY for the environment and directional lights */
-    Rgb radiance;   /* arriving, already divided by nothing */
+    Rgb radiance;   /* arriving */
     float pdf;      /* 1/sr; 0: no sample. For punctual lights the probability of the choice alone */
     bool punctual;  /* cannot be hit by chance: takes no part in MIS */
 } LightSample;
 
-LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v, float w);
+LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v);
 
-/* Radiance of the environment along a unit direction, and the density with which lights_sample finds it. */
-Rgb lights_environment(const Lights *lights, Vec3 direction);
-float lights_environment_pdf(const Lights *lights, Vec3 direction);
+/* What comes from where nothing is hit, and the density with which lights_sample finds that direction. */
+LightSample lights_environment(const Lights *lights, Vec3 direction);
 
-/* Density with which lights_sample, from a point at distance t, finds that triangle's point seen under |cos|.
- */
+/* Density with which lights_sample, from a point at distance t, finds that triangle's point seen under
+ * `cosine`. */
 float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, float t, float cosine);
-
-/* What a surface sends out there: emission times its strength; black from the back of a single-sided one. */
-Rgb lights_emission(const WeftScene *scene, const Material *material, float uv[2][2]);
 
 #endif

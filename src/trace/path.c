@@ -106,8 +106,8 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
 /* One light sample. */
 static void add_direct(const PathContext *context, const Point3 *p, Rgb throughput, Sampler *sampler,
                        Rgb *sum, long long *rays) {
-    Point uv = sampler_next(sampler), w = sampler_next(sampler);
-    LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v, w.u);
+    Point uv = sampler_next(sampler);
+    LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
     StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi));
@@ -171,9 +171,8 @@ Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler
         ray.key = hash32(ray.key + 0x9e3779b9u);
         ++*rays;
         if (!geometry_hit(context->geometry, ray, &hit)) {
-            float weight = mis_weight(context, WEFT_SAMPLING_LOBE, pdf,
-                                      lights_environment_pdf(context->lights, ray.direction));
-            add(&sum, throughput, lights_environment(context->lights, ray.direction), weight);
+            LightSample sky = lights_environment(context->lights, ray.direction);
+            add(&sum, throughput, sky.radiance, mis_weight(context, WEFT_SAMPLING_LOBE, pdf, sky.pdf));
             return sum;
         }
     }

@@ -216,7 +216,8 @@ static void add_background(const WeftRender *render, Vec3 direction, float *sum)
     const WeftRenderDesc *d = &render->desc;
     if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;
     Rgb c = {d->background_color[0], d->background_color[1], d->background_color[2]};
-    if (d->background == WEFT_BACKGROUND_ENVIRONMENT) c = lights_environment(render->lights, direction);
+    if (d->background == WEFT_BACKGROUND_ENVIRONMENT)
+        c = lights_environment(render->lights, direction).radiance;
     sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
 }
 
@@ -305,7 +306,8 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
     const Camera *c = &render->camera;
     Vec3 middle = vec3_scale(vec3_add(render->scene->low, render->scene->high), 0.5f);
     float depth = max(vec3_dot(vec3_sub(middle, c->eye), c->forward), 1e-3f);
-    Vec3 target = vec3_madd(c->eye, c->forward, depth); /* the point of the view's axis beside the scene's middle */
+    Vec3 target =
+        vec3_madd(c->eye, c->forward, depth); /* the point of the view's axis beside the scene's middle */
     WeftRenderInfo info = {.build_seconds = render->build_seconds,
                            .render_seconds = render->render_seconds,
                            .camera_eye = {c->eye.x, c->eye.y, c->eye.z},

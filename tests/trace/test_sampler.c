@@ -3,7 +3,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <cmocka.h>
 
@@ -65,18 +64,17 @@ static void choices_follow_weights(void **state) {
     (void)state;
     enum { N = 7, U = 70000 };
     static const float weights[N] = {0.0f, 3.0f, 0.5f, 0.0f, 4.0f, 2.5f, 0.0f};
-    float cdf[N + 1] = {0};
-    uint32_t guide[N];
-    memcpy(cdf + 1, weights, sizeof weights);
+    Step steps[N + 1];
+    for (int k = 0; k < N; k++) steps[k + 1].cdf = weights[k];
     Distribution d;
-    assert_true(distribution_make(&d, N, cdf, guide) == 10.0);
+    assert_true(distribution_make(&d, N, steps) == 10.0);
     int count[N] = {0};
     for (int k = 0; k < U; k++) {
         float u = ((float)k + 0.5f) / U;
         Choice c = distribution_choose(&d, u);
         assert_in_range(c.index, 0, N - 1);
         assert_true(c.rest >= 0.0f && c.rest < 1.0f);
-        assert_true(d.cdf[c.index] <= u && u < d.cdf[c.index + 1]);
+        assert_true(steps[c.index].cdf <= u && u < steps[c.index + 1].cdf);
         count[c.index]++;
     }
     for (int k = 0; k < N; k++)
@@ -88,10 +86,9 @@ static void choices_follow_weights(void **state) {
 
 static void no_weight_gives_equal_shares(void **state) {
     (void)state;
-    float cdf[5] = {0};
-    uint32_t guide[4];
+    Step steps[5] = {{0}};
     Distribution d;
-    assert_true(distribution_make(&d, 4, cdf, guide) == 0.0);
+    assert_true(distribution_make(&d, 4, steps) == 0.0);
     for (int k = 0; k < 4; k++) assert_int_equal(distribution_choose(&d, (float)k / 4 + 0.1f).index, k);
 }
 
@@ -99,19 +96,18 @@ static void no_weight_gives_equal_shares(void **state) {
 static void search_finds_the_cell(void **state) {
     (void)state;
     enum { MAX = 1000 };
-    static float cdf[MAX + 1];
-    static uint32_t guide[MAX];
+    static Step steps[MAX + 1];
     for (uint32_t n = 1; n <= MAX; n += 37) {
         for (uint32_t k = 1; k <= n; k++) {
             float r = unit_float(hash_combine(n, k));
-            cdf[k] = r < 0.3f ? 0.0f : r * r * r * r;
+            steps[k].cdf = r < 0.3f ? 0.0f : r * r * r * r;
         }
         Distribution d;
-        distribution_make(&d, (int)n, cdf, guide);
+        distribution_make(&d, (int)n, steps);
         for (uint32_t k = 0; k < 2000; k++) {
             float u = k < 1000 ? unit_float(hash32(k)) : (float)(k % (n + 1)) / (float)(n + 1);
             Choice c = distribution_choose(&d, u);
-            assert_true(d.cdf[c.index] <= u && u < d.cdf[c.index + 1]);
+            assert_true(steps[c.index].cdf <= u && u < steps[c.index + 1].cdf);
         }
     }
 }

@@ -5,9 +5,10 @@
  *   D: term d_charlie (Conty Estevez, Kulla 2017).  V: term v_neubelt (Neubelt, Pettineo 2013).
  *   roughness: alpha = roughness^2 (KHR_materials_sheen; Filament, three.js, Babylon.js).
  *   reciprocal: yes.
- *   energy: no, E passes 1 near grazing for alpha < 0.21: at cos_o 0.02 it is 1.38 at alpha 0.0625 and 2.69
- * at alpha 0.01. sampling: half by D, half uniform. Not for: satin and leather, which have a highlight in the
- * mirror direction. */
+ *   energy: no, E passes 1 near grazing for alpha < 0.21: at cos_o 0.02 it is 1.38 at alpha 0.0625,
+ *     and 2.69 at alpha 0.01.
+ *   sampling: half by D, half uniform.
+ *   Not for: satin and leather, which have a highlight in the mirror direction. */
 #ifndef WEFT_CHARLIE_NEUBELT_H
 #define WEFT_CHARLIE_NEUBELT_H
 

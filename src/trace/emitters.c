@@ -1,0 +1,129 @@
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "trace/emitters.h"
+
+#include "scene/shade.h"
+
+typedef struct Emitter {
+    uint32_t mesh, triangle;
+    float area;
+} Emitter;
+
+static Rgb emission(const WeftScene *scene, const Material *material, float uv[2][2]) {
+    static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    Surface s = material_surface(scene, material, uv, white);
+    float k = s.emission_strength;
+    return (Rgb){s.emission.r * k, s.emission.g * k, s.emission.b * k};
+}
+
+static float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+static bool emits(const Material *material) {
+    const float *e = material->inputs[INPUT_emission].value;
+    return !material->unlit && (e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f) &&
+           material->inputs[INPUT_emission_strength].value[0] > 0.0f;
+}
+
+typedef struct Corners {
+    Vec3 a, b, c;
+} Corners;
+
+static Corners corners(const Mesh *mesh, uint32_t triangle) {
+    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
+    return (Corners){vec3_load(mesh->position + 3 * (size_t)index[0]),
+                     vec3_load(mesh->position + 3 * (size_t)index[1]),
+                     vec3_load(mesh->position + 3 * (size_t)index[2])};
+}
+
+static Vec3 normal_area(Corners c) { return vec3_cross(vec3_sub(c.b, c.a), vec3_sub(c.c, c.a)); }
+
+static void texcoord(const Mesh *mesh, uint32_t triangle, const float weight[3], float uv[2][2]) {
+    for (int set = 0; set < 2; set++) {
+        uv[set][0] = uv[set][1] = 0.0f;
+        for (int k = 0; mesh->texcoord[set] && k < 3; k++) {
+            const float *t = mesh->texcoord[set] + 2 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)k];
+            uv[set][0] += t[0] * weight[k], uv[set][1] += t[1] * weight[k];
+        }
+    }
+}
+
+/* A tenth from the plain factor, so that a texture's dark spot is never unsampled, the rest from its value at
+ * four points. */
+static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t triangle, float area) {
+    static const float points[4][3] = {
+        {0.333f, 0.333f, 0.334f}, {0.6f, 0.2f, 0.2f}, {0.2f, 0.6f, 0.2f}, {0.2f, 0.2f, 0.6f}};
+    const Material *material = &scene->materials[mesh->material];
+    const float *value = material->inputs[INPUT_emission].value;
+    float factor =
+        luminance((Rgb){value[0], value[1], value[2]}) * material->inputs[INPUT_emission_strength].value[0];
+    float mean = 0.0f;
+    for (int k = 0; k < 4; k++) {
+        float uv[2][2];
+        texcoord(mesh, triangle, points[k], uv);
+        mean += 0.25f * luminance(emission(scene, material, uv));
+    }
+    return PI * area * (0.1f * factor + 0.9f * mean) * (material->double_sided ? 2.0f : 1.0f);
+}
+
+bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
+    *emitters = (Emitters){.scene = scene};
+    size_t count = 0;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (emits(&scene->materials[scene->meshes[m].material])) count += scene->meshes[m].triangle_count;
+    if (!count) return true;
+    if (count > 1 << 30) return false;
+    Step *steps = arena_array(arena, count + 1, sizeof(Step));
+    emitters->triangles = arena_array(arena, count, sizeof(Emitter));
+    emitters->mesh_first = arena_array(arena, (size_t)scene->mesh_count, sizeof(uint32_t));
+    if (!steps || !emitters->triangles || !emitters->mesh_first) return false;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        if (!emits(&scene->materials[mesh->material])) continue;
+        emitters->mesh_first[m] = (uint32_t)emitters->count + 1;
+        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+            float area = 0.5f * vec3_length(normal_area(corners(mesh, t)));
+            int k = emitters->count++;
+            emitters->triangles[k] = (Emitter){(uint32_t)m, t, area};
+            steps[k + 1].cdf = area > 0.0f ? triangle_power(scene, mesh, t, area) : 0.0f;
+        }
+    }
+    emitters->power = distribution_make(&emitters->choice, emitters->count, steps);
+    if (!(emitters->power > 0.0)) emitters->count = 0;
+    return true;
+}
+
+EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float u, float v) {
+    const Emitter *emitter = &emitters->triangles[k];
+    const Mesh *mesh = &emitters->scene->meshes[emitter->mesh];
+    const Material *material = &emitters->scene->materials[mesh->material];
+    /* the square folded onto the triangle; Eric Heitz, "A Low-Distortion Map Between Triangle and Square",
+     * 2019 */
+    float b1 = u, b2 = v;
+    if (b2 > b1) {
+        b1 *= 0.5f;
+        b2 -= b1;
+    } else {
+        b2 *= 0.5f;
+        b1 -= b2;
+    }
+    float weight[3] = {1.0f - b1 - b2, b1, b2}, uv[2][2];
+    Corners c = corners(mesh, emitter->triangle);
+    Vec3 to = vec3_sub(vec3_lerp3(c.a, c.b, c.c, weight[0], weight[1], weight[2]), point);
+    EmitterPoint p = {.distance = vec3_length(to)};
+    if (!(p.distance > 0.0f)) return p;
+    p.direction = vec3_scale(to, 1.0f / p.distance);
+    float cosine = -vec3_dot(vec3_normal_or(normal_area(c), p.direction), p.direction);
+    if (cosine <= 0.0f && !material->double_sided) return p;
+    texcoord(mesh, emitter->triangle, weight, uv);
+    p.radiance = emission(emitters->scene, material, uv);
+    p.pdf = emitters_pdf(emitters, emitter->mesh, emitter->triangle, p.distance, cosine);
+    return p;
+}
+
+float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, float t, float cosine) {
+    if (!emitters->count || !emitters->mesh_first[mesh]) return 0.0f;
+    uint32_t k = emitters->mesh_first[mesh] - 1 + triangle;
+    float area = emitters->triangles[k].area;
+    if (!(area > 0.0f)) return 0.0f;
+    return distribution_probability(&emitters->choice, (int)k) * t * t / (area * max(abs(cosine), 1e-6f));
+}

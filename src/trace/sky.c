@@ -1,0 +1,205 @@
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "trace/sky.h"
+
+#define TWO_PI 6.28318530717959f
+
+/* The importance map is never finer than this: two dependent look-ups a light sample should stay in the near
+ * caches. */
+enum { MAP_WIDTH_MAX = 256, MAP_HEIGHT_MAX = 128 };
+
+/* acos to 1e-6 and atan to 2e-6: Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions",
+ * 1964, 4.4.46 and 4.4.49. A texel of a 16k map spans 4e-4 radians; the library's calls cost more than the
+ * rest of a look-up. */
+static float fast_acos(float x) {
+    float a = abs(x);
+    float p = -0.0012624911f;
+    p = p * a + 0.0066700901f;
+    p = p * a - 0.0170881256f;
+    p = p * a + 0.0308918810f;
+    p = p * a - 0.0501743046f;
+    p = p * a + 0.0889789874f;
+    p = p * a - 0.2145988016f;
+    p = p * a + 1.5707963050f;
+    p *= sqrt(max(1.0f - a, 0.0f));
+    return x < 0.0f ? PI - p : p;
+}
+
+static float fast_atan2(float y, float x) {
+    float ax = abs(x), ay = abs(y), t = min(ax, ay) / max(max(ax, ay), 1e-30f), s = t * t;
+    float p = 0.0028662257f;
+    p = p * s - 0.0161657367f;
+    p = p * s + 0.0429096138f;
+    p = p * s - 0.0752896400f;
+    p = p * s + 0.1065626393f;
+    p = p * s - 0.1420889944f;
+    p = p * s + 0.1999355085f;
+    p = p * s - 0.3333314528f;
+    p = t + t * s * p;
+    if (ay > ax) p = 0.5f * PI - p;
+    if (x < 0.0f) p = PI - p;
+    return y < 0.0f ? -p : p;
+}
+
+/* World direction to the image's (u, v), and back. */
+static void to_map(const Sky *sky, Vec3 d, float *u, float *v) {
+    float x = d.x * sky->cos_turn - d.z * sky->sin_turn, z = d.x * sky->sin_turn + d.z * sky->cos_turn;
+    *u = 0.5f + fast_atan2(x, -z) / TWO_PI;
+    *v = fast_acos(clamp(d.y, -1.0f, 1.0f)) / PI;
+}
+
+static Vec3 from_map(const Sky *sky, float u, float v) {
+    float phi = (u - 0.5f) * TWO_PI, theta = v * PI, s = sin(theta);
+    float x = s * sin(phi), z = -s * cos(phi);
+    return vec3(x * sky->cos_turn + z * sky->sin_turn, cos(theta), -x * sky->sin_turn + z * sky->cos_turn);
+}
+
+/* Greg Ward, "Real Pixels", Graphics Gems II, 1991: three mantissas m and one exponent e, m 2^(e - 136). */
+static inline Rgb unpack(uint32_t p) {
+    uint32_t e = p >> 24, bits = e > 9 ? (e - 9) << 23 : 0;
+    float scale;
+    memcpy(&scale, &bits, 4);
+    return (Rgb){(float)(p & 255) * scale, (float)(p >> 8 & 255) * scale, (float)(p >> 16 & 255) * scale};
+}
+
+static uint32_t pack(const float *c) {
+    int e;
+    float most = max(c[0], max(c[1], c[2]));
+    if (!(most > 0.0f)) return 0;
+    frexpf(most, &e);
+    if (e + 128 < 10 || e + 128 > 255) return 0;
+    uint32_t p = (uint32_t)(e + 128) << 24;
+    for (int k = 0; k < 3; k++) p |= ((uint32_t)ldexpf(max(c[k], 0.0f), 8 - e) & 255u) << (8 * k);
+    return p;
+}
+
+/* The image as RGBE, when every texel comes back as it was (as those of .hdr files do): a third of the memory
+ * to go through at each look-up. */
+static void pack_image(Sky *sky, Arena *arena) {
+    const WeftImage *image = &sky->environment->image;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    const float *p = image->pixels;
+    if (image->channels != 3) return;
+    for (size_t k = 0; k < count; k++) {
+        Rgb c = unpack(pack(p + 3 * k));
+        if (c.r < p[3 * k] || c.r > p[3 * k] || c.g < p[3 * k + 1] || c.g > p[3 * k + 1] ||
+            c.b < p[3 * k + 2] || c.b > p[3 * k + 2])
+            return;
+    }
+    sky->packed = arena_array(arena, count, sizeof(uint32_t));
+    for (size_t k = 0; sky->packed && k < count; k++) sky->packed[k] = pack(p + 3 * k);
+}
+
+static Rgb lerp(Rgb a, Rgb b, float t) { return (Rgb){mix(a.r, b.r, t), mix(a.g, b.g, t), mix(a.b, b.b, t)}; }
+
+/* Bilinear: columns wrap, rows end. */
+static Rgb image_at(const Sky *sky, float u, float v) {
+    const Environment *e = sky->environment;
+    const WeftImage *image = &e->image;
+    if (!sky->packed) {
+        static const Texture latlong = {.wrap_u = WRAP_REPEAT, .wrap_v = WRAP_CLAMP};
+        Texel t = texture_fetch(&latlong, image, NULL, u, v);
+        return (Rgb){t.c[0] * e->strength, t.c[1] * e->strength, t.c[2] * e->strength};
+    }
+    float x = u * (float)image->width - 0.5f, y = v * (float)image->height - 0.5f, fx = floor(x),
+          fy = floor(y);
+    int x0 = (int)fx, y0 = (int)fy, x1 = x0 + 1, y1 = y0 + 1;
+    if (x0 < 0) x0 += image->width;
+    if (x1 >= image->width) x1 -= image->width;
+    y0 = y0 < 0 ? 0 : y0;
+    y1 = y1 >= image->height ? image->height - 1 : y1;
+    const uint32_t *above = sky->packed + (size_t)y0 * (size_t)image->width;
+    const uint32_t *below = sky->packed + (size_t)y1 * (size_t)image->width;
+    Rgb c = lerp(lerp(unpack(above[x0]), unpack(above[x1]), x - fx),
+                 lerp(unpack(below[x0]), unpack(below[x1]), x - fx), y - fy);
+    return (Rgb){c.r * e->strength, c.g * e->strength, c.b * e->strength};
+}
+
+static Rgb constant(const Environment *e) {
+    return (Rgb){e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength};
+}
+
+/* Density over the sphere at a point of cell (row, column), from that on the unit square. */
+static float map_pdf(const Sky *sky, int row, int column, float sin_theta) {
+    float square = distribution_probability(&sky->rows, row) *
+                   distribution_probability(&sky->columns[row], column) * (float)(sky->height * sky->width);
+    return square / (TWO_PI * PI * max(sin_theta, 1e-6f));
+}
+
+SkyPoint sky_at(const Sky *sky, Vec3 direction) {
+    const Environment *e = sky->environment;
+    if (e->kind == ENVIRONMENT_CONSTANT) return (SkyPoint){direction, constant(e), 1.0f / (2.0f * TWO_PI)};
+    float u, v;
+    to_map(sky, direction, &u, &v);
+    int column = (int)clamp(u * (float)sky->width, 0.0f, (float)(sky->width - 1));
+    int row = (int)clamp(v * (float)sky->height, 0.0f, (float)(sky->height - 1));
+    float sin_theta = sqrt(max(1.0f - direction.y * direction.y, 0.0f));
+    return (SkyPoint){direction, image_at(sky, u, v), map_pdf(sky, row, column, sin_theta)};
+}
+
+SkyPoint sky_sample(const Sky *sky, float u, float v) {
+    const Environment *e = sky->environment;
+    if (e->kind == ENVIRONMENT_CONSTANT) {
+        float z = 1.0f - 2.0f * u, r = sqrt(max(1.0f - z * z, 0.0f));
+        return sky_at(sky, vec3(r * cos(TWO_PI * v), r * sin(TWO_PI * v), z));
+    }
+    Choice row = distribution_choose(&sky->rows, v),
+           column = distribution_choose(&sky->columns[row.index], u);
+    float mu = ((float)column.index + column.rest) / (float)sky->width;
+    float mv = ((float)row.index + row.rest) / (float)sky->height;
+    SkyPoint point = {.direction = from_map(sky, mu, mv), .radiance = image_at(sky, mu, mv)};
+    float sin_theta = sqrt(max(1.0f - point.direction.y * point.direction.y, 0.0f));
+    point.pdf = map_pdf(sky, row.index, column.index, sin_theta);
+    return point;
+}
+
+/* Luminance times solid angle summed over the image's texels in each cell of the map. */
+static void sum_cells(Sky *sky, double *cells) {
+    const WeftImage *image = &sky->environment->image;
+    size_t channels = (size_t)image->channels;
+    double total = 0.0;
+    for (int y = 0; y < image->height; y++) {
+        const float *p = (const float *)image->pixels + (size_t)y * (size_t)image->width * channels;
+        double solid = (sin)(3.14159265358979 * (y + 0.5) / image->height);
+        double *row = cells + (size_t)((long long)y * sky->height / image->height) * (size_t)sky->width;
+        for (int x = 0; x < image->width; x++, p += channels) {
+            float luminance = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
+            row[(long long)x * sky->width / image->width] += (double)max(luminance, 0.0f) * solid;
+            sky->mean += (double)luminance * solid;
+            total += solid;
+        }
+    }
+    sky->mean /= total;
+}
+
+bool sky_make(Sky *sky, const Environment *environment, Arena *arena) {
+    *sky = (Sky){.environment = environment,
+                 .cos_turn = cos(environment->rotation),
+                 .sin_turn = sin(environment->rotation)};
+    if (environment->kind == ENVIRONMENT_CONSTANT) {
+        const float *c = environment->color;
+        sky->mean = (double)(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
+        return true;
+    }
+    const WeftImage *image = &environment->image;
+    int w = sky->width = image->width < MAP_WIDTH_MAX ? image->width : MAP_WIDTH_MAX;
+    int h = sky->height = image->height < MAP_HEIGHT_MAX ? image->height : MAP_HEIGHT_MAX;
+    Step *rows = arena_array(arena, (size_t)h + 1, sizeof(Step));
+    Step *columns = arena_array(arena, (size_t)h * ((size_t)w + 1), sizeof(Step));
+    sky->columns = arena_array(arena, (size_t)h, sizeof(Distribution));
+    double *cells = alloc_array((size_t)w * (size_t)h, sizeof(double));
+    bool made = rows && columns && sky->columns && cells;
+    if (made) sum_cells(sky, cells);
+    for (int r = 0; made && r < h; r++, columns += w + 1) {
+        /* every cell gets a little, so that interpolation between texels never shines where the pdf is 0 */
+        double solid =
+            (sin)(3.14159265358979 * (r + 0.5) / h) * image->width * image->height / ((double)w * h);
+        for (int c = 0; c < w; c++)
+            columns[c + 1].cdf = (float)(cells[(size_t)r * (size_t)w + (size_t)c] + 0.02 * sky->mean * solid);
+        rows[r + 1].cdf = (float)distribution_make(&sky->columns[r], w, columns);
+    }
+    if (made) distribution_make(&sky->rows, h, rows);
+    if (made) pack_image(sky, arena);
+    free(cells);
+    return made;
+}

@@ -1,0 +1,34 @@
+/* sky.h - the environment as a light: radiance along a direction, and directions by radiance */
+#ifndef WEFT_TRACE_SKY_H
+#define WEFT_TRACE_SKY_H
+
+#include "base/memory.h"
+#include "scene/scene.h"
+#include "shading/angles.h"
+#include "trace/distribution.h"
+
+typedef struct Sky {
+    const Environment *environment; /* borrowed */
+    float cos_turn, sin_turn;       /* of the environment's rotation */
+    double mean;                    /* radiance's luminance, over the sphere */
+    int width, height;              /* of the importance map */
+    Distribution rows, *columns;    /* columns: one a row */
+    uint32_t *packed;               /* the image as RGBE, where that loses nothing; else NULL */
+} Sky;
+
+typedef struct SkyPoint {
+    Vec3 direction;
+    Rgb radiance;
+    float pdf; /* of sky_sample, 1/sr */
+} SkyPoint;
+
+/* Fills sky; its arrays come from arena. false when memory is short. */
+bool sky_make(Sky *sky, const Environment *environment, Arena *arena);
+
+/* What comes from a unit direction. */
+SkyPoint sky_at(const Sky *sky, Vec3 direction);
+
+/* A direction for (u, v) in [0, 1)^2, by about its radiance. */
+SkyPoint sky_sample(const Sky *sky, float u, float v);
+
+#endif
