@@ -15,7 +15,7 @@ int main(void) {
     for (int k = 1; k <= 10; k++) {
         float e[3];
         weft_lobe_albedo(&lobe, (float)k / 10.0f, e);
-        printf("cos %.1f  E %.4f\n", k / 10.0, (double)e[0]);
+        printf("cos %.1f  E %.5f\n", k / 10.0, (double)e[0]);
     }
     return 0;
 }

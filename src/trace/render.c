@@ -264,14 +264,15 @@ static void render_tile(void *user, int item, int thread) {
     Pass *pass = user;
     WeftRender *render = pass->render;
     if (atomic_load(&pass->stop)) return;
-    Tile *tile = &render->tiles[item];
+    Tile tile = render->tiles[item]; /* counted in a copy: neighbours in memory belong to other threads */
     int tx = item % render->tiles_across * TILE, ty = item / render->tiles_across * TILE;
     for (int y = ty; y < ty + TILE && y < render->height; y++)
         for (int x = tx; x < tx + TILE && x < render->width; x++) {
             float *sum = render->sums + 4 * ((size_t)y * (size_t)render->width + (size_t)x);
-            sample_pixel(render, render->x0 + x, render->y0 + y, tile->samples, pass->samples, sum, tile);
+            sample_pixel(render, render->x0 + x, render->y0 + y, tile.samples, pass->samples, sum, &tile);
         }
-    tile->samples += pass->samples;
+    tile.samples += pass->samples;
+    render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
     if (now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread != 0 || !pass->progress) return;

@@ -25,7 +25,7 @@ static void need_data(void) {
 }
 
 static Reading *read_asset(const char *name) {
-    char path[2048];
+    char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return read_gltf(path, NULL, 0);
 }
