@@ -8,6 +8,7 @@ picture, since their sheens differ. Cycles counts bounces after the first hit, w
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -34,7 +35,11 @@ def cycles(scene, out, common, extra):
     command = ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--debug-cycles",
                "--verbose", "2", "-P", ROOT / "bench/cycles.py", "--", scene, "-o", out, "--max-depth", "8",
                *common, *extra]
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    # Blender's Python looks for itself on PATH: only Debian's has the numpy that the importer needs
+    debian = {**os.environ, "PATH": "/usr/bin:/bin"}
+    done = subprocess.run(command, capture_output=True, text=True, env=debian)
+    if done.returncode:
+        raise SystemExit(done.stdout[-2000:] + done.stderr[-2000:])
     line = next(line for line in done.stdout.splitlines() if line.startswith("{"))
     result = json.loads(line)
     return {"rate": result["samples_per_second"], "memory": result["peak_resident_bytes"], "info": result}

@@ -22,7 +22,8 @@ struct ArenaBlock {
     _Alignas(16) unsigned char bytes[];
 };
 
-/* Embree reads the last vertex of a shared buffer with a 16-byte load: the slack keeps that inside the block. */
+/* Embree reads the last vertex of a shared buffer with a 16-byte load: the slack keeps that inside the block.
+ */
 enum { ARENA_BLOCK = 1 << 16, ARENA_SLACK = 16 };
 
 void *arena_array(Arena *arena, size_t count, size_t size) {

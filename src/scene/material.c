@@ -54,22 +54,27 @@ static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *s
     return &lookup->texel;
 }
 
+static float plain_SCALAR(const Input *input) { return input->value[0]; }
+static Rgb plain_COLOR(const Input *input) {
+    return (Rgb){input->value[0], input->value[1], input->value[2]};
+}
+static Dir plain_NORMAL(const Input *input) { return dir(0.0f, 0.0f, 1.0f); }
+static Dir plain_DIRECTION(const Input *input) {
+    return dir(cos(input->value[0]), sin(input->value[0]), 0.0f);
+}
+
 static float read_SCALAR(Lookup *lookup, const Input *input) {
-    float value = input->value[0];
     /* opacity is the alpha of a colour texture: the same texel, and alpha is never decoded */
     const SrgbTable *srgb = input->channel == 3 ? lookup->last_srgb : NULL;
-    return input->texture ? value * fetch(lookup, input, srgb)->c[input->channel] : value;
+    return input->value[0] * fetch(lookup, input, srgb)->c[input->channel];
 }
 
 static Rgb read_COLOR(Lookup *lookup, const Input *input) {
-    Rgb color = {input->value[0], input->value[1], input->value[2]};
-    if (!input->texture) return color;
     const float *c = fetch(lookup, input, &lookup->scene->srgb)->c;
-    return (Rgb){color.r * c[0], color.g * c[1], color.b * c[2]};
+    return (Rgb){input->value[0] * c[0], input->value[1] * c[1], input->value[2] * c[2]};
 }
 
 static Dir read_NORMAL(Lookup *lookup, const Input *input) {
-    if (!input->texture) return dir(0.0f, 0.0f, 1.0f);
     const float *c = fetch(lookup, input, NULL)->c;
     Dir n = dir((2.0f * c[0] - 1.0f) * input->value[0], (2.0f * c[1] - 1.0f) * input->value[0],
                 2.0f * c[2] - 1.0f);
@@ -79,32 +84,37 @@ static Dir read_NORMAL(Lookup *lookup, const Input *input) {
 }
 
 static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
-    float x = cos(input->value[0]), y = sin(input->value[0]), tx = 1.0f, ty = 0.0f;
-    if (input->texture) {
-        const float *c = fetch(lookup, input, NULL)->c;
-        tx = 2.0f * c[0] - 1.0f, ty = 2.0f * c[1] - 1.0f;
-        float s = sqrt(tx * tx + ty * ty);
-        tx = s > 1e-3f ? tx / s : 1.0f, ty = s > 1e-3f ? ty / s : 0.0f;
-    }
-    return dir(x * tx - y * ty, x * ty + y * tx, 0.0f);
+    const float *c = fetch(lookup, input, NULL)->c;
+    float x = cos(input->value[0]), y = sin(input->value[0]), tx = 2.0f * c[0] - 1.0f,
+          ty = 2.0f * c[1] - 1.0f;
+    float s = sqrt(tx * tx + ty * ty);
+    if (s < 1e-3f) return dir(x, y, 0.0f);
+    return dir((x * tx - y * ty) / s, (x * ty + y * tx) / s, 0.0f);
 }
 
-Surface material_surface(const WeftScene *scene, const Material *material, float uv[2][2],
-                         const float color[4]) {
-    Lookup lookup = {.scene = scene, .uv = uv};
+Surface material_plain(const Material *material) {
     Surface s;
-#define READ_INPUT(kind, name, def, low, high, help)                                                         \
-    s.name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
-    SURFACE_INPUTS(READ_INPUT)
-    s.base_color = (Rgb){s.base_color.r * color[0], s.base_color.g * color[1], s.base_color.b * color[2]};
-    s.opacity *= color[3];
+#define PLAIN_INPUT(kind, name, def, low, high, help) s.name = plain_##kind(&material->inputs[INPUT_##name]);
+    SURFACE_INPUTS(PLAIN_INPUT)
     return s;
+}
+
+void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],
+                       Surface *s) {
+    Lookup lookup = {.scene = scene, .uv = uv};
+#define READ_INPUT(kind, name, def, low, high, help)                                                         \
+    if (material->inputs[INPUT_##name].texture)                                                              \
+        s->name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
+    SURFACE_INPUTS(READ_INPUT)
+    s->base_color = (Rgb){s->base_color.r * color[0], s->base_color.g * color[1], s->base_color.b * color[2]};
+    s->opacity *= color[3];
 }
 
 float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha) {
     if (material->alpha_mode == ALPHA_OPAQUE) return 1.0f;
     Lookup lookup = {.scene = scene, .uv = uv};
-    float opacity = read_SCALAR(&lookup, &material->inputs[INPUT_opacity]) * vertex_alpha;
+    const Input *input = &material->inputs[INPUT_opacity];
+    float opacity = (input->texture ? read_SCALAR(&lookup, input) : plain_SCALAR(input)) * vertex_alpha;
     if (material->alpha_mode == ALPHA_MASK) return opacity >= material->alpha_cutoff ? 1.0f : 0.0f;
     return clamp(opacity, 0.0f, 1.0f);
 }

@@ -22,11 +22,11 @@ int weft_lobe_find(const char *id) {
     return -1;
 }
 
-Lobe lobe_default(LobeId id) {
-    Lobe lobe = {.id = id};
-    for (int k = 0; k < infos[id].param_count; k++) lobe.params[k] = infos[id].params[k].def;
-    return lobe;
-}
+#define PARAM_DEFAULT(type, name, def, low, high, hard_low, hard_high, help) def,
+#define LOBE_DEFAULT(id, name, Record, NAME)                                 {LOBE_##NAME, {NAME##_PARAMS(PARAM_DEFAULT) 0.0f}},
+static const Lobe defaults[LOBE_COUNT] = {WEFT_LOBES(LOBE_DEFAULT)};
+
+Lobe lobe_default(LobeId id) { return defaults[id]; }
 
 int lobe_param(LobeId id, const char *name) {
     for (int k = 0; k < infos[id].param_count; k++)

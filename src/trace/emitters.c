@@ -11,7 +11,8 @@ typedef struct Emitter {
 
 static Rgb emission(const WeftScene *scene, const Material *material, float uv[2][2]) {
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    Surface s = material_surface(scene, material, uv, white);
+    Surface s = material_plain(material);
+    material_textures(scene, material, uv, white, &s);
     float k = s.emission_strength;
     return (Rgb){s.emission.r * k, s.emission.g * k, s.emission.b * k};
 }

@@ -61,7 +61,8 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
     const Material *material = &context->scene->materials[mesh->material];
     Vertex vertex = geometry_vertex(mesh, hit);
     float side = vec3_dot(vertex.geometric, wo) < 0.0f ? -1.0f : 1.0f;
-    Surface surface = material_surface(context->scene, material, vertex.uv, vertex.color);
+    Surface surface = context->surfaces[mesh->material];
+    material_textures(context->scene, material, vertex.uv, vertex.color, &surface);
     p->geometric = vec3_scale(vertex.geometric, side);
     p->stack.count = 0;
     Vec3 normal = vec3_scale(vertex.normal, side);
@@ -104,17 +105,15 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
 }
 
 /* One light sample. */
-static void add_direct(const PathContext *context, const Point3 *p, Rgb throughput, Sampler *sampler,
+static void add_direct(const PathContext *context, const Point3 *p, Rgb throughput, Point uv, uint32_t key,
                        Rgb *sum, long long *rays) {
-    Point uv = sampler_next(sampler);
     LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
     StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi));
     Rgb f = value.f_cos;
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
-    Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance,
-                  hash32(sampler->key ^ sampler->pair)};
+    Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key};
     if (light.distance < INFINITY) {
         /* from the moved start to just before the light */
         Vec3 to = vec3_sub(vec3_madd(p->origin, light.wi, light.distance), shadow.origin);
@@ -146,10 +145,10 @@ Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler
             add(&sum, throughput, emission, weight);
         }
         if (depth == context->max_depth || p.stack.count == 0) return sum;
-        add_direct(context, &p, throughput, sampler, &sum, rays);
+        TwoPoints uv = sampler_next(sampler);
+        add_direct(context, &p, throughput, uv.first, hash32(ray.key), &sum, rays);
 
-        Point uv = sampler_next(sampler);
-        Dir wi = stack_sample(&p.stack, p.wo, uv.u, uv.v);
+        Dir wi = stack_sample(&p.stack, p.wo, uv.second.u, uv.second.v);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
         StackValue value = stack_eval(&p.stack, p.wo, wi);
@@ -159,8 +158,9 @@ Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler
                            throughput.b * value.f_cos.b * k};
         pdf = value.pdf;
         float strongest = max(throughput.r, max(throughput.g, throughput.b));
-        if (depth >= 2 && context->roulette) {
-            float survive = min(strongest, 0.95f);
+        if (depth >= 1 && context->roulette) {
+            /* the square root ends paths later than their share of the light would, as the eye sees it */
+            float survive = min(sqrt(strongest), 1.0f);
             if (sampler_random(sampler) >= survive) return sum;
             throughput = (Rgb){throughput.r / survive, throughput.g / survive, throughput.b / survive};
         }

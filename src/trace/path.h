@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_PATH_H
 #define WEFT_TRACE_PATH_H
 
-#include "shading/albedo.h"
+#include "shading/surface.h"
 #include "trace/geometry.h"
 #include "trace/lights.h"
 #include "trace/sampler.h"
@@ -12,6 +12,7 @@ typedef struct PathContext {
     const WeftScene *scene;
     const Geometry *geometry;
     const Lights *lights;
+    const Surface *surfaces;           /* of each material, its textures left out */
     const AlbedoTable *const *sheen_e; /* a table for each material that has a sheen, else NULL */
     int max_depth;
     WeftSampling sampling;

@@ -6,6 +6,7 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "scene/camera.h"
+#include "scene/shade.h"
 #include "trace/path.h"
 
 enum {
@@ -31,6 +32,7 @@ struct WeftRender {
     Lights *lights;
     AlbedoTable **tables;        /* one a distinct sheen */
     const AlbedoTable **sheen_e; /* per material, into tables */
+    Surface *surfaces;           /* per material */
     PathContext context;
     Camera camera;
     float filter[FILTER_STEPS + 1];
@@ -124,6 +126,15 @@ static void filter_make(float filter[FILTER_STEPS + 1]) {
     for (; step <= FILTER_STEPS; step++) filter[step] = (float)radius;
 }
 
+static WeftResult make_surfaces(WeftRender *render, WeftError *error) {
+    const WeftScene *scene = render->scene;
+    render->surfaces = alloc_array((size_t)scene->material_count, sizeof(Surface));
+    if (!render->surfaces) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int k = 0; k < scene->material_count; k++)
+        render->surfaces[k] = material_plain(&scene->materials[k]);
+    return WEFT_OK;
+}
+
 static WeftResult build(WeftRender *render, WeftError *error) {
     const WeftRenderDesc *d = &render->desc;
     float aspect = (float)d->width / (float)d->height;
@@ -140,10 +151,12 @@ static WeftResult build(WeftRender *render, WeftError *error) {
     if (result == WEFT_OK) result = geometry_create(render->scene, d->threads, &render->geometry, error);
     if (result == WEFT_OK) result = lights_create(render->scene, &render->lights, error);
     if (result == WEFT_OK) result = make_tables(render, error);
+    if (result == WEFT_OK) result = make_surfaces(render, error);
     if (result == WEFT_OK)
         render->context = (PathContext){.scene = render->scene,
                                         .geometry = render->geometry,
                                         .lights = render->lights,
+                                        .surfaces = render->surfaces,
                                         .sheen_e = render->sheen_e,
                                         .max_depth = d->max_depth,
                                         .sampling = d->sampling,
@@ -185,6 +198,7 @@ void weft_render_free(WeftRender *render) {
     for (int k = 0; render->tables && k < render->scene->material_count; k++) free(render->tables[k]);
     free(render->tables);
     free(render->sheen_e);
+    free(render->surfaces);
     lights_free(render->lights);
     geometry_free(render->geometry);
     free(render->tiles);
@@ -202,7 +216,7 @@ static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *samp
     const WeftRenderDesc *d = &render->desc;
     float x = 0.5f, y = 0.5f;
     if (!d->pixel_centre) {
-        Point p = sampler_next(sampler);
+        Point p = sampler_next(sampler).first;
         x += filter_offset(render->filter, p.u), y += filter_offset(render->filter, p.v);
     }
     x = 2.0f * ((float)px + x) / (float)d->width - 1.0f;

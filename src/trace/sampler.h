@@ -23,8 +23,19 @@ typedef struct Point {
     float u, v; /* in [0, 1) */
 } Point;
 
+/* Two pairs of dimensions at once: the lanes of a register. */
+typedef uint32_t Lanes __attribute__((vector_size(16)));
+
 static inline uint32_t reverse_bits(uint32_t x) {
     x = __builtin_bswap32(x);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+static inline Lanes reverse_lanes(Lanes x) {
+    x = (x >> 16) | (x << 16);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -33,7 +44,7 @@ static inline uint32_t reverse_bits(uint32_t x) {
 /* A nested uniform scramble of digits stored lowest first: each bit is flipped by a hash of the bits below
  * it. Samuli Laine, Tero Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, with the
  * constants found by Nathan Vegdahl, "Building a Better LK Hash", 2021. */
-static inline uint32_t owen_scramble(uint32_t x, uint32_t key) {
+static inline Lanes owen_scramble(Lanes x, Lanes key) {
     x ^= x * 0x3d20adeau;
     x += key;
     x *= (key >> 16) | 1u;
@@ -56,15 +67,22 @@ static inline Sampler sampler_start(uint32_t x, uint32_t y, uint32_t seed, uint3
     return (Sampler){hash_combine(hash_combine(hash32(seed), x), y), reverse_bits(sample), 0};
 }
 
-/* The next pair of dimensions. */
-static inline Point sampler_next(Sampler *sampler) {
-    uint32_t key = hash32(sampler->key + 0x9e3779b9u * ++sampler->pair);
-    uint32_t i = reverse_bits(owen_scramble(sampler->index, key));
-    key = key * 0x2c1b3c6du + 0x297a2d39u;
-    uint32_t x = reverse_bits(owen_scramble(i, key));
-    key = key * 0x2c1b3c6du + 0x297a2d39u;
-    uint32_t y = reverse_bits(owen_scramble(pascal_bits(i), key));
-    return (Point){unit_float(x), unit_float(y)};
+typedef struct TwoPoints {
+    Point first, second;
+} TwoPoints;
+
+/* The next two pairs of dimensions. Each pair has its own shuffle of the order (one key) and its own scramble
+ * of either coordinate (one key a lane). */
+static inline TwoPoints sampler_next(Sampler *sampler) {
+    uint32_t a = hash32(sampler->key + 0x9e3779b9u * (sampler->pair + 1));
+    uint32_t b = hash32(sampler->key + 0x9e3779b9u * (sampler->pair + 2));
+    sampler->pair += 2;
+    Lanes key = {a, a, b, b};
+    Lanes i = reverse_lanes(owen_scramble((Lanes){0} + sampler->index, key));
+    Lanes x = {i[0], pascal_bits(i[0]), i[2], pascal_bits(i[2])};
+    key = key * 0x2c1b3c6du + (Lanes){0x297a2d39u, 0x7feb352du, 0x297a2d39u, 0x7feb352du};
+    x = reverse_lanes(owen_scramble(x, key));
+    return (TwoPoints){{unit_float(x[0]), unit_float(x[1])}, {unit_float(x[2]), unit_float(x[3])}};
 }
 
 /* One plain random number that costs no dimension. */

@@ -83,8 +83,8 @@ static void environment_samples_agree_with_its_pdf(void **state) {
     enum { N = 40000 };
     double sum = 0.0, total_pdf = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, vec3(0, 0, 0), unit_float(hash32(3 * k)),
-                                      unit_float(hash32(3 * k + 1)));
+        LightSample s =
+            lights_sample(lights, vec3(0, 0, 0), unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && fabsf(vec3_length(s.wi) - 1.0f) < 1e-4f);
         float pdf = lights_environment(lights, s.wi).pdf;
         if (fabsf(pdf - s.pdf) > 0.02f * s.pdf) total_pdf += 1.0; /* may differ on cell edges only */
@@ -118,8 +118,8 @@ static void emitters_subtend_their_solid_angle(void **state) {
     enum { N = 1 << 14 };
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, vec3(0, 0, 0), unit_float(hash32(3 * k)),
-                                      unit_float(hash32(3 * k + 1)));
+        LightSample s =
+            lights_sample(lights, vec3(0, 0, 0), unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && s.distance >= 0.999f && s.distance < 1.3f && !s.punctual);
         sum += (double)(s.radiance.r / s.pdf) / N;
     }
