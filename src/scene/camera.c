@@ -79,9 +79,11 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
     return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "write auto, a name, an index or \"eye;target;fov\"");
 }
 
-CameraRay camera_ray(const Camera *camera, float aspect, float x, float y) {
+View view_of(const Camera *camera, float aspect) {
     float half = camera->orthographic ? camera->ymag : tanf(0.5f * camera->yfov);
-    Vec3 across = vec3_add(vec3_scale(camera->right, x * half * aspect), vec3_scale(camera->up, y * half));
-    if (camera->orthographic) return (CameraRay){vec3_add(camera->eye, across), camera->forward};
-    return (CameraRay){camera->eye, vec3_normal_or(vec3_add(camera->forward, across), camera->forward)};
+    return (View){.eye = camera->eye,
+                  .forward = camera->forward,
+                  .across = vec3_scale(camera->right, half * aspect),
+                  .up = vec3_scale(camera->up, half),
+                  .orthographic = camera->orthographic};
 }

@@ -9,11 +9,25 @@
  * height. Fails with WEFT_MESSAGE_CAMERA_NAME. */
 WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out, WeftError *error);
 
-/* The direction (unit) and origin of the ray through (x, y) in [-1, 1]^2, +y up. */
+/* The rays of a picture through a camera. */
+typedef struct View {
+    Vec3 eye, forward;
+    Vec3 across, up; /* from the middle of the picture to the middle of its right and upper border */
+    bool orthographic;
+} View;
+
+View view_of(const Camera *camera, float aspect);
+
 typedef struct CameraRay {
-    Vec3 origin, direction;
+    Vec3 origin, direction; /* direction is unit */
 } CameraRay;
 
-CameraRay camera_ray(const Camera *camera, float aspect, float x, float y);
+/* The ray through (x, y) in [-1, 1]^2, +y up; beyond for points outside the picture. */
+static inline CameraRay view_ray(const View *view, float x, float y) {
+    Vec3 offset = vec3_madd(vec3_scale(view->across, x), view->up, y);
+    if (view->orthographic) return (CameraRay){vec3_add(view->eye, offset), view->forward};
+    Vec3 d = vec3_add(view->forward, offset);
+    return (CameraRay){view->eye, vec3_scale(d, 1.0f / sqrtf(vec3_dot(d, d)))};
+}
 
 #endif

@@ -37,8 +37,8 @@ static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint
     const Material *material = &scene->materials[mesh->material];
     if (!material->double_sided && vec3_dot(hit->facing, direction) > 0.0f) return false;
     if (material->alpha_mode == ALPHA_OPAQUE) return true;
-    Vertex vertex = geometry_vertex(mesh, hit);
-    float opacity = material_opacity(scene, material, vertex.uv, vertex.color[3]);
+    Attributes at = geometry_attributes(mesh, hit);
+    float opacity = material_opacity(scene, material, at.uv, at.color[3]);
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
 }
 
@@ -76,6 +76,9 @@ static bool attach(Geometry *geometry, uint32_t id) {
     return true;
 }
 
+/* Up to here the slower build that traces faster takes less than the eye notices. */
+enum { FINE_BUILD_TRIANGLES = 200000 };
+
 WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error) {
     char config[64];
     snprintf(config, sizeof config, "threads=%d,set_affinity=0", threads);
@@ -85,10 +88,16 @@ WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, 
     geometry->device = rtcNewDevice(config);
     geometry->accel = geometry->device ? rtcNewScene(geometry->device) : NULL;
     bool built = geometry->accel != NULL;
-    for (int k = 0; built && k < scene->mesh_count; k++)
-        if (scene->meshes[k].triangle_count) built = attach(geometry, (uint32_t)k);
+    uint32_t triangles = 0;
+    for (int k = 0; built && k < scene->mesh_count; k++) {
+        if (!scene->meshes[k].triangle_count) continue;
+        built = attach(geometry, (uint32_t)k);
+        triangles += scene->meshes[k].triangle_count;
+    }
     if (built) {
         rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST);
+        if (triangles <= FINE_BUILD_TRIANGLES)
+            rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
         rtcCommitScene(geometry->accel);
         built = rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
     }
@@ -166,8 +175,7 @@ static Vec3 blend(const float *attribute, const uint32_t *index, float w, float 
 Vertex geometry_vertex(const Mesh *mesh, const Hit *hit) {
     const uint32_t *index = mesh->index + 3 * (size_t)hit->triangle;
     float w = 1.0f - hit->u - hit->v, weight[3] = {w, hit->u, hit->v};
-    Vertex vertex = {.position = blend(mesh->position, index, w, hit->u, hit->v),
-                     .color = {1.0f, 1.0f, 1.0f, 1.0f}};
+    Vertex vertex = {.position = blend(mesh->position, index, w, hit->u, hit->v)};
     vertex.geometric = vec3_normal_or(hit->facing, vec3(0.0f, 1.0f, 0.0f));
     vertex.normal = vertex.geometric;
     if (mesh->normal)
@@ -178,19 +186,26 @@ Vertex geometry_vertex(const Mesh *mesh, const Hit *hit) {
             vertex.tangent = vec3_madd(vertex.tangent, vec3_load(t), weight[k]);
             vertex.handedness = t[3];
         }
+    return vertex;
+}
+
+Attributes geometry_attributes(const Mesh *mesh, const Hit *hit) {
+    const uint32_t *index = mesh->index + 3 * (size_t)hit->triangle;
+    float weight[3] = {1.0f - hit->u - hit->v, hit->u, hit->v};
+    Attributes at = {.color = {1.0f, 1.0f, 1.0f, 1.0f}};
     for (int set = 0; set < 2; set++)
         for (int k = 0; mesh->texcoord[set] && k < 3; k++) {
             const float *uv = mesh->texcoord[set] + 2 * (size_t)index[k];
-            vertex.uv[set][0] += uv[0] * weight[k];
-            vertex.uv[set][1] += uv[1] * weight[k];
+            at.uv[set][0] += uv[0] * weight[k];
+            at.uv[set][1] += uv[1] * weight[k];
         }
     if (mesh->color)
         for (int c = 0; c < 4; c++) {
-            vertex.color[c] = 0.0f;
+            at.color[c] = 0.0f;
             for (int k = 0; k < 3; k++)
-                vertex.color[c] += mesh->color[4 * (size_t)index[k] + (size_t)c] * weight[k];
+                at.color[c] += mesh->color[4 * (size_t)index[k] + (size_t)c] * weight[k];
         }
-    return vertex;
+    return at;
 }
 
 /* The mean of the point's projections onto the tangent planes of the vertices, outward only. Johannes Hanika,

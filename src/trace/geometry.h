@@ -33,19 +33,24 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
 /* Whether anything is between near and far. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
 
-/* A point of a triangle with its interpolated attributes. */
+/* Where a triangle was hit, and how it is turned there. */
 typedef struct Vertex {
     Vec3 position;
     Vec3 geometric;   /* unit, on the side the triangle winds counter-clockwise */
     Vec3 normal;      /* unit, interpolated; the geometric one where the mesh has none */
     Vec3 tangent;     /* as stored, not normalised; 0 where the mesh has none */
     float handedness; /* of the bitangent */
-
-    float uv[2][2];
-    float color[4];
 } Vertex;
 
 Vertex geometry_vertex(const Mesh *mesh, const Hit *hit);
+
+/* What textures are looked up with there. */
+typedef struct Attributes {
+    float uv[2][2];
+    float color[4]; /* linear RGBA, white where the mesh has none */
+} Attributes;
+
+Attributes geometry_attributes(const Mesh *mesh, const Hit *hit);
 
 /* The hit point moved out to where the smooth surface that the normals describe would be, on the front
  * (side 1) or the back (side -1):

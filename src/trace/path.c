@@ -58,11 +58,15 @@ static Vec3 leave(Vec3 p, Vec3 n) { return vec3(step_out(p.x, n.x), step_out(p.y
 
 /* Fills p for a hit seen from wo and returns what the surface itself sends there. */
 static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, Point3 *p) {
-    const Material *material = &context->scene->materials[mesh->material];
+    const PathMaterial *known = &context->materials[mesh->material];
+    const Material *material = &known->material;
     Vertex vertex = geometry_vertex(mesh, hit);
     float side = vec3_dot(vertex.geometric, wo) < 0.0f ? -1.0f : 1.0f;
-    Surface surface = context->surfaces[mesh->material];
-    material_textures(context->scene, material, vertex.uv, vertex.color, &surface);
+    Surface surface = known->plain;
+    if (known->textured || mesh->color) {
+        Attributes at = geometry_attributes(mesh, hit);
+        material_textures(context->scene, material, at.uv, at.color, &surface);
+    }
     p->geometric = vec3_scale(vertex.geometric, side);
     p->stack.count = 0;
     Vec3 normal = vec3_scale(vertex.normal, side);
@@ -84,9 +88,7 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
         set_frame(p, p->z, along, vertex.handedness);
     }
     p->wo = to_local(p, wo);
-    int m = mesh->material;
-    surface_stack(&p->stack, &surface, p->wo, (LobeId)material->sheen_lobe, material->layer,
-                  context->sheen_e[m]);
+    surface_stack(&p->stack, &surface, p->wo, (LobeId)material->sheen_lobe, material->layer, known->sheen_e);
     return emission;
 }
 
@@ -128,7 +130,9 @@ static void add_direct(const PathContext *context, const Point3 *p, Rgb throughp
     add(sum, throughput, arriving, weight / light.pdf);
 }
 
-Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler, long long *rays) {
+/* flatten: everything a path does in one body is worth a twentieth of the time. */
+__attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler,
+                                           long long *rays) {
     Rgb sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
     Point3 p;
     float pdf = 0.0f; /* of the direction by which we came; 0: the camera's */

@@ -2,18 +2,26 @@
 #ifndef WEFT_TRACE_PATH_H
 #define WEFT_TRACE_PATH_H
 
+#include "scene/material.h"
 #include "shading/surface.h"
 #include "trace/geometry.h"
 #include "trace/lights.h"
 #include "trace/sampler.h"
 #include "weft/render.h"
 
+/* What a material is wherever it is hit. */
+typedef struct PathMaterial {
+    Material material;          /* the scene's, without textures that a path never looks at */
+    Surface plain;              /* all its textures left out */
+    bool textured;              /* has any */
+    const AlbedoTable *sheen_e; /* NULL without a sheen */
+} PathMaterial;
+
 typedef struct PathContext {
     const WeftScene *scene;
     const Geometry *geometry;
     const Lights *lights;
-    const Surface *surfaces;           /* of each material, its textures left out */
-    const AlbedoTable *const *sheen_e; /* a table for each material that has a sheen, else NULL */
+    const PathMaterial *materials; /* beside the scene's */
     int max_depth;
     WeftSampling sampling;
     bool roulette;

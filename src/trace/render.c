@@ -30,11 +30,11 @@ struct WeftRender {
     WeftRenderDesc desc;
     Geometry *geometry;
     Lights *lights;
-    AlbedoTable **tables;        /* one a distinct sheen */
-    const AlbedoTable **sheen_e; /* per material, into tables */
-    Surface *surfaces;           /* per material */
+    AlbedoTable **tables;    /* one a distinct sheen */
+    PathMaterial *materials; /* their sheen_e point into tables */
     PathContext context;
     Camera camera;
+    View view;
     float filter[FILTER_STEPS + 1];
     int x0, y0, width, height; /* the crop */
     int tiles_across, tile_count;
@@ -79,28 +79,41 @@ static bool sheen_range(const Material *material, float *low, float *high) {
     return color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f;
 }
 
-static WeftResult make_tables(WeftRender *render, WeftError *error) {
+/* The table of an earlier material with the same sheen over the same alphas, or NULL. */
+static const AlbedoTable *find_table(const WeftRender *render, size_t count, LobeId lobe, float low,
+                                     float high) {
+    for (size_t j = 0; j < count; j++) {
+        const AlbedoTable *t = render->tables[j];
+        if (t && t->lobe == lobe && !(t->low < low || t->low > low) && !(t->high < high || t->high > high))
+            return t;
+    }
+    return NULL;
+}
+
+static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
     size_t count = (size_t)scene->material_count;
     render->tables = alloc_array(count, sizeof(AlbedoTable *));
-    render->sheen_e = alloc_array(count, sizeof(AlbedoTable *));
-    if (!render->tables || !render->sheen_e) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    render->materials = alloc_array(count, sizeof(PathMaterial));
+    if (!render->tables || !render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (size_t k = 0; k < count; k++) {
         const Material *material = &scene->materials[k];
+        PathMaterial *known = &render->materials[k];
+        known->material = *material;
+        known->material.inputs[INPUT_occlusion].texture = 0; /* the paths find it out for themselves */
+        known->material.inputs[INPUT_opacity].texture = 0;   /* told by whether there is a hit */
+        known->plain = material_plain(material);
+        for (int input = 0; input < INPUT_COUNT; input++)
+            known->textured |= known->material.inputs[input].texture != 0;
         float low, high;
         if (!sheen_range(material, &low, &high)) continue;
-        for (size_t j = 0; j < k && !render->sheen_e[k]; j++) {
-            const AlbedoTable *t = render->tables[j];
-            if (t && (int)t->lobe == material->sheen_lobe && !(t->low < low || t->low > low) &&
-                !(t->high < high || t->high > high))
-                render->sheen_e[k] = t;
-        }
-        if (render->sheen_e[k]) continue;
+        Lobe lobe = lobe_default((LobeId)material->sheen_lobe);
+        known->sheen_e = find_table(render, k, lobe.id, low, high);
+        if (known->sheen_e) continue;
         render->tables[k] = alloc_array(1, sizeof(AlbedoTable));
         if (!render->tables[k]) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-        Lobe lobe = lobe_default((LobeId)material->sheen_lobe);
         albedo_table_fill(render->tables[k], &lobe, low, high, render->desc.threads);
-        render->sheen_e[k] = render->tables[k];
+        known->sheen_e = render->tables[k];
     }
     return WEFT_OK;
 }
@@ -126,19 +139,11 @@ static void filter_make(float filter[FILTER_STEPS + 1]) {
     for (; step <= FILTER_STEPS; step++) filter[step] = (float)radius;
 }
 
-static WeftResult make_surfaces(WeftRender *render, WeftError *error) {
-    const WeftScene *scene = render->scene;
-    render->surfaces = alloc_array((size_t)scene->material_count, sizeof(Surface));
-    if (!render->surfaces) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int k = 0; k < scene->material_count; k++)
-        render->surfaces[k] = material_plain(&scene->materials[k]);
-    return WEFT_OK;
-}
-
 static WeftResult build(WeftRender *render, WeftError *error) {
     const WeftRenderDesc *d = &render->desc;
     float aspect = (float)d->width / (float)d->height;
     WeftResult result = camera_find(render->scene, d->camera, aspect, &render->camera, error);
+    render->view = view_of(&render->camera, aspect);
     render->x0 = d->crop[0], render->y0 = d->crop[1], render->width = d->crop[2], render->height = d->crop[3];
     render->tiles_across = (render->width + TILE - 1) / TILE;
     render->tile_count = render->tiles_across * ((render->height + TILE - 1) / TILE);
@@ -150,14 +155,12 @@ static WeftResult build(WeftRender *render, WeftError *error) {
     }
     if (result == WEFT_OK) result = geometry_create(render->scene, d->threads, &render->geometry, error);
     if (result == WEFT_OK) result = lights_create(render->scene, &render->lights, error);
-    if (result == WEFT_OK) result = make_tables(render, error);
-    if (result == WEFT_OK) result = make_surfaces(render, error);
+    if (result == WEFT_OK) result = make_materials(render, error);
     if (result == WEFT_OK)
         render->context = (PathContext){.scene = render->scene,
                                         .geometry = render->geometry,
                                         .lights = render->lights,
-                                        .surfaces = render->surfaces,
-                                        .sheen_e = render->sheen_e,
+                                        .materials = render->materials,
                                         .max_depth = d->max_depth,
                                         .sampling = d->sampling,
                                         .roulette = !d->no_roulette};
@@ -197,8 +200,7 @@ void weft_render_free(WeftRender *render) {
     if (!render) return;
     for (int k = 0; render->tables && k < render->scene->material_count; k++) free(render->tables[k]);
     free(render->tables);
-    free(render->sheen_e);
-    free(render->surfaces);
+    free(render->materials);
     lights_free(render->lights);
     geometry_free(render->geometry);
     free(render->tiles);
@@ -221,7 +223,7 @@ static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *samp
     }
     x = 2.0f * ((float)px + x) / (float)d->width - 1.0f;
     y = 1.0f - 2.0f * ((float)py + y) / (float)d->height;
-    CameraRay r = camera_ray(&render->camera, (float)d->width / (float)d->height, x, y);
+    CameraRay r = view_ray(&render->view, x, y);
     return (Ray){r.origin, r.direction, 0.0f, INFINITY, hash32(sampler->key ^ sampler->index)};
 }
 
@@ -243,8 +245,9 @@ static void sample_pixel(const WeftRender *render, int px, int py, int first, in
     Sampler samplers[GEOMETRY_PACKET];
     Ray rays[GEOMETRY_PACKET] = {0};
     Hit hits[GEOMETRY_PACKET];
+    uint32_t key = sampler_key((uint32_t)px, (uint32_t)py, render->desc.seed);
     for (int k = 0; k < count; k++) {
-        samplers[k] = sampler_start((uint32_t)px, (uint32_t)py, render->desc.seed, (uint32_t)(first + k));
+        samplers[k] = sampler_start(key, (uint32_t)(first + k));
         rays[k] = camera_sample(render, px, py, &samplers[k]);
     }
     geometry_hit_packet(render->geometry, count, rays, hits);

@@ -63,8 +63,13 @@ static inline uint32_t pascal_bits(uint32_t i) {
     return i ^ (i >> 16);
 }
 
-static inline Sampler sampler_start(uint32_t x, uint32_t y, uint32_t seed, uint32_t sample) {
-    return (Sampler){hash_combine(hash_combine(hash32(seed), x), y), reverse_bits(sample), 0};
+/* The key of a pixel, the same for all of its samples. */
+static inline uint32_t sampler_key(uint32_t x, uint32_t y, uint32_t seed) {
+    return hash_combine(hash_combine(hash32(seed), x), y);
+}
+
+static inline Sampler sampler_start(uint32_t key, uint32_t sample) {
+    return (Sampler){key, reverse_bits(sample), 0};
 }
 
 typedef struct TwoPoints {

@@ -54,12 +54,17 @@ static Vec3 from_map(const Sky *sky, float u, float v) {
     return vec3(x * sky->cos_turn + z * sky->sin_turn, cos(theta), -x * sky->sin_turn + z * sky->cos_turn);
 }
 
+/* A colour in one register; the fourth lane is idle. */
+typedef float Color4 __attribute__((vector_size(16)));
+typedef int32_t Bytes4 __attribute__((vector_size(16)));
+
 /* Greg Ward, "Real Pixels", Graphics Gems II, 1991: three mantissas m and one exponent e, m 2^(e - 136). */
-static inline Rgb unpack(uint32_t p) {
+static inline Color4 unpack(uint32_t p) {
     uint32_t e = p >> 24, bits = e > 9 ? (e - 9) << 23 : 0;
     float scale;
     memcpy(&scale, &bits, 4);
-    return (Rgb){(float)(p & 255) * scale, (float)(p >> 8 & 255) * scale, (float)(p >> 16 & 255) * scale};
+    Bytes4 m = ((Bytes4){0} + (int32_t)(p & 0xffffffu)) >> (Bytes4){0, 8, 16, 24} & 255;
+    return __builtin_convertvector(m, Color4) * scale;
 }
 
 static uint32_t pack(const float *c) {
@@ -81,16 +86,15 @@ static void pack_image(Sky *sky, Arena *arena) {
     const float *p = image->pixels;
     if (image->channels != 3) return;
     for (size_t k = 0; k < count; k++) {
-        Rgb c = unpack(pack(p + 3 * k));
-        if (c.r < p[3 * k] || c.r > p[3 * k] || c.g < p[3 * k + 1] || c.g > p[3 * k + 1] ||
-            c.b < p[3 * k + 2] || c.b > p[3 * k + 2])
-            return;
+        Color4 c = unpack(pack(p + 3 * k));
+        for (size_t j = 0; j < 3; j++)
+            if (c[j] < p[3 * k + j] || c[j] > p[3 * k + j]) return;
     }
     sky->packed = arena_array(arena, count, sizeof(uint32_t));
     for (size_t k = 0; sky->packed && k < count; k++) sky->packed[k] = pack(p + 3 * k);
 }
 
-static Rgb lerp(Rgb a, Rgb b, float t) { return (Rgb){mix(a.r, b.r, t), mix(a.g, b.g, t), mix(a.b, b.b, t)}; }
+static inline Color4 lerp(Color4 a, Color4 b, float t) { return a + (b - a) * t; }
 
 /* Bilinear: columns wrap, rows end. */
 static Rgb image_at(const Sky *sky, float u, float v) {
@@ -110,9 +114,10 @@ static Rgb image_at(const Sky *sky, float u, float v) {
     y1 = y1 >= image->height ? image->height - 1 : y1;
     const uint32_t *above = sky->packed + (size_t)y0 * (size_t)image->width;
     const uint32_t *below = sky->packed + (size_t)y1 * (size_t)image->width;
-    Rgb c = lerp(lerp(unpack(above[x0]), unpack(above[x1]), x - fx),
-                 lerp(unpack(below[x0]), unpack(below[x1]), x - fx), y - fy);
-    return (Rgb){c.r * e->strength, c.g * e->strength, c.b * e->strength};
+    Color4 upper = lerp(unpack(above[x0]), unpack(above[x1]), x - fx);
+    Color4 lower = lerp(unpack(below[x0]), unpack(below[x1]), x - fx);
+    Color4 c = lerp(upper, lower, y - fy) * e->strength;
+    return (Rgb){c[0], c[1], c[2]};
 }
 
 static Rgb constant(const Environment *e) {

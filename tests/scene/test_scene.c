@@ -159,7 +159,8 @@ static void cameras_are_found_by_what_people_type(void **state) {
     assert_int_equal(camera_find(scene, "0", 1.0f, &camera, &error), WEFT_OK);
     assert_int_equal(camera_find(scene, "1,2,3;1,2,-5;40", 1.0f, &camera, &error), WEFT_OK);
     assert_true(fabsf(camera.forward.z + 1.0f) < 1e-6f && fabsf(camera.eye.y - 2.0f) < 1e-6f);
-    CameraRay ray = camera_ray(&camera, 2.0f, 1.0f, 0.0f);
+    View view = view_of(&camera, 2.0f);
+    CameraRay ray = view_ray(&view, 1.0f, 0.0f);
     assert_true(fabsf(ray.direction.x / -ray.direction.z - 2.0f * tanf(20.0f * 3.14159265f / 180.0f)) <
                 1e-5f);
     assert_int_equal(camera_find(scene, "0,5,0;0,0,0;40", 1.0f, &camera, &error),

@@ -36,7 +36,7 @@ static void pairs_are_stratified(void **state) {
                 for (uint32_t block = 0; block < 2; block++) {
                     unsigned char seen[N] = {0};
                     for (uint32_t k = 0; k < N; k++) {
-                        Sampler s = sampler_start(pixel, 3, 9, block * N + k);
+                        Sampler s = sampler_start(sampler_key(pixel, 3, 9), block * N + k);
                         Point p = {0};
                         for (int j = 0; j <= pair; j += 2) {
                             TwoPoints two = sampler_next(&s);
@@ -55,7 +55,7 @@ static void pixels_and_pairs_are_decorrelated(void **state) {
     enum { N = 4096 };
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        Sampler a = sampler_start(k, 0, 1, 0), b = sampler_start(k + 1, 0, 1, 0);
+        Sampler a = sampler_start(sampler_key(k, 0, 1), 0), b = sampler_start(sampler_key(k + 1, 0, 1), 0);
         TwoPoints p = sampler_next(&a), q = sampler_next(&b);
         sum += ((double)p.first.u - 0.5) * ((double)q.first.u - 0.5) * 12.0;  /* between pixels */
         sum += ((double)p.first.u - 0.5) * ((double)p.second.u - 0.5) * 12.0; /* between pairs */
