@@ -49,7 +49,9 @@ WEFT_API int weft_lobe_find(const char *id);
 WEFT_API const char *weft_layer_id(int layer);
 WEFT_API const char *weft_layer_help(int layer);
 
-/* A lobe with its parameters. Plain data, may be copied. */
+/* A lobe with its parameters. Plain data, may be copied and filled by hand: the calls below clamp params to
+ * their hard ranges, and where there is no lobe of that index the answer is 0. f0 and f90 are taken as they
+ * are. */
 typedef struct WeftLobe {
     int lobe;
     float params[WEFT_LOBE_PARAMS_MAX];
@@ -61,7 +63,8 @@ WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *e
 
 /* Sets a parameter by name: one number, or "color" ("f0") and "f90" as "r,g,b" or one number for all three.
  * Beyond the plausible range the value is taken with a warning and clamped to the hard range; beyond that
- * range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE. */
+ * range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE, and with
+ * _LOBE_NAME where there is no lobe of that index. */
 WEFT_API WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                                   WeftError *error);
 
@@ -75,7 +78,7 @@ WEFT_API float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const floa
 WEFT_API float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]);
 
 /* Directional albedo E per colour channel for wo = (sin, 0, cos_o), cos_o in (0, 1]: adaptive quadrature to
- * 1e-4 absolute. */
+ * 1e-4 absolute. A smaller cos_o is taken for 1e-6, a larger one for 1. */
 WEFT_API void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]);
 
 #ifdef __cplusplus

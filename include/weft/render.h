@@ -27,13 +27,15 @@ typedef enum WeftBackground {
 /* Which strategy finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
+enum { WEFT_THREADS_MAX = 256 };
+
 /* Zero means default, in every member. */
 typedef struct WeftRenderDesc {
     int width, height; /* pixels, 1 .. 65536; 0: 960 x 720 */
     int crop[4];       /* x, y, width, height in pixels from the top left; all 0: everything */
     int max_depth;     /* scattering events on a path, 1 is direct light only; 0: 9 */
     uint32_t seed;
-    int threads; /* 0: one a processor */
+    int threads; /* 1 .. WEFT_THREADS_MAX, more are not used; 0: one a processor */
     /* NULL or "auto" frames the scene; a camera's name or index; or "eye;target;fov" as "x,y,z;x,y,z;degrees"
      */
     const char *camera;
@@ -58,7 +60,10 @@ WEFT_API void weft_render_free(WeftRender *render);
  * asked for, in [0, 1]. A result other than 0 stops the render soon. */
 typedef int (*WeftProgress)(void *user, double fraction);
 
-/* Adds up to spp samples to every pixel; stops early when seconds (0: no limit) have passed or progress (may
+/* While this runs, from whichever thread, only the progress callback's arguments may be used:
+ * weft_render_info and weft_render_image read what the render writes, so they wait until it has returned.
+ *
+ * Adds up to spp samples to every pixel; stops early when seconds (0: no limit) have passed or progress (may
  * be NULL) says so: then WEFT_INTERRUPTED, or WEFT_OK for the time limit. What was gathered is kept and can
  * be added to by another call. */
 WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress,
@@ -67,7 +72,7 @@ WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds,
 typedef struct WeftRenderInfo {
     double samples_per_pixel; /* mean over the picture */
     long long rays;           /* traced so far, shadow rays among them */
-    long long non_finite;     /* samples that were not finite and were left out; 0 but for a defect */
+    long long non_finite;     /* samples that were not finite and count as black; 0 but for a defect */
     double build_seconds;     /* of weft_render_create */
     double render_seconds;    /* spent in weft_render_run */
     float camera_eye[3], camera_target[3], camera_fov; /* what `camera` resolved to; vertical, degrees */

@@ -49,6 +49,7 @@ typedef enum WeftResult {
     M(GLTF_URI, INPUT, "has a URI that cannot be used")                                                      \
     M(GLTF_EXTENSION, INPUT, "requires an extension that is not supported")                                  \
     M(GLTF_CYCLE, INPUT, "has a node that is its own ancestor")                                              \
+    M(GLTF_PARENTS, INPUT, "has a node with two parents")                                                    \
     M(GLTF_TOO_LARGE, INPUT, "describes more than can be meant")                                             \
     M(GLTF_DECODE, INPUT, "has compressed data that does not decode")                                        \
     M(GLTF_WARN_EXTENSION, WARNING, "uses an extension that is ignored")                                     \
@@ -67,8 +68,7 @@ typedef enum WeftResult {
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
-    M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
-    M(INTERRUPTED, INTERRUPTED, "was stopped")
+    M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")
 
 /* What a warning's result would be; warnings are only ever logged, never returned. */
 #define WEFT_WARNING WEFT_OK

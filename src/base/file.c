@@ -2,15 +2,19 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/random.h"
 
-WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error) {
+/* Reads up to limit bytes; what lies beyond is cut off or an error. */
+static WeftResult read_limited(const char *path, size_t limit, bool cut, FileBytes *out, WeftError *error) {
     *out = (FileBytes){0};
     FILE *stream = fopen(path, "rb");
     if (!stream) return fail(error, WEFT_MESSAGE_FILE_OPEN, path, "%s", strerror(errno));
@@ -24,21 +28,28 @@ WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *
     if (expected > limit) expected = limit + 1;
 
     WeftResult result = WEFT_OK;
-    unsigned char *data = NULL;
-    size_t size = 0, room = 0;
+    size_t size = 0, room = expected;
+    unsigned char *data = alloc_array(room + 1, 1);
+    if (!data) {
+        fclose(stream);
+        return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    }
     for (;;) {
         if (size == room) {
-            size_t wanted = room ? room * 2 : expected;
-            unsigned char *grown = realloc_array(data, wanted + 1, 1);
+            unsigned char *grown = realloc_array(data, room * 2 + 1, 1);
             if (!grown) {
                 result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
                 break;
             }
             data = grown;
-            room = wanted;
+            room *= 2;
         }
         size_t got = fread(data + size, 1, room - size, stream);
         size += got;
+        if (size > limit && cut) {
+            size = limit;
+            break;
+        }
         if (size > limit) {
             result = fail(error, WEFT_MESSAGE_FILE_LARGE, path, "the limit is %zu bytes", limit);
             break;
@@ -58,17 +69,36 @@ WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *
     return WEFT_OK;
 }
 
+WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error) {
+    return read_limited(path, limit, false, out, error);
+}
+
+WeftResult file_read_start(const char *path, size_t most, FileBytes *out, WeftError *error) {
+    return read_limited(path, most, true, out, error);
+}
+
+/* Creates a file that was not there, named path with a random suffix, and with the permissions that the umask
+ * leaves; -1 and errno where none can be made. */
+static int create_beside(const char *path, char *name, size_t size) {
+    int handle = -1;
+    for (uint32_t attempt = 0; attempt < 1000; attempt++) {
+        struct timespec now;
+        clock_gettime(CLOCK_REALTIME, &now);
+        uint32_t salt = hash_combine(hash_combine((uint32_t)getpid(), (uint32_t)now.tv_nsec), attempt);
+        snprintf(name, size, "%s.%06x", path, (unsigned)(salt & 0xffffff));
+        handle = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (handle >= 0 || errno != EEXIST) break;
+    }
+    return handle;
+}
+
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error) {
     *file = (OutputFile){.path = path};
-    size_t size = strlen(path) + 32;
+    size_t size = strlen(path) + sizeof ".123456";
     file->temporary = alloc_array(size, 1);
     if (!file->temporary) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    snprintf(file->temporary, size, "%s.%ld.XXXXXX", path, (long)getpid());
-    int handle = mkstemp(file->temporary);
+    int handle = create_beside(path, file->temporary, size);
     if (handle >= 0) {
-        mode_t mask = umask(0);
-        umask(mask);
-        fchmod(handle, 0666 & ~mask);
         file->stream = fdopen(handle, "wb");
         if (!file->stream) close(handle);
     }

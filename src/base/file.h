@@ -12,8 +12,11 @@ typedef struct FileBytes {
     size_t size;
 } FileBytes;
 
-/* Reads all of path (a regular file or a pipe) up to limit bytes. */
+/* Reads all of path (a regular file or a pipe); fails where that is more than limit bytes. */
 WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error);
+
+/* Reads the first most bytes of path, or all where it has fewer. */
+WeftResult file_read_start(const char *path, size_t most, FileBytes *out, WeftError *error);
 
 /* A file that appears under its name complete or not at all: written beside it, synced and renamed. */
 typedef struct OutputFile {

@@ -1,14 +1,23 @@
+#define _GNU_SOURCE /* strtof_l */
 #include "base/number.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 
+const char *number_prefix(const char *text, float *value) {
+    locale_t locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!locale) return NULL;
+    char *end;
+    *value = strtof_l(text, &end, locale);
+    freelocale(locale);
+    return end != text && isfinite(*value) ? end : NULL;
+}
+
 bool parse_numbers(const char *text, char separator, int count, float *values) {
     for (int k = 0; k < count; k++) {
-        char *end;
-        values[k] = strtof(text, &end);
-        if (end == text || !isfinite(values[k])) return false;
-        if (*end != (k + 1 < count ? separator : '\0')) return false;
+        const char *end = number_prefix(text, &values[k]);
+        if (!end || *end != (k + 1 < count ? separator : '\0')) return false;
         text = end + 1;
     }
     return true;

@@ -4,7 +4,11 @@
 
 #include <stdbool.h>
 
-/* One finite number and nothing else, point as decimal sign in any locale's "C" form. */
+/* Reads the number that text starts with, with a point as decimal sign whatever the program's locale. Returns
+ * what follows it, NULL where there is none or it is not finite. */
+const char *number_prefix(const char *text, float *value);
+
+/* One finite number and nothing else. */
 bool parse_number(const char *text, float *value);
 
 /* Exactly count finite numbers separated by commas (or any one character of `separator`). */

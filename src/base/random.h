@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-/* A bijective mix of 32 bits with low bias. Constants: Chris Wellons, "Prospecting for Hash Functions", 2018,
- * triple-round "lowbias32" of its second list. */
+/* A bijective mix of 32 bits with low bias: the two-round "lowbias32" of Chris Wellons, "Hash Prospector",
+ * 2018. */
 static inline uint32_t hash32(uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352du;

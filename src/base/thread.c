@@ -5,13 +5,13 @@
 #include <sched.h>
 #include <stdatomic.h>
 
-enum { THREADS_MAX = 256 };
+#include "weft/render.h"
 
 int thread_count(void) {
     cpu_set_t set;
     if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
     int count = CPU_COUNT(&set);
-    return count < 1 ? 1 : count > THREADS_MAX ? THREADS_MAX : count;
+    return count < 1 ? 1 : count > WEFT_THREADS_MAX ? WEFT_THREADS_MAX : count;
 }
 
 typedef struct Loop {
@@ -37,10 +37,10 @@ static void *work(void *argument) {
 
 void parallel_for(int threads, int items, void (*body)(void *user, int item, int thread), void *user) {
     if (threads <= 0) threads = thread_count();
-    if (threads > THREADS_MAX) threads = THREADS_MAX;
+    if (threads > WEFT_THREADS_MAX) threads = WEFT_THREADS_MAX;
     if (threads > items) threads = items;
     Loop loop = {.body = body, .user = user, .items = items};
-    Worker workers[THREADS_MAX];
+    Worker workers[WEFT_THREADS_MAX];
     int started = 0; /* a thread that cannot start is no loss: the others take its items */
     for (int t = 1; t < threads; t++) {
         workers[t] = (Worker){.loop = &loop, .thread = t};

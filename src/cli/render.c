@@ -86,14 +86,21 @@ static WeftResult failure(WeftError *error, WeftResult result, const char *text)
 
 static double job_pixels(const Job *job) { return (double)job->width * job->height; }
 
-/* Gathers the samples. An interruption is no failure: it is noted. */
+static WeftResult nothing_written(WeftError *error) {
+    return failure(error, WEFT_INTERRUPTED, "interrupted before the first sample; nothing was written");
+}
+
+/* Gathers the samples. An interruption is noted; only one before the first sample is a failure, for there is
+ * nothing to write. */
 static WeftResult trace(Job *job, WeftError *error) {
     const Request *request = job->request;
     WeftRenderDesc desc = request->desc;
     bool builtin = strncmp(request->scene, "builtin:", 8) == 0;
+    if (interrupt_seen()) return nothing_written(error);
     if (!desc.camera && builtin && weft_scene_info(job->scene).camera_count > 0) desc.camera = "0";
     WeftResult result = weft_render_create(job->scene, &desc, &job->render, error);
     if (result != WEFT_OK) return result;
+    if (interrupt_seen()) return nothing_written(error);
 
     int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
     Progress progress =
@@ -102,6 +109,7 @@ static WeftResult trace(Job *job, WeftError *error) {
     progress_finish(&progress);
     job->info = weft_render_info(job->render);
     job->interrupted = result == WEFT_INTERRUPTED;
+    if (job->interrupted && !(job->info.samples_per_pixel > 0.0)) return nothing_written(error);
     if (job->interrupted) result = WEFT_OK;
     return result == WEFT_OK ? result : failure(error, result, "the render could not be finished");
 }
@@ -198,8 +206,6 @@ static WeftResult job_run(Job *job, WeftError *error) {
         snprintf(text, sizeof text, "%lld samples were not finite and were left out", job->info.non_finite);
         job_warn(job, WEFT_MESSAGE_NONE, text);
     }
-    if (job->interrupted && !(job->info.samples_per_pixel > 0.0))
-        return failure(error, WEFT_INTERRUPTED, "interrupted before the first sample; nothing was written");
     return outputs_write(job, error);
 }
 

@@ -25,8 +25,9 @@ const Option request_options[] = {
     OPTION_TEXT("--camera", "CAMERA", NULL,
                 "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "
                 "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),
-    OPTION_TEXT("--env", "FILE|r,g,b", NULL,
-                "light from a lat-long picture, or one radiance from everywhere [a studio]"),
+    OPTION_TEXT(
+        "--env", "FILE|r,g,b", NULL,
+        "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a studio]"),
     OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
     OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
 
@@ -45,8 +46,8 @@ const Option request_options[] = {
     OPTION_NUMBER("--max-depth", "COUNT", "9", 1, 1000, "scattering events on a path; 1 is direct light"),
     OPTION_TEXT("--sampling", "STRATEGY", "mis", "find lights by mis, light or lobe"),
     OPTION_NUMBER("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
-    OPTION_NUMBER("--threads", "COUNT", NULL, 1, 1024,
-                  "processors to use; no influence on the picture [all]"),
+    OPTION_NUMBER("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
+                  "processors to use, 1 to 256; no influence on the picture [all]"),
 
     OPTION_HEADING("Reports"),
     OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
@@ -54,9 +55,16 @@ const Option request_options[] = {
     OPTION_END,
 };
 
+/* "r,g,b", or one number for all three. */
+static bool colors_parse(const char *text, double c[3]) {
+    if (!numbers_parse(text, 1, c)) return numbers_parse(text, 3, c);
+    c[1] = c[2] = c[0];
+    return true;
+}
+
 static bool colors(const char *text, float color[3]) {
     double c[3];
-    bool good = numbers_parse(text, 3, c);
+    bool good = colors_parse(text, c);
     for (int k = 0; good && k < 3; k++) {
         good = c[k] >= 0.0 && c[k] <= 1e30;
         if (good) color[k] = (float)c[k];
@@ -90,6 +98,16 @@ static bool read_background(const Options *options, WeftRenderDesc *desc) {
     return good;
 }
 
+/* What reads as a color is a radiance and never the name of a file. */
+static bool read_env(const Options *options, Request *request) {
+    const char *text = option_text(options, "--env");
+    double c[3];
+    request->env_is_color = text && colors_parse(text, c);
+    if (!request->env_is_color || colors(text, request->env_color)) return true;
+    report(WEFT_USAGE, "--env: \"%.80s\" is not a radiance, which is from 0 to 1e30", text);
+    return false;
+}
+
 static bool read_desc(const Options *options, WeftRenderDesc *desc) {
     static const char *const strategies[] = {"mis", "light", "lobe", NULL};
     int seed = 0, sampling = 0;
@@ -120,10 +138,9 @@ bool request_read(const Options *options, Request *request) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
     *request = (Request){
         .options = options, .scene = options->operands[0], .quiet = option_given(options, "--quiet")};
-    const char *env = option_text(options, "--env"), *sheen = option_text(options, "--sheen"),
-               *layer = option_text(options, "--layer");
-    request->env_is_color = env && colors(env, request->env_color);
-    bool good = read_desc(options, &request->desc) && option_integer(options, "--spp", &request->spp) &&
+    const char *sheen = option_text(options, "--sheen"), *layer = option_text(options, "--layer");
+    bool good = read_desc(options, &request->desc) && read_env(options, request) &&
+                option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) &&
                 option_number(options, "--exposure", &request->exposure) &&
                 option_number(options, "--env-rotation", &request->env_rotation) &&

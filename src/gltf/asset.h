@@ -11,7 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "gltf/transform.h"
 #include "scene/scene.h"
@@ -23,8 +25,25 @@ typedef struct Span {
     size_t size;
 } Span;
 
+/* A file beside the asset. */
+typedef struct AssetFile {
+    const char *path;
+    dev_t device;
+    ino_t node;
+    size_t size, wanted; /* bytes: there; of them, to be read */
+    FileBytes bytes;     /* owned */
+    int image;           /* of the scene, + 1; 0: none */
+} AssetFile;
+
+/* Distinct files: one that is referred to by several names is here once. */
+typedef struct FileTable {
+    AssetFile *items;
+    size_t count, bytes; /* how many; how much of them was read */
+} FileTable;
+
 typedef struct Buffer {
     Span span;
+    AssetFile *file;      /* where its bytes lie, or NULL */
     unsigned char *owned; /* what to free when the read ends, or NULL */
 } Buffer;
 
@@ -40,6 +59,7 @@ typedef struct View {
     Span span;                /* decoded on first use where compressed */
     size_t stride;            /* 0: packed */
     Compression *compression; /* NULL: none */
+    int image;                /* of the scene, + 1; 0: none */
 } View;
 
 typedef enum Component {
@@ -88,6 +108,7 @@ typedef struct MeshSource {
     size_t primitive_count;
     float *weights; /* of the morph targets; NULL: all 0 */
     size_t weight_count;
+    bool morphs; /* some primitive has targets */
 } MeshSource;
 
 typedef struct Skin {
@@ -114,9 +135,10 @@ typedef struct Asset {
     WeftScene *scene;
     Arena arena; /* dies with the read */
 
-    unsigned char *file; /* owned, NULL where the caller's */
     json_t *root;
     Span bin; /* BIN chunk of a GLB */
+
+    FileTable buffer_files, image_files;
 
     /* Bytes that decoding may produce in all. A small hostile file must not become a large scene. */
     size_t input_bytes, limit, spent;

@@ -1,10 +1,9 @@
 /* Surfaces of shown nodes into world-space meshes of the scene. */
-#include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/fail.h"
 #include "gltf/accessor.h"
+#include "gltf/gather.h"
 #include "gltf/mesh.h"
 #include "gltf/pose.h"
 #include "gltf/tangent.h"
@@ -87,7 +86,7 @@ static void bake_triangles(Bake *bake) {
 /* Positions in the world; all must be finite and within reach. */
 static void bake_positions(Bake *bake) {
     Mesh *mesh = bake->mesh;
-    mesh->position = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->position);
+    mesh->position = accessor_floats(bake->asset, &bake->scratch, bake->primitive->position);
     if (!mesh->position) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 0, mesh->position, 3);
     Transform blend;
@@ -139,7 +138,7 @@ static void repair_normals(Bake *bake) {
 static void bake_normals(Bake *bake) {
     Mesh *mesh = bake->mesh;
     if (bake->primitive->normal < 0) return;
-    mesh->normal = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->normal);
+    mesh->normal = accessor_floats(bake->asset, &bake->scratch, bake->primitive->normal);
     if (!mesh->normal) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 1, mesh->normal, 3);
     Transform blend, cofactors = transform_identity;
@@ -161,7 +160,7 @@ static void bake_normals(Bake *bake) {
 static void bake_tangents(Bake *bake) {
     Mesh *mesh = bake->mesh;
     if (bake->primitive->tangent < 0 || !mesh->normal) return;
-    mesh->tangent = accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->tangent);
+    mesh->tangent = accessor_floats(bake->asset, &bake->scratch, bake->primitive->tangent);
     if (!mesh->tangent) return;
     pose_morph(bake->asset, &bake->scratch, bake->node, bake->primitive, 2, mesh->tangent, 4);
     Transform blend;
@@ -187,8 +186,7 @@ static void bake_texcoords(Bake *bake) {
     Mesh *mesh = bake->mesh;
     for (int set = 0; set < 2; set++) {
         if (bake->primitive->texcoord[set] < 0) continue;
-        float *values =
-            accessor_floats(bake->asset, &bake->asset->scene->arena, bake->primitive->texcoord[set]);
+        float *values = accessor_floats(bake->asset, &bake->scratch, bake->primitive->texcoord[set]);
         mesh->texcoord[set] = values;
         bool good = true;
         for (size_t i = 0; i < 2 * (size_t)mesh->vertex_count && values; i++)
@@ -206,7 +204,7 @@ static void bake_colors(Bake *bake) {
     if (bake->primitive->color < 0) return;
     size_t width = asset->accessors[bake->primitive->color].rows;
     const float *values = accessor_floats(asset, &bake->scratch, bake->primitive->color);
-    mesh->color = asset_array(asset, &asset->scene->arena, mesh->vertex_count, 4 * sizeof *mesh->color);
+    mesh->color = asset_array(asset, &bake->scratch, mesh->vertex_count, 4 * sizeof *mesh->color);
     for (size_t i = 0; i < 4 * (size_t)mesh->vertex_count && asset->result == WEFT_OK; i++) {
         size_t c = i % 4;
         float value = c < width ? values[i / 4 * width + c] : 1.0f;
@@ -241,6 +239,26 @@ static void mark_materials(Asset *asset, const Mesh *mesh) {
         if (mesh->variant_material[v] >= 0) asset->material_shown[mesh->variant_material[v]] = true;
 }
 
+/* Moves the vertices that triangles use, in their order, from scratch to the scene. Primitives of a file
+ * often share one large array of which each uses a part. */
+static void compact(Bake *bake) {
+    Asset *asset = bake->asset;
+    Mesh *mesh = bake->mesh;
+    size_t corner_count = (size_t)3 * mesh->triangle_count;
+    uint32_t *place = asset_array(asset, &bake->scratch, mesh->vertex_count, sizeof *place);
+    uint32_t *source = asset_array(asset, &bake->scratch, mesh->vertex_count, sizeof *source);
+    if (!place || !source) return;
+    for (size_t i = 0; i < corner_count; i++) place[mesh->index[i]] = 1;
+    uint32_t used = 0;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        if (place[v]) {
+            place[v] = used;
+            source[used++] = v;
+        }
+    for (size_t i = 0; i < corner_count; i++) mesh->index[i] = place[mesh->index[i]];
+    mesh_gather(asset, mesh, source, used);
+}
+
 /* Whether the mesh has anything to show. */
 static bool bake_primitive(Bake *bake) {
     Asset *asset = bake->asset;
@@ -256,32 +274,32 @@ static bool bake_primitive(Bake *bake) {
                                             bake_tangents,  bake_texcoords, bake_colors};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && asset->result == WEFT_OK; i++) steps[i](bake);
     if (asset->result != WEFT_OK || !mesh->triangle_count) return false;
+    compact(bake);
     complete_tangents(bake);
     mark_materials(asset, mesh);
     return true;
 }
 
-static void warn_rest_pose(Asset *asset) {
+/* The surfaces of all shown nodes, at most; warns of what will not move. */
+static size_t count_surfaces(Asset *asset) {
     bool skins = false, morphs = false;
+    size_t count = 0;
     for (size_t i = 0; i < asset->node_count; i++) {
         const Node *node = &asset->nodes[i];
         if (!node->shown || node->mesh < 0) continue;
-        const MeshSource *mesh = &asset->meshes[node->mesh];
+        count += asset->meshes[node->mesh].primitive_count;
         skins |= node->skin >= 0;
-        for (size_t p = 0; p < mesh->primitive_count; p++) morphs |= mesh->primitives[p].target_count > 0;
+        morphs |= asset->meshes[node->mesh].morphs;
     }
     if (skins) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REST_POSE, asset->name, "its skins");
     if (morphs) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REST_POSE, asset->name, "its morph targets");
+    return count;
 }
 
 void meshes_bake(Asset *asset) {
     WeftScene *scene = asset->scene;
-    size_t count = 0;
-    for (size_t i = 0; i < asset->node_count; i++)
-        if (asset->nodes[i].shown && asset->nodes[i].mesh >= 0)
-            count += asset->meshes[asset->nodes[i].mesh].primitive_count;
-    scene->meshes = asset_array(asset, &scene->arena, count, sizeof *scene->meshes);
-    warn_rest_pose(asset);
+    scene->meshes = asset_array(asset, &scene->arena, count_surfaces(asset), sizeof *scene->meshes);
+    if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->node_count; i++) {
         const Node *node = &asset->nodes[i];
         size_t primitives = node->shown && node->mesh >= 0 ? asset->meshes[node->mesh].primitive_count : 0;

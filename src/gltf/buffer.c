@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "gltf/field.h"
+#include "gltf/file.h"
 #include "gltf/meshopt.h"
 #include "gltf/uri.h"
 
@@ -21,53 +21,51 @@ static size_t decoding_limit(size_t input) {
     return limit > ample ? limit : ample;
 }
 
-static const size_t BUFFER_FILE_MAX = (size_t)4 << 30;
-
-static void buffer_load(const Field *field, Buffer *buffer, const char *uri) {
-    Asset *asset = field->asset;
-    Field place = field_member(field, "uri");
-    size_t size = 0;
-    if (uri_is_data(uri)) {
-        buffer->owned = uri_decode(&place, uri, &size);
-    } else {
-        const char *path = uri_path(&place, uri);
-        FileBytes file = {0};
-        if (path && asset->result == WEFT_OK)
-            asset->result = file_read(path, BUFFER_FILE_MAX, &file, asset->error);
-        buffer->owned = file.data;
-        size = file.size;
-        asset->input_bytes += size;
-    }
-    buffer->span.data = buffer->owned;
-    if (buffer->owned && size < buffer->span.size)
-        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", size, buffer->span.size);
+static void span_fill(const Field *field, Buffer *buffer, Span bytes) {
+    buffer->span.data = bytes.data;
+    if (bytes.data && bytes.size < buffer->span.size)
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", bytes.size,
+                   buffer->span.size);
 }
 
+static void buffer_read(const Field *field, Buffer *buffer, bool first) {
+    Asset *asset = field->asset;
+    Field length = field_member(field, "byteLength"), uri_field = field_member(field, "uri");
+    const char *uri = field_text(&uri_field, NULL);
+    if (!length.json) field_fail(&length, WEFT_MESSAGE_GLTF_SCHEMA, "missing an integer");
+    buffer->span.size = field_size(&length, 0, 1, SIZE_MAX);
+    if (uri && uri_is_data(uri)) {
+        size_t size = 0;
+        buffer->owned = uri_decode(&uri_field, uri, &size);
+        span_fill(field, buffer, (Span){buffer->owned, size});
+    } else if (uri) {
+        buffer->file = file_refer(&asset->buffer_files, &uri_field, uri, buffer->span.size);
+    } else if (first) {
+        span_fill(field, buffer, asset->bin);
+    }
+}
+
+/* Files are read once it is known how much of each is wanted. */
 void buffers_read(Asset *asset) {
     Field root = field_root(asset), list = field_member(&root, "buffers");
     asset->buffer_count = field_count(&list);
     asset->buffers = asset_array(asset, &asset->arena, asset->buffer_count, sizeof *asset->buffers);
     for (size_t i = 0; i < asset->buffer_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i);
-        Field length = field_member(&field, "byteLength"), uri_field = field_member(&field, "uri");
-        Buffer *buffer = &asset->buffers[i];
-        const char *uri = field_text(&uri_field, NULL);
-        if (!length.json) field_fail(&length, WEFT_MESSAGE_GLTF_SCHEMA, "missing an integer");
-        buffer->span.size = field_size(&length, 0, 1, SIZE_MAX);
-        if (uri) {
-            buffer_load(&field, buffer, uri);
-        } else if (i == 0 && asset->bin.data) {
-            buffer->span.data = asset->bin.data;
-            if (asset->bin.size < buffer->span.size)
-                field_fail(&field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", asset->bin.size,
-                           buffer->span.size);
-        }
+        buffer_read(&field, &asset->buffers[i], i == 0);
     }
+    for (size_t i = 0; i < asset->buffer_count && asset->result == WEFT_OK; i++) {
+        Field field = field_element(&list, i);
+        Buffer *buffer = &asset->buffers[i];
+        if (buffer->file) span_fill(&field, buffer, file_bytes(&asset->buffer_files, asset, buffer->file));
+    }
+    asset->input_bytes += asset->buffer_files.bytes;
     asset->limit = decoding_limit(asset->input_bytes);
 }
 
 void buffers_free(Asset *asset) {
     for (size_t i = 0; i < asset->buffer_count && asset->buffers; i++) free(asset->buffers[i].owned);
+    files_free(&asset->buffer_files);
 }
 
 /* The byteOffset and byteLength of field, within its buffer. */

@@ -87,5 +87,5 @@ void container_read(Asset *asset, Span data) {
     if (blank < data.size && data.data[blank] == '{')
         json_read(asset, data);
     else
-        asset_fail(asset, WEFT_MESSAGE_GLTF_CONTAINER, "it is neither GLB nor a JSON object");
+        asset_fail(asset, WEFT_MESSAGE_SCENE_KIND, "it is neither GLB nor a JSON object");
 }

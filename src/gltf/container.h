@@ -5,7 +5,7 @@
 #include "gltf/asset.h"
 
 /* Sets asset->root and, for a GLB with one, asset->bin (which points into data). Sticky failures:
- * GLTF_CONTAINER, GLTF_JSON, GLTF_VERSION (of the container), GLTF_TOO_LARGE. */
+ * SCENE_KIND, GLTF_CONTAINER, GLTF_JSON, GLTF_VERSION (of the container), GLTF_TOO_LARGE. */
 void container_read(Asset *asset, Span data);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/fail.h"
 #include "gltf/gltf.h"
 #include "scene/builtin.h"
+#include "scene/environment.h"
 
 static const char builtin_prefix[] = "builtin:";
 
@@ -28,7 +29,10 @@ static WeftResult load(const char *path, const void *data, size_t size, WeftScen
         result = load_builtin(path, scene, error);
     else
         result = gltf_read(path, data, size, scene, log, error);
-    if (result == WEFT_OK) scene_bounds(scene);
+    if (result == WEFT_OK) {
+        scene_bounds(scene);
+        environment_give_way(scene);
+    }
     if (result == WEFT_OK)
         *out = scene;
     else
@@ -42,5 +46,6 @@ WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log
 
 WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                   const WeftLog *log, WeftError *error) {
-    return load(name, data, size, out, log, error);
+    /* No data are an empty file, never the file of that name. */
+    return load(name, data ? data : "", data ? size : 0, out, log, error);
 }

@@ -135,6 +135,7 @@ static void mesh_read(const Field *field, MeshSource *mesh) {
     for (size_t i = 0; i < mesh->primitive_count && asset->result == WEFT_OK; i++) {
         Field primitive = field_element(&primitives, i);
         primitive_read(&primitive, &mesh->primitives[i]);
+        mesh->morphs |= mesh->primitives[i].target_count > 0;
     }
 }
 

@@ -69,7 +69,7 @@ static void parents_read(Asset *asset, const Field *list) {
             int index = field_index(&child, asset->node_count);
             if (asset->result != WEFT_OK) return;
             if (asset->nodes[index].parent >= 0)
-                field_fail(&child, WEFT_MESSAGE_GLTF_CYCLE, "node %d has two parents", index);
+                field_fail(&child, WEFT_MESSAGE_GLTF_PARENTS, "nodes[%d]", index);
             asset->nodes[index].parent = (int)i;
         }
     }

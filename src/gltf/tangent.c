@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "gltf/gather.h"
 
 typedef struct Vec2 {
     float u, v;
@@ -30,32 +31,10 @@ static Vec3 any_across(Vec3 n) {
     return tangential(axis, n);
 }
 
-/* values gathered so that vertex i has what vertex source[i] had; NULL stays NULL. */
-static float *gather(Asset *asset, const float *values, size_t width, const uint32_t *source, size_t count) {
-    if (!values) return NULL;
-    float *out = asset_array(asset, &asset->scene->arena, count, width * sizeof *out);
-    for (size_t i = 0; i < count && out; i++)
-        memcpy(out + i * width, values + source[i] * width, width * sizeof *out);
-    return out;
-}
-
-static void gather_vertices(Asset *asset, Mesh *mesh, const uint32_t *source, size_t count) {
-    if (count > UINT32_MAX) {
-        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "more than 2^32 vertices in a mesh");
-        return;
-    }
-    mesh->position = gather(asset, mesh->position, 3, source, count);
-    mesh->normal = gather(asset, mesh->normal, 3, source, count);
-    mesh->texcoord[0] = gather(asset, mesh->texcoord[0], 2, source, count);
-    mesh->texcoord[1] = gather(asset, mesh->texcoord[1], 2, source, count);
-    mesh->color = gather(asset, mesh->color, 4, source, count);
-    mesh->vertex_count = (uint32_t)count;
-}
-
 /* Three vertices of its own for every triangle, with the face's normal. */
 static void flatten(Asset *asset, Mesh *mesh) {
     size_t count = (size_t)3 * mesh->triangle_count;
-    gather_vertices(asset, mesh, mesh->index, count);
+    mesh_gather(asset, mesh, mesh->index, count);
     mesh->normal = asset_array(asset, &asset->scene->arena, count, 3 * sizeof *mesh->normal);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         size_t first = i - i % 3;
@@ -86,8 +65,11 @@ static void vertex_key(const Mesh *mesh, const Vec2 *uv, size_t i, uint32_t key[
 }
 
 /* Vertices with equal keys share the smoothing: the first of them stands for all. An open-addressing hash
- * table over at most half-full slots. */
+ * table over at most half-full slots. Its longest run is some 100 slots for as many vertices as there can be
+ * (Donald Knuth, "The Art of Computer Programming" 3, section 6.4, 1998); a file made to have more than
+ * PROBES_MAX loses smoothing there, not time. */
 static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2 *uv) {
+    enum { PROBES_MAX = 256 };
     size_t slots = 16;
     while (slots < (size_t)2 * mesh->vertex_count) slots *= 2;
     uint32_t *table = asset_array(asset, scratch, slots, sizeof *table); /* vertex + 1, 0 is free */
@@ -97,13 +79,15 @@ static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2
         uint32_t key[8], other[8], hash = 0;
         vertex_key(mesh, uv, i, key);
         for (int k = 0; k < 8; k++) hash = hash_combine(hash, key[k]);
-        size_t slot = hash & (slots - 1);
-        for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
-            vertex_key(mesh, uv, table[slot] - 1, other);
-            if (memcmp(key, other, sizeof key) == 0) break;
+        leader[i] = i;
+        for (size_t probe = 0; probe < PROBES_MAX; probe++) {
+            uint32_t *slot = &table[(hash + probe) & (slots - 1)];
+            if (!*slot) *slot = i + 1;
+            vertex_key(mesh, uv, *slot - 1, other);
+            if (memcmp(key, other, sizeof key) != 0) continue;
+            leader[i] = *slot - 1;
+            break;
         }
-        if (!table[slot]) table[slot] = i + 1;
-        leader[i] = table[slot] - 1;
     }
     return leader;
 }
@@ -186,7 +170,7 @@ static void smooth(Asset *asset, Arena *scratch, Mesh *mesh, const Input *input)
     if (asset->result != WEFT_OK || !uv || !leader) return;
     accumulate(mesh, uv, leader, sums);
     size_t count = split(mesh, uv, source, side, twin);
-    if (count > old) gather_vertices(asset, mesh, source, count);
+    if (count > old) mesh_gather(asset, mesh, source, count);
     mesh->tangent = asset_array(asset, &asset->scene->arena, count, 4 * sizeof *mesh->tangent);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Vec3 n = vec3_at(mesh->normal, i), t = tangential(sums[side[i] == 1][leader[source[i]]], n);

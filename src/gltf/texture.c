@@ -1,16 +1,16 @@
 #include "gltf/texture.h"
 
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "base/file.h"
 #include "base/thread.h"
 #include "gltf/buffer.h"
+#include "gltf/extent.h"
 #include "gltf/field.h"
+#include "gltf/file.h"
 #include "gltf/uri.h"
 
 /* The image a texture names: its plain source. A container that cannot be read here is only an offer. */
@@ -78,22 +78,17 @@ static void sampler_read(Asset *asset, int index, Texture *texture) {
 
 /* One image to decode, and what came of it. */
 typedef struct Job {
-    struct Jobs *jobs;
-    const char *path; /* of a file, or NULL */
-    Span bytes;       /* otherwise */
+    Span bytes;
     unsigned char *owned;
     const char *name; /* subject of messages */
-    WeftImage *image;
     WeftResult result;
     WeftError error;
 } Job;
 
 typedef struct Jobs {
     Asset *asset;
-    Job *items;
-    int count;
-    pthread_mutex_t log_lock;       /* a log is never called by two threads at once */
-    atomic_size_t encoded, decoded; /* bytes */
+    Job *items;               /* for each image of the scene */
+    pthread_mutex_t log_lock; /* a log is never called by two threads at once */
 } Jobs;
 
 static void log_locked(void *user, WeftMessage message, const char *text) {
@@ -105,122 +100,122 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
     pthread_mutex_unlock(&jobs->log_lock);
 }
 
-/* All images together may hold this many times the bytes of their files, or the floor where that is less: a
- * plain 8192 x 8192 PNG is 200 kB. */
-static const size_t IMAGE_FILE_MAX = (size_t)1 << 30, IMAGES_EXPANSION = 64, IMAGES_LOW = (size_t)768 << 20;
-
-static size_t pixel_bytes(const WeftImage *image) {
-    size_t size = image->type == WEFT_PIXEL_U8 ? 1 : image->type == WEFT_PIXEL_U16 ? 2 : 4;
-    return (size_t)image->width * (size_t)image->height * (size_t)image->channels * size;
-}
-
 static void decode(void *user, int item, int thread) {
     (void)thread;
     Jobs *jobs = user;
     Job *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
-    FileBytes file = {0};
-    Span bytes = job->bytes;
-    if (job->path) {
-        job->result = file_read(job->path, IMAGE_FILE_MAX, &file, &job->error);
-        bytes = (Span){file.data, file.size};
+    job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
+                                         &jobs->asset->scene->images[item], &log, &job->error);
+}
+
+/* All images together may hold this many times the bytes of their files, or the floor where that is less: a
+ * plain 8192 x 8192 PNG is 200 kB. What they will hold is known before the first is decoded. */
+static void sizes_check(Jobs *jobs) {
+    const size_t expansion = 64, floor = (size_t)768 << 20;
+    Asset *asset = jobs->asset;
+    size_t encoded = 0, decoded = 0;
+    for (int i = 0; i < asset->scene->image_count; i++) {
+        encoded += jobs->items[i].bytes.size;
+        decoded += extent_bytes(jobs->items[i].bytes);
     }
-    size_t encoded = atomic_fetch_add(&jobs->encoded, bytes.size) + bytes.size;
-    size_t room = encoded * IMAGES_EXPANSION > IMAGES_LOW ? encoded * IMAGES_EXPANSION : IMAGES_LOW;
-    if (job->result == WEFT_OK && atomic_load(&jobs->decoded) > room)
-        job->result = fail(&job->error, WEFT_MESSAGE_GLTF_TOO_LARGE, job->name,
-                           "the images decode to more than %zu bytes", room);
-    if (job->result == WEFT_OK)
-        job->result =
-            weft_image_read_memory(bytes.data, bytes.size, job->name, job->image, &log, &job->error);
-    if (job->result == WEFT_OK) atomic_fetch_add(&jobs->decoded, pixel_bytes(job->image));
-    free(file.data);
+    size_t room = encoded * expansion > floor ? encoded * expansion : floor;
+    if (decoded > room)
+        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu",
+                   decoded, room);
+}
+
+static void images_decode(Jobs *jobs) {
+    Asset *asset = jobs->asset;
+    int count = asset->scene->image_count;
+    sizes_check(jobs);
+    if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
+    for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
+        asset->result = jobs->items[i].result;
+        if (asset->result != WEFT_OK && asset->error) *asset->error = jobs->items[i].error;
+    }
 }
 
 /* What messages call image number index: its file, or the asset's name and its place there. */
-static const char *job_name(Asset *asset, int index) {
+static const char *image_name(Asset *asset, int index) {
     size_t size = strlen(asset->name) + 32;
     char *name = asset_array(asset, &asset->arena, size, 1);
     if (name) snprintf(name, size, "%s: images[%d]", asset->name, index);
     return name;
 }
 
-static void job_prepare(Asset *asset, int index, Job *job) {
+/* The scene's image for glTF image number index: that of its view or file where they have one already. */
+static int image_resolve(Jobs *jobs, int index) {
+    Asset *asset = jobs->asset;
     Field root = field_root(asset), list = field_member(&root, "images"),
           field = field_element(&list, (size_t)index), view_field = field_member(&field, "bufferView"),
           uri_field = field_member(&field, "uri");
     const char *uri = field_text(&uri_field, NULL);
-    int view = field_index(&view_field, asset->view_count);
-    job->name = job_name(asset, index);
+    int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
+    Job job = {.name = image_name(asset, index)};
     if (uri && uri_is_data(uri)) {
-        job->bytes.data = job->owned = uri_decode(&uri_field, uri, &job->bytes.size);
+        job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
     } else if (uri) {
-        job->path = uri_path(&uri_field, uri);
-        job->name = job->path;
+        AssetFile *file = file_refer(&asset->image_files, &uri_field, uri, SIZE_MAX);
+        if (!file) return 0;
+        job.bytes = file_bytes(&asset->image_files, asset, file);
+        job.name = file->path;
+        made = &file->image;
     } else if (view >= 0) {
-        job->bytes = view_bytes(asset, view);
+        job.bytes = view_bytes(asset, view);
+        made = &asset->views[view].image;
     } else {
         field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "it has neither uri nor bufferView");
     }
-}
-
-static void images_decode(Asset *asset, Jobs *jobs, const int *sources) {
-    for (int i = 0; i < jobs->count && asset->result == WEFT_OK; i++) {
-        jobs->items[i] = (Job){.image = &asset->scene->images[i]};
-        job_prepare(asset, sources[i], &jobs->items[i]);
+    if (!*made) {
+        jobs->items[asset->scene->image_count] = job;
+        *made = ++asset->scene->image_count;
     }
-    if (asset->result == WEFT_OK) parallel_for(0, jobs->count, decode, jobs);
-    for (int i = 0; i < jobs->count; i++) {
-        const Job *job = &jobs->items[i];
-        free(job->owned);
-        if (asset->result != WEFT_OK || job->result == WEFT_OK) continue;
-        asset->result = job->result;
-        if (asset->error) *asset->error = job->error;
-    }
+    return *made - 1;
 }
 
 /* The scene texture for a glTF texture, made when first asked for; 0 or its index + 1, as in Input. */
-static int texture_resolve(Asset *asset, int texture, int *image_of_source, int *sources) {
+static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
+    Asset *asset = jobs->asset;
     WeftScene *scene = asset->scene;
     TextureSource *source = &asset->textures[texture];
     if (source->image < 0) return 0;
     if (source->scene_texture < 0) {
-        int *image = &image_of_source[source->image];
-        if (*image < 0) {
-            *image = scene->image_count++;
-            sources[*image] = source->image;
-        }
         source->scene_texture = scene->texture_count++;
-        scene->textures[source->scene_texture] = (Texture){.image = *image};
-        sampler_read(asset, source->sampler, &scene->textures[source->scene_texture]);
+        Texture *made = &scene->textures[source->scene_texture];
+        int *image = &image_of_source[source->image];
+        sampler_read(asset, source->sampler, made);
+        if (*image < 0) *image = image_resolve(jobs, source->image);
+        made->image = *image;
     }
     return source->scene_texture + 1;
 }
 
 void textures_resolve(Asset *asset) {
     WeftScene *scene = asset->scene;
+    Jobs jobs = {.asset = asset};
+    jobs.items = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.items);
     scene->textures = asset_array(asset, &scene->arena, asset->texture_count, sizeof *scene->textures);
     scene->images = asset_array(asset, &scene->arena, asset->image_count, sizeof *scene->images);
     int *image_of_source = asset_array(asset, &asset->arena, asset->image_count, sizeof(int));
-    int *sources = asset_array(asset, &asset->arena, asset->image_count, sizeof(int));
     if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->image_count; i++) image_of_source[i] = -1;
 
     for (int m = 0; m < scene->material_count; m++)
-        for (int i = 0; i < INPUT_COUNT; i++) {
+        for (int i = 0; i < INPUT_COUNT && asset->result == WEFT_OK; i++) {
             int *texture = &scene->materials[m].inputs[i].texture;
             if (*texture && asset->material_shown[m])
-                *texture = texture_resolve(asset, *texture - 1, image_of_source, sources);
+                *texture = texture_resolve(&jobs, *texture - 1, image_of_source);
             else
                 *texture = 0;
         }
 
-    Jobs jobs = {.asset = asset, .count = scene->image_count};
-    jobs.items = asset_array(asset, &asset->arena, (size_t)jobs.count, sizeof *jobs.items);
-    if (!jobs.items || pthread_mutex_init(&jobs.log_lock, NULL) != 0) {
+    if (asset->result == WEFT_OK && pthread_mutex_init(&jobs.log_lock, NULL) != 0)
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
-        return;
+    if (asset->result == WEFT_OK) {
+        images_decode(&jobs);
+        pthread_mutex_destroy(&jobs.log_lock);
     }
-    images_decode(asset, &jobs, sources);
-    pthread_mutex_destroy(&jobs.log_lock);
+    for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
+    files_free(&asset->image_files);
 }

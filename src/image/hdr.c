@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/number.h"
 #include "image/codec.h"
 
 enum { HDR_LINE_MIN = 8, HDR_LINE_MAX = 32767 }; /* the line lengths that the new code can have */
@@ -37,15 +38,13 @@ static int text_line(Hdr *hdr, char *line, size_t size) {
 /* Divides the gain by the numbers of an EXPOSURE (one for all) or COLORCORR (one each) line. Several such
  * lines multiply. */
 static int gain_divide(Hdr *hdr, const char *numbers, int count) {
-    double factor = 1.0;
+    float factor = 1.0f;
     for (int c = 0; c < 3; c++) {
         if (c < count) {
-            char *end;
-            factor = strtod(numbers, &end);
-            if (end == numbers || !(factor > 0.0) || !isfinite(factor)) return 0;
-            numbers = end;
+            numbers = number_prefix(numbers, &factor);
+            if (!numbers || !(factor > 0.0f)) return 0;
         }
-        hdr->gain[c] /= factor;
+        hdr->gain[c] /= (double)factor;
         if (!(hdr->gain[c] > 1e-30 && hdr->gain[c] < 1e30)) return 0;
     }
     return 1;

@@ -76,7 +76,9 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
         }
     }
     if (parse_view(text, out)) return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "write auto, a name, an index or \"eye;target;fov\"");
+    char names[NAMES_SIZE];
+    return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s; else write auto or \"eye;target;fov\"",
+                scene_names(scene, weft_scene_camera_name, names));
 }
 
 View view_of(const Camera *camera, float aspect) {

@@ -54,3 +54,17 @@ WeftResult environment_studio(WeftImage *out, WeftError *error) {
         }
     return WEFT_OK;
 }
+
+void environment_give_way(WeftScene *scene) {
+    const float fill = 0.4f;
+    bool lit = scene->light_count > 0;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Input *inputs = scene->materials[scene->meshes[m].material].inputs;
+        const float *e = inputs[INPUT_emission].value;
+        /* brighter than a surface in the studio can be: a lamp, not a glowing sign */
+        lit = lit || fmaxf(e[0], fmaxf(e[1], e[2])) * inputs[INPUT_emission_strength].value[0] > 4.0f;
+    }
+    float *p = scene->environment.image.pixels;
+    if (!lit || scene->environment.kind != ENVIRONMENT_STUDIO) return;
+    for (int k = 0; k < 3 * WIDTH * HEIGHT; k++) p[k] *= fill;
+}

@@ -9,4 +9,7 @@
  * point. */
 WeftResult environment_studio(WeftImage *out, WeftError *error);
 
+/* Dims the studio to a fill where the scene brings lights of its own, which else would be drowned. */
+void environment_give_way(WeftScene *scene);
+
 #endif

@@ -7,7 +7,8 @@
 #include "shading/layer.h"
 
 const InputInfo input_infos[INPUT_COUNT] = {
-#define INPUT_INFO(kind, name, def, low, high, help) {INPUT_##kind, #name, help, def, low, high},
+#define INPUT_INFO(kind, name, def, low, high, hard_low, hard_high, help)                                    \
+    {#name, help, INPUT_##kind, def, low, high, hard_low, hard_high},
     SURFACE_INPUTS(INPUT_INFO)
 #undef INPUT_INFO
 };
@@ -40,11 +41,15 @@ typedef struct Lookup {
     Texel texel;
 } Lookup;
 
+static bool same_placement(const Input *a, const Input *b) {
+    bool same = a->texture == b->texture && a->texcoord == b->texcoord;
+    for (int k = 0; same && k < 6; k++) same = a->transform[k] == b->transform[k];
+    return same;
+}
+
 static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *srgb) {
     const Input *last = lookup->last;
-    if (last && last->texture == input->texture && last->texcoord == input->texcoord &&
-        lookup->last_srgb == srgb && memcmp(last->transform, input->transform, sizeof input->transform) == 0)
-        return &lookup->texel;
+    if (last && lookup->last_srgb == srgb && same_placement(last, input)) return &lookup->texel;
     const float *uv = lookup->uv[input->texcoord], *m = input->transform;
     float u = m[0] * uv[0] + m[1] * uv[1] + m[2], v = m[3] * uv[0] + m[4] * uv[1] + m[5];
     lookup->last = input;
@@ -94,7 +99,8 @@ static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
 
 Surface material_plain(const Material *material) {
     Surface s;
-#define PLAIN_INPUT(kind, name, def, low, high, help) s.name = plain_##kind(&material->inputs[INPUT_##name]);
+#define PLAIN_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                   \
+    s.name = plain_##kind(&material->inputs[INPUT_##name]);
     SURFACE_INPUTS(PLAIN_INPUT)
     return s;
 }
@@ -102,7 +108,7 @@ Surface material_plain(const Material *material) {
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],
                        Surface *s) {
     Lookup lookup = {.scene = scene, .uv = uv};
-#define READ_INPUT(kind, name, def, low, high, help)                                                         \
+#define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
     if (material->inputs[INPUT_##name].texture)                                                              \
         s->name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
     SURFACE_INPUTS(READ_INPUT)

@@ -17,9 +17,11 @@
 typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION } InputKind;
 
 typedef struct InputInfo {
-    InputKind kind;
     const char *name, *help;
-    float def, low, high;
+    InputKind kind;
+    float def;
+    float low, high;           /* plausible */
+    float hard_low, hard_high; /* values are clamped to this */
 } InputInfo;
 
 extern const InputInfo input_infos[INPUT_COUNT];
@@ -41,9 +43,8 @@ typedef struct Material {
     float alpha_cutoff; /* MASK: opacity below it is nothing, from it on everything */
     bool double_sided;  /* else seen only from the front */
     bool unlit;         /* base_color is shown as it is */
-    bool vertex_color_ignored;
-    int sheen_lobe; /* index into the registry of shading/registry.h */
-    int layer;      /* index into the layer rules of shading/layer.h */
+    int sheen_lobe;     /* index into the registry of shading/registry.h */
+    int layer;          /* index into the layer rules of shading/layer.h */
     Input inputs[INPUT_COUNT];
 } Material;
 

@@ -70,6 +70,19 @@ const char *weft_scene_variant_name(const WeftScene *scene, int index) {
     return index >= 0 && index < scene->variant_count ? scene->variants[index] : NULL;
 }
 
+const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
+                        char text[NAMES_SIZE]) {
+    enum { LISTED = 5 };
+    int used = snprintf(text, NAMES_SIZE, name(scene, 0) ? "there is " : "there is none");
+    for (int k = 0; k <= LISTED && name(scene, k) && used < NAMES_SIZE; k++) {
+        char index[16];
+        snprintf(index, sizeof index, "%d", k);
+        const char *word = k == LISTED ? "..." : name(scene, k)[0] ? name(scene, k) : index;
+        used += snprintf(text + used, (size_t)(NAMES_SIZE - used), "%s%.40s", k ? ", " : "", word);
+    }
+    return text;
+}
+
 WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error) {
     for (int v = 0; v < scene->variant_count; v++) {
         if (strcmp(scene->variants[v], name) != 0) continue;
@@ -80,8 +93,9 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
         }
         return WEFT_OK;
     }
-    return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, scene->variant_count ? "there is %s" : NULL,
-                scene->variant_count ? scene->variants[0] : "");
+    char names[NAMES_SIZE];
+    return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s",
+                scene_names(scene, weft_scene_variant_name, names));
 }
 
 const char *weft_material_input_name(int index) {
@@ -106,6 +120,18 @@ static bool parse_input(const InputInfo *info, const char *text, float value[3])
     return true;
 }
 
+/* value, clamped to the hard range; a warning where it is beyond the plausible one. Any angle is plausible.
+ */
+static float within_range(const InputInfo *info, float value, const char *target, const WeftLog *log) {
+    float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
+    if (taken < value || taken > value)
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g was clamped to %g", (double)value, (double)taken);
+    else if (info->kind != INPUT_DIRECTION && (value < info->low || value > info->high))
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is not in %g .. %g", (double)value, (double)info->low,
+             (double)info->high);
+    return taken;
+}
+
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
                           WeftError *error) {
     const char *point = strrchr(target, '.');
@@ -122,12 +148,7 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
                     info->kind == INPUT_COLOR ? "a number or r,g,b" : "a number");
     int count = info->kind == INPUT_COLOR ? 3 : 1, matched = 0;
-    for (int c = 0; c < count && info->kind != INPUT_DIRECTION; c++)
-        if (v[c] < info->low || v[c] > info->high) {
-            warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is not in %g .. %g", (double)v[c],
-                 (double)info->low, (double)info->high);
-            break;
-        }
+    for (int c = 0; c < count; c++) v[c] = within_range(info, v[c], target, log);
     for (int k = 0; k < scene->material_count; k++) {
         if (!material_matches(scene, k, name)) continue;
         Input *slot = &scene->materials[k].inputs[input];
@@ -136,8 +157,9 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
         matched++;
     }
     if (matched) return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, scene->material_count ? "there is %s" : NULL,
-                scene->material_count ? scene->materials[0].name : "");
+    char names[NAMES_SIZE];
+    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s",
+                scene_names(scene, weft_scene_material_name, names));
 }
 
 WeftResult weft_scene_set_sheen(WeftScene *scene, const char *lobe, WeftError *error) {

@@ -60,7 +60,7 @@ typedef enum EnvironmentKind {
 typedef struct Environment {
     EnvironmentKind kind;
     float color[3];  /* CONSTANT: radiance */
-    WeftImage image; /* IMAGE and STUDIO: F32 RGB, owned; all zero otherwise */
+    WeftImage image; /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
     float rotation;  /* radians about +y, counter-clockwise seen from above */
     float strength;  /* factor on the radiance */
 } Environment;
@@ -83,6 +83,12 @@ struct WeftScene {
 
 /* An empty scene with the studio environment, or NULL when memory is short. */
 WeftScene *scene_create(const char *name);
+
+/* "there is a, b, c" for people who mistyped one: the first few names that `name` gives, an unnamed thing by
+ * its index. Returns text. */
+enum { NAMES_SIZE = 256 };
+const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
+                        char text[NAMES_SIZE]);
 
 /* Sets low and high from the meshes. Call once all meshes stand. */
 void scene_bounds(WeftScene *scene);

@@ -21,7 +21,8 @@ static bool sphere(Arena *arena, Mesh *mesh, Vec3 centre) {
     if (!mesh->position || !mesh->normal || !mesh->tangent || !mesh->texcoord[0] || !mesh->index)
         return false;
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        float v = (float)(k / across) / RINGS, u = (float)(k % across) / SECTORS;
+        uint32_t ring = k / across, sector = k % across;
+        float v = (float)ring / RINGS, u = (float)sector / SECTORS;
         float theta = v * 3.14159265f, phi = u * 6.28318531f;
         float n[3] = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
         float *p = mesh->position + 3 * k, *t = mesh->tangent + 4 * k;

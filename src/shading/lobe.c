@@ -4,10 +4,13 @@
 #include "shading/albedo.h"
 #include "shading/terms/f_schlick.h"
 
-static Lobe lobe_of(const WeftLobe *public_lobe) {
-    Lobe lobe = {.id = (LobeId)public_lobe->lobe};
-    memcpy(lobe.params, public_lobe->params, sizeof lobe.params);
-    return lobe;
+/* The registry's lobe, its parameters clamped; false where there is none of that index. */
+static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
+    const WeftLobeInfo *info = weft_lobe_info(public_lobe->lobe);
+    if (!info) return false;
+    *lobe = (Lobe){.id = (LobeId)public_lobe->lobe};
+    for (int k = 0; k < info->param_count; k++) lobe_set(lobe, k, public_lobe->params[k]);
+    return true;
 }
 
 WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
@@ -34,6 +37,7 @@ static float ranged(float value, const WeftParamInfo *p, const char *name, const
 WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                          WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, "index", "%d", lobe->lobe);
     float v[3];
     bool f90 = strcmp(param, "f90") == 0 && info->traits & TRAIT_FRESNEL;
     if (f90 || strcmp(param, "color") == 0 || strcmp(param, "f0") == 0) {
@@ -51,8 +55,8 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
 
 void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], float f[3]) {
     f[0] = f[1] = f[2] = 0.0f;
-    if (!(wo[2] > 0.0f && wi[2] > 0.0f)) return;
-    Lobe inner = lobe_of(lobe);
+    Lobe inner;
+    if (!(wo[2] > 0.0f && wi[2] > 0.0f) || !lobe_of(lobe, &inner)) return;
     Angles a = angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2]));
     float e = lobe_eval(&inner, a);
     float s = weft_lobe_info(lobe->lobe)->traits & TRAIT_FRESNEL ? schlick_s(a.d) : 0.0f;
@@ -60,21 +64,23 @@ void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], 
 }
 
 float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]) {
-    if (!(wo[2] > 0.0f && wi[2] > 0.0f)) return 0.0f;
-    Lobe inner = lobe_of(lobe);
+    Lobe inner;
+    if (!(wo[2] > 0.0f && wi[2] > 0.0f) || !lobe_of(lobe, &inner)) return 0.0f;
     return lobe_pdf(&inner, angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2])));
 }
 
 float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]) {
-    if (!(wo[2] > 0.0f)) return 0.0f;
-    Lobe inner = lobe_of(lobe);
+    Lobe inner;
+    if (!(wo[2] > 0.0f) || !lobe_of(lobe, &inner)) return 0.0f;
     Dir i = lobe_sample(&inner, dir(wo[0], wo[1], wo[2]), u[0], u[1]);
     wi[0] = i.x, wi[1] = i.y, wi[2] = i.z;
     return weft_lobe_pdf(lobe, wo, wi);
 }
 
 void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
-    Lobe inner = lobe_of(lobe);
+    Lobe inner;
+    e[0] = e[1] = e[2] = 0.0f;
+    if (!lobe_of(lobe, &inner)) return;
     float z = clamp(cos_o, 1e-6f, 1.0f);
     Albedo albedo = albedo_quadrature(&inner, dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z), 2e-5);
     for (int c = 0; c < 3; c++) e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe->f90[c];

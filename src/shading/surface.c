@@ -38,9 +38,10 @@ void surface_stack(Stack *stack, const Surface *s, Dir wo, LobeId sheen, int lay
     stack->under_f0 = stack->under_f90 = 0.0f;
     float left = 1.0f; /* what the layers above let through */
 
-    if (s->clearcoat > 0.0f) {
+    float coat_o = dir_dot(wo, s->clearcoat_normal);
+    if (s->clearcoat > 0.0f && coat_o > 1e-4f) { /* a coat turned away by its normal map is not seen */
         set_coat_frame(stack, s->clearcoat_normal);
-        float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(dir_dot(wo, stack->coat_z)));
+        float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(coat_o));
         StackLobe *coat = push(stack, LOBE_GGX, (Rgb){f, f, f}, (Rgb){f, f, f}, f);
         lobe_set(&coat->lobe, 0, s->clearcoat_roughness * s->clearcoat_roughness);
         coat->coat = true;

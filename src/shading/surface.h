@@ -11,7 +11,7 @@ typedef Rgb SurfaceCOLOR;
 typedef Dir SurfaceNORMAL, SurfaceDIRECTION;
 
 typedef struct Surface {
-#define SURFACE_FIELD(kind, name, def, low, high, help) Surface##kind name;
+#define SURFACE_FIELD(kind, name, def, low, high, hard_low, hard_high, help) Surface##kind name;
     SURFACE_INPUTS(SURFACE_FIELD)
 #undef SURFACE_FIELD
 } Surface;

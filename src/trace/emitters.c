@@ -3,17 +3,21 @@
 #include "trace/emitters.h"
 
 #include "scene/shade.h"
+#include "trace/geometry.h"
 
 typedef struct Emitter {
     uint32_t mesh, triangle;
     float area;
 } Emitter;
 
-static Rgb emission(const WeftScene *scene, const Material *material, float uv[2][2]) {
+/* What a point of an emitter sends out where it is not transparent, times how much of it is there. */
+static Rgb emission(const WeftScene *scene, const Material *material, const Attributes *at) {
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    float uv[2][2];
+    memcpy(uv, at->uv, sizeof uv);
     Surface s = material_plain(material);
     material_textures(scene, material, uv, white, &s);
-    float k = s.emission_strength;
+    float k = s.emission_strength * material_opacity(scene, material, uv, at->color[3]);
     return (Rgb){s.emission.r * k, s.emission.g * k, s.emission.b * k};
 }
 
@@ -38,30 +42,19 @@ static Corners corners(const Mesh *mesh, uint32_t triangle) {
 
 static Vec3 normal_area(Corners c) { return vec3_cross(vec3_sub(c.b, c.a), vec3_sub(c.c, c.a)); }
 
-static void texcoord(const Mesh *mesh, uint32_t triangle, const float weight[3], float uv[2][2]) {
-    for (int set = 0; set < 2; set++) {
-        uv[set][0] = uv[set][1] = 0.0f;
-        for (int k = 0; mesh->texcoord[set] && k < 3; k++) {
-            const float *t = mesh->texcoord[set] + 2 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)k];
-            uv[set][0] += t[0] * weight[k], uv[set][1] += t[1] * weight[k];
-        }
-    }
-}
-
 /* A tenth from the plain factor, so that a texture's dark spot is never unsampled, the rest from its value at
  * four points. */
 static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t triangle, float area) {
-    static const float points[4][3] = {
-        {0.333f, 0.333f, 0.334f}, {0.6f, 0.2f, 0.2f}, {0.2f, 0.6f, 0.2f}, {0.2f, 0.2f, 0.6f}};
+    static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
     const Material *material = &scene->materials[mesh->material];
     const float *value = material->inputs[INPUT_emission].value;
     float factor =
         luminance((Rgb){value[0], value[1], value[2]}) * material->inputs[INPUT_emission_strength].value[0];
     float mean = 0.0f;
     for (int k = 0; k < 4; k++) {
-        float uv[2][2];
-        texcoord(mesh, triangle, points[k], uv);
-        mean += 0.25f * luminance(emission(scene, material, uv));
+        Hit hit = {.triangle = triangle, .u = points[k][0], .v = points[k][1]};
+        Attributes at = geometry_attributes(mesh, &hit);
+        mean += 0.25f * luminance(emission(scene, material, &at));
     }
     return PI * area * (0.1f * factor + 0.9f * mean) * (material->double_sided ? 2.0f : 1.0f);
 }
@@ -107,16 +100,16 @@ EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float 
         b2 *= 0.5f;
         b1 -= b2;
     }
-    float weight[3] = {1.0f - b1 - b2, b1, b2}, uv[2][2];
     Corners c = corners(mesh, emitter->triangle);
-    Vec3 to = vec3_sub(vec3_lerp3(c.a, c.b, c.c, weight[0], weight[1], weight[2]), point);
+    Vec3 to = vec3_sub(vec3_lerp3(c.a, c.b, c.c, 1.0f - b1 - b2, b1, b2), point);
     EmitterPoint p = {.distance = vec3_length(to)};
     if (!(p.distance > 0.0f)) return p;
     p.direction = vec3_scale(to, 1.0f / p.distance);
     float cosine = -vec3_dot(vec3_normal_or(normal_area(c), p.direction), p.direction);
     if (cosine <= 0.0f && !material->double_sided) return p;
-    texcoord(mesh, emitter->triangle, weight, uv);
-    p.radiance = emission(emitters->scene, material, uv);
+    Hit hit = {.triangle = emitter->triangle, .u = b1, .v = b2};
+    Attributes at = geometry_attributes(mesh, &hit);
+    p.radiance = emission(emitters->scene, material, &at);
     p.pdf = emitters_pdf(emitters, emitter->mesh, emitter->triangle, p.distance, cosine);
     return p;
 }

@@ -23,7 +23,8 @@ static struct RTCRay to_embree(const Ray *ray) {
                            .dir_y = ray->direction.y,
                            .dir_z = ray->direction.z,
                            .tfar = ray->far,
-                           .mask = ~0u};
+                           .mask = ~0u,
+                           .id = ray->key};
 }
 
 static Hit from_embree(const struct RTCHit *h, float t) {
@@ -44,18 +45,22 @@ static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint
 
 typedef struct Query {
     struct RTCIntersectContext context; /* first: Embree hands back its address */
-    uint32_t key;
+    const WeftScene *scene;
 } Query;
 
-/* Embree asks about every candidate of a mesh that has this filter; only single shadow rays get here, so N is
- * 1 and the records are plain ones. */
-static void filter_occlusion(const struct RTCFilterFunctionNArguments *a) {
-    const struct RTCHit *h = (const struct RTCHit *)(const void *)a->hit;
+static Query query_of(const Geometry *geometry) {
+    Query query = {.scene = geometry->scene};
+    rtcInitIntersectContext(&query.context);
+    return query;
+}
+
+/* Refuses candidates that are not there. Only single rays get here, so N is 1 and the records are plain ones.
+ */
+static void filter(const struct RTCFilterFunctionNArguments *a) {
     const struct RTCRay *r = (const struct RTCRay *)(const void *)a->ray;
-    Hit hit = from_embree(h, r->tfar);
-    Vec3 direction = {r->dir_x, r->dir_y, r->dir_z};
-    if (!present(a->geometryUserPtr, &hit, direction, ((const Query *)(const void *)a->context)->key))
-        a->valid[0] = 0;
+    Hit hit = from_embree((const struct RTCHit *)(const void *)a->hit, r->tfar);
+    const WeftScene *scene = ((const Query *)(const void *)a->context)->scene;
+    if (!present(scene, &hit, (Vec3){r->dir_x, r->dir_y, r->dir_z}, r->id)) a->valid[0] = 0;
 }
 
 static bool attach(Geometry *geometry, uint32_t id) {
@@ -67,9 +72,8 @@ static bool attach(Geometry *geometry, uint32_t id) {
                                3 * sizeof(float), mesh->vertex_count);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    rtcSetGeometryUserData(g, (void *)(uintptr_t)geometry->scene);
     if (!material->double_sided || material->alpha_mode != ALPHA_OPAQUE)
-        rtcSetGeometryOccludedFilterFunction(g, filter_occlusion);
+        rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
     rtcReleaseGeometry(g);
@@ -95,7 +99,7 @@ WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, 
         triangles += scene->meshes[k].triangle_count;
     }
     if (built) {
-        rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         if (triangles <= FINE_BUILD_TRIANGLES)
             rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
         rtcCommitScene(geometry->accel);
@@ -116,18 +120,22 @@ void geometry_free(Geometry *geometry) {
     free(geometry);
 }
 
+static bool intersect(const Geometry *geometry, const Ray *ray, Query *query, Hit *hit) {
+    struct RTCRayHit r = {.ray = to_embree(ray), .hit.geomID = RTC_INVALID_GEOMETRY_ID};
+    rtcIntersect1(geometry->accel, &query->context, &r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    *hit = from_embree(&r.hit, r.ray.tfar);
+    return true;
+}
+
+/* Nearly every nearest hit is there. For the rest every candidate is asked, since another may lie at the same
+ * place. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (;;) {
-        struct RTCRayHit query = {.ray = to_embree(&ray), .hit.geomID = RTC_INVALID_GEOMETRY_ID};
-        rtcIntersect1(geometry->accel, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-        *hit = from_embree(&query.hit, query.ray.tfar);
-        if (present(geometry->scene, hit, ray.direction, ray.key)) return true;
-        ray.near = nextafterf(fmaxf(hit->t, ray.near), INFINITY); /* go on behind it */
-        ray.near += fabsf(ray.near) * 1e-6f;
-    }
+    Query query = query_of(geometry);
+    if (!intersect(geometry, &ray, &query, hit)) return false;
+    if (present(geometry->scene, hit, ray.direction, ray.key)) return true;
+    query.context.filter = filter;
+    return intersect(geometry, &ray, &query, hit);
 }
 
 void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits) {
@@ -159,8 +167,7 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
 }
 
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
-    Query query = {.key = ray.key};
-    rtcInitIntersectContext(&query.context);
+    Query query = query_of(geometry);
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);
     return r.tfar < 0.0f;

@@ -77,16 +77,16 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
     if (material->unlit) return surface.base_color;
     if (vec3_dot(normal, p->geometric) <= 0.0f) normal = p->geometric; /* damaged normals */
     p->origin = geometry_lift(mesh, hit, &vertex, side);
-    set_frame(p, normal, vertex.tangent, vertex.handedness);
+    /* from behind everything is mirrored: the bumps of a normal map are dents there */
+    Vec3 tangent = vec3_scale(vertex.tangent, side);
+    float handedness = vertex.handedness * side;
+    set_frame(p, normal, tangent, handedness);
     Dir n = surface.normal;
     if (n.z < 1.0f)
-        set_frame(p, bend_normal(to_world(p, n), p->geometric, wo), p->x, vertex.handedness);
+        set_frame(p, bend_normal(to_world(p, n), p->geometric, wo), p->x, handedness);
     else if (vec3_dot(normal, wo) <= 1e-4f)
-        set_frame(p, bend_normal(normal, p->geometric, wo), p->x, vertex.handedness);
-    if (surface.anisotropy > 0.0f) {
-        Vec3 along = to_world(p, surface.anisotropy_direction);
-        set_frame(p, p->z, along, vertex.handedness);
-    }
+        set_frame(p, bend_normal(normal, p->geometric, wo), p->x, handedness);
+    if (surface.anisotropy > 0.0f) set_frame(p, p->z, to_world(p, surface.anisotropy_direction), handedness);
     p->wo = to_local(p, wo);
     surface_stack(&p->stack, &surface, p->wo, (LobeId)material->sheen_lobe, material->layer, known->sheen_e);
     return emission;

@@ -14,6 +14,7 @@ typedef struct PathMaterial {
     Material material;          /* the scene's, without textures that a path never looks at */
     Surface plain;              /* all its textures left out */
     bool textured;              /* has any */
+    bool worn;                  /* by some mesh */
     const AlbedoTable *sheen_e; /* NULL without a sheen */
 } PathMaterial;
 

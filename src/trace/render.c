@@ -16,7 +16,8 @@ enum {
     DEFAULT_HEIGHT = 720,
     DEFAULT_DEPTH = 9,
     SIDE_MAX = 65536,
-    FILTER_STEPS = 256
+    FILTER_STEPS = 256,
+    NARROW_TABLES = 8, /* albedo tables made for one material's range of roughness */
 };
 
 /* One tile's finished work. Only one thread holds a tile at a time. */
@@ -58,6 +59,11 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
                     c[3], d->width, d->height);
     if (d->max_depth < 1) return fail(error, WEFT_MESSAGE_DESC, "max depth", "%d; at least 1", d->max_depth);
+    if ((unsigned)d->background > WEFT_BACKGROUND_COLOR || (unsigned)d->sampling > WEFT_SAMPLING_LOBE)
+        return fail(error, WEFT_MESSAGE_DESC, "background or sampling", NULL);
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(d->background_color[k]))
+            return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
     if (d->threads < 0) return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
     return WEFT_OK;
 }
@@ -96,6 +102,8 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
     render->tables = alloc_array(count, sizeof(AlbedoTable *));
     render->materials = alloc_array(count, sizeof(PathMaterial));
     if (!render->tables || !render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int m = 0; m < scene->mesh_count; m++) render->materials[scene->meshes[m].material].worn = true;
+    int made = 0;
     for (size_t k = 0; k < count; k++) {
         const Material *material = &scene->materials[k];
         PathMaterial *known = &render->materials[k];
@@ -106,7 +114,8 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         for (int input = 0; input < INPUT_COUNT; input++)
             known->textured |= known->material.inputs[input].texture != 0;
         float low, high;
-        if (!sheen_range(material, &low, &high)) continue;
+        if (!known->worn || !sheen_range(material, &low, &high)) continue;
+        if (made >= NARROW_TABLES) low = 0.0f, high = 1.0f; /* then one for all */
         Lobe lobe = lobe_default((LobeId)material->sheen_lobe);
         known->sheen_e = find_table(render, k, lobe.id, low, high);
         if (known->sheen_e) continue;
@@ -114,6 +123,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         if (!render->tables[k]) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
         albedo_table_fill(render->tables[k], &lobe, low, high, render->desc.threads);
         known->sheen_e = render->tables[k];
+        made++;
     }
     return WEFT_OK;
 }
@@ -291,7 +301,7 @@ static void render_tile(void *user, int item, int thread) {
     tile.samples += pass->samples;
     render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
-    if (now() > pass->deadline) atomic_store(&pass->stop, 1);
+    if (pass->done_before > 0.0 && now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread != 0 || !pass->progress) return;
     double fraction = pass->done_before + pass->share * finished / render->tile_count;
     if (pass->progress(pass->user, fraction)) {
@@ -307,7 +317,8 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
                  .progress = progress,
                  .user = user};
     atomic_init(&pass.stop, 0);
-    /* The first pass is one sample, so that even a short time shows all of the picture. */
+    /* The first pass is one sample and heeds no deadline, so that even a short time shows all of the picture.
+     */
     for (int done = 0; done < spp && !atomic_load(&pass.stop); done += pass.samples) {
         int rest = spp - done;
         pass.samples = done == 0 ? 1 : rest < PASS_SAMPLES ? rest : PASS_SAMPLES;

@@ -128,7 +128,7 @@ static Rgb constant(const Environment *e) {
 static float map_pdf(const Sky *sky, int row, int column, float sin_theta) {
     float square = distribution_probability(&sky->rows, row) *
                    distribution_probability(&sky->columns[row], column) * (float)(sky->height * sky->width);
-    return square / (TWO_PI * PI * max(sin_theta, 1e-6f));
+    return square / (TWO_PI * PI * max(sin_theta, 1e-7f));
 }
 
 SkyPoint sky_at(const Sky *sky, Vec3 direction) {
@@ -138,7 +138,7 @@ SkyPoint sky_at(const Sky *sky, Vec3 direction) {
     to_map(sky, direction, &u, &v);
     int column = (int)clamp(u * (float)sky->width, 0.0f, (float)(sky->width - 1));
     int row = (int)clamp(v * (float)sky->height, 0.0f, (float)(sky->height - 1));
-    float sin_theta = sqrt(max(1.0f - direction.y * direction.y, 0.0f));
+    float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);
     return (SkyPoint){direction, image_at(sky, u, v), map_pdf(sky, row, column, sin_theta)};
 }
 
@@ -153,7 +153,8 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
     float mu = ((float)column.index + column.rest) / (float)sky->width;
     float mv = ((float)row.index + row.rest) / (float)sky->height;
     SkyPoint point = {.direction = from_map(sky, mu, mv), .radiance = image_at(sky, mu, mv)};
-    float sin_theta = sqrt(max(1.0f - point.direction.y * point.direction.y, 0.0f));
+    Vec3 d = point.direction;
+    float sin_theta = sqrt(d.x * d.x + d.z * d.z);
     point.pdf = map_pdf(sky, row.index, column.index, sin_theta);
     return point;
 }
@@ -169,7 +170,8 @@ static void sum_cells(Sky *sky, double *cells) {
         double *row = cells + (size_t)((long long)y * sky->height / image->height) * (size_t)sky->width;
         for (int x = 0; x < image->width; x++, p += channels) {
             float luminance = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
-            row[(long long)x * sky->width / image->width] += (double)max(luminance, 0.0f) * solid;
+            luminance = max(luminance, 0.0f); /* a file may hold negative colours */
+            row[(long long)x * sky->width / image->width] += (double)luminance * solid;
             sky->mean += (double)luminance * solid;
             total += solid;
         }

@@ -72,6 +72,27 @@ static void a_file_appears_complete_or_not_at_all(void **state) {
     unlink(path);
 }
 
+static void writers_of_one_path_do_not_meet(void **state) {
+    (void)state;
+    enum { WRITERS = 50 };
+    char path[128];
+    OutputFile files[WRITERS];
+    in_folder(path, "g");
+    for (int k = 0; k < WRITERS; k++) {
+        assert_int_equal(output_open(&files[k], path, NULL), WEFT_OK);
+        fprintf(files[k].stream, "writer %d", k);
+    }
+    assert_int_equal(count_files(), WRITERS);
+    for (int k = 0; k < WRITERS; k++) {
+        char text[16];
+        snprintf(text, sizeof text, "writer %d", k);
+        assert_int_equal(output_commit(&files[k], NULL), WEFT_OK);
+        check_text(path, text);
+    }
+    assert_int_equal(count_files(), 1);
+    unlink(path);
+}
+
 static void permissions_follow_the_umask(void **state) {
     (void)state;
     char path[128];
@@ -157,6 +178,7 @@ static int remove_folder(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_appears_complete_or_not_at_all),
+        cmocka_unit_test(writers_of_one_path_do_not_meet),
         cmocka_unit_test(permissions_follow_the_umask),
         cmocka_unit_test(what_cannot_be_written_is_an_error),
         cmocka_unit_test(a_full_disk_is_an_error),

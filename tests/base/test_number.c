@@ -1,4 +1,5 @@
 /* Numbers as people type them, and random ones */
+#include <locale.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,6 +32,26 @@ static void numbers_are_read(void **state) {
     assert_true(!(color[0] != 0.25f) && !(color[1] != 0.25f) && !(color[2] != 0.25f));
     assert_true(parse_color("0.1,0.2,0.3", color));
     assert_true(!(color[2] != 0.3f));
+}
+
+static void a_locale_changes_nothing(void **state) {
+    (void)state;
+    static const char *const commas[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"};
+    const char *set = NULL;
+    for (size_t k = 0; !set && k < sizeof commas / sizeof commas[0]; k++)
+        set = setlocale(LC_NUMERIC, commas[k]);
+    if (!set) {
+        print_message("no locale with a decimal comma is installed\n");
+        skip();
+    }
+    char *end;
+    float value = 0.0f, color[3] = {0};
+    bool comma = strtof("1,5", &end) > 1.0f;
+    bool number = parse_number("1.5", &value), three = parse_color("1,5,0.25", color);
+    setlocale(LC_NUMERIC, "C");
+    assert_true(comma);
+    assert_true(number && !(value != 1.5f));
+    assert_true(three && !(color[0] != 1.0f) && !(color[1] != 5.0f) && !(color[2] != 0.25f));
 }
 
 static void other_text_is_refused(void **state) {
@@ -84,6 +105,7 @@ static void unit_floats_are_in_range_and_even(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_read),
+        cmocka_unit_test(a_locale_changes_nothing),
         cmocka_unit_test(other_text_is_refused),
         cmocka_unit_test(hash32_has_no_bias_to_speak_of),
         cmocka_unit_test(unit_floats_are_in_range_and_even),

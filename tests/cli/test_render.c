@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <sys/stat.h>
 
 #include "weft/weft.h"
 
@@ -96,9 +97,8 @@ static void light_and_picture_options_work(void **state) {
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "dark.exr", "--env", "0,0,0",
                  "--background=environment"));
     assert_true(mean("dark.exr") == 0.0f);
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "one.exr", "-o", "one.png", "--env",
-                 "0.25,0.25,0.25", "--env-strength=4", "--background=environment", "--camera",
-                 "0,0,3;0,0,9;30"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "one.exr", "-o", "one.png", "--env", "0.25",
+                 "--env-strength=4", "--background=environment", "--camera", "0,0,3;0,0,9;30"));
     assert_true(fabsf(mean("one.exr") - 1.0f) < 1e-3f); /* it looks away from all there is */
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "low.exr", "-o", "low.png", "--exposure=-12",
                  "--env", "1,1,1", "--background", "environment", "--tonemap=none"));
@@ -208,6 +208,27 @@ static void interrupt_writes_what_there_is(void **state) {
     }
 }
 
+/* The environment is a pipe, so that the moment is known: loading has begun and cannot end. */
+static void interrupted_while_loading(void **state) {
+    (void)state;
+    static const char sky[] = "#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x81";
+    file_make("a.png", "old", 3);
+    assert_int_equal(mkfifo("sky", 0600), 0);
+    pid_t child =
+        program_start(WEFT_PROGRAM, NULL, LIST("render", "scene.gltf", TINY, "--env", "sky", "-o", "a.png"));
+    int pipe_end = open("sky", O_WRONLY);
+    kill(child, SIGINT);
+    assert_int_equal(write(pipe_end, sky, sizeof sky - 1), sizeof sky - 1);
+    close(pipe_end);
+    unlink("sky");
+    Ran ran = program_end(child);
+    assert_int_equal(ran.code, 130);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(strstr(ran.err, "before the first sample"));
+    assert_true(same_bytes("a.png", "old", 3));
+    ran_free(&ran);
+}
+
 static void failures_keep_the_old_picture(void **state) {
     (void)state;
     file_make("a.png", "old", 3);
@@ -215,7 +236,10 @@ static void failures_keep_the_old_picture(void **state) {
     assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
                      "builtin:none: is not a built-in scene");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
-                     "back: is not a camera");
+                     "back: is not a camera of this scene: there is front; else write auto");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2, "there is none");
+    assert_complaint(NULL, LIST("render", "builtin:spheres", "-o", "a.png", "--set", "x.roughness=1"), 2,
+                     "there is dark-0, dark-1, dark-2, dark-3, dark-4, ...");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--env=none.hdr"), 3,
                      "none.hdr: cannot be opened");
     assert_complaint(NULL, LIST("render", "stdin", "-o", "a.png"), 3, "stdin: ");
@@ -243,6 +267,7 @@ int main(void) {
         cmocka_unit_test(json_holds_the_figures),
         cmocka_unit_test(time_limit_ends_it_well),
         cmocka_unit_test(interrupt_writes_what_there_is),
+        cmocka_unit_test(interrupted_while_loading),
         cmocka_unit_test(failures_keep_the_old_picture),
         cmocka_unit_test(outputs_are_tried_first),
     };

@@ -70,23 +70,16 @@ static void usage_errors_are_one_line(void **state) {
 /* Every wrong number is refused before anything is read: there is no a.glb. */
 static void numbers_are_checked(void **state) {
     (void)state;
-    static const char *const wrong[] = {"--width=0",         "--width=65537",
-                                        "--width=1.5",       "--height=-3",
-                                        "--height=",         "--spp=0",
-                                        "--spp=12x",         "--spp=nan",
-                                        "--spp=1e99",        "--max-depth=0",
-                                        "--time-limit=0",    "--time-limit=inf",
-                                        "--time-limit=3s",   "--seed=-1",
-                                        "--threads=0",       "--exposure=nan",
-                                        "--exposure=1,2",    "--env-rotation=x",
-                                        "--env-strength=-1", "--crop=1,2,3",
-                                        "--crop=0,0,0,5",    "--crop=0,0,5,5,",
-                                        "--crop=950,0,20,5", "--crop=0.5,0,2,2",
-                                        "--crop=nan,0,2,2",  "--tonemap=filmic",
-                                        "--sampling=all",    "--background=blue",
-                                        "--background=1,2",  "--background=-1,0,0",
-                                        "--sheen=velvet",    "--layer=glue",
-                                        "--set=roughness=1", "--set=cloth.roughness"};
+    static const char *const wrong[] = {
+        "--width=0",         "--width=65537",     "--width=1.5",       "--height=-3",
+        "--height=",         "--spp=0",           "--spp=12x",         "--spp=nan",
+        "--spp=1e99",        "--max-depth=0",     "--time-limit=0",    "--time-limit=inf",
+        "--time-limit=3s",   "--seed=-1",         "--threads=0",       "--exposure=nan",
+        "--threads=257",     "--env=-1",          "--exposure=1,2",    "--env-rotation=x",
+        "--env-strength=-1", "--crop=1,2,3",      "--crop=0,0,0,5",    "--crop=0,0,5,5,",
+        "--crop=950,0,20,5", "--crop=0.5,0,2,2",  "--crop=nan,0,2,2",  "--tonemap=filmic",
+        "--sampling=all",    "--background=blue", "--background=1,2",  "--background=-1,0,0",
+        "--sheen=velvet",    "--layer=glue",      "--set=roughness=1", "--set=cloth.roughness"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char name[32];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(wrong[k], "="), wrong[k]);

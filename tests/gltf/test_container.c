@@ -60,7 +60,8 @@ static void refuses_damaged_glb(void **state) {
     for (size_t cut = 0; cut < size; cut++) {
         Reading *reading = read_gltf("cut.glb", bytes, cut);
         assert_int_equal(reading->result, WEFT_INPUT);
-        assert_int_equal(reading->error.message, WEFT_MESSAGE_GLTF_CONTAINER);
+        assert_int_equal(reading->error.message,
+                         cut < 4 ? WEFT_MESSAGE_SCENE_KIND : WEFT_MESSAGE_GLTF_CONTAINER);
         done(reading);
     }
     put_word(bytes + 4, 1);
@@ -84,8 +85,8 @@ static void refuses_text(void **state) {
         WeftMessage message;
         const char *part;
     } cases[] = {
-        {"", WEFT_MESSAGE_GLTF_CONTAINER, "neither"},
-        {"P6 1 1", WEFT_MESSAGE_GLTF_CONTAINER, "neither"},
+        {"", WEFT_MESSAGE_SCENE_KIND, "neither"},
+        {"P6 1 1", WEFT_MESSAGE_SCENE_KIND, "neither"},
         {"{\"asset\":", WEFT_MESSAGE_GLTF_JSON, "line 1"},
         {"{}\n{}", WEFT_MESSAGE_GLTF_JSON, "line 2"},
         {"{\"a\":1e999}", WEFT_MESSAGE_GLTF_JSON, "overflow"},
@@ -242,12 +243,53 @@ static void stays_in_folder(void **state) {
     assert_refused(read_gltf("/nowhere/at/all.gltf", NULL, 0), WEFT_MESSAGE_FILE_OPEN, "all.gltf");
 }
 
+/* Many names of one large file, of which little is wanted: it is read once, and no more than that of it. */
+static void reads_files_once(void **state) {
+    (void)state;
+    enum { SIZE = 4 << 20, NAMES = 1000 };
+    char path[256], *large = calloc(SIZE, 1), *text = malloc((size_t)NAMES * 80);
+    write_file("a b/large.bin", large, SIZE);
+    int used = sprintf(text, "{'asset':{'version':'2.0'},'buffers':[");
+    for (int i = 0; i < NAMES; i++)
+        used += sprintf(text + used, "%s{'byteLength':%d,'uri':'%s%s'}", i ? "," : "", 1 + i,
+                        i % 2 ? "./" : "", "large.bin");
+    /* Zeros that would fit if each name counted, or all of the file. */
+    sprintf(text + used, "],'accessors':[{'componentType':5126,'count':3000000,'type':'VEC3'}],"
+                         "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}]}");
+    for (char *c = text; *c; c++)
+        if (*c == '\'') *c = '"';
+    size_t length = strlen(text);
+    write_file("a b/asset.gltf", text, length);
+    snprintf(path, sizeof path, "%s/a b/asset.gltf", folder);
+    char expected[64];
+    snprintf(expected, sizeof expected, "%zu bytes of input", length + NAMES);
+    assert_refused(read_gltf(path, NULL, 0), WEFT_MESSAGE_GLTF_TOO_LARGE, expected);
+    snprintf(path, sizeof path, "%s/a b/large.bin", folder);
+    unlink(path);
+    free(large);
+    free(text);
+}
+
+/* No data are not a file, whatever they are called. */
+static void memory_is_no_file(void **state) {
+    (void)state;
+    WeftScene *scene = NULL;
+    WeftError error;
+    static const char *const names[] = {WEFT_SOURCE_DIR "/CMakeLists.txt", "builtin:spheres"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        assert_int_equal(weft_scene_load_memory(NULL, 0, names[i], &scene, NULL, &error), WEFT_INPUT);
+        assert_int_equal(error.message, WEFT_MESSAGE_SCENE_KIND);
+        assert_null(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_glb),       cmocka_unit_test(refuses_damaged_glb),
-        cmocka_unit_test(refuses_text),    cmocka_unit_test(names_extensions),
-        cmocka_unit_test(decodes_base64),  cmocka_unit_test(finds_files),
-        cmocka_unit_test(stays_in_folder),
+        cmocka_unit_test(reads_glb),         cmocka_unit_test(refuses_damaged_glb),
+        cmocka_unit_test(refuses_text),      cmocka_unit_test(names_extensions),
+        cmocka_unit_test(decodes_base64),    cmocka_unit_test(finds_files),
+        cmocka_unit_test(stays_in_folder),   cmocka_unit_test(reads_files_once),
+        cmocka_unit_test(memory_is_no_file),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

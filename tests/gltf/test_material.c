@@ -227,6 +227,22 @@ static void finds_images(void **state) {
     assert_read(reading);
     assert_int_equal(reading->scene->images[0].channels, 1);
     done(reading);
+    /* Two images that are one are decoded once. */
+    whole = json("{'asset':{'version':'2.0'},'buffers':[{'byteLength':%zu,'uri':'%s'},"
+                 "{'byteLength':48,'uri':'%s'}],'bufferViews':[{'buffer':0,'byteLength':%zu},"
+                 "{'buffer':1,'byteLength':48}],'accessors':[{'bufferView':1,'componentType':5126,"
+                 "'count':4,'type':'VEC3'}],'images':[{'bufferView':0},{'bufferView':0}],"
+                 "'textures':[{'source':0},{'source':1}],'materials':[{'normalTexture':{'index':0},"
+                 "'occlusionTexture':{'index':0},'emissiveTexture':{'index':1}}],"
+                 "'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
+                 "'mode':5,'material':0}]}],'nodes':[{'mesh':0}]}",
+                 sizeof bytes, uri(bytes, sizeof bytes), SQUARE_URI, sizeof bytes);
+    reading = read_gltf("view", whole, strlen(whole));
+    free(whole);
+    assert_read(reading);
+    assert_int_equal(reading->scene->texture_count, 2);
+    assert_int_equal(reading->scene->image_count, 1);
+    done(reading);
     /* One that does not decode is named, where it is needed; else nobody looks. */
     static const char bad[] =
         "'images':[{'uri':'data:image/png;base64,AAAAAAAA'}],'textures':[{'source':0}],";
@@ -242,6 +258,32 @@ static void finds_images(void **state) {
                    WEFT_MESSAGE_GLTF_SCHEMA, "images[0]: it has neither");
     assert_refused(read_material("'images':[{'uri':'a.png'}],'textures':[{'source':0}],", MAPPED),
                    WEFT_MESSAGE_GLTF_URI, "in memory");
+}
+
+/* Headers that together promise 2 GiB, each within what is believed of one: refused before any is decoded. */
+static void limits_images(void **state) {
+    (void)state;
+    static const unsigned char header[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00,
+                                           0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x20, 0x00, 0x00, 0x00,
+                                           0x40, 0x00, 0x08, 0x06, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
+    static const unsigned char frame[] = {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x04, 0x00, 0x00,
+                                          0xff, 0xff, 0xc2, 0x00, 0x11, 0x08, 0x40, 0x00,
+                                          0x40, 0x00, 0x03, 0x00, 0x00, 0x00, 0x00};
+    static const unsigned char targa[] = {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0x40, 32, 0};
+    static const struct {
+        const unsigned char *bytes;
+        size_t size;
+        const char *decoded;
+    } cases[] = {{header, sizeof header, "decode to 1073741824"},
+                 {frame, sizeof frame, "decode to 1610612736"},
+                 {targa, sizeof targa, "decode to 2147483648"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *images = json("'images':[{'uri':'%s'},{'uri':'%s'}],'textures':[{'source':0},{'source':1}],",
+                            uri(cases[i].bytes, cases[i].size), uri(cases[i].bytes, cases[i].size));
+        assert_refused(read_material(images, MAPPED ",'emissiveTexture':{'index':1}"),
+                       WEFT_MESSAGE_GLTF_TOO_LARGE, cases[i].decoded);
+        free(images);
+    }
 }
 
 /* Containers that cannot be read are offers: the plain source counts. */
@@ -291,7 +333,8 @@ int main(void) {
         cmocka_unit_test(has_the_defaults),    cmocka_unit_test(reads_everything),
         cmocka_unit_test(transforms_textures), cmocka_unit_test(repairs_ranges),
         cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
-        cmocka_unit_test(falls_back),          cmocka_unit_test(reads_variants),
+        cmocka_unit_test(limits_images),       cmocka_unit_test(falls_back),
+        cmocka_unit_test(reads_variants),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

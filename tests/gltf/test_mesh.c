@@ -2,6 +2,10 @@
 #include "reading.h"
 
 #include <math.h>
+#include <time.h>
+
+#include "base/random.h"
+#include "gltf/tangent.h"
 
 /* A scene of the square under one node, whose members are node. */
 static Reading *read_square(const char *node, const char *primitive) {
@@ -414,6 +418,88 @@ static void poses_morphs(void **state) {
 
 /* --- limits --- */
 
+/* Triangles of the last three vertices only: the first is not in the scene, and all attributes move along. */
+static void drops_unused_vertices(void **state) {
+    (void)state;
+    struct Square part = square;
+    memcpy(part.index, (const uint16_t[6]){3, 2, 1, 1, 3, 2}, 12);
+    part.position[0] = -900.0f;
+    Reading *reading =
+        read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
+                  uri(&part, sizeof part));
+    assert_read(reading);
+    const Mesh *mesh = reading->scene->meshes;
+    assert_int_equal(mesh->vertex_count, 3);
+    assert_memory_equal(mesh->index, ((const uint32_t[]){2, 1, 0, 0, 2, 1}), 24);
+    assert_memory_equal(mesh->position, square.position + 3, 36);
+    assert_memory_equal(mesh->normal, square.normal + 3, 36);
+    assert_memory_equal(mesh->texcoord[0], square.texcoord + 2, 24);
+    done(reading);
+}
+
+/* The inverse of an odd number modulo 2^32, by Newton's iteration. */
+static uint32_t inverse(uint32_t a) {
+    uint32_t x = a;
+    for (int i = 0; i < 5; i++) x *= 2 - a * x;
+    return x;
+}
+
+/* Vertices whose v is chosen so that the hash of each vertex is the same: welding must not become quadratic.
+ */
+static void welds_crafted_vertices(void **state) {
+    (void)state;
+    enum { COUNT = 90000 };
+    WeftScene scene = {0};
+    Asset asset = {.limit = (size_t)1 << 30, .scene = &scene};
+    Mesh mesh = {.vertex_count = COUNT, .triangle_count = COUNT / 3};
+    mesh.position = calloc(COUNT, 3 * sizeof(float));
+    mesh.normal = calloc(COUNT, 3 * sizeof(float));
+    mesh.texcoord[0] = calloc(COUNT, 2 * sizeof(float));
+    mesh.index = calloc(COUNT, sizeof *mesh.index);
+    for (uint32_t i = 0, n = 0; i < COUNT; n++) {
+        uint32_t key[7] = {0}, hash = 0;
+        float x = (float)n;
+        memcpy(key, &x, 4);
+        key[5] = 0x3f800000; /* normal +z */
+        for (int k = 0; k < 7; k++) hash = hash_combine(hash, key[k]);
+        uint32_t v = (hash - 0x85ebca6bu) * inverse(0x9e3779b9u);
+        float value;
+        memcpy(&value, &v, 4);
+        if (!(fabsf(value) <= 1e9f) || value == 0.0f) continue;
+        mesh.position[3 * (size_t)i] = x;
+        mesh.normal[3 * (size_t)i + 2] = 1.0f;
+        mesh.texcoord[0][2 * (size_t)i + 1] = value;
+        mesh.index[i] = i;
+        i++;
+    }
+    float *owned[] = {mesh.position, mesh.normal, mesh.texcoord[0]};
+    const Input input = {.transform = {1, 0, 0, 0, 1, 0}};
+    clock_t start = clock();
+    tangents_make(&asset, &mesh, &input);
+    assert_true(clock() - start < 3 * CLOCKS_PER_SEC);
+    assert_int_equal(asset.result, WEFT_OK);
+    assert_non_null(mesh.tangent);
+    for (int k = 0; k < 3; k++) free(owned[k]);
+    free(mesh.index);
+    arena_free(&scene.arena);
+}
+
+/* Nodes times primitives beyond the limit: refused before anybody walks them all. */
+static void limits_surfaces(void **state) {
+    (void)state;
+    enum { COUNT = 100000 };
+    char *text = malloc((size_t)COUNT * 32);
+    int used = sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[");
+    for (int i = 0; i < COUNT; i++) used += sprintf(text + used, "%s{\"attributes\":{}}", i ? "," : "");
+    used += sprintf(text + used, "]}],\"nodes\":[");
+    for (int i = 0; i < COUNT; i++) used += sprintf(text + used, "%s{\"mesh\":0}", i ? "," : "");
+    used += sprintf(text + used, "]}");
+    clock_t start = clock();
+    assert_refused(read_gltf("many", text, (size_t)used), WEFT_MESSAGE_GLTF_TOO_LARGE, "decode to more");
+    assert_true(clock() - start < 4 * CLOCKS_PER_SEC);
+    free(text);
+}
+
 static void limits_zeros(void **state) {
     (void)state;
     assert_refused(
@@ -452,6 +538,9 @@ int main(void) {
         cmocka_unit_test(poses_morphs),
         cmocka_unit_test(limits_zeros),
         cmocka_unit_test(limits_instances),
+        cmocka_unit_test(drops_unused_vertices),
+        cmocka_unit_test(welds_crafted_vertices),
+        cmocka_unit_test(limits_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,12 +9,17 @@ static void refuses_cycles(void **state) {
         "{'children':[0]}",
         "{'children':[1]},{'children':[0]}",
         "{'children':[1]},{'children':[2]},{'children':[0]},{}",
+        "{},{'children':[2]},{'children':[1]}",
+    };
+    static const char *const shared[] = {
         "{'children':[2]},{'children':[2]},{}",
         "{'children':[1,1]},{}",
         "{},{'children':[2]},{'children':[3]},{'children':[2]}",
     };
     for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++)
         assert_refused(read_rest("'nodes':[%s]", nodes[i]), WEFT_MESSAGE_GLTF_CYCLE, "node");
+    for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
+        assert_refused(read_rest("'nodes':[%s]", shared[i]), WEFT_MESSAGE_GLTF_PARENTS, "children");
     assert_refused(read_rest("'nodes':[{'children':[1]}]"), WEFT_MESSAGE_GLTF_REFERENCE,
                    "nodes[0].children[0]: 1 of 1");
     assert_refused(read_rest("'nodes':[{'mesh':0}]"), WEFT_MESSAGE_GLTF_REFERENCE, "nodes[0].mesh");

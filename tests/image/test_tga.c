@@ -112,9 +112,10 @@ static void test_mapped(void **state) {
         assert_colors(&image, h.descriptor);
         weft_image_free(&image);
 
-        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] = first + WIDTH * HEIGHT; /* one past the map */
+        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] =
+            (unsigned char)(first + WIDTH * HEIGHT); /* one past the map */
         refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
-        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] = first - 1; /* one before it */
+        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] = (unsigned char)(first - 1); /* one before it */
         refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
     }
 }

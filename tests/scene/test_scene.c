@@ -77,6 +77,10 @@ static void inputs_are_set_by_name(void **state) {
     assert_int_equal(weft_scene_set(scene, "floor.roughness", "1.5", &log, &error), WEFT_OK);
     assert_int_equal(warnings.count, 1);
     assert_int_equal(warnings.last, WEFT_MESSAGE_PARAM_RANGE);
+    /* beyond the hard range no value can make light */
+    assert_int_equal(weft_scene_set(scene, "floor.metallic", "-2", &log, &error), WEFT_OK);
+    assert_true(scene->materials[scene->material_count - 1].inputs[INPUT_metallic].value[0] == 0.0f);
+    assert_int_equal(warnings.count, 2);
     scene->materials[3].inputs[INPUT_roughness].texture = 1;
     assert_int_equal(weft_scene_set(scene, "dark-3.roughness", "0.5", &log, &error), WEFT_OK);
     assert_int_equal(scene->materials[3].inputs[INPUT_roughness].texture,

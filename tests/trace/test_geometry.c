@@ -75,6 +75,34 @@ static void packets_agree_with_single_rays(void **state) {
     weft_scene_free(scene);
 }
 
+/* Two sheets back to back, each seen from its own side only: no ray falls between them. */
+static void sheets_back_to_back_have_no_holes(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f)->double_sided = false;
+    test_quad(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2)); /* faces up */
+    test_quad(scene, vec3(-1, 0, -1), vec3(0, 0, 2),
+              vec3(2, 0, 0)); /* the same corners, faces up too: flip it */
+    Mesh *under = &scene->meshes[1];
+    memcpy(under->position, scene->meshes[0].position, 12 * sizeof(float));
+    static const uint32_t reversed[6] = {0, 2, 1, 0, 3, 2};
+    memcpy(under->index, reversed, sizeof reversed);
+    Geometry *geometry = build(scene);
+    for (uint32_t k = 0; k < 2000; k++) {
+        float x = 1.8f * unit_float(hash32(2 * k)) - 0.9f, z = 1.8f * unit_float(hash32(2 * k + 1)) - 0.9f;
+        Ray rays[2] = {down(x, z), {{x, -5.0f, z}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, k}};
+        Hit hits[2];
+        geometry_hit_packet(geometry, 2, rays, hits);
+        for (uint32_t side = 0; side < 2; side++) {
+            assert_true(hits[side].t > 0.0f);
+            assert_int_equal(hits[side].mesh, side);
+            assert_true(geometry_occluded(geometry, rays[side]));
+        }
+    }
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
 /* Coverage is a coin per ray and triangle: its mean is the opacity, and occlusion sees the same surface. */
 static void transparency_is_a_fair_coin(void **state) {
     (void)state;
@@ -198,6 +226,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(backs_of_single_sided_surfaces_are_not_there),
         cmocka_unit_test(packets_agree_with_single_rays),
+        cmocka_unit_test(sheets_back_to_back_have_no_holes),
         cmocka_unit_test(transparency_is_a_fair_coin),
         cmocka_unit_test(stacked_sheets_end),
         cmocka_unit_test(lifted_points_lie_on_the_smooth_surface),

@@ -107,6 +107,85 @@ static void strategies_agree(void **state) {
     weft_scene_free(scene);
 }
 
+/* An emitter that is half there shines half as much, by whichever way it is found. */
+static void transparent_emitters_shine_less(void **state) {
+    (void)state;
+    double mean[3];
+    for (int s = 0; s < 3; s++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 0.0f);
+        test_material(scene, 0.8f);
+        test_quad(scene, vec3(-2, 0, 2), vec3(4, 0, 0), vec3(0, 0, -4));
+        Material *lamp = test_material(scene, 0.0f);
+        test_color(lamp, INPUT_emission, 5.0f);
+        lamp->alpha_mode = ALPHA_BLEND;
+        lamp->inputs[INPUT_opacity].value[0] = 0.25f;
+        test_quad(scene, vec3(-1, 1.5f, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+        scene_bounds(scene);
+        WeftRenderDesc desc = {.width = 16, .height = 16, .camera = "0,0.7,3;0,0,0;20", .max_depth = 1};
+        desc.sampling = (WeftSampling)s;
+        WeftImage image = render(scene, desc, 512);
+        mean[s] = 0.0;
+        for (int k = 0; k < 256; k++) mean[s] += (double)((float *)image.pixels)[4 * k] / 256.0;
+        weft_image_free(&image);
+        weft_scene_free(scene);
+    }
+    assert_true(mean[0] > 0.05);
+    for (int s = 1; s < 3; s++) assert_true(fabs(mean[s] / mean[0] - 1.0) < 0.02);
+}
+
+/* A surface whose normal map leans to +x: from behind the bumps are dents, so that light from -x finds it
+ * leaning its way. */
+static void normal_maps_are_mirrored_behind(void **state) {
+    (void)state;
+    double lit[2][2]; /* seen from the front or from behind, lit from +x or from -x */
+    for (int behind = 0; behind < 2; behind++)
+        for (int from = 0; from < 2; from++) {
+            WeftScene *scene = test_scene();
+            test_environment(scene, 0.0f);
+            scene->images = arena_array(&scene->arena, 1, sizeof(WeftImage));
+            scene->textures = arena_array(&scene->arena, 1, sizeof(Texture));
+            assert_int_equal(weft_image_create(1, 1, 3, WEFT_PIXEL_F32, &scene->images[0], NULL), WEFT_OK);
+            memcpy(scene->images[0].pixels, (float[3]){0.8f, 0.5f, 0.9f}, 3 * sizeof(float));
+            scene->image_count = scene->texture_count = 1;
+            test_material(scene, 0.8f)->inputs[INPUT_normal].texture = 1;
+            Mesh *mesh = test_quad(scene, vec3(-2, -2, 0), vec3(4, 0, 0), vec3(0, 4, 0)); /* faces +z */
+            mesh->tangent = arena_array(&scene->arena, 4, 4 * sizeof(float));
+            for (int k = 0; k < 4; k++) mesh->tangent[4 * k] = mesh->tangent[4 * k + 3] = 1.0f;
+            float z = behind ? 0.7071f : -0.7071f;
+            scene->lights[scene->light_count++] = (Light){.kind = LIGHT_DIRECTIONAL,
+                                                          .direction = {from ? 0.7071f : -0.7071f, 0, z},
+                                                          .color = {1, 1, 1},
+                                                          .intensity = 1.0f};
+            scene_bounds(scene);
+            WeftRenderDesc desc = {.width = 4, .height = 4, .max_depth = 1};
+            desc.camera = behind ? "0,0,-3;0,0,0;20" : "0,0,3;0,0,0;20";
+            WeftImage image = render(scene, desc, 4);
+            lit[behind][from] = (double)((float *)image.pixels)[0];
+            weft_image_free(&image);
+            weft_scene_free(scene);
+        }
+    assert_true(lit[0][0] > 1.5 * lit[0][1]);
+    assert_true(lit[1][1] > 1.5 * lit[1][0]);
+    assert_true(fabs(lit[0][0] - lit[1][1]) < 1e-3 && fabs(lit[0][1] - lit[1][0]) < 1e-3);
+}
+
+/* Texels below zero, which EXR files may hold, do not darken the other lights. */
+static void negative_environments_are_harmless(void **state) {
+    (void)state;
+    WeftScene *scene = lit_scene();
+    float *p = scene->environment.image.pixels;
+    for (int k = 0; k < 64 * 32 * 3; k++) p[k] = -1e-3f;
+    scene->lights[scene->light_count++] =
+        (Light){.kind = LIGHT_POINT, .position = {0, 4, 3}, .color = {1, 1, 1}, .intensity = 20.0f};
+    WeftImage image = render(scene, small, 8);
+    int bright = 0;
+    for (int k = 0; k < image.width * image.height; k++) bright += ((float *)image.pixels)[4 * k] > 0.05f;
+    assert_true(bright > 20);
+    weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
 static void threads_do_not_matter(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
@@ -182,7 +261,10 @@ static void descriptors_are_checked(void **state) {
                                            {.width = 70000},
                                            {.height = 1, .width = 1, .crop = {0, 0, 2, 1}},
                                            {.max_depth = -2},
-                                           {.threads = -1}};
+                                           {.threads = -1},
+                                           {.sampling = (WeftSampling)7},
+                                           {.background = (WeftBackground)9},
+                                           {.background_color = {NAN}}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         WeftRender *r;
         WeftError error;
@@ -206,6 +288,9 @@ static void descriptors_are_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(transparent_emitters_shine_less),
+        cmocka_unit_test(normal_maps_are_mirrored_behind),
+        cmocka_unit_test(negative_environments_are_harmless),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(a_crop_is_a_part_of_the_picture),
         cmocka_unit_test(runs_add_up_and_stop),
