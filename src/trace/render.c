@@ -64,7 +64,8 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
     for (int k = 0; k < 3; k++)
         if (!isfinite(d->background_color[k]))
             return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
-    if (d->threads < 0) return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
+    if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
     return WEFT_OK;
 }
 
