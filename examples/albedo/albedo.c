@@ -1,4 +1,5 @@
-/* Prints how much of the light a sheen reflects, from grazing to straight on: a first program with libweft. */
+/* Prints how much of the light a sheen reflects, from grazing to straight on: a first program with libweft.
+ */
 #include <stdio.h>
 
 #include <weft/weft.h>
