@@ -8,7 +8,10 @@
 /* Runs with standard error on a terminal of that many columns; returns all that came out of it. */
 static char *on_terminal(unsigned short columns, const char *const *arguments, int *code) {
     int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-    assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+    if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
+        print_message("no pseudo-terminals on this system\n");
+        skip();
+    }
     int line = open(ptsname(terminal), O_RDWR | O_NOCTTY);
     struct winsize size = {.ws_row = 24, .ws_col = columns};
     assert_true(line >= 0 && ioctl(line, TIOCSWINSZ, &size) == 0);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/scene.h"
+#include "weft/weft.h"
 
 enum { TEST_MESHES = 16 };
 
@@ -77,6 +78,19 @@ static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
             if (ring + 1 < RINGS) *index++ = a + 1, *index++ = b, *index++ = b + 1;
         }
     return mesh;
+}
+
+/* Renders and checks that nothing went wrong; release with weft_image_free. */
+static inline WeftImage test_render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
+    WeftRender *r = NULL;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &r, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_render_run(r, spp, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_info(r).non_finite, 0);
+    assert_int_equal(weft_render_image(r, &image, &error), WEFT_OK);
+    weft_render_free(r);
+    return image;
 }
 
 /* Six quads facing inward around [-half, half]^3. */

@@ -28,18 +28,6 @@ static Estimate estimate(const WeftImage *image) {
     return (Estimate){mean, sqrt(variance / count), count};
 }
 
-static WeftImage render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
-    WeftRender *r = NULL;
-    WeftImage image;
-    WeftError error;
-    if (weft_render_create(scene, &desc, &r, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_int_equal(weft_render_run(r, spp, 0.0, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_render_info(r).non_finite, 0);
-    assert_int_equal(weft_render_image(r, &image, &error), WEFT_OK);
-    weft_render_free(r);
-    return image;
-}
-
 /* Two-sided 1 % test, Sidak-corrected over `tests` of them: |z| below the normal quantile of 1 - p/2 with
  * p = 1 - 0.99^(1/tests); the quantile by bisection on erfc. */
 static double sidak_quantile(int tests) {
@@ -96,7 +84,7 @@ static void closed_furnace_is_one(void **state) {
             if (lobe >= 0) set_sheen(white, weft_lobe_info(lobe)->id, alphas[a]);
             test_sphere(scene, vec3(0, 0, 0), 1.0f);
             scene_bounds(scene);
-            WeftImage image = render(
+            WeftImage image = test_render(
                 scene,
                 (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,1.95;0,0,0;60", .max_depth = 400},
                 256);
@@ -125,7 +113,7 @@ static void additive_layer_breaks_the_furnace(void **state) {
     test_sphere(scene, vec3(0, 0, 0), 1.0f);
     scene_bounds(scene);
     WeftImage image =
-        render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = "0,0,3;0,0,0;20"}, 64);
+        test_render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = "0,0,3;0,0,0;20"}, 64);
     assert_true(estimate(&image).mean > 1.02);
     weft_image_free(&image);
     weft_scene_free(scene);
@@ -147,7 +135,7 @@ static void plane_shows_albedo(void **state) {
             scene_bounds(scene);
             char camera[96];
             snprintf(camera, sizeof camera, "0,%g,%g;0,0,0;0.2", (double)mu, (double)sqrtf(1.0f - mu * mu));
-            WeftImage image = render(
+            WeftImage image = test_render(
                 scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = camera, .max_depth = 1}, 1024);
             Estimate found = estimate(&image);
             WeftLobe l;
@@ -176,12 +164,12 @@ static void sphere_shows_albedo(void **state) {
         scene_bounds(scene);
         /* far away, so that directions are parallel; black around, so that the silhouette's coverage does not
          * count */
-        WeftImage image = render(scene,
-                                 (WeftRenderDesc){.width = 48,
-                                                  .height = 48,
-                                                  .camera = "0,0,1000;0,0,0;0.13",
-                                                  .background = WEFT_BACKGROUND_COLOR},
-                                 512);
+        WeftImage image = test_render(scene,
+                                      (WeftRenderDesc){.width = 48,
+                                                       .height = 48,
+                                                       .camera = "0,0,1000;0,0,0;0.13",
+                                                       .background = WEFT_BACKGROUND_COLOR},
+                                      512);
         double light = 0.0, pixel = 2000.0 * tan(0.065 * 3.14159265358979 / 180.0) / 48.0;
         for (int k = 0; k < 48 * 48; k++) light += (double)((float *)image.pixels)[4 * k] * pixel * pixel;
         WeftLobe l;

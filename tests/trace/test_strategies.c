@@ -45,18 +45,6 @@ static WeftScene *lit_scene(void) {
 static const WeftRenderDesc small = {
     .width = 24, .height = 18, .camera = "0,2.4,6;0,0.8,0;32", .max_depth = 4};
 
-static WeftImage render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
-    WeftRender *r = NULL;
-    WeftImage image;
-    WeftError error;
-    if (weft_render_create(scene, &desc, &r, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_int_equal(weft_render_run(r, spp, 0.0, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_render_info(r).non_finite, 0);
-    assert_int_equal(weft_render_image(r, &image, &error), WEFT_OK);
-    weft_render_free(r);
-    return image;
-}
-
 enum { BATCHES = 12, BATCH_SPP = 96 };
 
 /* Mean picture value of a strategy in each of BATCHES independent renders, over a left and a right half. */
@@ -65,7 +53,7 @@ static void batch_means(const WeftScene *scene, WeftSampling sampling, double me
         WeftRenderDesc desc = small;
         desc.sampling = sampling;
         desc.seed = 1000u + (uint32_t)b;
-        WeftImage image = render(scene, desc, BATCH_SPP);
+        WeftImage image = test_render(scene, desc, BATCH_SPP);
         double sum[2] = {0};
         for (int k = 0; k < image.width * image.height; k++)
             for (int c = 0; c < 3; c++)
@@ -124,7 +112,7 @@ static void transparent_emitters_shine_less(void **state) {
         scene_bounds(scene);
         WeftRenderDesc desc = {.width = 16, .height = 16, .camera = "0,0.7,3;0,0,0;20", .max_depth = 1};
         desc.sampling = (WeftSampling)s;
-        WeftImage image = render(scene, desc, 512);
+        WeftImage image = test_render(scene, desc, 512);
         mean[s] = 0.0;
         for (int k = 0; k < 256; k++) mean[s] += (double)((float *)image.pixels)[4 * k] / 256.0;
         weft_image_free(&image);
@@ -160,7 +148,7 @@ static void normal_maps_are_mirrored_behind(void **state) {
             scene_bounds(scene);
             WeftRenderDesc desc = {.width = 4, .height = 4, .max_depth = 1};
             desc.camera = behind ? "0,0,-3;0,0,0;20" : "0,0,3;0,0,0;20";
-            WeftImage image = render(scene, desc, 4);
+            WeftImage image = test_render(scene, desc, 4);
             lit[behind][from] = (double)((float *)image.pixels)[0];
             weft_image_free(&image);
             weft_scene_free(scene);
@@ -178,7 +166,7 @@ static void negative_environments_are_harmless(void **state) {
     for (int k = 0; k < 64 * 32 * 3; k++) p[k] = -1e-3f;
     scene->lights[scene->light_count++] =
         (Light){.kind = LIGHT_POINT, .position = {0, 4, 3}, .color = {1, 1, 1}, .intensity = 20.0f};
-    WeftImage image = render(scene, small, 8);
+    WeftImage image = test_render(scene, small, 8);
     int bright = 0;
     for (int k = 0; k < image.width * image.height; k++) bright += ((float *)image.pixels)[4 * k] > 0.05f;
     assert_true(bright > 20);
@@ -192,16 +180,16 @@ static void threads_do_not_matter(void **state) {
     WeftRenderDesc desc = small;
     desc.width = 70, desc.height = 50;
     desc.threads = 1;
-    WeftImage one = render(scene, desc, 20);
+    WeftImage one = test_render(scene, desc, 20);
     static const int counts[] = {2, 7};
     for (int k = 0; k < 2; k++) {
         desc.threads = counts[k];
-        WeftImage many = render(scene, desc, 20);
+        WeftImage many = test_render(scene, desc, 20);
         assert_memory_equal(one.pixels, many.pixels, 70 * 50 * 4 * sizeof(float));
         weft_image_free(&many);
     }
     desc.seed = 5; /* and another seed does change them */
-    WeftImage other = render(scene, desc, 20);
+    WeftImage other = test_render(scene, desc, 20);
     assert_memory_not_equal(one.pixels, other.pixels, 70 * 50 * 4 * sizeof(float));
     weft_image_free(&other);
     weft_image_free(&one);
@@ -213,9 +201,9 @@ static void a_crop_is_a_part_of_the_picture(void **state) {
     WeftScene *scene = lit_scene();
     WeftRenderDesc desc = small;
     desc.width = 60, desc.height = 40;
-    WeftImage whole = render(scene, desc, 3);
+    WeftImage whole = test_render(scene, desc, 3);
     memcpy(desc.crop, (int[4]){13, 7, 21, 19}, sizeof desc.crop);
-    WeftImage part = render(scene, desc, 3);
+    WeftImage part = test_render(scene, desc, 3);
     assert_int_equal(part.width, 21);
     assert_int_equal(part.height, 19);
     for (int y = 0; y < 19; y++)
