@@ -1,7 +1,7 @@
 /* codec.h - the file formats of images: each reads from memory, some write to a stream
  *
  * A reader leaves *out untouched or zeroed on failure, never half filled. It refuses a size that the file
- * cannot hold (image_plausible) before it allocates. */
+ * cannot hold (image_believable) before it allocates. */
 #ifndef WEFT_IMAGE_CODEC_H
 #define WEFT_IMAGE_CODEC_H
 

@@ -68,8 +68,8 @@ static bool punctual_make(Lights *lights, float radius, double *power) {
     return true;
 }
 
-/* Power says little about what reaches a point: no group that shines gets less than a sixth of an equal
- * share. */
+/* Power says little about what reaches a point: every group that shines gets the same part on top of its own.
+ */
 static bool groups_make(Lights *lights, const double power[GROUP_COUNT]) {
     double total = 0.0;
     Step *steps = arena_array(&lights->arena, GROUP_COUNT + 1, sizeof(Step));
