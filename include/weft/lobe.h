@@ -19,9 +19,10 @@ enum {
     WEFT_LOBE_RECIPROCAL = 1,   /* f(wo, wi) = f(wi, wo) */
     WEFT_LOBE_CONSERVES = 2,    /* E <= 1 */
     WEFT_LOBE_LOSSLESS = 4,     /* E = 1 when white */
-    WEFT_LOBE_FRESNEL = 8,      /* its colour goes from f0 to f90 towards grazing */
+    WEFT_LOBE_TWO_COLORS = 8,   /* it mixes f0 and f90: from normal to grazing, or from yarn to yarn */
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
-    WEFT_LOBE_REFERENCE = 32    /* for the path tracer only */
+    WEFT_LOBE_REFERENCE = 32,   /* for the path tracer only */
+    WEFT_LOBE_DIFFUSE = 64      /* a diffuse term: may be the base of a material */
 };
 
 typedef struct WeftParamInfo {
@@ -29,6 +30,8 @@ typedef struct WeftParamInfo {
     float def;                 /* default */
     float low, high;           /* plausible range: what a slider spans */
     float hard_low, hard_high; /* values are clamped to this */
+    /* A choice has the ids it is made from, ended by NULL; its value is the index of one. NULL: a number. */
+    const char *const *choices;
 } WeftParamInfo;
 
 typedef struct WeftLobeInfo {
@@ -55,13 +58,14 @@ WEFT_API const char *weft_layer_help(int layer);
 typedef struct WeftLobe {
     int lobe;
     float params[WEFT_LOBE_PARAMS_MAX];
-    float f0[3], f90[3]; /* colour; f90 counts only for WEFT_LOBE_FRESNEL */
+    float f0[3], f90[3]; /* colour; f90 counts only for WEFT_LOBE_TWO_COLORS */
 } WeftLobe;
 
 /* The lobe with its default parameters, white. Fails with WEFT_MESSAGE_LOBE_NAME. */
 WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error);
 
-/* Sets a parameter by name: one number, or "color" ("f0") and "f90" as "r,g,b" or one number for all three.
+/* Sets a parameter by name: one number, the id of a choice, or "color" ("f0") and "f90" as "r,g,b" or one
+ * number for all three.
  * Beyond the plausible range the value is taken with a warning and clamped to the hard range; beyond that
  * range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE, and with
  * _LOBE_NAME where there is no lobe of that index. */

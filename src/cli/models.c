@@ -16,9 +16,10 @@ static const struct {
     {WEFT_LOBE_RECIPROCAL, "reciprocal", "reciprocal"},
     {WEFT_LOBE_CONSERVES, "conserves", "never reflects more than it receives"},
     {WEFT_LOBE_LOSSLESS, "lossless", "loses nothing when white"},
-    {WEFT_LOBE_FRESNEL, "fresnel", "goes from f0 to f90 towards grazing"},
+    {WEFT_LOBE_TWO_COLORS, "two-colors", "mixes two colours, f0 and f90"},
     {WEFT_LOBE_ANISOTROPIC, "anisotropic", "anisotropic"},
     {WEFT_LOBE_REFERENCE, "reference", "for the path tracer only"},
+    {WEFT_LOBE_DIFFUSE, "diffuse", "a diffuse term"},
 };
 enum { TRAIT_COUNT = sizeof traits / sizeof *traits };
 
@@ -83,7 +84,8 @@ static void print_lobe(const WeftLobeInfo *info) {
         print_row(p->name, def, range, hard, p->help);
     }
     print_row("color", "1", "0 .. 1", "", "r,g,b or one number; also called f0");
-    if (info->traits & WEFT_LOBE_FRESNEL) print_row("f90", "1", "0 .. 1", "", "the colour at grazing");
+    if (info->traits & WEFT_LOBE_TWO_COLORS)
+        print_row("f90", "1", "0 .. 1", "", "the second colour; at grazing, of a Fresnel term");
 }
 
 static void json_lobe(Json *json, const WeftLobeInfo *info) {

@@ -165,7 +165,7 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
 WeftResult weft_scene_set_sheen(WeftScene *scene, const char *lobe, WeftError *error) {
     int id = weft_lobe_find(lobe);
     if (id < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, lobe, "`weft models` lists them");
-    if (weft_lobe_info(id)->traits & TRAIT_FRESNEL)
+    if (weft_lobe_info(id)->traits & TRAIT_TWO_COLORS)
         return fail(error, WEFT_MESSAGE_LOBE_NAME, lobe, "one with a Fresnel term cannot be a sheen");
     for (int k = 0; k < scene->material_count; k++) scene->materials[k].sheen_lobe = id;
     return WEFT_OK;

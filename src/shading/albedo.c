@@ -1,7 +1,6 @@
 #include "shading/albedo.h"
 
 #include "base/thread.h"
-#include "shading/terms/f_schlick.h"
 
 /* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o and at the plane of incidence. Each
  * piece is integrated by the double-exponential rule, whose nodes crowd towards the ends of an interval: that
@@ -39,7 +38,7 @@ typedef struct Sum {
 /* Sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
 static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double cos_i) {
     float ox[2 * NODES_MAX], oy[2 * NODES_MAX], oz[2 * NODES_MAX];
-    float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX];
+    float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX], share[2 * NODES_MAX];
     double w[2 * NODES_MAX];
     unsigned traits = weft_lobe_info((int)lobe->id)->traits;
     int mirrored = traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
@@ -53,16 +52,11 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
             ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
             w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
         }
-    lobe_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f);
+    lobe_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f, share);
     Sum sum = {0};
     for (size_t k = 0; k < n; k++) {
-        double s90 = 0.0;
-        if (traits & TRAIT_FRESNEL) {
-            Dir i = {ix[k], iy[k], iz[k]};
-            s90 = (double)schlick_s(angles_between(wo, i).d);
-        }
-        sum.f0 += w[k] * (double)f[k] * (1.0 - s90);
-        sum.f90 += w[k] * (double)f[k] * s90;
+        sum.f0 += w[k] * (double)f[k] * (1.0 - (double)share[k]);
+        sum.f90 += w[k] * (double)f[k] * (double)share[k];
     }
     return sum;
 }

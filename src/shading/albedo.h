@@ -2,14 +2,15 @@
  *
  *   E(wo) = integral over the hemisphere of f(wo, wi) cos_i dwi
  *
- * Lobes with TRAIT_FRESNEL have two parts: f0 E0 + f90 E90, with weights 1 - s and s inside the integral. */
+ * Lobes with TRAIT_TWO_COLORS have two parts: f0 E0 + f90 E90, with weights 1 - s and s inside the integral.
+ */
 #ifndef WEFT_SHADING_ALBEDO_H
 #define WEFT_SHADING_ALBEDO_H
 
 #include "shading/registry.h"
 
 typedef struct Albedo {
-    float f0, f90; /* f90 is 0 without TRAIT_FRESNEL */
+    float f0, f90; /* f90 is 0 without TRAIT_TWO_COLORS */
 } Albedo;
 
 /* E for wo, z > 0, to `tolerance` absolute. */

@@ -1,4 +1,5 @@
-/* arrays.c - the same text over arrays: one loop per lobe, the widest instructions chosen at start-up
+/* arrays.c - the same text over arrays: one loop per lobe and question, the widest instructions chosen at
+ * start-up
  *
  * Only this file is compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test is folded
  * away. */
@@ -12,27 +13,53 @@
 #endif
 
 #define FROM_ARRAY(type, name, def, low, high, hard_low, hard_high, help) m.name = (type)*p++;
-#define LOBE_EVAL_N(id, name, Record, NAME)                                                                  \
-    CLONES static void name##_eval_n(const float *p, size_t n, const float *restrict ox,                     \
-                                     const float *restrict oy, const float *restrict oz,                     \
-                                     const float *restrict ix, const float *restrict iy,                     \
-                                     const float *restrict iz, float *restrict f) {                          \
+
+/* name_QUESTION_n asks the lobe for one float per pair of directions. */
+#define ASK_N(question, name, Record, NAME)                                                                  \
+    CLONES static void name##_##question##_n(const float *p, size_t n, const float *restrict ox,             \
+                                             const float *restrict oy, const float *restrict oz,             \
+                                             const float *restrict ix, const float *restrict iy,             \
+                                             const float *restrict iz, float *restrict f) {                  \
         Record m = {0};                                                                                      \
         NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
         _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
             Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                        \
-            float e = name##_eval(m, angles_between(o, i));                                                  \
+            float e = name##_##question(m, angles_between(o, i));                                            \
             f[k] = o.z > 0.0f && i.z > 0.0f ? e : 0.0f;                                                      \
         }                                                                                                    \
     }
-WEFT_LOBES(LOBE_EVAL_N)
+#define EVAL_N(id, name, Record, NAME)  ASK_N(eval, name, Record, NAME)
+#define PDF_N(id, name, Record, NAME)   ASK_N(pdf, name, Record, NAME)
+#define SHARE_N(id, name, Record, NAME) ASK_N(share, name, Record, NAME)
+WEFT_LOBES(EVAL_N)
+WEFT_LOBES(PDF_N)
+WEFT_TWO_COLOR_LOBES(SHARE_N)
 
 void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
-                 const float *ix, const float *iy, const float *iz, float *f) {
+                 const float *ix, const float *iy, const float *iz, float *f, float *s) {
+    if (s) memset(s, 0, n * sizeof *s);
     switch (lobe->id) {
-#define LOBE_CALL_N(id, name, Record, NAME)                                                                  \
-    case LOBE_##NAME: name##_eval_n(lobe->params, n, ox, oy, oz, ix, iy, iz, f); return;
-        WEFT_LOBES(LOBE_CALL_N)
+#define ONE_COLOR_EVAL_N(id, name, Record, NAME)                                                             \
+    case LOBE_##NAME:                                                                                        \
+        name##_eval_n(lobe->params, n, ox, oy, oz, ix, iy, iz, f);                                           \
+        return;
+#define TWO_COLOR_EVAL_N(id, name, Record, NAME)                                                             \
+    case LOBE_##NAME:                                                                                        \
+        name##_eval_n(lobe->params, n, ox, oy, oz, ix, iy, iz, f);                                           \
+        if (s) name##_share_n(lobe->params, n, ox, oy, oz, ix, iy, iz, s);                                   \
+        return;
+        WEFT_ONE_COLOR_LOBES(ONE_COLOR_EVAL_N)
+        WEFT_TWO_COLOR_LOBES(TWO_COLOR_EVAL_N)
+    case LOBE_COUNT: return;
+    }
+}
+
+void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                const float *ix, const float *iy, const float *iz, float *pdf) {
+    switch (lobe->id) {
+#define LOBE_PDF_N(id, name, Record, NAME)                                                                   \
+    case LOBE_##NAME: name##_pdf_n(lobe->params, n, ox, oy, oz, ix, iy, iz, pdf); return;
+        WEFT_LOBES(LOBE_PDF_N)
     case LOBE_COUNT: return;
     }
 }

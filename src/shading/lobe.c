@@ -2,7 +2,6 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "shading/albedo.h"
-#include "shading/terms/f_schlick.h"
 
 /* The registry's lobe, its parameters clamped; false where there is none of that index. */
 static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
@@ -21,7 +20,7 @@ WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
     return WEFT_OK;
 }
 
-static const WeftParamInfo color_info = {"color", "", 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f};
+static const WeftParamInfo color_info = {"color", "", 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f, NULL};
 
 /* The value clamped to the hard range; a warning where it is not plausible. */
 static float ranged(float value, const WeftParamInfo *p, const char *name, const WeftLog *log) {
@@ -39,7 +38,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, "index", "%d", lobe->lobe);
     float v[3];
-    bool f90 = strcmp(param, "f90") == 0 && info->traits & TRAIT_FRESNEL;
+    bool f90 = strcmp(param, "f90") == 0 && info->traits & TRAIT_TWO_COLORS;
     if (f90 || strcmp(param, "color") == 0 || strcmp(param, "f0") == 0) {
         if (!parse_color(value, v))
             return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number or r,g,b", param);
@@ -48,8 +47,17 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
     }
     int k = lobe_param((LobeId)lobe->lobe, param);
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
+    const WeftParamInfo *row = &info->params[k];
+    for (int choice = 0; row->choices && row->choices[choice]; choice++)
+        if (strcmp(row->choices[choice], value) == 0) {
+            lobe->params[k] = (float)choice;
+            return WEFT_OK;
+        }
+    if (row->choices)
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "`weft models %s` lists what %s may be", info->id,
+                    param);
     if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", param);
-    lobe->params[k] = ranged(v[0], &info->params[k], param, log);
+    lobe->params[k] = ranged(v[0], row, param, log);
     return WEFT_OK;
 }
 
@@ -58,9 +66,9 @@ void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], 
     Lobe inner;
     if (!(wo[2] > 0.0f && wi[2] > 0.0f) || !lobe_of(lobe, &inner)) return;
     Angles a = angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2]));
-    float e = lobe_eval(&inner, a);
-    float s = weft_lobe_info(lobe->lobe)->traits & TRAIT_FRESNEL ? schlick_s(a.d) : 0.0f;
-    for (int c = 0; c < 3; c++) f[c] = e * mix(lobe->f0[c], lobe->f90[c], s);
+    LobeValue value = lobe_value(&inner, a);
+    for (int c = 0; c < 3; c++)
+        f[c] = value.f * mix(lobe->f0[c], lobe_second(&inner, lobe->f0[c], lobe->f90[c]), value.s);
 }
 
 float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]) {
@@ -83,5 +91,6 @@ void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
     if (!lobe_of(lobe, &inner)) return;
     float z = clamp(cos_o, 1e-6f, 1.0f);
     Albedo albedo = albedo_quadrature(&inner, dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z), 2e-5);
-    for (int c = 0; c < 3; c++) e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe->f90[c];
+    for (int c = 0; c < 3; c++)
+        e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe_second(&inner, lobe->f0[c], lobe->f90[c]);
 }

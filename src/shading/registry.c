@@ -2,15 +2,21 @@
 
 #include "lobes.gen.h"
 
+/* What a parameter of each type may be: a number, or an index into these. */
+#define choices_float NULL
+
 #define PARAM_INFO(type, name, def, low, high, hard_low, hard_high, help)                                    \
-    {#name, help, def, low, high, hard_low, hard_high},
+    {#name, help, def, low, high, hard_low, hard_high, choices_##type},
 #define LOBE_PARAM_INFOS(id, name, Record, NAME)                                                             \
-    static const WeftParamInfo name##_params[] = {NAME##_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0}};
+    static const WeftParamInfo name##_params[] = {NAME##_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0, NULL}};
 WEFT_LOBES(LOBE_PARAM_INFOS)
 
-#define LOBE_INFO(id, name, Record, NAME)                                                                    \
-    {id, NAME##_TRAITS, (int)(sizeof name##_params / sizeof name##_params[0]) - 1, name##_params},
-static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_LOBES(LOBE_INFO)};
+#define LOBE_INFO(traits, id, name, NAME)                                                                    \
+    {id, traits, (int)(sizeof name##_params / sizeof name##_params[0]) - 1, name##_params},
+#define ONE_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS, id, name, NAME)
+#define TWO_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS | TRAIT_TWO_COLORS, id, name, NAME)
+static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_ONE_COLOR_LOBES(ONE_COLOR_INFO)
+                                                   WEFT_TWO_COLOR_LOBES(TWO_COLOR_INFO)};
 
 int weft_lobe_count(void) { return LOBE_COUNT; }
 
@@ -51,15 +57,30 @@ WEFT_LOBES(LOBE_RECORD)
 
 LobeValue lobe_value(const Lobe *lobe, Angles a) {
     switch (lobe->id) {
-#define LOBE_VALUE(id, name, Record, NAME)                                                                   \
+#define ONE_COLOR_VALUE(id, name, Record, NAME)                                                              \
     case LOBE_##NAME: {                                                                                      \
         Record m = name##_record(lobe->params);                                                              \
-        return (LobeValue){name##_eval(m, a), name##_pdf(m, a)};                                             \
+        return (LobeValue){name##_eval(m, a), 0.0f, name##_pdf(m, a)};                                       \
     }
-        WEFT_LOBES(LOBE_VALUE)
+#define TWO_COLOR_VALUE(id, name, Record, NAME)                                                              \
+    case LOBE_##NAME: {                                                                                      \
+        Record m = name##_record(lobe->params);                                                              \
+        return (LobeValue){name##_eval(m, a), name##_share(m, a), name##_pdf(m, a)};                         \
+    }
+        WEFT_ONE_COLOR_LOBES(ONE_COLOR_VALUE)
+        WEFT_TWO_COLOR_LOBES(TWO_COLOR_VALUE)
     case LOBE_COUNT: break;
     }
-    return (LobeValue){0.0f, 0.0f};
+    return (LobeValue){0.0f, 0.0f, 0.0f};
+}
+
+float lobe_second(const Lobe *lobe, float f0, float f90) {
+    switch (lobe->id) {
+#define LOBE_SECOND(id, name, Record, NAME)                                                                  \
+    case LOBE_##NAME: return name##_second(name##_record(lobe->params), f0, f90);
+        WEFT_TWO_COLOR_LOBES(LOBE_SECOND)
+    default: return f0;
+    }
 }
 
 Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v) {

@@ -10,12 +10,27 @@
 #include "shading/angles.h"
 #include "weft/lobe.h"
 
-/* L(id, functions' prefix, record, macros' prefix) */
-#define WEFT_LOBES(L)                                                                                        \
+/* L(id, functions' prefix, record, macros' prefix).  A lobe of one colour has the functions
+ *
+ *   float NAME_eval(Record m, Angles a)              f, 1/sr, of a white lobe
+ *   float NAME_pdf(Record m, Angles a)               density of NAME_sample at a.i, 1/sr
+ *   Dir NAME_sample(Record m, Dir o, float u, float v)
+ *
+ * One of two colours mixes f0 and f90 by its own share s, f = NAME_eval (f0 (1 - s) + f90 s), and has two
+ * more:
+ *
+ *   float NAME_share(Record m, Angles a)             s in [0, 1]
+ *   float NAME_second(Record m, float f0, float f90) the second colour: f90 where the user is free to choose
+ * it
+ */
+#define WEFT_ONE_COLOR_LOBES(L)                                                                              \
     L("lambert", lambert, Lambert, LAMBERT)                                                                  \
-    L("ggx", ggx, Ggx, GGX)                                                                                  \
     L("charlie-neubelt", charlie_neubelt, CharlieNeubelt, CHARLIE_NEUBELT)                                   \
     L("charlie-conty-kulla", charlie_conty_kulla, CharlieContyKulla, CHARLIE_CONTY_KULLA)
+
+#define WEFT_TWO_COLOR_LOBES(L) L("ggx", ggx, Ggx, GGX)
+
+#define WEFT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
 
 typedef enum LobeId {
 #define LOBE_ENUM(id, name, Record, NAME) LOBE_##NAME,
@@ -29,9 +44,10 @@ enum {
     TRAIT_RECIPROCAL = WEFT_LOBE_RECIPROCAL,
     TRAIT_CONSERVES = WEFT_LOBE_CONSERVES,
     TRAIT_LOSSLESS = WEFT_LOBE_LOSSLESS,
-    TRAIT_FRESNEL = WEFT_LOBE_FRESNEL,
+    TRAIT_TWO_COLORS = WEFT_LOBE_TWO_COLORS, /* set by being in WEFT_TWO_COLOR_LOBES */
     TRAIT_ANISOTROPIC = WEFT_LOBE_ANISOTROPIC,
-    TRAIT_REFERENCE = WEFT_LOBE_REFERENCE
+    TRAIT_REFERENCE = WEFT_LOBE_REFERENCE,
+    TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE
 };
 
 enum { LOBE_PARAMS_MAX = WEFT_LOBE_PARAMS_MAX };
@@ -53,8 +69,8 @@ void lobe_set(Lobe *lobe, int k, float value);
 
 /* What a pair of directions gets from a lobe. */
 typedef struct LobeValue {
-    float f;   /* 1/sr, without colour or Fresnel: a lobe with TRAIT_FRESNEL is weighed by F0 (1 - s) + f90 s
-                * outside,   with s = schlick_s(a.d) */
+    float f;   /* 1/sr, without colour */
+    float s;   /* share of the second colour; 0 without TRAIT_TWO_COLORS */
     float pdf; /* density of lobe_sample at a.i, 1/sr */
 } LobeValue;
 
@@ -65,11 +81,19 @@ LobeValue lobe_value(const Lobe *lobe, Angles a);
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
+/* The second colour, per channel, given both as the user sets them. f0 without TRAIT_TWO_COLORS. */
+float lobe_second(const Lobe *lobe, float f0, float f90);
+
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
 Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
 
-/* f[k] for n pairs of directions as structures of arrays; 0 where a direction is not above the horizon. */
+/* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
+ * of arrays; 0 where a direction is not above the horizon. */
 void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
-                 const float *ix, const float *iy, const float *iz, float *f);
+                 const float *ix, const float *iy, const float *iz, float *f, float *s);
+
+/* pdf[k] likewise. */
+void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                const float *ix, const float *iy, const float *iz, float *pdf);
 
 #endif

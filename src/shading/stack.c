@@ -16,7 +16,7 @@ static void add_lobe(const Stack *stack, const StackLobe *k, Angles a, StackValu
     if (a.o.z <= 0.0f || a.i.z <= 0.0f) return;
     LobeValue lobe = lobe_value(&k->lobe, a);
     value->pdf += k->pick * lobe.pdf;
-    float e = lobe.f * a.i.z, s = schlick_s(a.d);
+    float e = lobe.f * a.i.z, s = lobe.s;
     if (k->lobe.id == LOBE_LAMBERT)
         e *= 1.0f - mix(stack->under_f0, stack->under_f90, schlick_s(min(a.d, min(a.o.z, a.i.z))));
     value->f_cos.r += e * mix(k->f0.r, k->f90.r, s);

@@ -62,12 +62,20 @@ static inline Dir random_direction(Random *random) {
  * in between; and, for lobes of several parameters, some random combinations. */
 enum { CASE_VALUES = 5, CASE_COMBINATIONS = 4 };
 
+/* A choice is tried at each of its ids. */
+static inline int case_values(const WeftParamInfo *p) {
+    return p->choices ? 1 + (int)p->hard_high : CASE_VALUES;
+}
+
 static inline int case_count(LobeId id) {
-    int n = weft_lobe_info((int)id)->param_count;
-    return 1 + CASE_VALUES * n + (n > 1 ? CASE_COMBINATIONS : 0);
+    const WeftLobeInfo *info = weft_lobe_info((int)id);
+    int n = 1 + (info->param_count > 1 ? CASE_COMBINATIONS : 0);
+    for (int p = 0; p < info->param_count; p++) n += case_values(&info->params[p]);
+    return n;
 }
 
 static inline float case_value(const WeftParamInfo *p, int k) {
+    if (p->choices) return (float)k;
     switch (k) {
     case 0: return p->low;
     case 1: return p->high;
@@ -81,15 +89,18 @@ static inline Lobe case_lobe(LobeId id, int k) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
     Lobe lobe = lobe_default(id);
     if (k == 0) return lobe;
-    if (k <= CASE_VALUES * info->param_count) {
-        int p = (k - 1) / CASE_VALUES;
-        lobe_set(&lobe, p, case_value(&info->params[p], (k - 1) % CASE_VALUES));
-        return lobe;
-    }
+    int at = k - 1;
+    for (int p = 0; p < info->param_count; at -= case_values(&info->params[p++]))
+        if (at < case_values(&info->params[p])) {
+            lobe_set(&lobe, p, case_value(&info->params[p], at));
+            return lobe;
+        }
     Random random = {(uint64_t)k};
     for (int p = 0; p < info->param_count; p++) {
         float t = random_unit(&random);
-        lobe_set(&lobe, p, weft_mix(info->params[p].low, info->params[p].high, t * t));
+        float value =
+            weft_mix(info->params[p].low, info->params[p].high, info->params[p].choices ? t : t * t);
+        lobe_set(&lobe, p, info->params[p].choices ? floorf(value + 0.5f) : value);
     }
     return lobe;
 }

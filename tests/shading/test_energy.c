@@ -1,14 +1,9 @@
 /* E by quadrature, by other means, by closed forms and by table; and what the lobes claim about it */
 #include "cases.h"
-#include "shading/terms/f_schlick.h"
 #include "shading/warp.h"
 
 static const double cosines[] = {1.0, 0.9, 0.6, 0.3, 0.1, 0.02};
 enum { COSINES = sizeof cosines / sizeof cosines[0] };
-
-static float fresnel_share(const Lobe *lobe, Angles a) {
-    return weft_lobe_info((int)lobe->id)->traits & TRAIT_FRESNEL ? schlick_s(a.d) : 0.0f;
-}
 
 /* Midpoint sum over the stretched grid of cases.h: nothing in common with the rule of albedo.c. */
 static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
@@ -20,8 +15,8 @@ static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
             Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
             if (i.z <= 0.0f) continue;
             Angles a = angles_between(o, i);
-            double e = (double)lobe_eval(lobe, a) * (double)i.z * area * step * step;
-            double s = (double)fresnel_share(lobe, a);
+            LobeValue value = lobe_value(lobe, a);
+            double e = (double)value.f * (double)i.z * area * step * step, s = (double)value.s;
             f0 += e * (1.0 - s);
             f90 += e * s;
         }

@@ -56,7 +56,7 @@ static void lobes_stay_finite(void **state) {
             Dir o = hard_direction(&random), i = partner(&random, o);
             ox[k] = o.x, oy[k] = o.y, oz[k] = o.z, ix[k] = i.x, iy[k] = i.y, iz[k] = i.z;
         }
-        lobe_eval_n(&lobe, BLOCK, ox, oy, oz, ix, iy, iz, f);
+        lobe_eval_n(&lobe, BLOCK, ox, oy, oz, ix, iy, iz, f, NULL);
         for (int k = 0; k < BLOCK; k++) {
             Dir o = dir(ox[k], oy[k], oz[k]), i = dir(ix[k], iy[k], iz[k]);
             Angles a = angles_between(o, i);

@@ -74,7 +74,7 @@ static void closed_furnace_is_one(void **state) {
     for (int lobe = -1; lobe < weft_lobe_count(); lobe++)
         for (int a = 0; a < (lobe < 0 ? 1 : 3); a++) {
             if (lobe >= 0 &&
-                (weft_lobe_info(lobe)->traits & WEFT_LOBE_FRESNEL || !conserves_at(lobe, alphas[a])))
+                (weft_lobe_info(lobe)->traits & WEFT_LOBE_TWO_COLORS || !conserves_at(lobe, alphas[a])))
                 continue;
             WeftScene *scene = test_scene();
             test_environment(scene, 0.0f);
@@ -125,7 +125,7 @@ static void plane_shows_albedo(void **state) {
     static const float cosines[] = {0.1f, 0.4f, 0.9f};
     for (int lobe = 0; lobe < weft_lobe_count(); lobe++) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
-        if (info->traits & WEFT_LOBE_FRESNEL) continue;
+        if (info->traits & WEFT_LOBE_TWO_COLORS) continue;
         for (int k = 0; k < 3; k++) {
             float mu = cosines[k], e[3];
             WeftScene *scene = test_scene();
@@ -156,7 +156,7 @@ static void sphere_shows_albedo(void **state) {
     (void)state;
     for (int lobe = 0; lobe < weft_lobe_count(); lobe++) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
-        if (info->traits & WEFT_LOBE_FRESNEL) continue;
+        if (info->traits & WEFT_LOBE_TWO_COLORS) continue;
         WeftScene *scene = test_scene();
         test_environment(scene, 1.0f);
         set_sheen(test_material(scene, 0.0f), info->id, 0.36f);

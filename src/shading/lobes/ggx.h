@@ -14,6 +14,7 @@
 #ifndef WEFT_GGX_H
 #define WEFT_GGX_H
 
+#include "shading/terms/f_schlick.h"
 #include "shading/terms/v_smith_ggx_correlated.h"
 
 /* P(type, name, default, low, high, hard_low, hard_high, help): low .. high is what a slider spans; values
@@ -21,7 +22,7 @@
 #define GGX_PARAMS(P)                                                                                        \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 4.0f, "width of the facet slopes across the brushing")       \
     P(float, anisotropy, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "0 round, 1 as rough along x as can be")
-#define GGX_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_FRESNEL | TRAIT_ANISOTROPIC)
+#define GGX_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
 
 STRUCT(Ggx){GGX_PARAMS(FIELD)};
 
@@ -31,6 +32,9 @@ FN float ggx_eval(Ggx m, Angles a) {
     float ax = ggx_ax(m);
     return ggx_d(ax, m.alpha, a.h) * smith_ggx_correlated_v(ax, m.alpha, a.o, a.i);
 }
+
+FN float ggx_share(Ggx m, Angles a) { return schlick_s(a.d); }
+FN float ggx_second(Ggx m, float f0, float f90) { return f90; }
 
 FN float ggx_pdf(Ggx m, Angles a) { return ggx_pdf_h(ggx_ax(m), m.alpha, a); }
 

@@ -10,7 +10,7 @@
 #include "shading/warp.h"
 
 #define LAMBERT_PARAMS(P)
-#define LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS)
+#define LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE)
 
 STRUCT(Lambert) { float none; }; /* neither language has empty records */
 
