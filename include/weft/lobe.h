@@ -22,7 +22,8 @@ enum {
     WEFT_LOBE_TWO_COLORS = 8,   /* it mixes f0 and f90: from normal to grazing, or from yarn to yarn */
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
     WEFT_LOBE_REFERENCE = 32,   /* for the path tracer only */
-    WEFT_LOBE_DIFFUSE = 64      /* a diffuse term: may be the base of a material */
+    WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
+    WEFT_LOBE_TABLE = 128       /* reads a table that is made at the first use of the lobe */
 };
 
 typedef struct WeftParamInfo {
@@ -45,12 +46,21 @@ typedef struct WeftLobeInfo {
 WEFT_API int weft_lobe_count(void);
 WEFT_API const WeftLobeInfo *weft_lobe_info(int lobe);
 
-/* The index of an id, or -1. */
+/* The index of an id or of one of its aliases ("charlie-v"), or -1. */
 WEFT_API int weft_lobe_find(const char *id);
 
 /* The layer rules by index, and a line on what each does; NULL past the end. */
 WEFT_API const char *weft_layer_id(int layer);
 WEFT_API const char *weft_layer_help(int layer);
+
+/* Likewise the terms a Cook-Torrance lobe is composed of, the workflows and the engine profiles. */
+typedef enum WeftTermKind { WEFT_TERM_D, WEFT_TERM_V, WEFT_TERM_F } WeftTermKind;
+WEFT_API const char *weft_term_id(WeftTermKind kind, int term);
+WEFT_API const char *weft_term_help(WeftTermKind kind, int term);
+WEFT_API const char *weft_workflow_id(int workflow);
+WEFT_API const char *weft_workflow_help(int workflow);
+WEFT_API const char *weft_profile_id(int profile);
+WEFT_API const char *weft_profile_help(int profile);
 
 /* A lobe with its parameters. Plain data, may be copied and filled by hand: the calls below clamp params to
  * their hard ranges, and where there is no lobe of that index the answer is 0. f0 and f90 are taken as they

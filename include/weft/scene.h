@@ -46,18 +46,20 @@ WEFT_API const char *weft_scene_variant_name(const WeftScene *scene, int index);
 /* Switches to a variant of KHR_materials_variants by name. */
 WEFT_API WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error);
 
-/* Sets "MATERIAL.INPUT" to a number or "r,g,b" and drops its texture; MATERIAL is a name, an index or "*" for
- * all. Values beyond the plausible range are taken with a warning; non-finite ones are refused. */
+/* Sets "MATERIAL.INPUT" to a number or "r,g,b" and drops its texture (a normal map stays and is scaled), or a
+ * choice such as "MATERIAL.layer" to an id or "auto"; MATERIAL is a name, an index or "*" for all. Values
+ * beyond the plausible range are taken with a warning; non-finite ones are refused. */
 WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value,
                                    const WeftLog *log, WeftError *error);
-
-/* Every material's sheen lobe or layer rule, by id (weft_lobe_find, weft_layer_id). */
-WEFT_API WeftResult weft_scene_set_sheen(WeftScene *scene, const char *lobe, WeftError *error);
-WEFT_API WeftResult weft_scene_set_layer(WeftScene *scene, const char *layer, WeftError *error);
 
 /* The material inputs weft_scene_set takes: name and help; NULL past the end. */
 WEFT_API const char *weft_material_input_name(int index);
 WEFT_API const char *weft_material_input_help(int index);
+
+/* Its choices likewise, and the ids that a choice may take; NULL past the end. */
+WEFT_API const char *weft_material_choice_name(int index);
+WEFT_API const char *weft_material_choice_help(int index);
+WEFT_API const char *weft_material_choice_value(int index, int value);
 
 /* Lights the scene from a lat-long image file (its columns run towards +x, row 0 is up). */
 WEFT_API WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,

@@ -59,8 +59,8 @@ static WeftResult scene_open(Job *job, const WeftLog *log, WeftError *error) {
                *layer = option_text(options, "--layer"), *env = option_text(options, "--env");
     WeftResult result = weft_scene_load(request->scene, &job->scene, log, error);
     if (result == WEFT_OK && variant) result = weft_scene_set_variant(job->scene, variant, error);
-    if (result == WEFT_OK && sheen) result = weft_scene_set_sheen(job->scene, sheen, error);
-    if (result == WEFT_OK && layer) result = weft_scene_set_layer(job->scene, layer, error);
+    if (result == WEFT_OK && sheen) result = weft_scene_set(job->scene, "*.sheen_lobe", sheen, log, error);
+    if (result == WEFT_OK && layer) result = weft_scene_set(job->scene, "*.layer", layer, log, error);
     if (result == WEFT_OK) result = apply_sets(job, log, error);
     if (result == WEFT_OK && request->env_is_color)
         result = weft_scene_set_environment_color(job->scene, request->env_color, error);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "scene/shade.h"
-#include "shading/layer.h"
+#include "shading/choice.h"
 
 const InputInfo input_infos[INPUT_COUNT] = {
 #define INPUT_INFO(kind, name, def, low, high, hard_low, hard_high, help)                                    \
@@ -20,16 +20,33 @@ int material_input(const char *name) {
 }
 
 Material material_default(const char *name) {
-    Material material = {.name = name,
-                         .alpha_cutoff = 0.5f,
-                         .sheen_lobe = LOBE_CHARLIE_CONTY_KULLA,
-                         .layer = LAYER_ALBEDO_VIEW};
+    Material material = {.name = name, .alpha_cutoff = 0.5f};
+    for (int k = 0; k < CHOICE_COUNT; k++) material.choices[k] = CHOICE_AUTO;
     for (int k = 0; k < INPUT_COUNT; k++) {
         Input *input = &material.inputs[k];
         for (int c = 0; c < 3; c++) input->value[c] = input_infos[k].def;
         input->transform[0] = input->transform[4] = 1.0f;
     }
     return material;
+}
+
+static void redefault(Material *material, InputId id, float value) {
+    Input *input = &material->inputs[id];
+    bool untouched = !input->texture && !(input->value[0] < input_infos[id].def) &&
+                     !(input->value[0] > input_infos[id].def);
+    if (untouched) input->value[0] = value;
+}
+
+void material_choose(Material *material, ChoiceId choice, int value) {
+    material->choices[choice] = value;
+    if (choice != CHOICE_workflow || strcmp(choice_id(choice, value), "disney") != 0) return;
+    redefault(material, INPUT_specular, 0.5f);
+    redefault(material, INPUT_sheen, 0.0f);
+}
+
+Choices material_choices(const Material *material) {
+#define CHOICE_OF(name, help) .name = material->choices[CHOICE_##name],
+    return (Choices){SURFACE_CHOICES(CHOICE_OF)};
 }
 
 /* One point of a material: inputs that share a texture and its placement share the fetch. */

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "scene/texture.h"
-#include "shading/inputs.h"
+#include "shading/input_ids.h"
 
 /* How an input's value and texture make the number or direction at a point.
  * SCALAR: value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
@@ -40,19 +40,22 @@ typedef enum AlphaMode { ALPHA_OPAQUE = 0, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
 typedef struct Material {
     const char *name; /* never NULL, may be empty */
     AlphaMode alpha_mode;
-    float alpha_cutoff; /* MASK: opacity below it is nothing, from it on everything */
-    bool double_sided;  /* else seen only from the front */
-    bool unlit;         /* base_color is shown as it is */
-    int sheen_lobe;     /* index into the registry of shading/registry.h */
-    int layer;          /* index into the layer rules of shading/layer.h */
+    float alpha_cutoff;        /* MASK: opacity below it is nothing, from it on everything */
+    bool double_sided;         /* else seen only from the front */
+    bool unlit;                /* base_color is shown as it is */
+    int choices[CHOICE_COUNT]; /* indices into the catalogue (shading/choice.h) or CHOICE_AUTO */
     Input inputs[INPUT_COUNT];
 } Material;
 
-/* A material with every default: identity texture transforms, no textures, opaque, single-sided, sheen lobe
- * charlie-conty-kulla under layer albedo-view as KHR_materials_sheen says. */
+/* A material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
+ * chosen. */
 Material material_default(const char *name);
 
 /* Index of an input by name, or -1. */
 int material_input(const char *name);
+
+/* Makes a choice, and where it is a workflow sets the inputs that mean something else in it (disney: specular
+ * 0.5, sheen 0) unless they hold a texture or a value other than their default. */
+void material_choose(Material *material, ChoiceId choice, int value);
 
 #endif

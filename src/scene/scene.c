@@ -8,8 +8,7 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "scene/environment.h"
-#include "shading/layer.h"
-#include "shading/registry.h"
+#include "shading/choice.h"
 
 WeftScene *scene_create(const char *name) {
     WeftScene *scene = alloc_array(1, sizeof *scene);
@@ -132,6 +131,73 @@ static float within_range(const InputInfo *info, float value, const char *target
     return taken;
 }
 
+static const char *const choice_texts[CHOICE_COUNT][2] = {
+#define CHOICE_TEXT(name, help) {#name, help},
+    SURFACE_CHOICES(CHOICE_TEXT)
+#undef CHOICE_TEXT
+};
+
+const char *weft_material_choice_name(int index) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_texts[index][0] : NULL;
+}
+
+const char *weft_material_choice_help(int index) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_texts[index][1] : NULL;
+}
+
+const char *weft_material_choice_value(int index, int value) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_id((ChoiceId)index, value) : NULL;
+}
+
+/* A choice by name, or -1. */
+static int choice_named(const char *name) {
+    for (int k = 0; k < CHOICE_COUNT; k++)
+        if (strcmp(choice_texts[k][0], name) == 0) return k;
+    return -1;
+}
+
+/* The value of a choice from its id; CHOICE_AUTO from "auto"; below that, none. */
+static int choice_value(int choice, const char *id) {
+    if (strcmp(id, "auto") == 0) return CHOICE_AUTO;
+    int value = choice_find((ChoiceId)choice, id);
+    return value >= 0 && choice_fits((ChoiceId)choice, value) ? value : CHOICE_AUTO - 1;
+}
+
+/* Sets an input, or a choice, of material k from text that is known to be good. */
+typedef struct Setting {
+    int input, choice, value; /* value: of the choice */
+    float v[3];
+} Setting;
+
+static void material_set(Material *material, const Setting *setting) {
+    if (setting->input < 0) {
+        material_choose(material, (ChoiceId)setting->choice, setting->value);
+        return;
+    }
+    Input *slot = &material->inputs[setting->input];
+    memcpy(slot->value, setting->v, sizeof setting->v);
+    if (input_infos[setting->input].kind != INPUT_NORMAL) slot->texture = 0;
+}
+
+static WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
+                               const WeftLog *log, WeftError *error) {
+    *setting = (Setting){.input = material_input(name), .choice = choice_named(name)};
+    if (setting->input < 0 && setting->choice < 0)
+        return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists the inputs");
+    if (setting->input < 0) {
+        setting->value = choice_value(setting->choice, value);
+        if (setting->value >= CHOICE_AUTO) return WEFT_OK;
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "`weft models` lists what %s may be", name);
+    }
+    const InputInfo *info = &input_infos[setting->input];
+    if (!parse_input(info, value, setting->v))
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
+                    info->kind == INPUT_COLOR ? "a number or r,g,b" : "a number");
+    int count = info->kind == INPUT_COLOR ? 3 : 1;
+    for (int c = 0; c < count; c++) setting->v[c] = within_range(info, setting->v[c], target, log);
+    return WEFT_OK;
+}
+
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
                           WeftError *error) {
     const char *point = strrchr(target, '.');
@@ -140,44 +206,19 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
         return fail(error, WEFT_MESSAGE_PARAM_NAME, target, "write MATERIAL.INPUT=VALUE");
     memcpy(name, target, (size_t)(point - target));
     name[point - target] = '\0';
-    int input = material_input(point + 1);
-    if (input < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, point + 1, "`weft models` lists the inputs");
-    const InputInfo *info = &input_infos[input];
-    float v[3] = {0};
-    if (!parse_input(info, value, v))
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
-                    info->kind == INPUT_COLOR ? "a number or r,g,b" : "a number");
-    int count = info->kind == INPUT_COLOR ? 3 : 1, matched = 0;
-    for (int c = 0; c < count; c++) v[c] = within_range(info, v[c], target, log);
+    Setting setting;
+    WeftResult result = setting_read(point + 1, value, target, &setting, log, error);
+    if (result != WEFT_OK) return result;
+    int matched = 0;
     for (int k = 0; k < scene->material_count; k++) {
         if (!material_matches(scene, k, name)) continue;
-        Input *slot = &scene->materials[k].inputs[input];
-        memcpy(slot->value, v, sizeof v);
-        if (info->kind != INPUT_NORMAL) slot->texture = 0;
+        material_set(&scene->materials[k], &setting);
         matched++;
     }
     if (matched) return WEFT_OK;
     char names[NAMES_SIZE];
     return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s",
                 scene_names(scene, weft_scene_material_name, names));
-}
-
-WeftResult weft_scene_set_sheen(WeftScene *scene, const char *lobe, WeftError *error) {
-    int id = weft_lobe_find(lobe);
-    if (id < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, lobe, "`weft models` lists them");
-    if (weft_lobe_info(id)->traits & TRAIT_TWO_COLORS)
-        return fail(error, WEFT_MESSAGE_LOBE_NAME, lobe, "one with a Fresnel term cannot be a sheen");
-    for (int k = 0; k < scene->material_count; k++) scene->materials[k].sheen_lobe = id;
-    return WEFT_OK;
-}
-
-WeftResult weft_scene_set_layer(WeftScene *scene, const char *layer, WeftError *error) {
-    for (int id = 0; id < LAYER_COUNT; id++) {
-        if (strcmp(weft_layer_id(id), layer) != 0) continue;
-        for (int k = 0; k < scene->material_count; k++) scene->materials[k].layer = id;
-        return WEFT_OK;
-    }
-    return fail(error, WEFT_MESSAGE_LAYER_NAME, layer, "`weft models` lists them");
 }
 
 WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,

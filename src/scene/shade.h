@@ -3,10 +3,13 @@
 #define WEFT_SCENE_SHADE_H
 
 #include "scene/scene.h"
-#include "shading/surface.h"
+#include "shading/material_stack.h"
 
 /* The material's inputs without its textures: the same everywhere, so it need be made only once. */
 Surface material_plain(const Material *material);
+
+/* What it is made from. */
+Choices material_choices(const Material *material);
 
 /* Puts in what its textures say at a point: uv holds the two UV sets, color the linear vertex colour. */
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],

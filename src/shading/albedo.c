@@ -13,6 +13,7 @@ typedef struct Rule {
     int count;
     double x[NODES_MAX], rest[NODES_MAX], w[NODES_MAX]; /* on (0, 1); rest = 1 - x without cancellation */
     double cos_phi[NODES_MAX], sin_phi[NODES_MAX];      /* of phi = pi x */
+    double cos_half[NODES_MAX], sin_half[NODES_MAX];    /* of phi = pi x / 2 */
 } Rule;
 
 static Rule rule_make(double step) {
@@ -26,6 +27,8 @@ static Rule rule_make(double step) {
         rule.rest[rule.count] = rest;
         rule.cos_phi[rule.count] = (cos)(3.14159265358979 * x);
         rule.sin_phi[rule.count] = (sin)(3.14159265358979 * (x < rest ? x : rest));
+        rule.cos_half[rule.count] = (sin)(1.57079632679490 * rest);
+        rule.sin_half[rule.count] = (sin)(1.57079632679490 * x);
         rule.w[rule.count++] = step * 3.14159265358979 * cosh(t) * x * rest;
     }
     return rule;
@@ -41,13 +44,18 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
     float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX], share[2 * NODES_MAX];
     double w[2 * NODES_MAX];
     unsigned traits = weft_lobe_info((int)lobe->id)->traits;
-    int mirrored = traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
+    bool diffuse = (traits & TRAIT_DIFFUSE) != 0;                   /* some have a kink at phi = pi / 2 */
+    int mirrored = diffuse || traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
     double s = hypot((double)wo.x, (double)wo.y);
     double tx = s > 0.0 ? -(double)wo.x / s : -1.0, ty = s > 0.0 ? -(double)wo.y / s : 0.0;
     size_t n = 0;
     for (int side = 0; side < mirrored; side++)
         for (int k = 0; k < rule->count; k++) {
             double c = rule->cos_phi[k] * sin_i, t = rule->sin_phi[k] * (side ? -sin_i : sin_i);
+            if (diffuse) {
+                c = (side ? -rule->sin_half[k] : rule->cos_half[k]) * sin_i;
+                t = (side ? rule->cos_half[k] : rule->sin_half[k]) * sin_i;
+            }
             ox[n] = wo.x, oy[n] = wo.y, oz[n] = wo.z;
             ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
             w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
@@ -105,7 +113,7 @@ static void fill_column(void *user, int column, int thread) {
     (void)thread;
     const Fill *fill = user;
     AlbedoTable *table = fill->table;
-    float x = (float)column / (ALBEDO_MU - 1), cos_o = max(x * x * x * x, 1e-7f);
+    float y = 1.0f - (float)column / (ALBEDO_MU - 1), x = 1.0f - y * y, cos_o = max(x * x * x * x, 1e-7f);
     Dir wo = {sqrt(max(1.0f - cos_o * cos_o, 0.0f)), 0.0f, cos_o};
     for (int row = 0; row < table->rows; row++) {
         Lobe lobe = *fill->lobe;
@@ -117,9 +125,21 @@ static void fill_column(void *user, int column, int thread) {
     }
 }
 
+/* 2 integral of E mu dmu with mu = x^4, by the midpoint rule over x on what lies between the nodes. */
+static double row_average(const AlbedoTable *table, int row) {
+    enum { STEPS = 8 * ALBEDO_MU };
+    TableRef one = {.texels = table->e[row], .rows = 1, .columns = ALBEDO_MU};
+    double sum = 0.0;
+    for (int k = 0; k < STEPS; k++) {
+        double x = (k + 0.5) / STEPS, x3 = x * x * x;
+        sum += (double)table_roots(one, (float)(x * x3), 0.0f) * 8.0 * x * x3 * x3 / STEPS;
+    }
+    return sum;
+}
+
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
     const WeftLobeInfo *info = weft_lobe_info((int)lobe->id);
-    table->lobe = lobe->id;
+    table->lobe = *lobe;
     table->low = low;
     table->high = high;
     if (info->param_count > 0) {
@@ -130,34 +150,23 @@ void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
     table->root_high = eighth_root(high);
     table->rows = info->param_count > 0 && low < high ? ALBEDO_ROWS : 1;
     parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, lobe});
+    for (int row = 0; row < table->rows; row++) table->e[row][ALBEDO_MU] = (float)row_average(table, row);
 }
 
-/* Four neighbouring nodes and their weights. */
-typedef struct Taps {
-    int first;
-    float w[4];
-} Taps;
+static bool same(float a, float b) { return !(a < b) && !(a > b); }
 
-/* The cubic through x (in nodes) whose slope at a node is that between its neighbours; beyond its ends the
- * table goes on as a parabola. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating Splines", 1974. */
-static Taps taps(float x, int count) {
-    int k = (int)clamp(x, 0.0f, (float)(count - 2));
-    float t = clamp(x - (float)k, 0.0f, 1.0f), s = 1.0f - t;
-    float a = -0.5f * t * s * s, d = -0.5f * t * t * s;
-    float b = s * (1.0f + t - 1.5f * t * t), c = t * (1.0f + s - 1.5f * s * s);
-    if (k == 0) return (Taps){0, {b + 3.0f * a, c - 3.0f * a, d + a, 0.0f}};
-    if (k == count - 2) return (Taps){k - 2, {0.0f, a + d, b - 3.0f * d, c + 3.0f * d}};
-    return (Taps){k - 1, {a, b, c, d}};
+bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high) {
+    if (table->lobe.id != lobe->id) return false;
+    for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
+        if (!same(table->lobe.params[k], lobe->params[k])) return false;
+    return same(table->low, low) && same(table->high, high);
 }
 
-float albedo_table_read(const AlbedoTable *table, float cos_o, float alpha) {
-    Taps column = taps(fourth_root(max(cos_o, 0.0f)) * (ALBEDO_MU - 1), ALBEDO_MU), row = {0, {1.0f}};
-    if (table->rows > 1) {
-        float y = (eighth_root(max(alpha, 0.0f)) - table->root_low) / (table->root_high - table->root_low);
-        row = taps(y * (ALBEDO_ROWS - 1), ALBEDO_ROWS);
-    }
-    float e = 0.0f;
-    for (int j = 0; j < 4 && j < table->rows; j++)
-        for (int k = 0; k < 4; k++) e += row.w[j] * column.w[k] * table->e[row.first + j][column.first + k];
-    return max(e, 0.0f);
+TableRef albedo_table_ref(const AlbedoTable *table) {
+    return (TableRef){.texels = table->e[0],
+                      .kind = TABLE_ROOTS,
+                      .rows = table->rows,
+                      .columns = ALBEDO_MU,
+                      .low = table->root_low,
+                      .high = table->root_high};
 }

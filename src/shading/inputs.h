@@ -1,7 +1,7 @@
 /* inputs.h - what a material is described by
  *
- * SURFACE_INPUTS is the one list: records, --set, docs and (later) sliders and uniforms come from it. No
- * dialect in here, so that loaders may include it. */
+ * SURFACE_INPUTS lists its numbers and textures, SURFACE_CHOICES what it is made from: records, --set,
+ * material files, docs and (later) sliders and uniforms come from these two lists. */
 #ifndef WEFT_SHADING_INPUTS_H
 #define WEFT_SHADING_INPUTS_H
 
@@ -20,25 +20,46 @@
       "strength of baked occlusion (real-time renderer only)")                                               \
     P(COLOR, emission, 0.0f, 0.0f, 1.0f, 0.0f, 1e6f, "radiance sent out, before emission_strength")          \
     P(SCALAR, emission_strength, 1.0f, 0.0f, 100.0f, 0.0f, 1e6f, "factor on emission")                       \
-    P(SCALAR, ior, 1.5f, 1.0f, 2.5f, 1.0f, 100.0f, "index of refraction of the dielectric")                  \
-    P(SCALAR, specular, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "strength of the dielectric's reflection")             \
+    P(SCALAR, reflectance, 0.26f, 0.0f, 1.0f, -0.34f, 19.66f,                                                \
+      "of the dielectric where ior is 0: F0 = 0.017 + 0.05 reflectance")                                     \
+    P(SCALAR, ior, 0.0f, 0.0f, 2.5f, 0.0f, 1e6f,                                                             \
+      "index of refraction of the dielectric; 0: see reflectance")                                           \
+    P(SCALAR, extinction, 3.0f, 0.0f, 10.0f, 0.0f, 100.0f, "k of a metal's complex index, for f=conductor")  \
+    P(SCALAR, specular, 1.0f, 0.0f, 1.0f, 0.0f, 2.0f,                                                        \
+      "strength of the dielectric's reflection; disney: F0 = 0.08 specular")                                 \
     P(COLOR, specular_color, 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f,                                                \
-      "tint of the dielectric's reflection at normal incidence")                                             \
+      "tint of the dielectric's reflection; specular workflow: its F0")                                      \
+    P(SCALAR, specular_tint, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "disney: base colour in the reflection")          \
+    P(SCALAR, subsurface, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f,                                                      \
+      "disney: flattened subsurface; diffuse=wrap: the amount of wrap")                                      \
     P(SCALAR, anisotropy, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f,                                                      \
       "stretch of the highlight along anisotropy_direction")                                                 \
     P(DIRECTION, anisotropy_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, "angle from the tangent, degrees")   \
     P(SCALAR, clearcoat, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "amount of clear coat, ior 1.5")                      \
     P(SCALAR, clearcoat_roughness, 0.0f, 0.0f, 1.0f, 0.0f, 2.0f, "of the coat")                              \
+    P(SCALAR, clearcoat_gloss, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "disney: gloss of the coat")                    \
     P(NORMAL, clearcoat_normal, 1.0f, 0.0f, 2.0f, -8.0f, 8.0f, "strength of the coat's own normal map")      \
+    P(SCALAR, sheen, 1.0f, 0.0f, 1.0f, 0.0f, 10.0f, "amount of sheen, a factor on its colour")               \
+    P(SCALAR, sheen_tint, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "disney: base colour in the sheen")                  \
+    P(COLOR, sheen_second, 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f,                                                  \
+      "second colour of a sheen that has two: at grazing, or of the weft yarns")                             \
     P(COLOR, sheen_color, 0.0f, 0.0f, 1.0f, 0.0f, 1000.0f, "colour of the sheen; black is none")             \
     P(SCALAR, sheen_roughness, 0.0f, 0.0f, 1.0f, 0.0f, 2.0f,                                                 \
       "of the sheen; each lobe says what alpha it becomes")
 
-typedef enum InputId {
-#define INPUT_ENUM(kind, name, def, low, high, hard_low, hard_high, help) INPUT_##name,
-    SURFACE_INPUTS(INPUT_ENUM)
-#undef INPUT_ENUM
-        INPUT_COUNT
-} InputId;
+/* C(name, help). The value is an index into a list of the catalogue, or CHOICE_AUTO: what the workflow, or
+ * the profile, says. So a choice that is made wins over a profile. */
+#define SURFACE_CHOICES(C)                                                                                   \
+    C(workflow, "how the inputs make a base; auto is metallic")                                              \
+    C(profile, "an engine's exact composition in place of a workflow")                                       \
+    C(diffuse, "the diffuse term")                                                                           \
+    C(d, "distribution of the specular lobe")                                                                \
+    C(v, "visibility of the specular lobe")                                                                  \
+    C(f, "Fresnel term of the specular lobe")                                                                \
+    C(sheen_lobe, "the lobe of the sheen")                                                                   \
+    C(layer, "the rule by which the sheen sits on the base")                                                 \
+    C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own")
+
+#define CHOICE_AUTO (-1)
 
 #endif

@@ -11,6 +11,14 @@
 #define FN
 #define STRUCT(Name) struct Name
 
+#define to_float(x) float(x)
+#define to_int(x)   int(x)
+
+/* Layer t of the one array texture that holds all tables. */
+#define Table                               int
+#define TABLE_OF_NOTHING                    0
+#define table_texel(t, stride, row, column) texelFetch(weft_tables, ivec3(column, row, t), 0).r
+
 #else
 
 #include <math.h>
@@ -67,6 +75,11 @@ FN float weft_max(float a, float b) { return a > b ? a : b; }
 
 FN float weft_mix(float a, float b, float t) { return a + (b - a) * t; }
 
+/* A table's texels, row after row. */
+typedef const float *Table;
+#define TABLE_OF_NOTHING    NULL
+FN float table_texel(Table t, int stride, int row, int column) { return t[row * stride + column]; }
+
 /* The names below shadow <math.h>: include the dialect only where the catalogue is compiled. */
 #define min(a, b)           weft_min(a, b)
 #define max(a, b)           weft_max(a, b)
@@ -81,6 +94,8 @@ FN float weft_mix(float a, float b, float t) { return a + (b - a) * t; }
 #define exp(x)              weft_exp2((x)*1.44269504f)
 #define pow(x, y)           weft_exp2((y)*weft_log2(x))
 #define mix(a, b, t)        weft_mix(a, b, t)
+#define to_float(x)         ((float)(x))
+#define to_int(x)           ((int)(x))
 
 #endif
 

@@ -3,21 +3,52 @@
 #define WEFT_SHADING_LAYER_H
 
 #include "shading/layers/additive.h"
+#include "shading/layers/albedo_max.h"
+#include "shading/layers/albedo_min.h"
 #include "shading/layers/albedo_view.h"
+#include "shading/layers/multiplicative.h"
+#include "shading/layers/reciprocal.h"
+#include "shading/layers/seed.h"
+#include "shading/layers/stochastic.h"
 
-/* L(id, functions' prefix, macros' prefix, help) */
+#define LAYER_ADDITIVE       0
+#define LAYER_MULTIPLICATIVE 1
+#define LAYER_SEED           2
+#define LAYER_ALBEDO_VIEW    3
+#define LAYER_ALBEDO_MIN     4
+#define LAYER_ALBEDO_MAX     5
+#define LAYER_RECIPROCAL     6
+#define LAYER_STOCHASTIC     7
+#define LAYER_COUNT          8
+
+/* Which colour of the sheen a rule takes. */
+#define LAYER_BY_MAX     0
+#define LAYER_BY_CHANNEL 1
+
+/* L(id, index, what of the base is left, help), c the sheen's colour, e_o e_i e_avg its white albedo */
 #define WEFT_LAYERS(L)                                                                                       \
-    L("additive", additive, ADDITIVE, "the base loses nothing; gains energy")                                \
-    L("albedo-view", albedo_view, ALBEDO_VIEW, "the base keeps 1 - max3(color) E(wo)")
+    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), "the base loses nothing; gains energy") \
+    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg),                       \
+      "no sheen of its own: the base times 1 + c E(wo); gains energy")                                       \
+    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg),                                                     \
+      "(1 - F)(1 - c) diffuse + specular + (1 - F) c sheen")                                                 \
+    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg),                                \
+      "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                            \
+    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg),                                   \
+      "the base keeps 1 - c min(E(wo), E(wi)); gains energy")                                                \
+    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg),                                   \
+      "the base keeps 1 - c max(E(wo), E(wi)); glTF's rule, loses energy")                                   \
+    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg),                                   \
+      "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                           \
+    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg),                                   \
+      "light bounces between sheen and base; the path tracer's reference")
 
-typedef enum LayerId {
-#define LAYER_ENUM(id, name, NAME, help) LAYER_##NAME,
-    WEFT_LAYERS(LAYER_ENUM)
-#undef LAYER_ENUM
-        LAYER_COUNT
-} LayerId;
-
-/* What of the base is left under a sheen of that colour, whose E towards wo is e_o. */
-float layer_base(LayerId layer, Rgb color, float e_o);
+/* What of the base is left for wo and wi. */
+#define LAYER_CASE(id, index, base, help)                                                                    \
+    if (layer == index) return base;
+FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {
+    WEFT_LAYERS(LAYER_CASE)
+    return 1.0f;
+}
 
 #endif

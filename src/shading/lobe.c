@@ -7,7 +7,7 @@
 static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(public_lobe->lobe);
     if (!info) return false;
-    *lobe = (Lobe){.id = (LobeId)public_lobe->lobe};
+    *lobe = lobe_default(public_lobe->lobe);
     for (int k = 0; k < info->param_count; k++) lobe_set(lobe, k, public_lobe->params[k]);
     return true;
 }
@@ -68,7 +68,7 @@ void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], 
     Angles a = angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2]));
     LobeValue value = lobe_value(&inner, a);
     for (int c = 0; c < 3; c++)
-        f[c] = value.f * mix(lobe->f0[c], lobe_second(&inner, lobe->f0[c], lobe->f90[c]), value.s);
+        f[c] = value.f * mix(lobe->f0[c], lobe_second(inner, lobe->f0[c], lobe->f90[c]), value.s);
 }
 
 float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]) {
@@ -92,5 +92,5 @@ void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
     float z = clamp(cos_o, 1e-6f, 1.0f);
     Albedo albedo = albedo_quadrature(&inner, dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z), 2e-5);
     for (int c = 0; c < 3; c++)
-        e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe_second(&inner, lobe->f0[c], lobe->f90[c]);
+        e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe_second(inner, lobe->f0[c], lobe->f90[c]);
 }

@@ -1,9 +1,17 @@
 #include "shading/registry.h"
 
 #include "lobes.gen.h"
+#include "shading/lobe_tables.h"
+#include "shading/terms.h"
 
 /* What a parameter of each type may be: a number, or an index into these. */
-#define choices_float NULL
+#define choices_float                            NULL
+#define D_TERM_ID(id, NAME, value, drawn, help)  [NAME] = id,
+#define V_TERM_ID(id, NAME, value, help)         [NAME] = id,
+#define F_TERM_ID(id, NAME, share, second, help) [NAME] = id,
+static const char *const choices_DTerm[D_COUNT + 1] = {WEFT_D_TERMS(D_TERM_ID)};
+static const char *const choices_VTerm[V_COUNT + 1] = {WEFT_V_TERMS(V_TERM_ID)};
+static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};
 
 #define PARAM_INFO(type, name, def, low, high, hard_low, hard_high, help)                                    \
     {#name, help, def, low, high, hard_low, hard_high, choices_##type},
@@ -32,7 +40,21 @@ int weft_lobe_find(const char *id) {
 #define LOBE_DEFAULT(id, name, Record, NAME)                                 {LOBE_##NAME, {NAME##_PARAMS(PARAM_DEFAULT) 0.0f}},
 static const Lobe defaults[LOBE_COUNT] = {WEFT_LOBES(LOBE_DEFAULT)};
 
-Lobe lobe_default(LobeId id) { return defaults[id]; }
+Lobe lobe_default(int id) {
+    if (infos[id].traits & TRAIT_TABLE) lobe_tables_make();
+    return defaults[id];
+}
+
+Lobe lobe_rough(int id, float roughness) {
+    Lobe lobe = lobe_default(id);
+    const WeftParamInfo *p = &infos[id].params[0];
+    if (infos[id].param_count == 0 || p->choices) return lobe;
+    float value = mix(p->low, p->high, roughness);
+    if (strcmp(p->name, "alpha") == 0) value = roughness * roughness;
+    if (strcmp(p->name, "roughness") == 0) value = roughness;
+    lobe_set(&lobe, 0, value);
+    return lobe;
+}
 
 int lobe_param(LobeId id, const char *name) {
     for (int k = 0; k < infos[id].param_count; k++)
@@ -74,10 +96,10 @@ LobeValue lobe_value(const Lobe *lobe, Angles a) {
     return (LobeValue){0.0f, 0.0f, 0.0f};
 }
 
-float lobe_second(const Lobe *lobe, float f0, float f90) {
-    switch (lobe->id) {
+float lobe_second(Lobe lobe, float f0, float f90) {
+    switch (lobe.id) {
 #define LOBE_SECOND(id, name, Record, NAME)                                                                  \
-    case LOBE_##NAME: return name##_second(name##_record(lobe->params), f0, f90);
+    case LOBE_##NAME: return name##_second(name##_record(lobe.params), f0, f90);
         WEFT_TWO_COLOR_LOBES(LOBE_SECOND)
     default: return f0;
     }

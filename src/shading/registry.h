@@ -1,5 +1,9 @@
 /* registry.h - the catalogue as data: every lobe, its parameters, and its functions behind one signature
  *
+ * Dialect texts include this file too: in GLSL the flattener (text/) puts in its place what is here made by
+ * macros, for the lobes that a program needs: LOBE_ constants, Lobe, LobeValue, lobe_at, lobe_second,
+ * lobe_default and lobe_rough.
+ *
  * Adding a lobe: one file in lobes/, one line in WEFT_LOBES. Command line, docs, tests and renderers follow.
  */
 #ifndef WEFT_SHADING_REGISTRY_H
@@ -25,10 +29,30 @@
  */
 #define WEFT_ONE_COLOR_LOBES(L)                                                                              \
     L("lambert", lambert, Lambert, LAMBERT)                                                                  \
+    L("burley", burley, Burley, BURLEY)                                                                      \
+    L("burley-subsurface", burley_subsurface, BurleySubsurface, BURLEY_SUBSURFACE)                           \
+    L("oren-nayar", oren_nayar, OrenNayar, OREN_NAYAR)                                                       \
+    L("fabric-lambert", fabric_lambert, FabricLambert, FABRIC_LAMBERT)                                       \
+    L("wrap", wrap, Wrap, WRAP)                                                                              \
+    L("burley-sheen", burley_sheen, BurleySheen, BURLEY_SHEEN)                                               \
+    L("ashikhmin-neubelt", ashikhmin_neubelt, AshikhminNeubelt, ASHIKHMIN_NEUBELT)                           \
+    L("ashikhmin-conty-kulla", ashikhmin_conty_kulla, AshikhminContyKulla, ASHIKHMIN_CONTY_KULLA)            \
     L("charlie-neubelt", charlie_neubelt, CharlieNeubelt, CHARLIE_NEUBELT)                                   \
-    L("charlie-conty-kulla", charlie_conty_kulla, CharlieContyKulla, CHARLIE_CONTY_KULLA)
+    L("charlie-conty-kulla", charlie_conty_kulla, CharlieContyKulla, CHARLIE_CONTY_KULLA)                    \
+    L("charlie-khronos", charlie_khronos, CharlieKhronos, CHARLIE_KHRONOS)                                   \
+    L("charlie-neubelt-normalised", charlie_neubelt_normalised, CharlieNeubeltNormalised,                    \
+      CHARLIE_NEUBELT_NORMALISED)                                                                            \
+    L("exponential", exponential, Exponential, EXPONENTIAL)                                                  \
+    L("exponential-lit", exponential_lit, ExponentialLit, EXPONENTIAL_LIT)                                   \
+    L("patry", patry, Patry, PATRY)
 
-#define WEFT_TWO_COLOR_LOBES(L) L("ggx", ggx, Ggx, GGX)
+#define WEFT_TWO_COLOR_LOBES(L)                                                                              \
+    L("eon", eon, Eon, EON)                                                                                  \
+    L("ggx", ggx, Ggx, GGX)                                                                                  \
+    L("silk", silk, Silk, SILK)                                                                              \
+    L("threads", threads, Threads, THREADS)                                                                  \
+    L("burley-coat", burley_coat, BurleyCoat, BURLEY_COAT)                                                   \
+    L("cook-torrance", cook_torrance, CookTorrance, COOK_TORRANCE)
 
 #define WEFT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
 
@@ -47,19 +71,24 @@ enum {
     TRAIT_TWO_COLORS = WEFT_LOBE_TWO_COLORS, /* set by being in WEFT_TWO_COLOR_LOBES */
     TRAIT_ANISOTROPIC = WEFT_LOBE_ANISOTROPIC,
     TRAIT_REFERENCE = WEFT_LOBE_REFERENCE,
-    TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE
+    TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE,
+    TRAIT_TABLE = WEFT_LOBE_TABLE
 };
 
 enum { LOBE_PARAMS_MAX = WEFT_LOBE_PARAMS_MAX };
 
 /* A lobe with its parameters, in the order of its table. */
 typedef struct Lobe {
-    LobeId id;
+    int id; /* a LobeId */
     float params[LOBE_PARAMS_MAX];
 } Lobe;
 
 /* The lobe with its defaults. */
-Lobe lobe_default(LobeId id);
+Lobe lobe_default(int id);
+
+/* The same with parameter 0 from an artist's roughness: squared where it is an alpha, as it is where it is a
+ * roughness, and else over its plausible range. */
+Lobe lobe_rough(int id, float roughness);
 
 /* Index of a parameter by name, or -1. */
 int lobe_param(LobeId id, const char *name);
@@ -78,11 +107,14 @@ typedef struct LobeValue {
  * distribution is in both. */
 LobeValue lobe_value(const Lobe *lobe, Angles a);
 
+/* The dialect's way to say it. */
+static inline LobeValue lobe_at(Lobe lobe, Angles a) { return lobe_value(&lobe, a); }
+
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
 /* The second colour, per channel, given both as the user sets them. f0 without TRAIT_TWO_COLORS. */
-float lobe_second(const Lobe *lobe, float f0, float f90);
+float lobe_second(Lobe lobe, float f0, float f90);
 
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
 Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);

@@ -1,40 +1,145 @@
-/* stack.h - a material at one point: lobes with weights known from wo alone, so that sampling and pdf agree
- * exactly
+/* stack.h - a material at one point: a coat over a sheen over a specular and a diffuse lobe
  *
- *   f cos   = sum_k weight_k f_k cos_k
- *   pdf     = sum_k pick_k pdf_k,   sum_k pick_k = 1
+ *   f cos = coat + sheen_keep sheen + base_keep (specular + under diffuse)
+ *   pdf   = sum pick_k pdf_k,  sum pick_k = 1
  *
- * The diffuse lobe is dimmed by what the interface above it reflects, which depends on wi too: it changes f,
- * not the proposal. */
+ * What a slot weighs and how likely sampling picks it is known from wo alone. What depends on wi too - what
+ * the layer rule leaves for the base, what the specular interface leaves for the diffuse lobe - changes f and
+ * not the proposal, so that sampling and pdf agree exactly. */
 #ifndef WEFT_SHADING_STACK_H
 #define WEFT_SHADING_STACK_H
 
+#include "shading/layer.h"
 #include "shading/registry.h"
+#include "shading/rgb.h"
+#include "shading/table.h"
+#include "shading/terms/f_schlick.h"
 
-enum { STACK_MAX = 4 };
-
-typedef struct StackLobe {
+STRUCT(Slot) {
     Lobe lobe;
-    Rgb f0, f90; /* colour times weight; equal where the lobe has no Fresnel term */
-    float pick;  /* probability that sampling chooses it */
-    bool coat;   /* works in the coat's frame */
-} StackLobe;
+    Rgb f0, f90; /* the lobe's colours times its weight */
+    float pick;  /* probability that sampling chooses it; 0: there is no lobe */
+};
 
-typedef struct Stack {
-    int count;
-    StackLobe lobes[STACK_MAX];
-    float under_f0, under_f90;  /* of the interface above the diffuse lobe */
-    Dir coat_x, coat_y, coat_z; /* coat frame, in the shading frame */
-} Stack;
+/* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
+ * wi . h, cos_o and cos_i, which never gains energy; or by F at cos_o and again at cos_i. */
+#define UNDER_NONE  0
+#define UNDER_HALF  1
+#define UNDER_LEAST 2
+#define UNDER_TWICE 3
 
-typedef struct StackValue {
+/* Where the E of the sheen comes from: a table, or a formula of an engine (profile.h). */
+#define ALBEDO_TABLE 0
+
+STRUCT(Stack) {
+    Slot diffuse, specular, sheen, coat;
+    int under;
+    Rgb under_f0;
+    float under_f90;
+    float left; /* of what comes from below the coat, 1 without one */
+    int layer, by;
+    Rgb color;  /* of the sheen, as the layer rule sees it */
+    int albedo; /* source of E */
+    TableRef table;
+    float at;                   /* the parameter with which E is asked for */
+    float e_o, e_avg;           /* E of the white sheen towards wo, and on cosine average */
+    Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
+};
+
+STRUCT(StackValue) {
     Rgb f_cos; /* f times the cosine of wi */
-    float pdf; /* of stack_sample, 1/sr */
-} StackValue;
+    float pdf; /* of the mixture, 1/sr */
+};
 
-StackValue stack_eval(const Stack *stack, Dir o, Dir i);
+FN Slot slot_empty(void) {
+    Slot s;
+    s.lobe = lobe_default(LOBE_LAMBERT);
+    s.f0 = rgb_grey(0.0f);
+    s.f90 = rgb_grey(0.0f);
+    s.pick = 0.0f;
+    return s;
+}
 
-/* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
-Dir stack_sample(const Stack *stack, Dir o, float u, float v);
+/* A lobe of a colour and, where it has two, of a second one; `share` is about what it reflects towards wo. */
+FN Slot slot_make(Lobe lobe, Rgb color, Rgb second, float weight, float share) {
+    Slot s;
+    s.lobe = lobe;
+    s.f0 = rgb_scale(color, weight);
+    s.f90 = rgb_scale(rgb(lobe_second(lobe, color.r, second.r), lobe_second(lobe, color.g, second.g),
+                          lobe_second(lobe, color.b, second.b)),
+                      weight);
+    s.pick = rgb_max3(s.f0) + rgb_max3(s.f90) > 0.0f ? max(share, 1e-3f) : 0.0f;
+    return s;
+}
+
+FN Stack stack_empty(void) {
+    Stack m;
+    m.diffuse = slot_empty();
+    m.specular = m.diffuse;
+    m.sheen = m.diffuse;
+    m.coat = m.diffuse;
+    m.under = UNDER_NONE;
+    m.under_f0 = rgb_grey(0.0f);
+    m.under_f90 = 0.0f;
+    m.left = 1.0f;
+    m.layer = LAYER_ADDITIVE;
+    m.by = LAYER_BY_MAX;
+    m.color = rgb_grey(0.0f);
+    m.albedo = ALBEDO_TABLE;
+    m.table.texels = TABLE_OF_NOTHING;
+    m.table.kind = TABLE_NONE;
+    m.table.rows = 0;
+    m.table.columns = 0;
+    m.table.low = 0.0f;
+    m.table.high = 0.0f;
+    m.at = 0.0f;
+    m.e_o = 0.0f;
+    m.e_avg = 0.0f;
+    m.coat_x = dir(1.0f, 0.0f, 0.0f);
+    m.coat_y = dir(0.0f, 1.0f, 0.0f);
+    m.coat_z = dir(0.0f, 0.0f, 1.0f);
+    return m;
+}
+
+/* The frame about the coat's own normal; which way x points does not matter to an isotropic coat. Tom Duff et
+ * al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
+FN Stack stack_coat_frame(Stack m, Dir n) {
+    float a = -1.0f / (1.0f + n.z), b = n.x * n.y * a;
+    m.coat_x = dir(1.0f + n.x * n.x * a, b, -n.x);
+    m.coat_y = dir(b, 1.0f + n.y * n.y * a, -n.y);
+    m.coat_z = n;
+    return m;
+}
+FN Dir stack_to_coat(Stack m, Dir w) {
+    return dir(dir_dot(w, m.coat_x), dir_dot(w, m.coat_y), dir_dot(w, m.coat_z));
+}
+
+FN float slot_pdf(Slot s, LobeValue v) { return s.pick * v.pdf; }
+
+FN Rgb slot_f(Slot s, LobeValue v) { return rgb_scale(rgb_mix(s.f0, s.f90, v.s), v.f); }
+
+/* F of the specular interface, each channel. */
+FN Rgb stack_fresnel(Stack m, float d) { return rgb_mix(m.under_f0, rgb_grey(m.under_f90), schlick_s(d)); }
+
+FN Rgb stack_under(Stack m, Angles a) {
+    Rgb f = rgb_grey(0.0f);
+    if (m.under == UNDER_HALF) f = stack_fresnel(m, a.d);
+    if (m.under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, min(a.d, min(a.o.z, a.i.z)))));
+    Rgb keep = rgb(1.0f - f.r, 1.0f - f.g, 1.0f - f.b);
+    if (m.under == UNDER_TWICE) {
+        Rgb o = stack_fresnel(m, a.o.z), i = stack_fresnel(m, a.i.z);
+        keep = rgb((1.0f - o.r) * (1.0f - i.r), (1.0f - o.g) * (1.0f - i.g), (1.0f - o.b) * (1.0f - i.b));
+    }
+    return keep;
+}
+
+/* What the sheen leaves of the base. */
+FN Rgb stack_keep(Stack m, float e_i) {
+    if (m.by == LAYER_BY_CHANNEL)
+        return rgb(layer_base(m.layer, m.color.r, m.e_o, e_i, m.e_avg),
+                   layer_base(m.layer, m.color.g, m.e_o, e_i, m.e_avg),
+                   layer_base(m.layer, m.color.b, m.e_o, e_i, m.e_avg));
+    return rgb_grey(layer_base(m.layer, rgb_max3(m.color), m.e_o, e_i, m.e_avg));
+}
 
 #endif

@@ -1,7 +1,6 @@
 #include "trace/path.h"
 
 #include "scene/shade.h"
-#include "shading/surface.h"
 
 /* A surface point ready to be lit: its lobes and its frame. */
 typedef struct Point3 {
@@ -9,6 +8,7 @@ typedef struct Point3 {
     Vec3 origin;    /* where rays that leave start, before their offset */
     Vec3 x, y, z;   /* shading frame */
     Dir wo;
+    bool lit; /* stack is filled; else it only shines */
     Stack stack;
 } Point3;
 
@@ -68,7 +68,7 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
         material_textures(context->scene, material, at.uv, at.color, &surface);
     }
     p->geometric = vec3_scale(vertex.geometric, side);
-    p->stack.count = 0;
+    p->lit = false;
     Vec3 normal = vec3_scale(vertex.normal, side);
 
     float strength = side < 0.0f && !material->double_sided ? 0.0f : surface.emission_strength;
@@ -88,7 +88,8 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
         set_frame(p, bend_normal(normal, p->geometric, wo), p->x, handedness);
     if (surface.anisotropy > 0.0f) set_frame(p, p->z, to_world(p, surface.anisotropy_direction), handedness);
     p->wo = to_local(p, wo);
-    surface_stack(&p->stack, &surface, p->wo, (LobeId)material->sheen_lobe, material->layer, known->sheen_e);
+    stack_make(&p->stack, &surface, &known->choices, known->sheen_e, p->wo);
+    p->lit = true;
     return emission;
 }
 
@@ -112,7 +113,7 @@ static void add_direct(const PathContext *context, const Point3 *p, Rgb throughp
     LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
-    StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi));
+    StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi), key);
     Rgb f = value.f_cos;
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
     Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key};
@@ -148,14 +149,14 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
                                lights_triangle_pdf(context->lights, hit.mesh, hit.triangle, hit.t, cosine));
             add(&sum, throughput, emission, weight);
         }
-        if (depth == context->max_depth || p.stack.count == 0) return sum;
+        if (depth == context->max_depth || !p.lit) return sum;
         TwoPoints uv = sampler_next(sampler);
         add_direct(context, &p, throughput, uv.first, hash32(ray.key), &sum, rays);
 
         Dir wi = stack_sample(&p.stack, p.wo, uv.second.u, uv.second.v);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
-        StackValue value = stack_eval(&p.stack, p.wo, wi);
+        StackValue value = stack_eval(&p.stack, p.wo, wi, hash32(ray.key ^ 0x68e31da4u));
         if (!(value.pdf > 0.0f)) return sum;
         float k = 1.0f / value.pdf;
         throughput = (Rgb){throughput.r * value.f_cos.r * k, throughput.g * value.f_cos.g * k,

@@ -3,7 +3,7 @@
 #define WEFT_TRACE_PATH_H
 
 #include "scene/material.h"
-#include "shading/surface.h"
+#include "shading/material_stack.h"
 #include "trace/geometry.h"
 #include "trace/lights.h"
 #include "trace/sampler.h"
@@ -11,11 +11,12 @@
 
 /* What a material is wherever it is hit. */
 typedef struct PathMaterial {
-    Material material;          /* the scene's, without textures that a path never looks at */
-    Surface plain;              /* all its textures left out */
-    bool textured;              /* has any */
-    bool worn;                  /* by some mesh */
-    const AlbedoTable *sheen_e; /* NULL without a sheen */
+    Material material; /* the scene's, without textures that a path never looks at */
+    Surface plain;     /* all its textures left out */
+    Choices choices;
+    bool textured;    /* has any */
+    bool worn;        /* by some mesh */
+    TableRef sheen_e; /* TABLE_NONE without a sheen */
 } PathMaterial;
 
 typedef struct PathContext {

@@ -77,24 +77,38 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
-/* Whether anything on that material gives it a sheen, and the alpha it may take. */
-static bool sheen_range(const Material *material, float *low, float *high) {
-    const float *color = material->inputs[INPUT_sheen_color].value;
-    const Input *roughness = &material->inputs[INPUT_sheen_roughness];
-    *high = roughness->value[0] * roughness->value[0];
-    *low = roughness->texture ? 0.0f : *high;
-    return color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f;
+/* The stack of a material without its textures, of a given roughness of the sheen. */
+static Stack plain_stack(const PathMaterial *known, float sheen_roughness) {
+    Surface surface = known->plain;
+    surface.sheen_roughness = sheen_roughness;
+    Stack stack;
+    stack_make(&stack, &surface, &known->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    return stack;
 }
 
-/* The table of an earlier material with the same sheen over the same alphas, or NULL. */
-static const AlbedoTable *find_table(const WeftRender *render, size_t count, LobeId lobe, float low,
-                                     float high) {
-    for (size_t j = 0; j < count; j++) {
-        const AlbedoTable *t = render->tables[j];
-        if (t && t->lobe == lobe && !(t->low < low || t->low > low) && !(t->high < high || t->high > high))
-            return t;
-    }
-    return NULL;
+/* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
+ * over the same range. */
+static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made, WeftError *error) {
+    const Input *roughness = &known->material.inputs[INPUT_sheen_roughness];
+    Stack most = plain_stack(known, roughness->value[0]);
+    Stack least = plain_stack(known, roughness->texture ? 0.0f : roughness->value[0]);
+    known->sheen_e = (TableRef){.kind = TABLE_NONE};
+    if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
+    float low = least.at, high = most.at;
+    if (low > high) low = most.at, high = least.at;
+    if (*made >= NARROW_TABLES) /* then one for all */
+        low = plain_stack(known, 0.0f).at, high = plain_stack(known, 1.0f).at;
+    for (int k = 0; k < *made; k++)
+        if (albedo_table_serves(render->tables[k], &most.sheen.lobe, low, high)) {
+            known->sheen_e = albedo_table_ref(render->tables[k]);
+            return WEFT_OK;
+        }
+    AlbedoTable *table = render->tables[*made] = alloc_array(1, sizeof(AlbedoTable));
+    if (!table) return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
+    albedo_table_fill(table, &most.sheen.lobe, low, high, render->desc.threads);
+    known->sheen_e = albedo_table_ref(table);
+    ++*made;
+    return WEFT_OK;
 }
 
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
@@ -104,29 +118,21 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
     render->materials = alloc_array(count, sizeof(PathMaterial));
     if (!render->tables || !render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int m = 0; m < scene->mesh_count; m++) render->materials[scene->meshes[m].material].worn = true;
+    WeftResult result = WEFT_OK;
     int made = 0;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && result == WEFT_OK; k++) {
         const Material *material = &scene->materials[k];
         PathMaterial *known = &render->materials[k];
         known->material = *material;
         known->material.inputs[INPUT_occlusion].texture = 0; /* the paths find it out for themselves */
         known->material.inputs[INPUT_opacity].texture = 0;   /* told by whether there is a hit */
         known->plain = material_plain(material);
+        known->choices = material_choices(material);
         for (int input = 0; input < INPUT_COUNT; input++)
             known->textured |= known->material.inputs[input].texture != 0;
-        float low, high;
-        if (!known->worn || !sheen_range(material, &low, &high)) continue;
-        if (made >= NARROW_TABLES) low = 0.0f, high = 1.0f; /* then one for all */
-        Lobe lobe = lobe_default((LobeId)material->sheen_lobe);
-        known->sheen_e = find_table(render, k, lobe.id, low, high);
-        if (known->sheen_e) continue;
-        render->tables[k] = alloc_array(1, sizeof(AlbedoTable));
-        if (!render->tables[k]) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-        albedo_table_fill(render->tables[k], &lobe, low, high, render->desc.threads);
-        known->sheen_e = render->tables[k];
-        made++;
+        if (known->worn) result = find_table(render, known, &made, error);
     }
-    return WEFT_OK;
+    return result;
 }
 
 /* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one

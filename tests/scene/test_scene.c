@@ -111,15 +111,17 @@ static void sheen_and_layer_are_set_by_id(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:spheres");
     WeftError error;
-    assert_int_equal(weft_scene_set_sheen(scene, "charlie-neubelt", &error), WEFT_OK);
-    assert_int_equal(scene->materials[4].sheen_lobe, weft_lobe_find("charlie-neubelt"));
-    assert_int_equal(weft_scene_set_layer(scene, "additive", &error), WEFT_OK);
-    assert_int_equal(weft_scene_set_sheen(scene, "charlie", &error), WEFT_USAGE);
-    assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
-    assert_int_equal(weft_scene_set_sheen(scene, "ggx", &error),
-                     WEFT_USAGE); /* no sheen: it has a Fresnel term */
-    assert_int_equal(weft_scene_set_layer(scene, "glue", &error), WEFT_USAGE);
-    assert_int_equal(error.message, WEFT_MESSAGE_LAYER_NAME);
+    assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", "charlie-neubelt", NULL, &error), WEFT_OK);
+    assert_int_equal(scene->materials[4].choices[CHOICE_sheen_lobe], weft_lobe_find("charlie-neubelt"));
+    assert_int_equal(weft_scene_set(scene, "*.layer", "additive", NULL, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "*.layer", "auto", NULL, &error), WEFT_OK);
+    assert_int_equal(scene->materials[4].choices[CHOICE_layer], CHOICE_AUTO);
+    assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", "charlie", NULL, &error), WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_PARAM_VALUE);
+    assert_int_equal(weft_scene_set(scene, "*.diffuse", "ggx", NULL, &error),
+                     WEFT_USAGE); /* no diffuse term */
+    assert_int_equal(weft_scene_set(scene, "*.layer", "glue", NULL, &error), WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_PARAM_VALUE);
     assert_int_equal(weft_scene_set_variant(scene, "red", &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_VARIANT_NAME);
     assert_int_equal(weft_scene_set_environment_color(scene, (float[3]){1, -1, 0}, &error), WEFT_USAGE);

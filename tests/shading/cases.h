@@ -17,8 +17,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "shading/layer.h"
-#include "shading/surface.h"
+#include "shading/material_stack.h"
 
 #define TEST_PI 3.14159265358979323846
 
@@ -168,7 +167,8 @@ static inline void grid_place(Grid grid, Dir i, double *s, double *t) {
 /* A plausible surface with everything switched on now and then. With tilt, the coat has a normal of its own.
  */
 static inline Surface random_surface(Random *random, bool tilt) {
-    Surface s = {.opacity = 1.0f, .occlusion = 1.0f, .ior = 1.0f + 1.2f * random_unit(random)};
+    Surface s = {.opacity = 1.0f, .occlusion = 1.0f, .sheen = 1.0f, .ior = 1.0f + 1.2f * random_unit(random)};
+    s.sheen_second = (Rgb){1.0f, 1.0f, 1.0f};
     s.base_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
     s.metallic = max(2.0f * random_unit(random) - 1.0f, 0.0f);
     s.roughness = random_unit(random);
@@ -189,7 +189,24 @@ static inline Surface random_surface(Random *random, bool tilt) {
     return s;
 }
 
-/* E of a lobe as its first parameter runs from the least to 1, as surface_stack expects it. */
+/* Nothing chosen but a sheen and a layer rule. */
+static inline Choices test_choices(int sheen_lobe, int layer) {
+#define CHOICE_UNMADE(name, help) .name = CHOICE_AUTO,
+    Choices c = {SURFACE_CHOICES(CHOICE_UNMADE)};
+    c.sheen_lobe = sheen_lobe;
+    c.layer = layer;
+    return c;
+}
+
+/* The stack of a surface with that sheen. */
+static inline Stack test_stack(const Surface *surface, int layer, const AlbedoTable *table, Dir o) {
+    Choices choices = test_choices(table->lobe.id, layer);
+    Stack stack;
+    stack_make(&stack, surface, &choices, albedo_table_ref(table), o);
+    return stack;
+}
+
+/* E of a lobe as its first parameter runs from the least to 1, as a stack expects it. */
 static inline void fill_albedo(AlbedoTable *table, LobeId id) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
     Lobe lobe = lobe_default(id);

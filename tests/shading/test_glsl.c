@@ -135,7 +135,7 @@ static void every_lobe_compiles(void **state) {
 #undef CHECK_LOBE
 #define CHECK_LAYER(id, name, NAME, help)                                                                    \
     inline_file(&all, "shading/layers/" #name ".h");                                                         \
-    put_line(&calls, "    color *= " #name "_base(c, u[3]);\n");
+    put_line(&calls, "    color *= " #name "_base(u[0], u[1], u[2], u[3]);\n");
     WEFT_LAYERS(CHECK_LAYER)
 #undef CHECK_LAYER
     put_line(&all, "void main() {\n    Rgb c;\n    c.r = u[0];\n    c.g = u[1];\n    c.b = u[2];\n    color "

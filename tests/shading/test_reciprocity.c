@@ -28,7 +28,7 @@ static void reciprocal_lobes_are(void **state) {
 
 /* Turning rounds the directions, and a lobe of alpha magnifies that by up to 1/alpha^2. */
 static float turning_error(const Lobe *lobe) {
-    float alpha = weft_lobe_info((int)lobe->id)->param_count ? min(lobe->params[0], 1.0f) : 1.0f;
+    float alpha = weft_lobe_info((int)lobe->id)->param_count ? max(min(lobe->params[0], 1.0f), 1e-3f) : 1.0f;
     return 1e-5f / (alpha * alpha);
 }
 

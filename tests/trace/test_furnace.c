@@ -44,7 +44,7 @@ static double sidak_quantile(int tests) {
 
 /* A sheen over white lambert: lossless under albedo-view where the sheen's own E stays below 1. */
 static void set_sheen(Material *material, const char *lobe, float alpha) {
-    material->sheen_lobe = weft_lobe_find(lobe);
+    material->choices[CHOICE_sheen_lobe] = weft_lobe_find(lobe);
     test_color(material, INPUT_sheen_color, 1.0f);
     material->inputs[INPUT_sheen_roughness].value[0] = sqrtf(alpha);
 }
@@ -109,7 +109,7 @@ static void additive_layer_breaks_the_furnace(void **state) {
     WeftScene *scene = test_scene();
     test_environment(scene, 1.0f);
     set_sheen(test_material(scene, 1.0f), "charlie-neubelt", 0.5f);
-    assert_int_equal(weft_scene_set_layer(scene, "additive", NULL), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "*.layer", "additive", NULL, NULL), WEFT_OK);
     test_sphere(scene, vec3(0, 0, 0), 1.0f);
     scene_bounds(scene);
     WeftImage image =

@@ -4,13 +4,13 @@
  *
  *   As in engines without energy bookkeeping (Brent Burley, "Physically Based Shading at Disney", SIGGRAPH
  * 2012 course, adds its sheen so).
- *   energy: gains E(wo) of the sheen.
+ *   energy: gains c E(wo), all that the sheen reflects.
  *   reciprocal: yes. */
 #ifndef WEFT_LAYER_ADDITIVE_H
 #define WEFT_LAYER_ADDITIVE_H
 
-#include "shading/angles.h"
+#include "shading/lang.h"
 
-FN float additive_base(Rgb color, float e_o) { return 1.0f; }
+FN float additive_base(float c, float e_o, float e_i, float e_avg) { return 1.0f; }
 
 #endif

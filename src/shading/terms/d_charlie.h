@@ -7,7 +7,7 @@
 #ifndef WEFT_D_CHARLIE_H
 #define WEFT_D_CHARLIE_H
 
-#include "shading/warp.h"
+#include "shading/terms/facet.h"
 
 /* sin^2 comes from the tangential part of h: 1 - cos^2 has no digits left where the lobe is small. The floor
  * keeps the argument of pow a normal number. */
@@ -16,9 +16,14 @@ FN float charlie_d(float alpha, Dir h) {
     return (2.0f + 1.0f / alpha) * pow(sin2, 0.5f / alpha) / (2.0f * PI);
 }
 
-/* Sampling: h from D cos_h, taken only from the half plane of azimuths that wo is in, where wo . h > 0
- * without exception; so the density doubles there. sin(theta_h) = u^(alpha / (2 alpha + 1)) inverts the
- * integral. */
+/* h from D cos_h, at any azimuth: sin_h = u^(alpha / (2 alpha + 1)) inverts the integral. */
+FN Dir charlie_facet(float alpha, float u, float v) {
+    float sin_h = pow(max(u, 1e-7f), alpha / (2.0f * alpha + 1.0f));
+    return facet(sin_h, sqrt(max(1.0f - sin_h * sin_h, 0.0f)), v);
+}
+
+/* For the lobes built on it: h from D cos_h, taken only from the half plane of azimuths that wo is in, where
+ * wo . h > 0 without exception; so the density doubles there. */
 FN Dir charlie_sample_h(float alpha, Dir o, float u, float v) {
     float sin_h = pow(max(u, 1e-7f), alpha / (2.0f * alpha + 1.0f));
     float cos_h = sqrt(max(1.0f - sin_h * sin_h, 0.0f));

@@ -10,6 +10,7 @@
 
 #include "shading/angles.h"
 
+/* alpha = roughness^2 in what is built on it (Burley 2012, Karis 2013). */
 FN float ggx_d(float ax, float ay, Dir h) {
     float x = h.x / ax, y = h.y / ay, q = x * x + y * y + h.z * h.z;
     return 1.0f / (PI * ax * ay * q * q);
@@ -18,6 +19,14 @@ FN float ggx_d(float ax, float ay, Dir h) {
 /* |(ax wx, ay wy, wz)|, from which all of Smith's terms are made. */
 FN float ggx_length(float ax, float ay, Dir w) {
     return sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z);
+}
+
+/* h from D cos_h, whether wo sees it or not: the slopes of a disc, stretched (Walter et al., Equation 35). */
+FN Dir ggx_facet(float ax, float ay, float u, float v) {
+    float r = sqrt(u), phi = 2.0f * PI * v;
+    float x = ax * r * cos(phi), y = ay * r * sin(phi), z2 = max(1.0f - u, 0.0f);
+    float n = 1.0f / sqrt(max(x * x + y * y + z2, 1e-24f));
+    return dir(x * n, y * n, sqrt(z2) * n);
 }
 
 /* A normal visible from wo: a point of the spherical cap that sees it, stretched back.

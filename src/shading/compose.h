@@ -1,0 +1,127 @@
+/* compose.h - from inputs and choices to a stack, and what a stack reflects
+ *
+ * A profile, or else a workflow, makes the stack; then come the choices that were made, in place of what it
+ * says. */
+#ifndef WEFT_SHADING_COMPOSE_H
+#define WEFT_SHADING_COMPOSE_H
+
+#include "shading/lobes/cook_torrance.h"
+#include "shading/profile.h"
+
+/* The specular lobe with terms of one's own choice; what is not chosen stays. */
+FN Lobe compose_specular(Lobe lobe, Choices c) {
+    Lobe m = lobe;
+    if (lobe.id != LOBE_COOK_TORRANCE) {
+        m = lobe_default(LOBE_COOK_TORRANCE);
+        float alpha = lobe.params[0], anisotropy = lobe.params[1];
+        m.params[0] = alpha;
+        if (lobe.id == LOBE_GGX)
+            m.params[COOK_TORRANCE_STRETCH] = mix(alpha, 1.0f, anisotropy * anisotropy) / alpha;
+    }
+    if (c.d >= 0) m.params[COOK_TORRANCE_D] = to_float(c.d);
+    if (c.v >= 0) m.params[COOK_TORRANCE_V] = to_float(c.v);
+    if (c.f >= 0) m.params[COOK_TORRANCE_F] = to_float(c.f);
+    return m;
+}
+
+FN Stack compose_choices(Stack m, Surface s, Choices c) {
+    if (c.sheen_lobe >= 0) {
+        Lobe lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
+        m.sheen = slot_make(lobe, m.color, s.sheen_second, m.left, m.sheen.pick);
+        m.albedo = ALBEDO_TABLE;
+        m.at = lobe.params[0];
+    }
+    if (c.layer >= 0) m.layer = c.layer;
+    if (c.layer_by >= 0) m.by = c.layer_by;
+    if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && m.specular.pick > 0.0f) {
+        m.specular.lobe = compose_specular(m.specular.lobe, c);
+        m.specular.lobe.params[COOK_TORRANCE_IOR] = max(s.ior, 1.0f);
+        m.specular.lobe.params[COOK_TORRANCE_K] = s.extinction;
+    }
+    if (c.diffuse >= 0 && m.diffuse.pick > 0.0f) {
+        Lobe lobe = lobe_rough(c.diffuse, c.diffuse == LOBE_WRAP ? s.subsurface : s.roughness);
+        Rgb color = rgb_scale(m.diffuse.f0, 1.0f / max(m.left, 1e-6f));
+        m.diffuse = slot_make(lobe, color, color, m.left, m.diffuse.pick);
+    }
+    return m;
+}
+
+/* E of the white sheen towards a direction of that cosine. */
+#define COMPOSE_ALBEDO(name, index, formula)                                                                 \
+    if (m.albedo == index) return formula;
+FN float stack_albedo(Stack m, float cosine) {
+    WEFT_ALBEDO_FORMULAS(COMPOSE_ALBEDO)
+    return table_albedo(m.table, cosine, m.at);
+}
+
+/* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
+FN Stack compose_finish(Stack m, TableRef e, Dir o) {
+    m.table = e;
+    if (m.sheen.pick > 0.0f) {
+        m.e_o = stack_albedo(m, o.z);
+        m.e_avg = table_average(e, m.at);
+        float keep = rgb_mean(stack_keep(m, m.e_o));
+        m.sheen.pick = m.layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m.sheen.pick * m.e_o, 1e-3f);
+        m.diffuse.pick = m.diffuse.pick * keep;
+        if (m.layer != LAYER_SEED) m.specular.pick = m.specular.pick * keep;
+    }
+    float sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick;
+    /* a floor keeps every lobe reachable, so that no weight is unbounded */
+    float most = sum > 0.0f ? 0.9375f / sum : 0.0f, least = 0.015625f, rest = 1.0f;
+    m.diffuse.pick = m.diffuse.pick > 0.0f ? most * m.diffuse.pick + least : 0.0f;
+    m.specular.pick = m.specular.pick > 0.0f ? most * m.specular.pick + least : 0.0f;
+    m.sheen.pick = m.sheen.pick > 0.0f ? most * m.sheen.pick + least : 0.0f;
+    m.coat.pick = m.coat.pick > 0.0f ? most * m.coat.pick + least : 0.0f;
+    sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick;
+    rest = sum > 0.0f ? 1.0f / sum : 0.0f;
+    m.diffuse.pick = m.diffuse.pick * rest;
+    m.specular.pick = m.specular.pick * rest;
+    m.sheen.pick = m.sheen.pick * rest;
+    m.coat.pick = m.coat.pick * rest;
+    return m;
+}
+
+/* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E that compose_table_of asks
+ * for. */
+FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
+    return compose_finish(compose_choices(compose_begin(s, c, o), s, c), e, o);
+}
+
+/* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
+FN StackValue stack_value(Stack m, Angles a, Angles coat) {
+    float e_i = m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f ? stack_albedo(m, a.i.z) : 0.0f;
+    Rgb keep = m.color.r + m.color.g + m.color.b > 0.0f ? stack_keep(m, e_i) : rgb_grey(1.0f);
+    Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
+    if (m.layer == LAYER_SEED) {
+        under = rgb_grey(1.0f - rgb_max3(stack_fresnel(m, a.d)));
+        over = under;
+        specular_keep = rgb_grey(1.0f);
+    }
+    StackValue sum;
+    sum.f_cos = rgb_grey(0.0f);
+    sum.pdf = 0.0f;
+    if (m.diffuse.pick > 0.0f) {
+        LobeValue v = lobe_at(m.diffuse.lobe, a);
+        sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(m.diffuse, v));
+        sum.pdf = slot_pdf(m.diffuse, v);
+    }
+    if (m.specular.pick > 0.0f) {
+        LobeValue v = lobe_at(m.specular.lobe, a);
+        sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(m.specular, v)));
+        sum.pdf = sum.pdf + slot_pdf(m.specular, v);
+    }
+    if (m.sheen.pick > 0.0f) {
+        LobeValue v = lobe_at(m.sheen.lobe, a);
+        sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
+        sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
+    }
+    sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
+    if (m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {
+        LobeValue v = lobe_at(m.coat.lobe, coat);
+        sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(m.coat, v), coat.i.z));
+        sum.pdf = sum.pdf + slot_pdf(m.coat, v);
+    }
+    return sum;
+}
+
+#endif

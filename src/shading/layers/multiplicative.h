@@ -1,0 +1,16 @@
+/* multiplicative - a rim that brightens the base itself: a black base stays black
+ *
+ *   f = (1 + c E(wo)) base, and no sheen lobe beside it
+ *
+ *   The form of the exponential sheen and of the rim lights before it, which scale what is already shaded. No
+ * paper states it; c and E are the colour and the albedo of KHR_materials_sheen, Khronos Group, 2020.
+ *   energy: gains c E(wo) times what the base reflects.
+ *   reciprocal: no, the factor knows wo alone. */
+#ifndef WEFT_LAYER_MULTIPLICATIVE_H
+#define WEFT_LAYER_MULTIPLICATIVE_H
+
+#include "shading/lang.h"
+
+FN float multiplicative_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f + c * e_o, 0.0f); }
+
+#endif

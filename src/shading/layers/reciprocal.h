@@ -1,0 +1,21 @@
+/* reciprocal - light passes the sheen on its way in and on its way out, and what is turned back returns
+ *
+ *   f = sheen + (1 - c E(wo)) (1 - c E(wi)) / (1 - c Eavg) base,  Eavg = 2 integral of E(mu) mu dmu
+ *
+ *   Csaba Kelemen, Laszlo Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
+ * Importance Sampling", Eurographics 2001 short presentations, Section 2.2.
+ *   energy: exactly 1 over a white Lambert base, for a sheen that keeps E <= 1 and c Eavg <= 0.99. Over a
+ * dark one it leaves on average what albedo-view does; with true bounces (stochastic) it would be less.
+ *   reciprocal: yes. */
+#ifndef WEFT_LAYER_RECIPROCAL_H
+#define WEFT_LAYER_RECIPROCAL_H
+
+#include "shading/lang.h"
+
+/* Each factor is clamped, for the product of two negative ones is not. The denominator stops at 1/100: only a
+ * sheen that reflects more than 99 % of all light, or more than all, comes there. */
+FN float reciprocal_base(float c, float e_o, float e_i, float e_avg) {
+    return max(1.0f - c * e_o, 0.0f) * max(1.0f - c * e_i, 0.0f) / max(1.0f - c * e_avg, 0.01f);
+}
+
+#endif

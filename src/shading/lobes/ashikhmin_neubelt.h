@@ -1,0 +1,47 @@
+/* ashikhmin-neubelt - velvet with a rim that stays soft, and a little light from everywhere
+ *
+ *   f = color D(h) V(wo, wi)                                                                     [1/sr]
+ *
+ *   D: term d_ashikhmin.  V: term v_neubelt.
+ *   David Neubelt, Matt Pettineo, "Crafting a Next-Gen Material Pipeline for The Order: 1886", SIGGRAPH 2013
+ * course, after Michael Ashikhmin, Simon Premoze, "Distribution-based BRDFs", 2007.
+ *   reciprocal: yes.
+ */
+#ifndef WEFT_ASHIKHMIN_NEUBELT_H
+#define WEFT_ASHIKHMIN_NEUBELT_H
+
+#include "shading/terms/d_ashikhmin.h"
+#include "shading/terms/v_neubelt.h"
+
+#define ASHIKHMIN_NEUBELT_PARAMS(P)                                                                          \
+    P(float, alpha, 0.25f, 0.05f, 1.0f, 0.02f, 4.0f, "width of the rise at the horizon; low is a thin rim")
+#define ASHIKHMIN_NEUBELT_TRAITS TRAIT_RECIPROCAL
+
+STRUCT(AshikhminNeubelt){ASHIKHMIN_NEUBELT_PARAMS(FIELD)};
+
+FN float ashikhmin_neubelt_eval(AshikhminNeubelt m, Angles a) {
+    return ashikhmin_d(m.alpha, a.h) * neubelt_v(a.o.z, a.i.z);
+}
+
+/* Half by D cos_h with h turned to the side that wo is on, where wo . h > 0 without exception and the density
+ * doubles; half uniform, which bounds the weight. */
+FN float ashikhmin_neubelt_side(Dir o, Dir h) {
+    return o.x * o.x + o.y * o.y > 1e-12f ? h.x * o.x + h.y * o.y : h.x;
+}
+
+FN float ashikhmin_neubelt_pdf(AshikhminNeubelt m, Angles a) {
+    float by_d = 2.0f * ashikhmin_d(m.alpha, a.h) * a.h.z / (4.0f * max(a.d, 1e-6f));
+    return 0.5f * (ashikhmin_neubelt_side(a.o, a.h) > 0.0f ? by_d : 0.0f) + 0.5f * warp_uniform_pdf(a.i);
+}
+
+FN Dir ashikhmin_neubelt_sample(AshikhminNeubelt m, Dir o, float u, float v) {
+    Dir i = warp_uniform(2.0f * u - 1.0f, v);
+    if (u < 0.5f) {
+        Dir h = ashikhmin_facet(m.alpha, 2.0f * u, v);
+        float turn = ashikhmin_neubelt_side(o, h) < 0.0f ? -1.0f : 1.0f;
+        i = dir_mirror(o, dir(turn * h.x, turn * h.y, h.z));
+    }
+    return i;
+}
+
+#endif

@@ -1,0 +1,41 @@
+/* burley-coat - the thin varnish of the principled BRDF: a sharp highlight with a long, faint tail
+ *
+ *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + f90 s                                       [1/sr]
+ *
+ *   D: term d_gtr1 with alpha.  V: term v_smith_ggx with alpha 0.25 whatever the gloss.  F: term f_schlick.
+ *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course, section 5.4 and appendix B.
+ *   roughness: alpha = mix(0.1, 0.001, clearcoat_gloss).
+ *   reciprocal: yes.
+ *   energy: E <= 1 of the white lobe is not promised: D and V are of different roughness, and the paper
+ * weighs it by 0.25 clearcoat. sampling: half by D, half uniform. */
+#ifndef WEFT_BURLEY_COAT_H
+#define WEFT_BURLEY_COAT_H
+
+#include "shading/terms/d_gtr1.h"
+#include "shading/terms/f_schlick.h"
+#include "shading/terms/v_smith_ggx.h"
+#include "shading/warp.h"
+
+#define BURLEY_COAT_PARAMS(P)                                                                                \
+    P(float, alpha, 0.001f, 0.001f, 0.1f, 0.001f, 1.0f, "width of the highlight's peak")
+#define BURLEY_COAT_TRAITS TRAIT_RECIPROCAL
+
+STRUCT(BurleyCoat){BURLEY_COAT_PARAMS(FIELD)};
+
+FN float burley_coat_eval(BurleyCoat m, Angles a) {
+    return gtr1_d(m.alpha, a.h) * smith_ggx_v(0.25f, a.o, a.i);
+}
+FN float burley_coat_share(BurleyCoat m, Angles a) { return schlick_s(a.d); }
+FN float burley_coat_second(BurleyCoat m, float f0, float f90) { return f90; }
+
+FN float burley_coat_pdf(BurleyCoat m, Angles a) {
+    float half_vectors = gtr1_d(m.alpha, a.h) * a.h.z / (4.0f * max(a.d, 1e-6f));
+    return 0.5f * half_vectors + 0.5f * warp_uniform_pdf(a.i);
+}
+FN Dir burley_coat_sample(BurleyCoat m, Dir o, float u, float v) {
+    Dir i = warp_uniform(2.0f * u - 1.0f, v);
+    if (u < 0.5f) i = dir_mirror(o, gtr1_facet(m.alpha, 2.0f * u, v));
+    return i;
+}
+
+#endif

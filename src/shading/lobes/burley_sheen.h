@@ -1,0 +1,48 @@
+/* burley-sheen - a faint brightening towards the light behind the rim, of the width it always has
+ *
+ *   f = color (1 - wi . h)^5                                                                     [1/sr]
+ *
+ *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course, section 5.3 (the sheen term);
+ * the text of it is disney.brdf of the BRDF Explorer, where Fsheen is added to the diffuse term beyond that
+ * term's 1/pi, so there is none here. There the term is scaled by 1 - metallic and tinted; here a colour does
+ * both.
+ *   reciprocal: yes.
+ */
+#ifndef WEFT_BURLEY_SHEEN_H
+#define WEFT_BURLEY_SHEEN_H
+
+#include "shading/terms/f_schlick.h"
+#include "shading/warp.h"
+
+#define BURLEY_SHEEN_PARAMS(P)
+#define BURLEY_SHEEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
+
+STRUCT(BurleySheen) { float none; };
+
+FN float burley_sheen_eval(BurleySheen m, Angles a) { return schlick_s(a.d); }
+
+/* By q(d) = 6 (1 - d)^5 of the half angle between wo and wi, all azimuths about wo alike; what falls below
+ * the horizon is mirrored up, since f peaks opposite to wo. dwi = 4 d dd dphi. */
+FN float burley_sheen_pdf_d(float d) { return 6.0f * schlick_s(d) / (8.0f * PI * max(d, 1e-6f)); }
+
+FN float burley_sheen_pdf(BurleySheen m, Angles a) {
+    float x = a.o.x + a.i.x, y = a.o.y + a.i.y, z = a.o.z - a.i.z;
+    float below = 0.5f * sqrt(x * x + y * y + z * z);
+    return 0.5f * (burley_sheen_pdf_d(a.d) + burley_sheen_pdf_d(below)) + 0.5f * warp_uniform_pdf(a.i);
+}
+
+FN Dir burley_sheen_sample(BurleySheen m, Dir o, float u, float v) {
+    Dir i = warp_uniform(2.0f * u - 1.0f, v);
+    if (u < 0.5f) {
+        float d = 1.0f - pow(max(2.0f * u, 1e-30f), 1.0f / 6.0f);
+        float c = 2.0f * d * d - 1.0f, s = 2.0f * d * sqrt(max(1.0f - d * d, 0.0f)), phi = 2.0f * PI * v;
+        /* a frame about wo: Tom Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017 */
+        float a = -1.0f / (1.0f + o.z), b = o.x * o.y * a, x = s * cos(phi), y = s * sin(phi);
+        float z = c * o.z - o.x * x - o.y * y;
+        i = dir(c * o.x + (1.0f + o.x * o.x * a) * x + b * y, c * o.y + b * x + (1.0f + o.y * o.y * a) * y,
+                abs(z));
+    }
+    return i;
+}
+
+#endif

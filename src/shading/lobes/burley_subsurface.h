@@ -1,0 +1,48 @@
+/* burley-subsurface - a surface that light sinks into before it returns: flatter and softer at the edges
+ *
+ *   f = color mix(burley, ss, subsurface),  ss = 1.25 (Fss (1 / (cos_i + cos_o) - 0.5) + 0.5) / pi  [1/sr]
+ *   Fss = (1 + (fss90 - 1) s_i) (1 + (fss90 - 1) s_o)
+ *   fss90 = d^2 roughness,  s = (1 - cos)^5,  d = wi . h
+ *
+ *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course, Section 5.3, and disney.brdf of
+ * the BRDF Explorer; flattened after Pat Hanrahan, Wolfgang Krueger, "Reflection from Layered Surfaces due to
+ * Subsurface Scattering", SIGGRAPH 1993.
+ *   roughness: the artist's own, not squared.
+ *   reciprocal: yes.
+ *   energy: no, E passes 1 at any roughness: at roughness 0 it is 0.749 at the normal and up to 1.211 on
+ *     the way to grazing; at cos_o 0.02 it is 0.758 at roughness 0 and 1.504 at 1.
+ *   sampling: half cosine, half uniform; the weight is at most 5. */
+#ifndef WEFT_BURLEY_SUBSURFACE_H
+#define WEFT_BURLEY_SUBSURFACE_H
+
+#include "shading/lobes/burley.h"
+
+#define BURLEY_SUBSURFACE_PARAMS(P)                                                                          \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "brightness of grazing light thrown back")             \
+    P(float, subsurface, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "1 is this lobe, 0 is burley")
+#define BURLEY_SUBSURFACE_AMOUNT 1 /* where in the table */
+#define BURLEY_SUBSURFACE_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
+
+STRUCT(BurleySubsurface){BURLEY_SUBSURFACE_PARAMS(FIELD)};
+
+/* mix(1, fss90, s) by 1 - s multiplied out: at grazing both would be lost in the rounding of 1 - s, and what
+ * is left is divided by cos_i + cos_o. */
+FN float burley_subsurface_f(float fss90, float z) {
+    float k = z * (5.0f - z * (10.0f - z * (10.0f - z * (5.0f - z))));
+    return k + (1.0f - k) * fss90;
+}
+
+FN float burley_subsurface_eval(BurleySubsurface m, Angles a) {
+    float fss90 = a.d * a.d * m.roughness;
+    float fss = burley_subsurface_f(fss90, a.i.z) * burley_subsurface_f(fss90, a.o.z);
+    float ss = 1.25f * (fss * (1.0f / (a.i.z + a.o.z) - 0.5f) + 0.5f) / PI;
+    Burley surface;
+    surface.roughness = m.roughness;
+    return mix(burley_eval(surface, a), ss, m.subsurface);
+}
+FN float burley_subsurface_pdf(BurleySubsurface m, Angles a) { return warp_mixed_pdf(0.5f, a.i); }
+FN Dir burley_subsurface_sample(BurleySubsurface m, Dir o, float u, float v) {
+    return warp_mixed(0.5f, u, v);
+}
+
+#endif

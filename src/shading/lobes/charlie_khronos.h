@@ -1,0 +1,38 @@
+/* charlie-khronos - velvet as the glTF sample renderer draws it: the rim of charlie-conty-kulla, cut where it
+ * is brightest
+ *
+ *   f = color D(h) min(V(wo, wi), 1)                                                             [1/sr]
+ *
+ *   D: term d_charlie.  V: term v_conty_kulla.
+ *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
+ * course; the clamp is in V_Sheen of brdf.glsl, Khronos Group, glTF-Sample-Viewer, 2020 on, and in no text.
+ *   reciprocal: yes.
+ */
+#ifndef WEFT_CHARLIE_KHRONOS_H
+#define WEFT_CHARLIE_KHRONOS_H
+
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/v_conty_kulla.h"
+
+#define CHARLIE_KHRONOS_PARAMS(P)                                                                            \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
+#define CHARLIE_KHRONOS_TRAITS TRAIT_RECIPROCAL
+
+STRUCT(CharlieKhronos){CHARLIE_KHRONOS_PARAMS(FIELD)};
+
+/* Not the term's own V, whose floor under cos_o cos_i the clamp makes needless. */
+FN float charlie_khronos_v(float alpha, float o, float i) {
+    float t = (1.0f - alpha) * (1.0f - alpha), l_half = conty_kulla_l(t, 0.5f);
+    float lambda = conty_kulla_lambda(t, l_half, o) + conty_kulla_lambda(t, l_half, i);
+    return min(1.0f / max((1.0f + lambda) * 4.0f * o * i, 1e-30f), 1.0f);
+}
+
+FN float charlie_khronos_eval(CharlieKhronos m, Angles a) {
+    return charlie_d(m.alpha, a.h) * charlie_khronos_v(m.alpha, a.o.z, a.i.z);
+}
+FN float charlie_khronos_pdf(CharlieKhronos m, Angles a) { return charlie_pdf(m.alpha, a); }
+FN Dir charlie_khronos_sample(CharlieKhronos m, Dir o, float u, float v) {
+    return charlie_sample(m.alpha, o, u, v);
+}
+
+#endif

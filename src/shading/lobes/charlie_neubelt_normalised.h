@@ -1,0 +1,33 @@
+/* charlie-neubelt-normalised - velvet as most engines draw it, without the light it invents at grazing
+ *
+ *   f = color D(h) V(wo, wi) / max(1, E(cos_o), E(cos_i))                                        [1/sr]
+ *
+ *   D, V: those of charlie-neubelt, and E its directional albedo from a table made at run time. Dividing by
+ * the larger of the two keeps the lobe reciprocal, and E below 1; where charlie-neubelt conserves energy the
+ * two are the same. roughness: alpha = roughness^2. reciprocal: yes. energy: E <= 1 (to the table's
+ * interpolation, 1e-3). sampling: that of charlie-neubelt. */
+#ifndef WEFT_CHARLIE_NEUBELT_NORMALISED_H
+#define WEFT_CHARLIE_NEUBELT_NORMALISED_H
+
+#include "shading/lobe_tables.h"
+#include "shading/lobes/charlie_neubelt.h"
+
+#define CHARLIE_NEUBELT_NORMALISED_PARAMS(P)                                                                 \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 4.0f, "width of the fibres' spread; low is a thin rim")
+#define CHARLIE_NEUBELT_NORMALISED_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_TABLE)
+
+STRUCT(CharlieNeubeltNormalised){CHARLIE_NEUBELT_NORMALISED_PARAMS(FIELD)};
+
+FN float charlie_neubelt_normalised_eval(CharlieNeubeltNormalised m, Angles a) {
+    TableRef e = lobe_table_charlie_neubelt();
+    float most = max(table_roots(e, a.o.z, m.alpha), table_roots(e, a.i.z, m.alpha));
+    return charlie_d(m.alpha, a.h) * neubelt_v(a.o.z, a.i.z) / max(1.0f, most);
+}
+FN float charlie_neubelt_normalised_pdf(CharlieNeubeltNormalised m, Angles a) {
+    return charlie_pdf(m.alpha, a);
+}
+FN Dir charlie_neubelt_normalised_sample(CharlieNeubeltNormalised m, Dir o, float u, float v) {
+    return charlie_sample(m.alpha, o, u, v);
+}
+
+#endif

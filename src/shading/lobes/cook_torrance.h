@@ -1,0 +1,72 @@
+/* cook-torrance - whatever you put together: any distribution of facets or fibres with any shadowing and any
+ * Fresnel term
+ *
+ *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + second s                                    [1/sr]
+ *   alpha_x = stretch alpha,  alpha_y = alpha
+ *
+ *   Robert L. Cook, Kenneth E. Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on
+ * Graphics 1(1), 1982. The choice of terms is that of Brian Karis, "Specular BRDF Reference", 2013, GTR1
+ * (Burley 2012) and those of cloth; each file of terms/ names its source.
+ *   roughness: alpha = roughness^2 in all of them (Karis), but D = velvet has alpha = sigma of Cycles.
+ *   reciprocal: yes.
+ *   energy: no, a V that does not belong to its D may give E > 1 at grazing.
+ *   sampling: half by D, visible normals for ggx and ggx-aniso, h from D cos_h else; half uniform, which
+ *     bounds the weight where D finds nothing. 1/2 D cos_h / (4 d) bounds it by 8 V cos_i d / cos_h, the
+ *     uniform half by 4 pi D V cos_i.
+ *   Not for: speed; a lobe of its own with the same two terms is one branch shorter at every step. */
+#ifndef WEFT_COOK_TORRANCE_H
+#define WEFT_COOK_TORRANCE_H
+
+#include "shading/terms.h"
+
+#define COOK_TORRANCE_PARAMS(P)                                                                              \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")              \
+    P(DTerm, d, D_GGX, 0, D_VELVET, 0, D_VELVET, "distribution of half vectors")                             \
+    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_CONTY_KULLA_CLAMPED, 0, V_CONTY_KULLA_CLAMPED,                  \
+      "shadowing and masking, over 4 cos_o cos_i")                                                           \
+    P(FTerm, f, F_SCHLICK, 0, F_CONDUCTOR, 0, F_CONDUCTOR, "reflectance from normal to grazing")             \
+    P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")          \
+    P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction of those F that have one")            \
+    P(float, k, 3.0f, 0.0f, 8.0f, 0.0f, 20.0f, "extinction of F = conductor")
+#define COOK_TORRANCE_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC)
+
+STRUCT(CookTorrance){COOK_TORRANCE_PARAMS(FIELD)};
+
+/* Where in the table they are. */
+#define COOK_TORRANCE_D       1
+#define COOK_TORRANCE_V       2
+#define COOK_TORRANCE_F       3
+#define COOK_TORRANCE_STRETCH 4
+#define COOK_TORRANCE_IOR     5
+#define COOK_TORRANCE_K       6
+
+FN float cook_torrance_ax(CookTorrance m) { return m.alpha * m.stretch; }
+
+FN float cook_torrance_eval(CookTorrance m, Angles a) {
+    float ax = cook_torrance_ax(m);
+    return term_d(m.d, m.alpha, ax, m.alpha, a.h) * term_v(m.v, m.alpha, ax, m.alpha, a);
+}
+
+FN float cook_torrance_share(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
+FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
+
+FN float cook_torrance_pdf(CookTorrance m, Angles a) {
+    float ax = cook_torrance_ax(m), pdf;
+    if (m.d == D_GGX)
+        pdf = ggx_pdf_h(m.alpha, m.alpha, a);
+    else if (m.d == D_GGX_ANISO)
+        pdf = ggx_pdf_h(ax, m.alpha, a);
+    else
+        pdf = facet_pdf(term_d(m.d, m.alpha, ax, m.alpha, a.h) * a.h.z, a);
+    return 0.5f * pdf + 0.5f * warp_uniform_pdf(a.i);
+}
+
+FN Dir cook_torrance_sample(CookTorrance m, Dir o, float u, float v) {
+    if (u >= 0.5f) return warp_uniform(2.0f * u - 1.0f, v);
+    float ax = cook_torrance_ax(m), w = 2.0f * u;
+    if (m.d == D_GGX) return dir_mirror(o, ggx_sample_h(m.alpha, m.alpha, o, w, v));
+    if (m.d == D_GGX_ANISO) return dir_mirror(o, ggx_sample_h(ax, m.alpha, o, w, v));
+    return dir_mirror(o, facet_seen(o, term_facet(m.d, m.alpha, ax, m.alpha, w, v)));
+}
+
+#endif

@@ -1,0 +1,69 @@
+/* eon - clay again, but what one facet throws onto the next is not lost: brighter and deeper in colour
+ *
+ *   f = (rho A (1 + roughness s / t) + rho_ms M) / pi                                            [1/sr]
+ *   A = 1 / (1 + C1 roughness),  C1 = 1/2 - 2 / (3 pi),  C2 = 2/3 - 28 / (15 pi)
+ *   s = wi . wo - cos_i cos_o,  t = max(cos_i, cos_o) where s > 0, else 1
+ *   M = (1 - E(cos_i)) (1 - E(cos_o)) / (1 - Eavg),  Eavg = A (1 + C2 roughness)
+ *   E(mu) = A (1 + roughness G(mu) / pi),  rho_ms = rho^2 Eavg / (1 - rho (1 - Eavg))
+ *   G(cos x) = sin x (x - sin x cos x) + 2/3 (tan x (1 - sin^3 x) - sin x)
+ *
+ *   Jamie Portsmouth, Peter Kutz, Stephen Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
+ * 14(1), 2025. color = rho is the first colour, rho_ms the second, whatever f90 says.
+ *   Departures: 1 - E = A roughness (C1 - G / pi) and 1 - Eavg = A roughness (C1 - C2), which divides nothing
+ * by nothing at roughness 0; x by the arc cosine 4.4.45 of Milton Abramowitz, Irene A. Stegun, "Handbook of
+ * Mathematical Functions", 1964; rho in the denominator is at most 1.
+ *   roughness: 0 is Lambert, 1 the roughest; not squared.
+ *   reciprocal: yes.  energy: E = 1 within 2e-5 for rho 1, and rho E(cos_o) + rho_ms (1 - E(cos_o)) for any.
+ *   sampling: cosine and uniform mixed in the ratio 1 : roughness; the weight is at most 3.2. */
+#ifndef WEFT_EON_H
+#define WEFT_EON_H
+
+#include "shading/warp.h"
+
+#define EON_PARAMS(P)                                                                                        \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 the brightest towards the light")
+#define EON_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE)
+#define EON_C1     (0.5f - 2.0f / (3.0f * PI))
+#define EON_C2     (2.0f / 3.0f - 28.0f / (15.0f * PI))
+
+STRUCT(Eon){EON_PARAMS(FIELD)};
+
+FN float eon_a(Eon m) { return 1.0f / (1.0f + EON_C1 * m.roughness); }
+
+/* C1 - G / pi: what the first bounce loses towards that cosine, over A roughness. */
+FN float eon_lost(float z) {
+    float s = sqrt(max(1.0f - z * z, 0.0f));
+    float p = 1.5707288f - z * (0.2121144f - z * (0.0742610f - z * 0.0187293f));
+    float x = sqrt(max(1.0f - z, 0.0f)) * p;
+    float g = s * (x - s * z) + 2.0f / 3.0f * s * (z * (1.0f + s + s * s) / (1.0f + s) - 1.0f);
+    return max(EON_C1 - g / PI, 0.0f);
+}
+
+/* Both parts of a white lobe, over A / pi. */
+FN float eon_first(Eon m, Angles a) {
+    float s = a.o.x * a.i.x + a.o.y * a.i.y;
+    float t = s > 0.0f ? max(a.o.z, a.i.z) : 1.0f;
+    return max(1.0f + m.roughness * s / t, 0.0f);
+}
+FN float eon_rest(Eon m, Angles a) {
+    return m.roughness * eon_lost(a.o.z) * eon_lost(a.i.z) / (EON_C1 - EON_C2);
+}
+
+FN float eon_eval(Eon m, Angles a) { return eon_a(m) * (eon_first(m, a) + eon_rest(m, a)) / PI; }
+
+FN float eon_share(Eon m, Angles a) {
+    float rest = eon_rest(m, a);
+    return rest / max(eon_first(m, a) + rest, 1e-12f);
+}
+FN float eon_second(Eon m, float f0, float f90) {
+    float avg = eon_a(m) * (1.0f + EON_C2 * m.roughness);
+    return f0 * f0 * avg / (1.0f - min(f0, 1.0f) * (1.0f - avg));
+}
+
+/* The part of s / t is uniform, since at grazing it outgrows the cosine. */
+FN float eon_pdf(Eon m, Angles a) { return warp_mixed_pdf(m.roughness / (1.0f + m.roughness), a.i); }
+FN Dir eon_sample(Eon m, Dir o, float u, float v) {
+    return warp_mixed(m.roughness / (1.0f + m.roughness), u, v);
+}
+
+#endif

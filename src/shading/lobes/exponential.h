@@ -1,0 +1,37 @@
+/* exponential - a rim that depends on the viewer alone: dark from above, full colour at the edge
+ *
+ *   f = color x(1 - cos_o) / pi,   x(t) = (1 - exp(-beta t)) / (1 - exp(-beta))                  [1/sr]
+ *
+ * TODOCITE
+ *   reciprocal: no, the light's direction is not in it.
+ *   energy: E(cos_o) = x(1 - cos_o) exactly, at most 1.
+ *   sampling: cosine, weight constant. */
+#ifndef WEFT_EXPONENTIAL_H
+#define WEFT_EXPONENTIAL_H
+
+#include "shading/warp.h"
+
+#define EXPONENTIAL_PARAMS(P)                                                                                \
+    P(float, beta, 3.0f, 0.5f, 20.0f, 0.01f, 100.0f, "how soon the rim is full; low is a straight ramp")
+#define EXPONENTIAL_TRAITS TRAIT_CONSERVES
+
+STRUCT(Exponential){EXPONENTIAL_PARAMS(FIELD)};
+
+/* 1 - exp(-y): by its series where the difference would have no digits left. */
+FN float exponential_gain(float y) {
+    float s =
+        y * (1.0f - y / 2.0f * (1.0f - y / 3.0f * (1.0f - y / 4.0f * (1.0f - y / 5.0f * (1.0f - y / 6.0f)))));
+    return y < 0.25f ? s : 1.0f - exp(-y);
+}
+
+/* x at t = 1 - cos, which is taken from the tangential part for the same reason. */
+FN float exponential_x(float beta, Dir w) {
+    float t = (w.x * w.x + w.y * w.y) / (1.0f + w.z);
+    return exponential_gain(beta * t) / exponential_gain(beta);
+}
+
+FN float exponential_eval(Exponential m, Angles a) { return exponential_x(m.beta, a.o) / PI; }
+FN float exponential_pdf(Exponential m, Angles a) { return warp_cosine_pdf(a.i); }
+FN Dir exponential_sample(Exponential m, Dir o, float u, float v) { return warp_cosine(u, v); }
+
+#endif

@@ -1,0 +1,51 @@
+/* exponential-lit - the rim of exponential, seen only where the light grazes too
+ *
+ *   f = color x(1 - cos_o) x(1 - cos_i) / (pi A(beta))                                           [1/sr]
+ *   x(t) = (1 - exp(-beta t)) / (1 - exp(-beta))                                   as in lobe exponential
+ *   A    = integral 2 c x(1 - c) dc = (1 - 2 (beta - 1 + exp(-beta)) / beta^2) / (1 - exp(-beta))
+ *
+ * TODOCITE
+ *   reciprocal: yes.
+ *   energy: E(cos_o) = x(1 - cos_o) exactly, at most 1.
+ */
+#ifndef WEFT_EXPONENTIAL_LIT_H
+#define WEFT_EXPONENTIAL_LIT_H
+
+#include "shading/lobes/exponential.h"
+
+#define EXPONENTIAL_LIT_PARAMS(P)                                                                            \
+    P(float, beta, 3.0f, 0.5f, 20.0f, 0.01f, 100.0f, "how soon the rim is full; low is a straight ramp")
+#define EXPONENTIAL_LIT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
+
+STRUCT(ExponentialLit){EXPONENTIAL_LIT_PARAMS(FIELD)};
+
+/* The mean of x weighted by the cosine: by its series where the closed form would have no digits left. */
+FN float exponential_lit_mean(float beta) {
+    float e = 1.0f - beta / 6.0f * (1.0f - beta / 7.0f * (1.0f - beta / 8.0f));
+    e = 1.0f - beta / 4.0f * (1.0f - beta / 5.0f * e);
+    float numerator =
+        beta < 0.5f ? beta / 3.0f * e : 1.0f - 2.0f * (beta - exponential_gain(beta)) / (beta * beta);
+    return numerator / exponential_gain(beta);
+}
+
+FN float exponential_lit_eval(ExponentialLit m, Angles a) {
+    return exponential_x(m.beta, a.o) * exponential_x(m.beta, a.i) / (PI * exponential_lit_mean(m.beta));
+}
+
+/* A steep x leaves a cosine, a flat one about cos (1 - cos): cosine and uniform mixed by where A is between.
+ */
+FN float exponential_lit_share(float beta) {
+    return clamp(1.5f * exponential_lit_mean(beta) - 0.5f, 0.0f, 1.0f);
+}
+
+FN float exponential_lit_pdf(ExponentialLit m, Angles a) {
+    return mix(warp_uniform_pdf(a.i), warp_cosine_pdf(a.i), exponential_lit_share(m.beta));
+}
+FN Dir exponential_lit_sample(ExponentialLit m, Dir o, float u, float v) {
+    float q = exponential_lit_share(m.beta);
+    Dir i = warp_uniform((u - q) / max(1.0f - q, 1e-6f), v);
+    if (u < q) i = warp_cosine(u / q, v);
+    return i;
+}
+
+#endif

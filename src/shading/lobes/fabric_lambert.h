@@ -1,0 +1,24 @@
+/* fabric-lambert - cotton and wool as one engine has them: matt, and darker the rougher
+ *
+ *   f = color (1 - roughness / 2) / pi                                                           [1/sr]
+ *
+ *   Unity Technologies, High Definition Render Pipeline, FabricLambertNoPI in BSDF.hlsl, 2018; empirical by
+ * its own comment.
+ *   roughness: Fabric.hlsl passes alpha, the square of the artist's roughness.
+ *   reciprocal: yes.  energy: E = color (1 - roughness / 2) exactly.  sampling: cosine, weight constant. */
+#ifndef WEFT_FABRIC_LAMBERT_H
+#define WEFT_FABRIC_LAMBERT_H
+
+#include "shading/warp.h"
+
+#define FABRIC_LAMBERT_PARAMS(P)                                                                             \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 half as bright")
+#define FABRIC_LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_DIFFUSE)
+
+STRUCT(FabricLambert){FABRIC_LAMBERT_PARAMS(FIELD)};
+
+FN float fabric_lambert_eval(FabricLambert m, Angles a) { return mix(1.0f, 0.5f, m.roughness) / PI; }
+FN float fabric_lambert_pdf(FabricLambert m, Angles a) { return warp_cosine_pdf(a.i); }
+FN Dir fabric_lambert_sample(FabricLambert m, Dir o, float u, float v) { return warp_cosine(u, v); }
+
+#endif

@@ -1,0 +1,42 @@
+/* silk - the stretched highlight of satin weave and filament yarn
+ *
+ *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + f90 s                                       [1/sr]
+ *   alpha_x = alpha (1 + anisotropy),  alpha_y = alpha (1 - anisotropy),  neither below 1/1024
+ *
+ *   D, V, F: terms d_ggx, v_smith_ggx_correlated, f_schlick, where the papers are named.
+ *   Unity Technologies, High Definition Render Pipeline, Fabric.hlsl, the branch for silk, and
+ * ConvertAnisotropyToClampRoughness of CommonMaterial.hlsl, 2018 on; the mapping: Christopher Kulla,
+ * Alejandro Conty Estevez, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course,
+ * page 15.
+ */
+#ifndef WEFT_SILK_H
+#define WEFT_SILK_H
+
+#include "shading/terms/f_schlick.h"
+#include "shading/terms/v_smith_ggx_correlated.h"
+
+#define SILK_PARAMS(P)                                                                                       \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 1.0f, "mean width of the facet slopes")                      \
+    P(float, anisotropy, 0.6f, -0.8f, 0.8f, -0.9f, 0.9f, "above 0 rougher along x, below 0 along y")
+#define SILK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+
+STRUCT(Silk){SILK_PARAMS(FIELD)};
+
+FN float silk_ax(Silk m) { return max(m.alpha * (1.0f + m.anisotropy), 1.0f / 1024.0f); }
+FN float silk_ay(Silk m) { return max(m.alpha * (1.0f - m.anisotropy), 1.0f / 1024.0f); }
+
+FN float silk_eval(Silk m, Angles a) {
+    float ax = silk_ax(m), ay = silk_ay(m);
+    return ggx_d(ax, ay, a.h) * smith_ggx_correlated_v(ax, ay, a.o, a.i);
+}
+
+FN float silk_share(Silk m, Angles a) { return schlick_s(a.d); }
+FN float silk_second(Silk m, float f0, float f90) { return f90; }
+
+FN float silk_pdf(Silk m, Angles a) { return ggx_pdf_h(silk_ax(m), silk_ay(m), a); }
+
+FN Dir silk_sample(Silk m, Dir o, float u, float v) {
+    return dir_mirror(o, ggx_sample_h(silk_ax(m), silk_ay(m), o, u, v));
+}
+
+#endif

@@ -1,0 +1,123 @@
+/* threads - woven cloth of two yarns: each family has its own streak, and the colour shifts as one turns it
+ */
+#ifndef WEFT_THREADS_H
+#define WEFT_THREADS_H
+
+#include "shading/angles.h"
+
+#define THREADS_PARAMS(P)                                                                                    \
+    P(float, warp_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the warp's highlight along x")            \
+    P(float, weft_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the weft's highlight along y")            \
+    P(float, weft, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "share of the surface that is weft")                        \
+    P(float, warp_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the warp rises and falls")          \
+    P(float, weft_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the weft rises and falls")          \
+    P(float, isotropic, 0.3f, 0.0f, 1.0f, 0.0f, 1.0f, "part of the light that the yarn scatters evenly")
+#define THREADS_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+
+STRUCT(Threads){THREADS_PARAMS(FIELD)};
+
+/* A direction as a piece of yarn of that slope sees it: y along the yarn, x across, z its own normal. */
+FN Dir threads_turn(Dir w, bool weft, float slope) {
+    float along = weft ? w.y : w.x, across = weft ? w.x : w.y, r = 1.0f / sqrt(1.0f + slope * slope);
+    return dir(across, (along + slope * w.z) * r, (w.z - slope * along) * r);
+}
+FN Dir threads_turn_back(Dir w, bool weft, float slope) {
+    float r = 1.0f / sqrt(1.0f + slope * slope), along = (w.y - slope * w.z) * r;
+    return dir(weft ? w.x : along, weft ? along : w.x, (w.z + slope * w.y) * r);
+}
+
+/* What w sees of the two slopes of a family, per unit of share; of all, which is never below w.z. */
+FN float threads_seen(float along, float z, float slope) { return 0.5f * max(z - slope * along, 0.0f); }
+FN float threads_all(Threads m, Dir w) {
+    float warp = threads_seen(w.x, w.z, m.warp_crimp) + threads_seen(w.x, w.z, -m.warp_crimp);
+    float weft = threads_seen(w.y, w.z, m.weft_crimp) + threads_seen(w.y, w.z, -m.weft_crimp);
+    return (1.0f - m.weft) * warp + m.weft * weft;
+}
+
+/* The logistic density of standard deviation `width`, and its distribution. */
+FN float threads_scale(float width) { return 0.551328895f * width; }
+FN float threads_density(float scale, float x) {
+    float e = exp(-abs(x) / scale);
+    return e / (scale * (1.0f + e) * (1.0f + e));
+}
+FN float threads_below(float scale, float x) {
+    float e = exp(-abs(x) / scale);
+    return (x < 0.0f ? e : 1.0f) / (1.0f + e);
+}
+
+/* Cylinder: f of one piece of yarn over its own plane. */
+FN float threads_yarn(float width, float isotropic, Dir o, Dir i) {
+    float co = max(sqrt(o.x * o.x + o.z * o.z), 1e-6f), ci = max(sqrt(i.x * i.x + i.z * i.z), 1e-6f);
+    float cos_d = clamp((o.x * i.x + o.z * i.z) / (co * ci), -1.0f, 1.0f);
+    float surface = threads_density(threads_scale(width), o.y + i.y) * 0.25f * sqrt(0.5f + 0.5f * cos_d);
+    float volume = 0.25f / (PI * (co + ci)), u = exp((cos_d - 1.0f) / 0.12184697f);
+    float seen = 1.0f - u + u / max(max(o.z / co, i.z / ci), 1e-6f);
+    return ((1.0f - isotropic) * surface / max(co, ci) + isotropic * volume) * seen;
+}
+
+/* One slope of a family: what both directions see of it, in parts of all that each sees. */
+FN float threads_slope(Threads m, Angles a, bool weft, float slope) {
+    Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
+    float seen_o = max(o.z, 0.0f) / threads_all(m, a.o), seen_i = max(i.z, 0.0f) / threads_all(m, a.i);
+    float area = 0.5f * sqrt(1.0f + slope * slope);
+    return area * seen_o * seen_i * threads_yarn(weft ? m.weft_width : m.warp_width, m.isotropic, o, i);
+}
+
+FN float threads_warp(Threads m, Angles a) {
+    return (1.0f - m.weft) *
+           (threads_slope(m, a, false, m.warp_crimp) + threads_slope(m, a, false, -m.warp_crimp));
+}
+FN float threads_weft(Threads m, Angles a) {
+    return m.weft * (threads_slope(m, a, true, m.weft_crimp) + threads_slope(m, a, true, -m.weft_crimp));
+}
+
+FN float threads_eval(Threads m, Angles a) { return threads_warp(m, a) + threads_weft(m, a); }
+FN float threads_share(Threads m, Angles a) {
+    float weft = threads_weft(m, a);
+    return weft / max(threads_warp(m, a) + weft, 1e-30f);
+}
+FN float threads_second(Threads m, float f0, float f90) { return f90; }
+
+/* Sampling: a slope by what wo sees of it; along the yarn by the highlight, cut off at the ends, or evenly;
+ * around the yarn by the cosine to its plane (3/4) or evenly. */
+FN float threads_pdf_slope(Threads m, Angles a, bool weft, float slope) {
+    Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
+    float scale = threads_scale(weft ? m.weft_width : m.warp_width);
+    float inside = threads_below(scale, o.y + 1.0f) - threads_below(scale, o.y - 1.0f);
+    float along = mix(threads_density(scale, o.y + i.y) / inside, 0.5f, m.isotropic);
+    float around = 0.375f * i.z / max(sqrt(i.x * i.x + i.z * i.z), 1e-6f) + 0.25f / PI;
+    float picked = 0.5f * sqrt(1.0f + slope * slope) * max(o.z, 0.0f) / threads_all(m, a.o);
+    return i.z > 0.0f ? picked * along * around : 0.0f;
+}
+
+FN float threads_pdf(Threads m, Angles a) {
+    return (1.0f - m.weft) * (threads_pdf_slope(m, a, false, m.warp_crimp) +
+                              threads_pdf_slope(m, a, false, -m.warp_crimp)) +
+           m.weft *
+               (threads_pdf_slope(m, a, true, m.weft_crimp) + threads_pdf_slope(m, a, true, -m.weft_crimp));
+}
+
+FN Dir threads_sample(Threads m, Dir o, float u, float v) {
+    float all = threads_all(m, o), warp = (1.0f - m.weft) / all, weft = m.weft / all;
+    float a = warp * threads_seen(o.x, o.z, m.warp_crimp), b = warp * threads_seen(o.x, o.z, -m.warp_crimp);
+    float c = weft * threads_seen(o.y, o.z, m.weft_crimp), d = weft * threads_seen(o.y, o.z, -m.weft_crimp);
+    bool second = u >= a + b && c + d > 0.0f;
+    float w = second ? u - a - b : u, first = second ? c : a, other = second ? d : b;
+    bool down = w >= first && other > 0.0f;
+    float slope = second ? m.weft_crimp : m.warp_crimp;
+    slope = down ? -slope : slope;
+    w = clamp(down ? (w - first) / other : w / max(first, 1e-30f), 0.0f, 1.0f);
+
+    Dir to = threads_turn(o, second, slope);
+    float scale = threads_scale(second ? m.weft_width : m.warp_width);
+    float low = threads_below(scale, to.y - 1.0f), high = threads_below(scale, to.y + 1.0f);
+    float p = clamp(mix(low, high, (w - m.isotropic) / max(1.0f - m.isotropic, 1e-6f)), 1e-7f, 0.9999999f);
+    float y =
+        w < m.isotropic ? 2.0f * w / m.isotropic - 1.0f : scale / 1.44269504f * log2(p / (1.0f - p)) - to.y;
+    y = clamp(y, -1.0f, 1.0f);
+    float phi = PI * (4.0f * v - 3.5f), sin_phi = v < 0.75f ? v * (2.0f / 0.75f) - 1.0f : sin(phi);
+    float cos_phi = sqrt(max(1.0f - sin_phi * sin_phi, 0.0f)), r = sqrt(max(1.0f - y * y, 0.0f));
+    return threads_turn_back(dir(r * sin_phi, y, r * cos_phi), second, slope);
+}
+
+#endif

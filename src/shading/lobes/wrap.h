@@ -1,0 +1,32 @@
+/* wrap - light that creeps past the terminator: a soft edge of the shadow without any scattering
+ *
+ *   f = color (cos_i + wrap) / (pi (1 + wrap)^2 cos_i)                                           [1/sr]
+ *
+ *   Google, Filament, Fd_Wrap in surface_brdf.fs, 2018; normalised so that E is 1 over the whole sphere of
+ * lights.
+ *   Departures: a lobe ends at the horizon, so light from below, which the original takes down to cos_i =
+ * -wrap, is left out; cos_i below 1e-6 counts as 1e-6.
+ *   roughness: none; wrap is how far past the horizon the light reaches, 0 is Lambert.
+ *   reciprocal: no, cos_i alone is in it.
+ *   energy: E = color (1 + 2 wrap) / (1 + wrap)^2 from everywhere, 3/4 at wrap 1.
+ *   sampling: cosine and uniform mixed in the ratio 1 : 2 wrap, weight constant. */
+#ifndef WEFT_WRAP_H
+#define WEFT_WRAP_H
+
+#include "shading/warp.h"
+
+#define WRAP_PARAMS(P) P(float, wrap, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "reach past the terminator, 0 is Lambert")
+#define WRAP_TRAITS    (TRAIT_CONSERVES | TRAIT_DIFFUSE)
+
+STRUCT(Wrap){WRAP_PARAMS(FIELD)};
+
+FN float wrap_eval(Wrap m, Angles a) {
+    float cos_i = max(a.i.z, 1e-6f), w1 = 1.0f + m.wrap;
+    return (cos_i + m.wrap) / (PI * w1 * w1 * cos_i);
+}
+
+FN float wrap_uniform(Wrap m) { return 2.0f * m.wrap / (1.0f + 2.0f * m.wrap); }
+FN float wrap_pdf(Wrap m, Angles a) { return warp_mixed_pdf(wrap_uniform(m), a.i); }
+FN Dir wrap_sample(Wrap m, Dir o, float u, float v) { return warp_mixed(wrap_uniform(m), u, v); }
+
+#endif

@@ -1,0 +1,115 @@
+/* table.h - directional albedo looked up: weft's own tables and those that engines ship
+ *
+ * A table has cos_o along its columns and one shape parameter down its rows. Texels are fetched one by one
+ * and mixed here, so that C and GPU agree: a GPU's filter has 8 bits of fraction. */
+#ifndef WEFT_TABLE_H
+#define WEFT_TABLE_H
+
+#include "shading/lang.h"
+
+#define TABLE_NONE   0 /* E is 0 */
+#define TABLE_ROOTS  1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
+#define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
+
+STRUCT(TableRef) {
+    Table texels;
+    int kind;
+    int rows, columns; /* of the map; TABLE_ROOTS has one column more, E on cosine average */
+    float low, high;   /* TABLE_ROOTS: eighth roots of the parameter in the first and the last row */
+};
+
+/* The cubic through four neighbouring nodes whose slope at a node is that between its neighbours; beyond its
+ * ends the table goes on as a parabola. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating Splines",
+ * 1974. */
+STRUCT(Taps) {
+    int first;
+    float a, b, c, d; /* weights of nodes first .. first + 3 */
+};
+
+/* x in nodes; count >= 4 of them. */
+FN Taps table_taps(float x, int count) {
+    float k = clamp(floor(x), 0.0f, to_float(count - 2));
+    float t = clamp(x - k, 0.0f, 1.0f), s = 1.0f - t;
+    float a = -0.5f * t * s * s, d = -0.5f * t * t * s;
+    float b = s * (1.0f + t - 1.5f * t * t), c = t * (1.0f + s - 1.5f * s * s);
+    Taps m;
+    m.first = to_int(k) - 1;
+    m.a = a;
+    m.b = b;
+    m.c = c;
+    m.d = d;
+    if (k < 0.5f) {
+        m.first = 0;
+        m.a = b + 3.0f * a;
+        m.b = c - 3.0f * a;
+        m.c = d + a;
+        m.d = 0.0f;
+    } else if (k > to_float(count - 2) - 0.5f) {
+        m.first = count - 4;
+        m.a = 0.0f;
+        m.b = a + d;
+        m.c = b - 3.0f * d;
+        m.d = c + 3.0f * d;
+    }
+    return m;
+}
+
+FN float table_row(TableRef m, int row, Taps x) {
+    return x.a * table_texel(m.texels, m.columns + 1, row, x.first) +
+           x.b * table_texel(m.texels, m.columns + 1, row, x.first + 1) +
+           x.c * table_texel(m.texels, m.columns + 1, row, x.first + 2) +
+           x.d * table_texel(m.texels, m.columns + 1, row, x.first + 3);
+}
+
+/* Where the parameter falls among the rows. */
+FN float table_height(TableRef m, float p) {
+    float root = sqrt(sqrt(sqrt(max(p, 0.0f))));
+    return m.rows > 1 ? (root - m.low) / (m.high - m.low) * to_float(m.rows - 1) : 0.0f;
+}
+
+FN float table_roots(TableRef m, float cos_o, float p) {
+    float y_o = 1.0f - sqrt(max(1.0f - sqrt(sqrt(max(cos_o, 0.0f))), 0.0f));
+    Taps x = table_taps(y_o * to_float(m.columns - 1), m.columns);
+    if (m.rows < 2) return max(table_row(m, 0, x), 0.0f);
+    Taps y = table_taps(table_height(m, p), m.rows);
+    return max(y.a * table_row(m, y.first, x) + y.b * table_row(m, y.first + 1, x) +
+                   y.c * table_row(m, y.first + 2, x) + y.d * table_row(m, y.first + 3, x),
+               0.0f);
+}
+
+FN float table_linear(TableRef m, float cos_o, float p) {
+    float x = clamp(cos_o * to_float(m.columns) - 0.5f, 0.0f, to_float(m.columns - 1));
+    float y = clamp(p * to_float(m.rows) - 0.5f, 0.0f, to_float(m.rows - 1));
+    float x0 = min(floor(x), to_float(m.columns - 2)), y0 = min(floor(y), to_float(m.rows - 2));
+    int j = to_int(y0), k = to_int(x0);
+    float low =
+        mix(table_texel(m.texels, m.columns, j, k), table_texel(m.texels, m.columns, j, k + 1), x - x0);
+    float high = mix(table_texel(m.texels, m.columns, j + 1, k),
+                     table_texel(m.texels, m.columns, j + 1, k + 1), x - x0);
+    return mix(low, high, y - y0);
+}
+
+/* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts
+ * there). */
+FN float table_albedo(TableRef m, float cos_o, float p) {
+    float e = 0.0f;
+    if (m.kind == TABLE_ROOTS)
+        e = table_roots(m, cos_o, p);
+    else if (m.kind == TABLE_LINEAR)
+        e = table_linear(m, cos_o, p);
+    return e;
+}
+
+/* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
+FN float table_average(TableRef m, float p) {
+    if (m.kind != TABLE_ROOTS) return 0.0f;
+    if (m.rows < 2) return table_texel(m.texels, m.columns + 1, 0, m.columns);
+    Taps y = table_taps(table_height(m, p), m.rows);
+    return max(y.a * table_texel(m.texels, m.columns + 1, y.first, m.columns) +
+                   y.b * table_texel(m.texels, m.columns + 1, y.first + 1, m.columns) +
+                   y.c * table_texel(m.texels, m.columns + 1, y.first + 2, m.columns) +
+                   y.d * table_texel(m.texels, m.columns + 1, y.first + 3, m.columns),
+               0.0f);
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* d_gtr1 - a sharp core in a wide, faint haze, as lacquer over a surface shows it
+ *
+ *   D(h) = (alpha^2 - 1) / (pi ln(alpha^2) (1 + (alpha^2 - 1) cos_h^2)),   integral of D cos_h = 1
+ *
+ *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course "Practical Physically Based
+ * Shading in Film and Game Production", Equation 4: GTR with gamma = 1, meant for the clear coat.
+ *   alpha: (0, 1]. alpha = roughness^2; the Disney coat has alpha from 0.1 to 0.001 instead. */
+#ifndef WEFT_D_GTR1_H
+#define WEFT_D_GTR1_H
+
+#include "shading/terms/facet.h"
+
+/* At alpha = 1 the formula is 0 / 0, whose limit is 1 / pi. Just below, numerator and logarithm share one
+ * rounded alpha^2 and their quotient is right: so it stops there, 5e-7 from the limit. */
+FN float gtr1_square(float alpha) { return min(alpha * alpha, 0.999999f); }
+
+FN float gtr1_d(float alpha, Dir h) {
+    float a2 = gtr1_square(alpha), q = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+    return (1.0f - a2) / (-0.693147181f * log2(a2) * PI * q);
+}
+
+/* h from D cos_h: sin_h^2 = (alpha^(2u) - alpha^2) / (1 - alpha^2), here without its cancellations (the same
+ * work, Equation 5, solved for the sine). */
+FN Dir gtr1_facet(float alpha, float u, float v) {
+    float m = -0.693147181f * log2(gtr1_square(alpha));
+    float sin2 = exp(-u * m) * facet_rise((1.0f - u) * m) / facet_rise(m);
+    return facet(sqrt(min(sin2, 1.0f)), sqrt(max(1.0f - sin2, 0.0f)), v);
+}
+
+#endif

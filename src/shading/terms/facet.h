@@ -1,0 +1,37 @@
+/* facet - half vectors: made from their tilt, mirrored into samples, and what density the samples have
+ *
+ *   pdf(wi) = D(h) cos_h / (4 wi . h)
+ *
+ *   Bruce Walter, Stephen R. Marschner, Hongsong Li, Kenneth E. Torrance, "Microfacet Models for Refraction
+ * through Rough Surfaces", EGSR 2007, Equations 14 and 24. A facet that is turned away from wo gives no
+ * sample; since every D here is the same for (x, y, z) and (-x, -y, z), such a one is turned half round the
+ * normal, from where it is seen. */
+#ifndef WEFT_FACET_H
+#define WEFT_FACET_H
+
+#include "shading/warp.h"
+
+/* The half vector of that tilt; v in [0, 1) turns it about the normal. */
+FN Dir facet(float sin_h, float cos_h, float v) {
+    float phi = 2.0f * PI * v;
+    return dir(sin_h * cos(phi), sin_h * sin(phi), cos_h);
+}
+
+FN Dir facet_seen(Dir o, Dir h) { return dir_dot(o, h) < 0.0f ? dir(-h.x, -h.y, h.z) : h; }
+
+/* Density of the wi that mirrors wo about a facet_seen whose h has the density d_cos, D cos_h. The least a.d
+ * that counts is 1e-6: below it both directions graze, and the density has no use but must be finite. */
+FN float facet_pdf(float d_cos, Angles a) {
+    bool twice = a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* its half turn is not seen */
+    return d_cos * (twice ? 0.5f : 0.25f) / max(a.d, 1e-6f);
+}
+
+/* 1 - exp(-y) for y in [0, 80] without cancellation: the rounding error of exp leaves through the quotient.
+ * William Kahan's expm1, in Nicholas J. Higham, "Accuracy and Stability of Numerical Algorithms", 2002,
+ * section 1.14.1. */
+FN float facet_rise(float y) {
+    float w = exp(-y);
+    return w < 1.0f ? (1.0f - w) * y / (-0.693147181f * log2(w)) : y;
+}
+
+#endif

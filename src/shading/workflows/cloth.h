@@ -1,0 +1,22 @@
+/* cloth - fibres and nothing else: a diffuse colour under a sheen, without a highlight
+ *
+ *   f = sheen + keep base_color / pi
+ *
+ *   keep: what the layer rule leaves. Romain Guy, Mathias Agopian, "Physically Based Rendering in Filament",
+ * 2018, section "Cloth model", drops the specular lobe of cloth likewise. Not for: satin, silk and leather,
+ * which have a highlight in the mirror direction. */
+#ifndef WEFT_WORKFLOW_CLOTH_H
+#define WEFT_WORKFLOW_CLOTH_H
+
+#include "shading/workflow.h"
+
+FN Stack cloth_stack(Surface s, Dir o) {
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s.sheen_roughness);
+    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
+                             LAYER_ALBEDO_VIEW);
+    m.diffuse =
+        slot_make(lobe_default(LOBE_LAMBERT), s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
+    return m;
+}
+
+#endif

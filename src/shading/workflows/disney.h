@@ -1,0 +1,58 @@
+/* disney - the principled BRDF: ten parameters and a base colour for anything that is no glass
+ *
+ *   f        = (1 - metallic) (base_color mix(burley, subsurface) + sheen) + D V F + coat
+ *   sheen    = sheen mix(1, tint, sheen_tint) (1 - wi . h)^5
+ *   f0       = mix(0.08 specular mix(1, tint, specular_tint), base_color, metallic)
+ *   tint     = base_color / luminance
+ *   alpha_x  = roughness^2 / aspect,  alpha_y = roughness^2 aspect,  aspect = sqrt(1 - 0.9 anisotropy)
+ *   coat     = 0.25 clearcoat GTR1 V F,  alpha = mix(0.1, 0.001, clearcoat_gloss),  V at alpha 0.25,  F0 =
+ * 0.04
+ *
+ *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course "Practical Physically Based
+ * Shading in Film and Game Production", section 5 and the addenda of its later revisions (V without the
+ * remapped roughness, diffuse as published). Nothing dims the diffuse lobe but its own Fresnel factor, so
+ * energy is not conserved. */
+#ifndef WEFT_WORKFLOW_DISNEY_H
+#define WEFT_WORKFLOW_DISNEY_H
+
+#include "shading/lobes/burley_subsurface.h"
+#include "shading/lobes/cook_torrance.h"
+#include "shading/workflow.h"
+
+FN Rgb disney_tint(Rgb base) {
+    float y = rgb_luminance(base);
+    return y > 0.0f ? rgb_scale(base, 1.0f / y) : rgb_grey(1.0f);
+}
+
+FN Stack disney_stack(Surface s, Dir o) {
+    Stack m = stack_empty();
+    float s_o = schlick_s(o.z), below = 1.0f - s.metallic;
+    Rgb tint = disney_tint(s.base_color);
+    Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s.specular_tint), 0.08f * s.specular),
+                     s.base_color, s.metallic);
+
+    Rgb sheen = rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s.sheen_tint), s.sheen * below);
+    m = workflow_sheen(m, lobe_default(LOBE_BURLEY_SHEEN), sheen, sheen, LAYER_ADDITIVE);
+
+    float aspect = sqrt(1.0f - 0.9f * s.anisotropy), alpha = s.roughness * s.roughness;
+    Lobe specular = lobe_default(LOBE_COOK_TORRANCE);
+    specular.params[0] = max(alpha * aspect, 0.001f);
+    specular.params[COOK_TORRANCE_STRETCH] = 1.0f / (aspect * aspect);
+    specular.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
+    specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
+    specular.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);
+    m.specular = slot_make(specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
+
+    Lobe diffuse = lobe_rough(LOBE_BURLEY_SUBSURFACE, s.roughness);
+    diffuse.params[BURLEY_SUBSURFACE_AMOUNT] = s.subsurface;
+    m.diffuse = slot_make(diffuse, s.base_color, s.base_color, below, below * rgb_mean(s.base_color));
+
+    Lobe coat = lobe_default(LOBE_BURLEY_COAT);
+    coat.params[0] = mix(0.1f, 0.001f, s.clearcoat_gloss);
+    m = stack_coat_frame(m, s.clearcoat_normal);
+    float amount = 0.25f * s.clearcoat;
+    m.coat = slot_make(coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));
+    return m;
+}
+
+#endif

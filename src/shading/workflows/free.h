@@ -1,0 +1,20 @@
+/* free - terms side by side: whatever D, V and F are chosen, with nothing that couples them to the diffuse
+ * lobe
+ *
+ *   f = base_color diffuse + D V F + sheen,   f0 = specular_color specular, f90 = 1
+ *
+ *   For looking at terms; it may gain energy, for nothing is taken from anything. The layer rule is additive
+ * unless another is chosen. */
+#ifndef WEFT_WORKFLOW_FREE_H
+#define WEFT_WORKFLOW_FREE_H
+
+#include "shading/workflow.h"
+
+FN Stack free_stack(Surface s, Dir o) {
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s.sheen_roughness);
+    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
+                             LAYER_ADDITIVE);
+    return workflow_base(m, s, s.base_color, rgb_scale(s.specular_color, s.specular), 1.0f, o);
+}
+
+#endif

@@ -1,0 +1,36 @@
+/* metallic - the workflow of most assets: base colour, metalness, roughness
+ *
+ *   f      = coat + (1 - coat_F) (sheen + keep base)
+ *   base   = (1 - max3 F_min) (1 - metallic) base_color / pi + D V F
+ *   F      = f0 (1 - s) + f90 s,  s = (1 - wi . h)^5
+ *   f0     = mix(min(F0 specular_color, 1) specular, base_color, metallic)
+ *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
+ *   keep   = what the layer rule leaves for the base under the sheen
+ *
+ *   Khronos Group, "glTF 2.0 Specification", 2021, Appendix B; KHR_materials_specular, _ior, _clearcoat,
+ * _sheen, _anisotropy. Without an ior F0 is the artist's reflectance, by default 0.03. Departure: F_min,
+ * which dims the diffuse lobe, is that of a dielectric at the least of wi . h, cos_o and cos_i. With wi . h
+ * alone, as glTF has it, a smooth white dielectric reflects up to 1.45 times what it receives at grazing; so
+ * it never passes 1 (tests/shading/test_furnace). Profile khronos follows the text. */
+#ifndef WEFT_WORKFLOW_METALLIC_H
+#define WEFT_WORKFLOW_METALLIC_H
+
+#include "shading/workflow.h"
+
+FN Rgb metallic_f0(Surface s) {
+    return rgb_scale(rgb_min(rgb_scale(s.specular_color, dielectric_f0(s)), 1.0f), s.specular);
+}
+
+FN Stack metallic_stack(Surface s, Dir o) {
+    Stack m = workflow_coat(stack_empty(), s, o);
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s.sheen_roughness);
+    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_VIEW);
+    Rgb f0 = metallic_f0(s);
+    m.under = UNDER_LEAST;
+    m.under_f0 = f0;
+    m.under_f90 = s.specular;
+    return workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic),
+                         rgb_mix(f0, s.base_color, s.metallic), mix(s.specular, 1.0f, s.metallic), o);
+}
+
+#endif

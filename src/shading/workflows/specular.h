@@ -1,0 +1,24 @@
+/* specular - the older workflow: a diffuse colour, a specular colour, roughness
+ *
+ *   f = as in workflow metallic, with f0 = specular_color specular and diffuse = base_color (1 - max3 f0)
+ *
+ *   Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017 (Appendix: F0 = specular, diffuse dimmed by the
+ * strongest channel of it). It says more than metallic can: any pair of colours. `convert.h` tells what is
+ * lost on the way to metallic. */
+#ifndef WEFT_WORKFLOW_SPECULAR_H
+#define WEFT_WORKFLOW_SPECULAR_H
+
+#include "shading/workflow.h"
+
+FN Stack specular_stack(Surface s, Dir o) {
+    Stack m = workflow_coat(stack_empty(), s, o);
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s.sheen_roughness);
+    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_VIEW);
+    Rgb f0 = rgb_min(rgb_scale(s.specular_color, s.specular), 1.0f);
+    m.under = UNDER_LEAST;
+    m.under_f0 = f0;
+    m.under_f90 = 1.0f;
+    return workflow_base(m, s, rgb_scale(s.base_color, 1.0f - rgb_max3(f0)), f0, 1.0f, o);
+}
+
+#endif
