@@ -44,7 +44,7 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
     float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX], share[2 * NODES_MAX];
     double w[2 * NODES_MAX];
     unsigned traits = weft_lobe_info((int)lobe->id)->traits;
-    bool diffuse = (traits & TRAIT_DIFFUSE) != 0;                   /* some have a kink at phi = pi / 2 */
+    bool diffuse = (traits & TRAIT_DIFFUSE) != 0;                 /* some have a kink at phi = pi / 2 */
     int mirrored = diffuse || traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
     double s = hypot((double)wo.x, (double)wo.y);
     double tx = s > 0.0 ? -(double)wo.x / s : -1.0, ty = s > 0.0 ? -(double)wo.y / s : 0.0;

@@ -18,9 +18,9 @@ typedef struct Albedo {
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 
 /* E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, ALBEDO_MU nodes uniform in y, and over one
- * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends about equally
- * everywhere, though it changes fastest near grazing at low alpha, and for some diffuse lobes as sin(theta_o) near the
- * normal. */
+ * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends
+ * about equally everywhere, though it changes fastest near grazing at low alpha, and for some diffuse lobes
+ * as sin(theta_o) near the normal. */
 enum { ALBEDO_MU = 40, ALBEDO_ROWS = 32 };
 
 typedef struct AlbedoTable {

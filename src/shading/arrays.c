@@ -35,8 +35,67 @@ WEFT_LOBES(EVAL_N)
 WEFT_LOBES(PDF_N)
 WEFT_TWO_COLOR_LOBES(SHARE_N)
 
+/* The composed lobe, one term at a time with its number a constant: a loop with a chain of terms in it stays
+ * scalar, which is ten times slower. */
+FN CookTorrance composed(const float *p) {
+    CookTorrance m = {0};
+    COOK_TORRANCE_PARAMS(FROM_ARRAY)(void) p;
+    return m;
+}
+
+#define TERM_N(question, choice, NAME, value)                                                                \
+    CLONES static void question##_##NAME##_n(const float *p, size_t n, const float *restrict ox,             \
+                                             const float *restrict oy, const float *restrict oz,             \
+                                             const float *restrict ix, const float *restrict iy,             \
+                                             const float *restrict iz, float *restrict f) {                  \
+        CookTorrance m = composed(p);                                                                        \
+        m.choice = NAME;                                                                                     \
+        _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
+            Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                        \
+            Angles a = angles_between(o, i);                                                                 \
+            float e = value;                                                                                 \
+            f[k] = o.z > 0.0f && i.z > 0.0f ? e : 0.0f;                                                      \
+        }                                                                                                    \
+    }
+#define SPREAD_N(id, NAME, ...) TERM_N(spread, d, NAME, cook_torrance_spread(m, a))
+#define SHADOW_N(id, NAME, ...) TERM_N(shadow, v, NAME, f[k] * cook_torrance_shadow(m, a))
+#define MIXED_N(id, NAME, ...)  TERM_N(mixed, f, NAME, cook_torrance_share(m, a))
+#define DRAWN_N(id, NAME, ...)  TERM_N(drawn, d, NAME, cook_torrance_pdf(m, a))
+WEFT_D_TERMS(SPREAD_N)
+WEFT_V_TERMS(SHADOW_N)
+WEFT_F_TERMS(MIXED_N)
+WEFT_D_TERMS(DRAWN_N)
+
+#define TERM_CALL(question, NAME)                                                                            \
+    case NAME:                                                                                               \
+        question##_##NAME##_n(lobe->params, n, ox, oy, oz, ix, iy, iz, f);                                   \
+        break;
+#define CALL_SPREAD(id, NAME, ...) TERM_CALL(spread, NAME)
+#define CALL_SHADOW(id, NAME, ...) TERM_CALL(shadow, NAME)
+#define CALL_MIXED(id, NAME, ...)  TERM_CALL(mixed, NAME)
+#define CALL_DRAWN(id, NAME, ...)  TERM_CALL(drawn, NAME)
+
+static void composed_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                            const float *ix, const float *iy, const float *iz, float *f) {
+    switch (composed(lobe->params).d) { WEFT_D_TERMS(CALL_SPREAD) }
+    switch (composed(lobe->params).v) { WEFT_V_TERMS(CALL_SHADOW) }
+}
+static void composed_share_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                             const float *ix, const float *iy, const float *iz, float *f) {
+    switch (composed(lobe->params).f) { WEFT_F_TERMS(CALL_MIXED) }
+}
+static void composed_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                           const float *ix, const float *iy, const float *iz, float *f) {
+    switch (composed(lobe->params).d) { WEFT_D_TERMS(CALL_DRAWN) }
+}
+
 void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                  const float *ix, const float *iy, const float *iz, float *f, float *s) {
+    if (lobe->id == LOBE_COOK_TORRANCE) {
+        composed_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f);
+        if (s) composed_share_n(lobe, n, ox, oy, oz, ix, iy, iz, s);
+        return;
+    }
     if (s) memset(s, 0, n * sizeof *s);
     switch (lobe->id) {
 #define ONE_COLOR_EVAL_N(id, name, Record, NAME)                                                             \
@@ -56,6 +115,10 @@ void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, c
 
 void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                 const float *ix, const float *iy, const float *iz, float *pdf) {
+    if (lobe->id == LOBE_COOK_TORRANCE) {
+        composed_pdf_n(lobe, n, ox, oy, oz, ix, iy, iz, pdf);
+        return;
+    }
     switch (lobe->id) {
 #define LOBE_PDF_N(id, name, Record, NAME)                                                                   \
     case LOBE_##NAME: name##_pdf_n(lobe->params, n, ox, oy, oz, ix, iy, iz, pdf); return;

@@ -5,22 +5,25 @@
 #include "shading/albedo.h"
 #include "shading/compose.h"
 
+/* One copy of each: the catalogue's text in every caller would be many times the program. */
+#define ONE_COPY __attribute__((noinline))
+
 /* Fills stack for a surface seen from wo (shading frame, z > 0). e is the table of the sheen's E, of the kind
  * that stack_table names; one of TABLE_NONE where the sheen is black. */
-void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e, Dir o);
+ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e, Dir o);
 
 /* f cos and pdf for wi; 0 below the horizon. seed: of the random walk that layer rule stochastic takes
  * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
-StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed);
+ONE_COPY StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed);
 
 /* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
-Dir stack_sample(const Stack *stack, Dir o, float u, float v);
+ONE_COPY Dir stack_sample(const Stack *stack, Dir o, float u, float v);
 
 /* The slot that u in [0, 1) picks, NULL of an empty stack; u becomes what is left of it, again in [0, 1). */
 const Slot *stack_pick(const Stack *stack, float *u);
 
 /* sheet.c: light that bounced at least once between the sheen's underside and the base, times the cosine of
  * wi. */
-Rgb sheet_bounces(const Stack *stack, Dir o, Dir i, uint32_t seed);
+ONE_COPY Rgb sheet_bounces(const Stack *stack, Dir o, Dir i, uint32_t seed);
 
 #endif

@@ -4,6 +4,19 @@
 #ifndef WEFT_SHADING_PROFILE_H
 #define WEFT_SHADING_PROFILE_H
 
+#include "shading/profiles/babylon.h"
+#include "shading/profiles/cycles_velvet.h"
+#include "shading/profiles/disney_2012.h"
+#include "shading/profiles/filament_cloth.h"
+#include "shading/profiles/filament_sheen.h"
+#include "shading/profiles/hdrp_cotton.h"
+#include "shading/profiles/hdrp_silk.h"
+#include "shading/profiles/khronos.h"
+#include "shading/profiles/materialx.h"
+#include "shading/profiles/order_1886.h"
+#include "shading/profiles/three.h"
+#include "shading/profiles/unreal4.h"
+#include "shading/profiles/urp.h"
 #include "shading/workflows/cloth.h"
 #include "shading/workflows/disney.h"
 #include "shading/workflows/free.h"
@@ -20,10 +33,29 @@
     W("free", 4, free_stack(s, o), "diffuse + D V F + sheen, nothing takes from anything")
 
 /* P(id, index, stack, help); none: the workflow. */
-#define WEFT_PROFILES(P) P("none", 0, metallic_stack(s, o), "weft's own: the workflow")
+#define WEFT_PROFILES(P)                                                                                     \
+    P("none", 0, metallic_stack(s, o), "weft's own: the workflow")                                           \
+    P("unreal4", 1, unreal4_stack(s, o), "Unreal Engine 4.27, shading model Cloth")                          \
+    P("hdrp-cotton", 2, hdrp_cotton_stack(s, o), "Unity HDRP, Fabric: cotton and wool")                      \
+    P("hdrp-silk", 3, hdrp_silk_stack(s, o), "Unity HDRP, Fabric: silk")                                     \
+    P("urp", 4, urp_stack(s, o), "Unity URP with a fabric that users added")                                 \
+    P("filament-cloth", 5, filament_cloth_stack(s, o), "Filament's cloth model")                             \
+    P("filament-sheen", 6, filament_sheen_stack(s, o), "Filament's lit model with a sheen")                  \
+    P("khronos", 7, khronos_stack(s, o), "glTF's reference renderer")                                        \
+    P("three", 8, three_stack(s, o), "three.js 0.187, MeshPhysicalMaterial")                                 \
+    P("babylon", 9, babylon_stack(s, o), "Babylon.js 9.34, PBRMaterial with albedoScaling")                  \
+    P("materialx", 10, materialx_stack(s, o), "MaterialX, gltf_pbr in GLSL")                                 \
+    P("cycles-velvet", 11, cycles_velvet_stack(s, o), "Blender Cycles before 4.0, Velvet over Lambert")      \
+    P("disney-2012", 12, disney_2012_stack(s, o), "the BRDF Explorer's disney.brdf")                         \
+    P("order-1886", 13, order_1886_stack(s, o), "The Order: 1886, a reconstruction")
 
-/* Closed forms that engines use for E: A(name, source, formula). */
-#define WEFT_ALBEDO_FORMULAS(A)
+/* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
+#define WEFT_ALBEDO_FORMULAS(A)                                                                              \
+    A(khronos, ALBEDO_KHRONOS, khronos_albedo(m.table, cosine, m.at))                                        \
+    A(three, ALBEDO_THREE, three_albedo(cosine, m.at))                                                       \
+    A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m.at))            \
+    A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m.at))               \
+    A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m.at))
 
 #define PROFILE_CASE(id, index, stack, help)                                                                 \
     if (c.profile == index) return stack;

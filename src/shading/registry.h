@@ -105,7 +105,7 @@ typedef struct LobeValue {
 
 /* Both directions must be above the horizon (z > 0), unit length. Together they cost less than apart: the
  * distribution is in both. */
-LobeValue lobe_value(const Lobe *lobe, Angles a);
+__attribute__((noinline)) LobeValue lobe_value(const Lobe *lobe, Angles a);
 
 /* The dialect's way to say it. */
 static inline LobeValue lobe_at(Lobe lobe, Angles a) { return lobe_value(&lobe, a); }
@@ -114,10 +114,10 @@ static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lo
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
 /* The second colour, per channel, given both as the user sets them. f0 without TRAIT_TWO_COLORS. */
-float lobe_second(Lobe lobe, float f0, float f90);
+__attribute__((noinline)) float lobe_second(Lobe lobe, float f0, float f90);
 
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
-Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
+__attribute__((noinline)) Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
 
 /* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
  * of arrays; 0 where a direction is not above the horizon. */

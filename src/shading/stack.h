@@ -14,22 +14,32 @@
 #include "shading/rgb.h"
 #include "shading/table.h"
 #include "shading/terms/f_schlick.h"
+#include "shading/terms/f_schlick_gaussian.h"
 
 STRUCT(Slot) {
     Lobe lobe;
     Rgb f0, f90; /* the lobe's colours times its weight */
+    Rgb sag;     /* of F = f0 (1 - s) + f90 s - sag s (1 - s): 0 but where F enters squared */
     float pick;  /* probability that sampling chooses it; 0: there is no lobe */
 };
 
 /* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
- * wi . h, cos_o and cos_i, which never gains energy; or by F at cos_o and again at cos_i. */
-#define UNDER_NONE  0
-#define UNDER_HALF  1
-#define UNDER_LEAST 2
-#define UNDER_TWICE 3
+ * wi . h, cos_o and cos_i, which never gains energy; by F at cos_o and again at cos_i; or by F at wi . h as
+ * f_schlick_gaussian has it. */
+#define UNDER_NONE     0
+#define UNDER_HALF     1
+#define UNDER_LEAST    2
+#define UNDER_TWICE    3
+#define UNDER_GAUSSIAN 4
 
-/* Where the E of the sheen comes from: a table, or a formula of an engine (profile.h). */
-#define ALBEDO_TABLE 0
+/* Where the E of the sheen comes from: a table of the lobe's own, which ALBEDO_KHRONOS reads too, or what an
+ * engine takes for it (profile.h). */
+#define ALBEDO_TABLE     0
+#define ALBEDO_KHRONOS   1
+#define ALBEDO_THREE     2
+#define ALBEDO_FILAMENT  3
+#define ALBEDO_BABYLON   4
+#define ALBEDO_MATERIALX 5
 
 STRUCT(Stack) {
     Slot diffuse, specular, sheen, coat;
@@ -55,7 +65,8 @@ FN Slot slot_empty(void) {
     Slot s;
     s.lobe = lobe_default(LOBE_LAMBERT);
     s.f0 = rgb_grey(0.0f);
-    s.f90 = rgb_grey(0.0f);
+    s.f90 = s.f0;
+    s.sag = s.f0;
     s.pick = 0.0f;
     return s;
 }
@@ -68,6 +79,7 @@ FN Slot slot_make(Lobe lobe, Rgb color, Rgb second, float weight, float share) {
     s.f90 = rgb_scale(rgb(lobe_second(lobe, color.r, second.r), lobe_second(lobe, color.g, second.g),
                           lobe_second(lobe, color.b, second.b)),
                       weight);
+    s.sag = rgb_grey(0.0f);
     s.pick = rgb_max3(s.f0) + rgb_max3(s.f90) > 0.0f ? max(share, 1e-3f) : 0.0f;
     return s;
 }
@@ -116,16 +128,22 @@ FN Dir stack_to_coat(Stack m, Dir w) {
 
 FN float slot_pdf(Slot s, LobeValue v) { return s.pick * v.pdf; }
 
-FN Rgb slot_f(Slot s, LobeValue v) { return rgb_scale(rgb_mix(s.f0, s.f90, v.s), v.f); }
+FN Rgb slot_f(Slot s, LobeValue v) {
+    Rgb f = rgb_mix(s.f0, s.f90, v.s), sag = rgb_scale(s.sag, -v.s * (1.0f - v.s));
+    return rgb_scale(rgb_add(f, sag), v.f);
+}
 
 /* F of the specular interface, each channel. */
-FN Rgb stack_fresnel(Stack m, float d) { return rgb_mix(m.under_f0, rgb_grey(m.under_f90), schlick_s(d)); }
+FN Rgb stack_fresnel(Stack m, float d) {
+    float s = m.under == UNDER_GAUSSIAN ? schlick_gaussian_s(d) : schlick_s(d);
+    return rgb_mix(m.under_f0, rgb_grey(m.under_f90), s);
+}
 
 FN Rgb stack_under(Stack m, Angles a) {
     Rgb f = rgb_grey(0.0f);
-    if (m.under == UNDER_HALF) f = stack_fresnel(m, a.d);
+    if (m.under == UNDER_HALF || m.under == UNDER_GAUSSIAN) f = stack_fresnel(m, a.d);
     if (m.under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, min(a.d, min(a.o.z, a.i.z)))));
-    Rgb keep = rgb(1.0f - f.r, 1.0f - f.g, 1.0f - f.b);
+    Rgb keep = rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
     if (m.under == UNDER_TWICE) {
         Rgb o = stack_fresnel(m, a.o.z), i = stack_fresnel(m, a.i.z);
         keep = rgb((1.0f - o.r) * (1.0f - i.r), (1.0f - o.g) * (1.0f - i.g), (1.0f - o.b) * (1.0f - i.b));

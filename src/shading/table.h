@@ -7,8 +7,9 @@
 
 #include "shading/lang.h"
 
-#define TABLE_NONE   0 /* E is 0 */
-#define TABLE_ROOTS  1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
+#define TABLE_NONE 0 /* E is 0 */
+#define TABLE_ROOTS                                                                                          \
+    1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
 #define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
 
 STRUCT(TableRef) {

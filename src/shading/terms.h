@@ -9,7 +9,7 @@
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/d_beckmann.h"
 #include "shading/terms/d_blinn_phong.h"
-#include "shading/terms/d_charlie.h"
+#include "shading/terms/d_charlie_floored.h"
 #include "shading/terms/d_ggx_aniso.h"
 #include "shading/terms/d_gtr1.h"
 #include "shading/terms/d_inverse_ggx.h"
@@ -17,33 +17,37 @@
 #include "shading/terms/f_cook_torrance.h"
 #include "shading/terms/f_dielectric.h"
 #include "shading/terms/f_schlick.h"
+#include "shading/terms/f_schlick_gaussian.h"
 #include "shading/terms/v_conty_kulla_clamped.h"
 #include "shading/terms/v_cook_torrance.h"
 #include "shading/terms/v_implicit.h"
 #include "shading/terms/v_kelemen.h"
-#include "shading/terms/v_neubelt.h"
+#include "shading/terms/v_neubelt_clamped.h"
 #include "shading/terms/v_neumann.h"
 #include "shading/terms/v_schlick_ggx.h"
 #include "shading/terms/v_smith_beckmann.h"
 #include "shading/terms/v_smith_ggx.h"
 #include "shading/terms/v_smith_ggx_aniso.h"
+#include "shading/terms/v_smith_ggx_aniso_separate.h"
 #include "shading/terms/v_smith_ggx_fast.h"
+#include "shading/terms/v_urp.h"
 
 /* The types of a parameter that is one of these; its value is the number of a row. */
 #define DTerm int
 #define VTerm int
 #define FTerm int
 
-#define D_BLINN_PHONG 0
-#define D_BECKMANN    1
-#define D_GGX         2
-#define D_GGX_ANISO   3
-#define D_GTR1        4
-#define D_ASHIKHMIN   5
-#define D_CHARLIE     6
-#define D_INVERSE_GGX 7
-#define D_VELVET      8
-#define D_COUNT       9
+#define D_BLINN_PHONG     0
+#define D_BECKMANN        1
+#define D_GGX             2
+#define D_GGX_ANISO       3
+#define D_GTR1            4
+#define D_ASHIKHMIN       5
+#define D_CHARLIE         6
+#define D_CHARLIE_FLOORED 7
+#define D_INVERSE_GGX     8
+#define D_VELVET          9
+#define D_COUNT           10
 
 /* T(id, number, D(h), h drawn from D cos_h by u and v, help) */
 #define WEFT_D_TERMS(T)                                                                                      \
@@ -60,26 +64,31 @@
       "velvet: an even floor and a bright rim")                                                              \
     T("charlie", D_CHARLIE, charlie_d(alpha, h), charlie_facet(alpha, u, v),                                 \
       "power of a sine; the sheen of glTF")                                                                  \
+    T("charlie-floored", D_CHARLIE_FLOORED, charlie_floored_d(alpha, h), charlie_floored_facet(alpha, u, v), \
+      "charlie with a faint floor, as engines with half floats have it")                                     \
     T("inverse-ggx", D_INVERSE_GGX, inverse_ggx_d(alpha, h), inverse_ggx_facet(alpha, u, v),                 \
       "an even floor and a soft rim, Unreal's cloth")                                                        \
     T("velvet", D_VELVET, velvet_d(alpha, h), velvet_facet(alpha, u, v),                                     \
       "the rim of ashikhmin alone, Cycles' old velvet")
 
-#define V_IMPLICIT             0
-#define V_NEUMANN              1
-#define V_COOK_TORRANCE        2
-#define V_KELEMEN              3
-#define V_SMITH_BECKMANN       4
-#define V_SMITH_GGX            5
-#define V_SMITH_GGX_CORRELATED 6
-#define V_SMITH_GGX_FAST       7
-#define V_SCHLICK_BECKMANN     8
-#define V_SCHLICK_GGX          9
-#define V_SMITH_GGX_ANISO      10
-#define V_NEUBELT              11
-#define V_CONTY_KULLA          12
-#define V_CONTY_KULLA_CLAMPED  13
-#define V_COUNT                14
+#define V_IMPLICIT                 0
+#define V_NEUMANN                  1
+#define V_COOK_TORRANCE            2
+#define V_KELEMEN                  3
+#define V_SMITH_BECKMANN           4
+#define V_SMITH_GGX                5
+#define V_SMITH_GGX_CORRELATED     6
+#define V_SMITH_GGX_FAST           7
+#define V_SCHLICK_BECKMANN         8
+#define V_SCHLICK_GGX              9
+#define V_SMITH_GGX_ANISO          10
+#define V_SMITH_GGX_ANISO_SEPARATE 11
+#define V_URP                      12
+#define V_NEUBELT                  13
+#define V_NEUBELT_CLAMPED          14
+#define V_CONTY_KULLA              15
+#define V_CONTY_KULLA_CLAMPED      16
+#define V_COUNT                    17
 
 /* T(id, number, V, help). 1 / (4 cos_o cos_i) is inside. */
 #define WEFT_V_TERMS(T)                                                                                      \
@@ -98,24 +107,32 @@
     T("schlick-ggx", V_SCHLICK_GGX, schlick_ggx_v(alpha, a.o.z, a.i.z), "smith-ggx, made cheap")             \
     T("smith-ggx-aniso", V_SMITH_GGX_ANISO, smith_ggx_aniso_v(ax, ay, a.o, a.i),                             \
       "smith-ggx-correlated, of ggx-aniso")                                                                  \
+    T("smith-ggx-aniso-separate", V_SMITH_GGX_ANISO_SEPARATE, smith_ggx_aniso_separate_v(ax, ay, a.o, a.i),  \
+      "smith-ggx, of ggx-aniso")                                                                             \
+    T("urp", V_URP, urp_v(alpha, a), "Smith's and Fresnel's in one quotient, Unity's on phones")             \
     T("neubelt", V_NEUBELT, neubelt_v(a.o.z, a.i.z), "the smooth stand-in that most engines give cloth")     \
+    T("neubelt-clamped", V_NEUBELT_CLAMPED, neubelt_clamped_v(a.o.z, a.i.z),                                 \
+      "neubelt at most 1, as three.js has it")                                                               \
     T("conty-kulla", V_CONTY_KULLA, conty_kulla_v(alpha, a.o.z, a.i.z), "fitted to charlie")                 \
     T("conty-kulla-clamped", V_CONTY_KULLA_CLAMPED, conty_kulla_clamped_v(alpha, a.o.z, a.i.z),              \
       "conty-kulla at most 1, as glTF's viewer has it")
 
-#define F_NONE          0
-#define F_SCHLICK       1
-#define F_SCHLICK_F90   2
-#define F_COOK_TORRANCE 3
-#define F_DIELECTRIC    4
-#define F_CONDUCTOR     5
-#define F_COUNT         6
+#define F_NONE             0
+#define F_SCHLICK          1
+#define F_SCHLICK_F90      2
+#define F_SCHLICK_GAUSSIAN 3
+#define F_COOK_TORRANCE    4
+#define F_DIELECTRIC       5
+#define F_CONDUCTOR        6
+#define F_COUNT            7
 
 /* T(id, number, share s of the second colour, the second colour, help):  F = f0 (1 - s) + second s */
 #define WEFT_F_TERMS(T)                                                                                      \
     T("none", F_NONE, 0.0f, f0, "f0 from everywhere")                                                        \
     T("schlick", F_SCHLICK, schlick_s(d), 1.0f, "to white by a fifth power")                                 \
     T("schlick-f90", F_SCHLICK_F90, schlick_s(d), f90, "to the colour f90 by a fifth power")                 \
+    T("schlick-gaussian", F_SCHLICK_GAUSSIAN, schlick_gaussian_s(d), f90,                                    \
+      "schlick-f90 by an exponential, as three.js has it")                                                   \
     T("cook-torrance", F_COOK_TORRANCE, cook_torrance_s(ior, d), 1.0f, "dielectric, in the form of 1982")    \
     T("dielectric", F_DIELECTRIC, dielectric_s(ior, d), 1.0f, "to white as a dielectric of that ior does")   \
     T("conductor", F_CONDUCTOR, conductor_s(ior, k, d), 1.0f, "to white as a metal of that ior and k does")

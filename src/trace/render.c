@@ -94,6 +94,7 @@ static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made,
     Stack least = plain_stack(known, roughness->texture ? 0.0f : roughness->value[0]);
     known->sheen_e = (TableRef){.kind = TABLE_NONE};
     if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
+    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) return WEFT_OK; /* an engine's own */
     float low = least.at, high = most.at;
     if (low > high) low = most.at, high = least.at;
     if (*made >= NARROW_TABLES) /* then one for all */

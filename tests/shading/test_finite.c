@@ -94,10 +94,12 @@ static void public_calls_stay_finite(void **state) {
         const WeftLobeInfo *info = weft_lobe_info(n % weft_lobe_count());
         WeftLobe lobe;
         assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
-        for (int p = 0; p < info->param_count; p++)
-            assert_int_equal(
-                weft_lobe_set(&lobe, info->params[p].name, values[random_bits(&random) % 9], NULL, NULL),
-                WEFT_OK);
+        for (int p = 0; p < info->param_count; p++) {
+            const WeftParamInfo *row = &info->params[p];
+            uint32_t choices = row->choices ? (uint32_t)row->hard_high + 1 : 9;
+            const char *value = (row->choices ? row->choices : values)[random_bits(&random) % choices];
+            assert_int_equal(weft_lobe_set(&lobe, row->name, value, NULL, NULL), WEFT_OK);
+        }
         weft_lobe_set(&lobe, "color", values[random_bits(&random) % 9], NULL, NULL);
         Dir o = hard_direction(&random), i = partner(&random, o);
         float wo[3] = {o.x, o.y, o.z}, wi[3] = {i.x, i.y, i.z}, f[3];
@@ -112,6 +114,7 @@ static void public_calls_stay_finite(void **state) {
 static void nothing_comes_from_below(void **state) {
     (void)state;
     float up[3] = {0.6f, 0.0f, 0.8f}, down[3] = {0.6f, 0.0f, -0.8f}, level[3] = {1.0f, 0.0f, 0.0f};
+    float opposite[3] = {-0.6f, 0.0f, 0.8f};
     float u[2] = {0.5f, 0.5f}, f[3], wi[3];
     for (int id = 0; id < weft_lobe_count(); id++) {
         WeftLobe lobe;
@@ -123,7 +126,7 @@ static void nothing_comes_from_below(void **state) {
             assert_true(!(weft_lobe_pdf(&lobe, pairs[k][0], pairs[k][1]) != 0.0f));
         }
         assert_true(!(weft_lobe_sample(&lobe, down, u, wi) != 0.0f));
-        weft_lobe_eval(&lobe, up, up, f);
+        weft_lobe_eval(&lobe, up, opposite, f);
         assert_true(f[0] > 0.0f);
     }
 }

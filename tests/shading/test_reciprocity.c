@@ -37,7 +37,8 @@ static void isotropic_lobes_do_not_see_azimuth(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         bool anisotropic = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
         int k = lobe_param((LobeId)id, "anisotropy");
-        assert_int_equal(anisotropic, k >= 0);
+        if (anisotropic && k < 0) continue; /* no parameter makes it round */
+        assert_true(anisotropic || k < 0);
         Random random = {4};
         for (int n = 0; n < PAIRS; n++) {
             Lobe lobe = case_lobe((LobeId)id, n % case_count((LobeId)id));
@@ -57,12 +58,19 @@ static void anisotropic_lobes_see_azimuth(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!(weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC)) continue;
-        Lobe lobe = lobe_default((LobeId)id);
-        lobe_set(&lobe, lobe_param((LobeId)id, "anisotropy"), 0.8f);
-        Dir o = direction(0.2, 0.0), i = direction(1.2, 0.3);
-        float f = lobe_eval(&lobe, angles_between(o, i));
-        float g = lobe_eval(&lobe, angles_between(turned(o, 1.5), turned(i, 1.5)));
-        assert_true(fabsf(f - g) > 0.2f * max(f, g));
+        bool seen = false;
+        for (int k = 0; k < case_count((LobeId)id); k++) { /* by some of its choices */
+            Lobe lobe = case_lobe((LobeId)id, k);
+            int how = lobe_param((LobeId)id, "anisotropy"), stretch = lobe_param((LobeId)id, "stretch");
+            if (how >= 0) lobe_set(&lobe, how, 0.8f);
+            if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
+            /* an eighth of a turn: a quarter may lay one yarn of threads over the other */
+            Dir o = direction(0.02, 0.0), i = direction(0.8, 0.3);
+            float f = lobe_eval(&lobe, angles_between(o, i));
+            float g = lobe_eval(&lobe, angles_between(turned(o, 0.8), turned(i, 0.8)));
+            seen = seen || fabsf(f - g) > 0.2f * max(f, g);
+        }
+        assert_true(seen);
     }
 }
 

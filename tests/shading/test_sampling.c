@@ -18,19 +18,45 @@ static Dir proposal_sample(Proposal p, Dir o, float u, float v) {
 /* Bins along one side of the grid, and cells along one side of a bin for the integral of the pdf. */
 enum { BINS = 20, CELLS = 20, ALL_BINS = BINS * BINS + 1 }; /* the last counts "no sample" */
 
+/* The grid's directions and the solid angle of each, in the order of the bins; kept until another is asked
+ * for.
+ */
+enum { BIN_CELLS = CELLS * CELLS, ALL_CELLS = BINS * BINS * BIN_CELLS };
+static float cell_x[ALL_CELLS], cell_y[ALL_CELLS], cell_z[ALL_CELLS];
+static double cell_area[ALL_CELLS];
+
+static void fill_cells(Grid grid) {
+    static Grid last = {-1.0, 0.0};
+    if (memcmp(&last, &grid, sizeof grid) == 0) return;
+    last = grid;
+    const double step = 2.0 / (BINS * CELLS);
+    for (int k = 0; k < ALL_CELLS; k++) {
+        int bin = k / BIN_CELLS, cell = k % BIN_CELLS;
+        int row = bin / BINS * CELLS + cell / CELLS, column = bin % BINS * CELLS + cell % CELLS;
+        double area;
+        Dir i = grid_direction(grid, -1.0 + step * (row + 0.5), -1.0 + step * (column + 0.5), &area);
+        cell_x[k] = i.x, cell_y[k] = i.y, cell_z[k] = i.z;
+        cell_area[k] = area * step * step;
+    }
+}
+
 /* The expected share of each bin; returns the integral over the hemisphere. */
 static double integrate_pdf(Proposal p, Dir o, Grid grid, double *share) {
-    const double step = 2.0 / (BINS * CELLS);
+    float ox[BIN_CELLS], oy[BIN_CELLS], oz[BIN_CELLS], pdf[BIN_CELLS];
+    for (int k = 0; k < BIN_CELLS; k++) ox[k] = o.x, oy[k] = o.y, oz[k] = o.z;
+    fill_cells(grid);
     double all = 0.0;
-    for (int k = 0; k < BINS * BINS; k++) {
-        share[k] = 0.0;
-        for (int cell = 0; cell < CELLS * CELLS; cell++) {
-            int row = k / BINS * CELLS + cell / CELLS, column = k % BINS * CELLS + cell % CELLS;
-            double s = -1.0 + step * (row + 0.5), t = -1.0 + step * (column + 0.5), area;
-            Dir i = grid_direction(grid, s, t, &area);
-            if (i.z > 0.0f) share[k] += (double)proposal_pdf(p, o, i) * area * step * step;
+    for (int bin = 0; bin < BINS * BINS; bin++) {
+        const float *x = cell_x + bin * BIN_CELLS, *y = cell_y + bin * BIN_CELLS,
+                    *z = cell_z + bin * BIN_CELLS;
+        if (p.lobe) lobe_pdf_n(p.lobe, BIN_CELLS, ox, oy, oz, x, y, z, pdf);
+        share[bin] = 0.0;
+        for (int k = 0; k < BIN_CELLS; k++) {
+            if (z[k] <= 0.0f) continue;
+            if (p.stack) pdf[k] = stack_eval(p.stack, o, dir(x[k], y[k], z[k]), 0).pdf;
+            share[bin] += (double)pdf[k] * cell_area[bin * BIN_CELLS + k];
         }
-        all += share[k];
+        all += share[bin];
     }
     return all;
 }
@@ -70,7 +96,7 @@ static double test_bins(Bin *bins) {
 }
 
 /* How many tests share the significance of 1 %: those of the stacks, and room for those of the lobes. */
-enum { STACK_TESTS = 60, TESTS = 1600 };
+enum { STACK_TESTS = 60, TESTS = 1000 };
 
 static void check_proposal(Proposal p, Dir o, const char *name) {
     static double share[BINS * BINS];
@@ -107,16 +133,32 @@ static void check_proposal(Proposal p, Dir o, const char *name) {
 static const double elevations[] = {1.0, 0.9, 0.5, 0.15, 0.02};
 enum { ELEVATIONS = sizeof elevations / sizeof elevations[0] };
 
+/* Whether a case samples as the default does: a parameter that only f sees needs no second test. */
+static bool samples_as_default(const Lobe *lobe) {
+    Lobe first = lobe_default(lobe->id);
+    Random random = {21};
+    for (int n = 0; n < 100; n++) {
+        Angles a = angles_between(random_direction(&random), random_direction(&random));
+        float u = random_unit(&random), v = random_unit(&random), p = lobe_pdf(lobe, a);
+        Dir i = lobe_sample(lobe, a.o, u, v), j = lobe_sample(&first, a.o, u, v);
+        if (p != lobe_pdf(&first, a) || i.x != j.x || i.y != j.y || i.z != j.z) return false;
+    }
+    return true;
+}
+
 static void lobes_sample_what_their_pdf_says(void **state) {
     (void)state;
     int tests = 0;
-    for (int id = 0; id < weft_lobe_count(); id++)
-        for (int k = 0; k < case_count((LobeId)id); k++)
-            for (int e = 0; e < ELEVATIONS; e++, tests++) {
+    for (int e = 0; e < ELEVATIONS; e++)
+        for (int id = 0; id < weft_lobe_count(); id++)
+            for (int k = 0; k < case_count((LobeId)id); k++) {
                 Lobe lobe = case_lobe((LobeId)id, k);
+                if (k > 0 && samples_as_default(&lobe)) continue;
+                tests++;
                 Dir o = direction_cos(elevations[e], 0.4 + e);
                 check_proposal((Proposal){.lobe = &lobe}, o, case_name(&lobe, o).text);
             }
+    print_message("%d proposals of lobes\n", tests);
     assert_true(tests <= TESTS - STACK_TESTS); /* else raise TESTS */
 }
 

@@ -12,8 +12,7 @@
  *   energy: no, a V that does not belong to its D may give E > 1 at grazing.
  *   sampling: half by D, visible normals for ggx and ggx-aniso, h from D cos_h else; half uniform, which
  *     bounds the weight where D finds nothing. 1/2 D cos_h / (4 d) bounds it by 8 V cos_i d / cos_h, the
- *     uniform half by 4 pi D V cos_i.
- *   Not for: speed; a lobe of its own with the same two terms is one branch shorter at every step. */
+ *     uniform half by 4 pi D V cos_i. */
 #ifndef WEFT_COOK_TORRANCE_H
 #define WEFT_COOK_TORRANCE_H
 
@@ -42,22 +41,29 @@ STRUCT(CookTorrance){COOK_TORRANCE_PARAMS(FIELD)};
 
 FN float cook_torrance_ax(CookTorrance m) { return m.alpha * m.stretch; }
 
+/* The two factors apart, as arrays.c takes them. */
+FN float cook_torrance_spread(CookTorrance m, Angles a) {
+    return term_d(m.d, m.alpha, cook_torrance_ax(m), m.alpha, a.h);
+}
+FN float cook_torrance_shadow(CookTorrance m, Angles a) {
+    return term_v(m.v, m.alpha, cook_torrance_ax(m), m.alpha, a);
+}
+
 FN float cook_torrance_eval(CookTorrance m, Angles a) {
-    float ax = cook_torrance_ax(m);
-    return term_d(m.d, m.alpha, ax, m.alpha, a.h) * term_v(m.v, m.alpha, ax, m.alpha, a);
+    return cook_torrance_spread(m, a) * cook_torrance_shadow(m, a);
 }
 
 FN float cook_torrance_share(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
 FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
 
 FN float cook_torrance_pdf(CookTorrance m, Angles a) {
-    float ax = cook_torrance_ax(m), pdf;
+    float pdf;
     if (m.d == D_GGX)
         pdf = ggx_pdf_h(m.alpha, m.alpha, a);
     else if (m.d == D_GGX_ANISO)
-        pdf = ggx_pdf_h(ax, m.alpha, a);
+        pdf = ggx_pdf_h(cook_torrance_ax(m), m.alpha, a);
     else
-        pdf = facet_pdf(term_d(m.d, m.alpha, ax, m.alpha, a.h) * a.h.z, a);
+        pdf = facet_pdf(cook_torrance_spread(m, a) * a.h.z, a);
     return 0.5f * pdf + 0.5f * warp_uniform_pdf(a.i);
 }
 

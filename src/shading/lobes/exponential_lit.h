@@ -1,13 +1,17 @@
-/* exponential-lit - the rim of exponential, seen only where the light grazes too
+/* exponential-lit - the rim of exponential, but a light has to graze the cloth to light it
  *
- *   f = color x(1 - cos_o) x(1 - cos_i) / (pi A(beta))                                           [1/sr]
- *   x(t) = (1 - exp(-beta t)) / (1 - exp(-beta))                                   as in lobe exponential
- *   A    = integral 2 c x(1 - c) dc = (1 - 2 (beta - 1 + exp(-beta)) / beta^2) / (1 - exp(-beta))
+ *   f = color x(1 - cos_o) x(1 - cos_i) / (pi A)                                                [1/sr]
+ *   A = integral 2 c x(1 - c) dc = (1 - 2 (beta - 1 + exp(-beta)) / beta^2) / (1 - exp(-beta))
  *
- * TODOCITE
+ *   x: lobe exponential. The plain product x(1 - cos_o) x(1 - cos_i) / pi is reciprocal too, but its E is A
+ *     x, which loses two thirds of the rim at small beta. Divided by A, the mean of x under a uniform
+ *     light, E is x again, so that both lobes weigh the same in a layer. The construction: Csaba Kelemen,
+ *     Laszlo Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with Importance
+ *     Sampling", Eurographics 2001 short papers.
+ *   roughness: an artist's is spread over the range of beta; more is a wider rim, beta to 0 the ramp x = t.
  *   reciprocal: yes.
- *   energy: E(cos_o) = x(1 - cos_o) exactly, at most 1.
- */
+ *   energy: E(cos_o) = x(1 - cos_o) exactly, so at most 1.
+ *   sampling: cosine and uniform, mixed by A; the weight is at most 1.5. */
 #ifndef WEFT_EXPONENTIAL_LIT_H
 #define WEFT_EXPONENTIAL_LIT_H
 

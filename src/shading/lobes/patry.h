@@ -1,25 +1,36 @@
-/* patry - fuzz that stands up: bright where a thin layer of fibres is seen, or lit, along the surface
+/* patry - fuzz of upright fibres: nothing from above, a glow where it is seen or lit along the surface
  *
- *   f = color p(wo, wi) (1 - exp(-density (1/cos_o + 1/cos_i))) / (cos_o + cos_i)                [1/sr]
+ *   f = color p(wo, wi) (1 - exp(-density (cos_o + cos_i) / (cos_o cos_i))) / (cos_o + cos_i)   [1/sr]
  *   p = D(h) / (4 s(wo)),   D(h) = sigma^3 / (pi (sigma^2 sin_h^2 + cos_h^2)^2)
- *   s(w) = sqrt(sin^2 + sigma^2 cos^2),   sigma = alpha^2
+ *   s(w) = sqrt(sin^2 + sigma^2 cos^2)
  *
- *   reciprocal: no, since p divides by s(wo) alone.
- */
+ *   Jasmin Patry, "Samurai Shading in Ghost of Tsushima", SIGGRAPH 2020 course; the layer: Jan J.
+ *     Koenderink, Sylvia C. Pont, "The Secret of Velvety Skin", Machine Vision and Applications 14, 2003; p
+ *     and D: Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake
+ *     Distribution", SIGGRAPH 2015, for fibres along the normal. This is the one-bounce baseline of
+ *     tizian/ltc-sheen: albedo 1, extinction the same in all directions.
+ *   The denominator in the exponent is cos_o cos_i. A slide of the course has (wo . wi) cos there: a slip,
+ *     since the exponent then is not symmetric, and f is negative where wo . wi is. Issue 1 of
+ *     tizian/ltc-sheen comes to the same from Koenderink and Pont.
+ *   roughness: sigma = roughness^2; tizian/ltc-sheen calls it alpha and leaves it to the artist.
+ *   reciprocal: no, p divides by s(wo) alone; the rest is symmetric.
+ *   energy: E <= 1/2, since half of p points down; at cos_o 0.02 it is 0.38 at roughness 0.5, and
+ *     0.46 at 1.
+ *   sampling: half by p, half uniform. */
 #ifndef WEFT_PATRY_H
 #define WEFT_PATRY_H
 
 #include "shading/warp.h"
 
 #define PATRY_PARAMS(P)                                                                                      \
-    P(float, alpha, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")       \
+    P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")       \
     P(float, density, 1.0f, 0.1f, 4.0f, 0.01f, 100.0f, "fibres met on the way down, in mean free paths")
 #define PATRY_TRAITS TRAIT_CONSERVES
 
 STRUCT(Patry){PATRY_PARAMS(FIELD)};
 
 FN float patry_phase(Patry m, Dir o, Dir h) {
-    float sigma = m.alpha * m.alpha, s2 = sigma * sigma;
+    float sigma = m.roughness * m.roughness, s2 = sigma * sigma;
     float q = s2 * (h.x * h.x + h.y * h.y) + h.z * h.z;
     return s2 * sigma / (4.0f * PI * q * q * sqrt(o.x * o.x + o.y * o.y + s2 * o.z * o.z));
 }
@@ -36,7 +47,7 @@ FN float patry_pdf(Patry m, Angles a) {
 FN Dir patry_sample(Patry m, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
-        float sigma = m.alpha * m.alpha, l = 1.0f / sqrt(o.x * o.x + o.y * o.y + sigma * sigma * o.z * o.z);
+        float sigma = m.roughness * m.roughness, l = 1.0f / sqrt(o.x * o.x + o.y * o.y + sigma * sigma * o.z * o.z);
         float z = 1.0f - 4.0f * u, r = sqrt(max(1.0f - z * z, 0.0f)), phi = 2.0f * PI * v;
         float x = o.x * l + r * cos(phi), y = o.y * l + r * sin(phi), t = sigma * (sigma * o.z * l + z);
         float n = x * x + y * y + t * t;

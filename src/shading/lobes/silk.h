@@ -1,14 +1,21 @@
-/* silk - the stretched highlight of satin weave and filament yarn
+/* silk - the stretched highlight of satin weave and filament yarn, in a colour of its own
  *
- *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + f90 s                                       [1/sr]
+ *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + f90 s                                      [1/sr]
  *   alpha_x = alpha (1 + anisotropy),  alpha_y = alpha (1 - anisotropy),  neither below 1/1024
  *
  *   D, V, F: terms d_ggx, v_smith_ggx_correlated, f_schlick, where the papers are named.
- *   Unity Technologies, High Definition Render Pipeline, Fabric.hlsl, the branch for silk, and
- * ConvertAnisotropyToClampRoughness of CommonMaterial.hlsl, 2018 on; the mapping: Christopher Kulla,
- * Alejandro Conty Estevez, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course,
- * page 15.
- */
+ *   Unity Technologies, High Definition Render Pipeline, 2018 on: Fabric.hlsl (silk) and
+ *     CommonMaterial.hlsl (ConvertAnisotropyToClampRoughness). The mapping: Christopher Kulla, Alejandro
+ *     Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course, page 15. It differs
+ *     from that of lobe ggx.
+ *   Departures: f90 is free, Unity's is 1. Anisotropy ends at 0.8 of Unity's 1, where the lobe is a ridge
+ *     1/1024 wide that no quadrature of E resolves.
+ *   roughness: alpha = roughness^2 = (1 - smoothness)^2 (Unity).
+ *   reciprocal: yes.
+ *   energy: E <= 1; light scattered more than once is lost, by default 12 % at the normal, 16 % at cos_o
+ *     0.5.
+ *   sampling: visible normals; the weight is F G2 / G1 <= 1.
+ *   Not for: two yarns of two colours; that is threads. */
 #ifndef WEFT_SILK_H
 #define WEFT_SILK_H
 
@@ -17,7 +24,7 @@
 
 #define SILK_PARAMS(P)                                                                                       \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 1.0f, "mean width of the facet slopes")                      \
-    P(float, anisotropy, 0.6f, -0.8f, 0.8f, -0.9f, 0.9f, "above 0 rougher along x, below 0 along y")
+    P(float, anisotropy, 0.6f, -0.8f, 0.8f, -0.8f, 0.8f, "above 0 rougher along x, below 0 along y")
 #define SILK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
 
 STRUCT(Silk){SILK_PARAMS(FIELD)};

@@ -11,7 +11,7 @@
 
 #include "shading/terms/facet.h"
 
-/* The floor on cos_h^2 keeps its square a normal number: there D is 1e-14 or less in place of 0. */
+/* The floor on cos_h^2 keeps its square a normal number: there D is 2e-14 or less in place of 0. */
 FN float beckmann_d(float alpha, Dir h) {
     float a2 = alpha * alpha, cos2 = max(h.z * h.z, 1e-10f);
     return exp(-(h.x * h.x + h.y * h.y) / (a2 * cos2)) / (PI * a2 * cos2 * cos2);

@@ -3,7 +3,7 @@
  *   D(h) = (alpha^2 - 1) / (pi ln(alpha^2) (1 + (alpha^2 - 1) cos_h^2)),   integral of D cos_h = 1
  *
  *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course "Practical Physically Based
- * Shading in Film and Game Production", Equation 4: GTR with gamma = 1, meant for the clear coat.
+ * Shading in Film and Game Production", appendix B: GTR with gamma = 1, meant for the clear coat.
  *   alpha: (0, 1]. alpha = roughness^2; the Disney coat has alpha from 0.1 to 0.001 instead. */
 #ifndef WEFT_D_GTR1_H
 #define WEFT_D_GTR1_H
@@ -20,7 +20,7 @@ FN float gtr1_d(float alpha, Dir h) {
 }
 
 /* h from D cos_h: sin_h^2 = (alpha^(2u) - alpha^2) / (1 - alpha^2), here without its cancellations (the same
- * work, Equation 5, solved for the sine). */
+ * appendix, solved for the sine). */
 FN Dir gtr1_facet(float alpha, float u, float v) {
     float m = -0.693147181f * log2(gtr1_square(alpha));
     float sin2 = exp(-u * m) * facet_rise((1.0f - u) * m) / facet_rise(m);

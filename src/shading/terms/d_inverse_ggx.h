@@ -2,7 +2,7 @@
  *
  *   D(h) = (1 + 4 alpha^4 / (cos_h^2 + alpha^2 sin_h^2)^2) / (pi (1 + 4 alpha^2)),   integral of D cos_h = 1
  *
- *   Epic Games, Unreal Engine 4, 2014 on, D_InvGGX of BRDF.ush, for the shading model Cloth, where it stands
+ *   Epic Games, Unreal Engine 4, 2014, D_InvGGX of its shaders, for the shading model Cloth, where it stands
  * for "asperity scattering". The same upside-down d_ggx in place of the exponential of d_ashikhmin; no paper
  * tells of it. Its name for the idea: Jan Koenderink, Sylvia Pont, "The Secret of Velvety Skin", 2003.
  *   alpha: alpha = roughness^2 (its argument a2 is alpha^2). */

@@ -2,8 +2,8 @@
  *
  *   D(h) = exp(-cot_h^2 / alpha^2) / (pi alpha^2 sin_h^4),   integral of D cos_h = 1
  *
- *   Michael Ashikhmin, Simon Premoze, Peter Shirley, "A Microfacet-based BRDF Generator", SIGGRAPH 2000,
- * section 5.1: a bell curve about the horizon, given up to a constant. As an upside-down d_beckmann, with its
+ *   Michael Ashikhmin, Simon Premoze, Peter Shirley, "A Microfacet-based BRDF Generator", SIGGRAPH 2000: a
+ * bell curve about the horizon. As an upside-down d_beckmann, with its
  * norm, it is the distribution of the velvet that Blender Cycles has: alpha is what it calls sigma, not
  * squared. */
 #ifndef WEFT_D_VELVET_H
@@ -11,7 +11,7 @@
 
 #include "shading/terms/facet.h"
 
-/* sin_h^2 has a floor at which D is 0 to within 1e-14. */
+/* sin_h^2 has a floor at which D is 0 to within 2e-14. */
 FN float velvet_d(float alpha, Dir h) {
     float a2 = alpha * alpha, sin2 = max(h.x * h.x + h.y * h.y, 1e-10f);
     return exp(-h.z * h.z / (a2 * sin2)) / (PI * a2 * sin2 * sin2);

@@ -5,7 +5,7 @@
  *   s = (F - F(0)) / (1 - F(0)),   F(0) = (n - 1)^2 / (n + 1)^2
  *
  *   Robert L. Cook, Kenneth E. Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on
- * Graphics 1(1), 1982, page 12; Brian Karis, "Specular BRDF Reference", 2013. It is f_dielectric after some
+ * Graphics 1(1), 1982; Brian Karis, "Specular BRDF Reference", 2013. It is f_dielectric after some
  * algebra, and equals it to 1e-6.
  *
  *   Departures: both take n = (1 + sqrt(F0)) / (1 - sqrt(F0)) from the colour; here it is the parameter ior,

@@ -8,7 +8,7 @@
  * 1823. n = ior; below 1, light comes from within and is all reflected beyond the critical angle.
  *
  *   Departures: the colour f0 multiplies outside and replaces F(0), so ior only shapes the way from there.
- * Above n = 3.7 F dips below F(0) before it rises; s does not follow. And 1 - s is computed, which has no
+ * Above n = 3.73 F dips below F(0) before it rises; s does not follow. And 1 - s is computed, which has no
  * cancellation; c is at least 1e-6, since at n = 1 it would be 0 / 0 on the horizon. */
 #ifndef WEFT_F_DIELECTRIC_H
 #define WEFT_F_DIELECTRIC_H

@@ -4,7 +4,7 @@
  *     = min(1 / (4 cos_o cos_i), cos_h / (2 d max(cos_o, cos_i)))
  *
  *   Robert L. Cook, Kenneth E. Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on
- * Graphics 1(1), 1982, page 11, after Kenneth E. Torrance, Ephraim M. Sparrow, 1967. The second line is the
+ * Graphics 1(1), 1982, after Kenneth E. Torrance, Ephraim M. Sparrow, 1967. The second line is the
  * same without a quotient of small numbers.
  *   The floors 1e-12 are reached where both cosines are below 1e-6; they keep V finite. */
 #ifndef WEFT_V_COOK_TORRANCE_H

@@ -1,4 +1,5 @@
-/* v_kelemen - close to v_cook_torrance for a tenth of its work; the same for every roughness
+/* v_kelemen - v_cook_torrance reduced to one division, and brighter towards grazing; the same for every
+ * roughness
  *
  *   V = 1 / (4 d^2),  d = wi . h
  *

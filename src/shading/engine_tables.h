@@ -1,0 +1,27 @@
+/* engine_tables.h - tables that engines ship, made anew by their own procedures, with what these get wrong
+ *
+ * Of kind TABLE_LINEAR, as the engines' samplers read them: roughness, not squared, down the rows. In GLSL
+ * the flattener (text/) supplies engine_table for layers of the one array texture. */
+#ifndef WEFT_SHADING_ENGINE_TABLES_H
+#define WEFT_SHADING_ENGINE_TABLES_H
+
+#include "shading/table.h"
+
+/* E of charlie-neubelt and of white ggx. google/filament, libs/ibl/src/CubemapIBL.cpp, 128 x 128. Its rows
+ * are shifted: row j of n holds roughness (j + 1.5) / n, at most 1, where a sampler reads (j + 0.5) / n. So
+ * at roughness 0.1 and cos_o 0.3 E of the sheen is .071 for .055; from roughness 0.3 on it is within 4 %.
+ *   Babylon.js ships an image of 256 x 256, which fits that same procedure. Substitute: its 8 bits a channel
+ * and the spacing of ggx at 256 rows are left out. */
+#define ENGINE_FILAMENT_SHEEN 0
+#define ENGINE_FILAMENT_GGX   1
+#define ENGINE_BABYLON_SHEEN  2
+#define ENGINE_BABYLON_GGX    3
+
+/* E of white ggx. mrdoob/three.js, src/renderers/shaders/DFGLUTData.js, 16 x 16. */
+#define ENGINE_THREE_GGX 4
+#define ENGINE_COUNT     5
+
+/* Made at the first call, which any number of threads may make at once; read-only afterwards. */
+TableRef engine_table(int which);
+
+#endif

@@ -1,0 +1,43 @@
+/* babylon - Babylon.js PBRMaterial with albedoScaling: a soft bright rim, the base less what a table says
+ *
+ *   f      = c D V + keep (base_color (1 - F0) (1 - metallic) / pi + D_ggx V_ggx F (1 + f0 (1 / Ess - 1)))
+ *   D      = charlie,  V = V_neubelt,  alpha = r^2 + 0.0005 of base and sheen
+ *   F      = f0 (1 - s) + specular s,  f0 = mix(F0, base_color, metallic)
+ *   keep   = 1 - max3(c) E(cos_o);  E, Ess: engine_tables.h
+ *
+ *   npm package @babylonjs/core 9.34.0, Shaders/ShadersInclude: pbrBlockSheen, pbrBRDFFunctions,
+ * pbrDirectLightingFunctions, pbrBlockFinalLitComponents, pbrBlockReflectivity; brdfTextureTools. Its
+ * defaults: legacy specular conservation, so that F0 and not F dims the diffuse lobe. albedoScaling on and
+ * intensity 1, as the loader of glTF is said to set them (not read); off, the sheen is dimmed by the
+ * reflectance of the base instead, which keeps all.
+ *   IBL there differs: the sheen is the mirror image blurred for ggx, times c E.
+ *   Inputs: F0 as in workflow metallic; clear coat and anisotropy are not looked at; lights have no radius.
+ *   Departures: alpha of the sheen is at least 0.005; keep at least 0.
+ *   Substitute: E is within .0012 on average of the image that it ships, as measured when that was read. */
+#ifndef WEFT_PROFILE_BABYLON_H
+#define WEFT_PROFILE_BABYLON_H
+
+#include "shading/profiles/filament_sheen.h"
+
+FN float babylon_alpha(float r) { return r * r + 0.0005f; }
+
+FN Stack babylon_stack(Surface s, Dir o) {
+    float r = clamp(s.roughness, 0.0f, 1.0f), r_s = clamp(s.sheen_roughness, 0.0f, 1.0f);
+    Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
+    sheen.params[0] = max(babylon_alpha(r_s), 0.005f);
+    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
+                             LAYER_ALBEDO_VIEW);
+    m.albedo = ALBEDO_BABYLON;
+    m.at = r_s;
+    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s.base_color, s.metallic);
+    Rgb below = rgb((1.0f - f0.r) * (1.0f - s.metallic), (1.0f - f0.g) * (1.0f - s.metallic),
+                    (1.0f - f0.b) * (1.0f - s.metallic));
+    m = workflow_base(m, s, rgb_mul(s.base_color, below), mixed, s.specular, o);
+    m.specular.lobe = lobe_default(LOBE_GGX);
+    m.specular.lobe.params[0] = max(babylon_alpha(r), 0.001f);
+    m.specular =
+        filament_compensate(m.specular, mixed, table_albedo(engine_table(ENGINE_BABYLON_GGX), o.z, r));
+    return m;
+}
+
+#endif

@@ -1,0 +1,66 @@
+/* filament-sheen - Filament's lit material with a sheen: a soft rim, the base less what a table says
+ *
+ *   f      = c D V + keep (base_color (1 - metallic) / pi + D_ggx V_ggx F (1 + f0 (1 / Ess - 1)))
+ *   D      = charlie with sin_h^2 >= 1/128,  V = V_neubelt,  alpha = max(sheen_roughness, 0.045)^2
+ *   F      = f0 (1 - s) + f90 s,  f90 = min(16.5 (f0.r + f0.g + f0.b), 1),  alpha = max(roughness, 0.045)^2
+ *   keep   = 1 - max3(c) E(cos_o);  E, Ess: engine_tables.h
+ *
+ *   google/filament, shaders/src/surface_shading_model_standard.fs (1b47d18), surface_brdf.fs (04d50d4),
+ * common_material.fs; libs/ibl/src/CubemapIBL.cpp (13d3ade) for the tables. As on desktop: on phones
+ * roughness starts at 0.089 and V_ggx is smith-ggx-fast. F takes nothing from the diffuse lobe.
+ *   IBL there differs: the diffuse lobe keeps 1 - E of the specular one; the sheen is a mirror image
+ * blurred for ggx, times E.
+ *   Inputs: f0 as in workflow metallic; clear coat, anisotropy and specular's share in f90 are not looked
+ * at.
+ *   Departures: D_ggx is not cut off at 65464, which it reaches below roughness 0.047; alpha of the sheen
+ * is at least 0.005; keep at least 0, where the table's E passes 1 (there it turns the base negative). That
+ * the shift of the table's rows reaches the sampler is inferred; Babylon.js's image shows the same. */
+#ifndef WEFT_PROFILE_FILAMENT_SHEEN_H
+#define WEFT_PROFILE_FILAMENT_SHEEN_H
+
+#include "shading/engine_tables.h"
+#include "shading/lobes/cook_torrance.h"
+#include "shading/workflows/metallic.h"
+
+FN float filament_roughness(float r) { return clamp(r, 0.045f, 1.0f); }
+
+FN Lobe filament_charlie(float r) {
+    Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
+    lobe.params[0] = max(r * r, 0.005f);
+    lobe.params[COOK_TORRANCE_D] = to_float(D_CHARLIE_FLOORED);
+    lobe.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
+    lobe.params[COOK_TORRANCE_F] = to_float(F_NONE);
+    return lobe;
+}
+
+/* Its slot in a colour, with what d_charlie_floored's norm took. */
+FN Stack filament_fuzz(Stack m, float r, Rgb color, int layer) {
+    Lobe lobe = filament_charlie(r);
+    m = workflow_sheen(m, lobe, color, color, layer);
+    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(lobe.params[0]));
+    m.sheen.f90 = m.sheen.f0;
+    return m;
+}
+
+/* 1 + f0 (1 / Ess - 1) on what a slot reflects. */
+FN Slot filament_compensate(Slot slot, Rgb f0, float ess) {
+    Rgb gain = rgb_add(rgb_grey(1.0f), rgb_scale(f0, 1.0f / max(ess, 1e-3f) - 1.0f));
+    slot.f0 = rgb_mul(slot.f0, gain);
+    slot.f90 = rgb_mul(slot.f90, gain);
+    return slot;
+}
+
+FN Stack filament_sheen_stack(Surface s, Dir o) {
+    float r = filament_roughness(s.roughness), r_s = filament_roughness(s.sheen_roughness);
+    Stack m = filament_fuzz(stack_empty(), r_s, rgb_scale(s.sheen_color, s.sheen), LAYER_ALBEDO_VIEW);
+    m.albedo = ALBEDO_FILAMENT;
+    m.at = r_s;
+    Rgb f0 = rgb_mix(metallic_f0(s), s.base_color, s.metallic);
+    float f90 = min(16.5f * (f0.r + f0.g + f0.b), 1.0f);
+    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), f0, f90, o);
+    m.specular.lobe = lobe_rough(LOBE_GGX, r);
+    m.specular = filament_compensate(m.specular, f0, table_albedo(engine_table(ENGINE_FILAMENT_GGX), o.z, r));
+    return m;
+}
+
+#endif

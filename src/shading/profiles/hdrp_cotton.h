@@ -1,0 +1,32 @@
+/* hdrp-cotton - Unity's cotton and wool: dull, darker the rougher, with a rim that is simply added
+ *
+ *   f     = base_color (1 - alpha / 2) / pi + c D V
+ *   D     = charlie at alpha (1 + anisotropy),  V = V_neubelt,  alpha = sheen_roughness^2
+ *
+ *   Unity-Technologies/Graphics, com.unity.render-pipelines.high-definition,
+ * Runtime/Material/Fabric/Fabric.hlsl (2a67652); BSDF.hlsl and CommonMaterial.hlsl of
+ * com.unity.render-pipelines.core (05639b3). No Fresnel, no highlight, nothing taken from anything.
+ *   IBL there differs: a table with the V of Conty and Kulla and with Schlick's rise to white; the rim is a
+ * blurred mirror image.
+ *   Inputs: its specular colour c is sheen_color sheen, and 1 - smoothness is sheen_roughness; the base has
+ * no highlight whose roughness it could be. metallic, ior and specular are not looked at. The authoring
+ * graph is said to press smoothness into 0 .. 0.6: not done.
+ *   Departures: alpha of D is at least 0.005 (there 1/1024); cos_o has no floor of 1e-4. */
+#ifndef WEFT_PROFILE_HDRP_COTTON_H
+#define WEFT_PROFILE_HDRP_COTTON_H
+
+#include "shading/workflow.h"
+
+FN Stack hdrp_cotton_stack(Surface s, Dir o) {
+    float r = clamp(s.sheen_roughness, 0.0f, 1.0f), alpha = r * r;
+    Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
+    sheen.params[0] = max(alpha * (1.0f + s.anisotropy), 0.005f);
+    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
+                             LAYER_ADDITIVE);
+    Lobe diffuse = lobe_default(LOBE_FABRIC_LAMBERT);
+    diffuse.params[0] = alpha;
+    m.diffuse = slot_make(diffuse, s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
+    return m;
+}
+
+#endif

@@ -1,0 +1,32 @@
+/* hdrp-silk - Unity's silk: a stretched highlight over a diffuse colour, and no rim of fuzz
+ *
+ *   f     = base_color burley / (1.03571 pi) + D V F
+ *   D V   = lobe silk: alpha (1 + anisotropy) along x, alpha (1 - anisotropy) along y,  alpha = roughness^2
+ *   F     = f0 (1 - s) + s
+ *
+ *   Unity-Technologies/Graphics, com.unity.render-pipelines.high-definition,
+ * Runtime/Material/Fabric/Fabric.hlsl (2a67652); BSDF.hlsl and CommonMaterial.hlsl of
+ * com.unity.render-pipelines.core (05639b3). F takes nothing from the diffuse lobe.
+ *   IBL there differs: a table of ggx, along a direction bent by the anisotropy.
+ *   Inputs: 1 - smoothness is roughness; its specular colour f0 is that of a dielectric as in workflow
+ * metallic; sheen and metallic are not looked at.
+ *   Departures: alpha is at least 0.001 and anisotropy at most 0.9, where y would narrow to its floor of
+ * 1/1024. */
+#ifndef WEFT_PROFILE_HDRP_SILK_H
+#define WEFT_PROFILE_HDRP_SILK_H
+
+#include "shading/workflows/metallic.h"
+
+FN Stack hdrp_silk_stack(Surface s, Dir o) {
+    Stack m = stack_empty();
+    float r = clamp(s.roughness, 0.0f, 1.0f);
+    Lobe silk = lobe_rough(LOBE_SILK, r), diffuse = lobe_default(LOBE_BURLEY);
+    silk.params[1] = clamp(s.anisotropy, 0.0f, 0.9f);
+    diffuse.params[0] = r;
+    Rgb f0 = metallic_f0(s), color = rgb_scale(s.base_color, 1.0f / 1.03571f);
+    m.specular = slot_make(silk, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, schlick_s(o.z)));
+    m.diffuse = slot_make(diffuse, color, color, 1.0f, rgb_mean(color));
+    return m;
+}
+
+#endif

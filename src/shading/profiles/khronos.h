@@ -1,0 +1,43 @@
+/* khronos - glTF as its own renderer shows it: a thin rim, over a base that gives up a little too much
+ *
+ *   f      = coat + (1 - coat_F) (c D V + keep base),  c = sheen_color sheen
+ *   base   = (1 - metallic) (1 - F) base_color / pi + D_ggx V_ggx F_mixed,  F each channel, at wi . h
+ *   V      = min(V_conty_kulla, 1),  alpha = sheen_roughness^2
+ *   keep   = min(1 - max3(c) E(cos_o), 1 - max3(c) E(cos_i))
+ *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
+ *
+ *   KhronosGroup/glTF-Sample-Renderer, source/Renderer/shaders/pbr.frag (07d2ba6), material_info.glsl,
+ * punctual.glsl; brdf.glsl of KhronosGroup/glTF-Sample-Viewer (00536c7). No light is scattered twice
+ * between facets.
+ *   IBL there differs: keep looks at cos_o alone; the sheen is a blurred mirror image times a table whose
+ * Charlie has roughness unsquared, which is up to 1.7 times its own integral at roughness 0.5; the base has
+ * Fdez-Aguera's scattering.
+ *   Substitute: E, there the picture lut_sheen_E.png of unknown making, is here the integral of the
+ * profile's own lobe, at most 1. If the picture knows nothing of the clamp on V, as the extension's text
+ * does not, it is up to 0.12 more at cos_o 0.02 and up to 0.06 from cos_o 0.1 on
+ * (tests/shading/test_profiles).
+ *   Departures: alpha of the base is at least 0.001, of the sheen 0.005; keep at least 0. F0 without an ior
+ * is weft's. */
+#ifndef WEFT_PROFILE_KHRONOS_H
+#define WEFT_PROFILE_KHRONOS_H
+
+#include "shading/workflows/metallic.h"
+
+FN float khronos_albedo(TableRef lobe, float cosine, float alpha) {
+    return min(table_albedo(lobe, cosine, alpha), 1.0f);
+}
+
+FN Stack khronos_stack(Surface s, Dir o) {
+    Stack m = workflow_coat(stack_empty(), s, o);
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness);
+    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_MAX);
+    m.albedo = ALBEDO_KHRONOS;
+    Rgb f0 = metallic_f0(s);
+    m.under = UNDER_HALF;
+    m.under_f0 = f0;
+    m.under_f90 = s.specular;
+    return workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic),
+                         rgb_mix(f0, s.base_color, s.metallic), mix(s.specular, 1.0f, s.metallic), o);
+}
+
+#endif

@@ -1,0 +1,94 @@
+/* three - three.js MeshPhysicalMaterial: a soft rim, cut off at its brightest, that the base hardly notices
+ *
+ *   f      = coat + (1 - coat_F(cos_o)) (c D V + keep base),  c = sheen_color sheen
+ *   base   = (1 - metallic) (1 - F) base_color / pi + D_ggx V_ggx F_mixed (1 + F0 (1 / Ess - 1))
+ *   F      = f0 (1 - s) + f90 s,  s = 2^((-5.55473 d - 6.98316) d),  d = wi . h
+ *   D      = charlie with sin_h^2 >= 1/128,  V = min(V_neubelt, 1),  alpha = sheen_roughness^2
+ *   keep   = 1 - max3(c) max(E(cos_o), E(cos_i)),  E by three_albedo
+ *   alpha  = max(roughness, 0.045)^2, of base and coat
+ *   Ess    = E of white ggx towards wo, from a table of 16 x 16
+ *
+ *   npm package three 0.187.0, src/renderers/shaders/ShaderChunk: lights_physical_pars_fragment,
+ * lights_physical_fragment, lights_fragment_begin, common; ShaderLib/meshphysical; repository
+ * mrdoob/three.js. Earlier releases dim the base by 0.157 max3(c) or have another E, and leave the diffuse
+ * lobe whole.
+ *   E is far from the sheen's own at low roughness, so grazing light is returned more than once over: at
+ * roughness 0.1 and cos_o 0.02 the lobe has E 1.54, the formula says .27.
+ *   IBL there differs: the sheen is diffuse irradiance times c E(cos_o), keep looks at cos_o alone, the
+ * base has Fdez-Aguera's scattering; lights of an area have no sheen.
+ *   Departures: nothing is added to roughness where the normal changes from pixel to pixel; alpha of the
+ * sheen is at least 0.005 (there 1e-8).
+ *   Substitute: Ess is made by the table's stated procedure; of the 256 texels shipped, none is farther off
+ * than 0.002 (four of them in tests/shading/test_profiles). F0 without an ior is weft's. */
+#ifndef WEFT_PROFILE_THREE_H
+#define WEFT_PROFILE_THREE_H
+
+#include "shading/engine_tables.h"
+#include "shading/lobes/cook_torrance.h"
+#include "shading/workflows/metallic.h"
+
+#define THREE_ROUGHNESS_LEAST 0.045f
+
+FN float three_albedo(float cosine, float r) {
+    float inverse = 1.0f / (r + 0.1f);
+    float a = -1.9362f + 1.0678f * r + 0.4573f * r * r - 0.8469f * inverse;
+    float b = -0.6014f + 0.5538f * r - 0.4670f * r * r - 0.1255f * inverse;
+    return clamp(exp(a * cosine + b), 0.0f, 1.0f);
+}
+
+FN Lobe three_ggx(float roughness, float anisotropy) {
+    float r = clamp(roughness, THREE_ROUGHNESS_LEAST, 1.0f), alpha = r * r;
+    Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
+    lobe.params[0] = alpha;
+    lobe.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
+    lobe.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
+    lobe.params[COOK_TORRANCE_F] = to_float(F_SCHLICK_GAUSSIAN);
+    lobe.params[COOK_TORRANCE_STRETCH] = ggx_aniso_ax(alpha, anisotropy) / alpha;
+    return lobe;
+}
+
+FN Stack three_coat(Stack m, Surface s, Dir o) {
+    float coat_o = dir_dot(o, s.clearcoat_normal);
+    if (s.clearcoat <= 0.0f || coat_o <= 1e-4f) return m;
+    m = stack_coat_frame(m, s.clearcoat_normal);
+    float f = s.clearcoat * mix(0.04f, 1.0f, schlick_gaussian_s(coat_o));
+    m.coat =
+        slot_make(three_ggx(s.clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f), s.clearcoat, f);
+    m.left = 1.0f - f;
+    return m;
+}
+
+FN Lobe three_charlie(float alpha) {
+    Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
+    lobe.params[0] = max(alpha, 0.005f);
+    lobe.params[COOK_TORRANCE_D] = to_float(D_CHARLIE_FLOORED);
+    lobe.params[COOK_TORRANCE_V] = to_float(V_NEUBELT_CLAMPED);
+    lobe.params[COOK_TORRANCE_F] = to_float(F_NONE);
+    return lobe;
+}
+
+FN Stack three_stack(Surface s, Dir o) {
+    Stack m = three_coat(stack_empty(), s, o);
+    float r = clamp(s.roughness, THREE_ROUGHNESS_LEAST, 1.0f), r_s = clamp(s.sheen_roughness, 1e-4f, 1.0f);
+    Lobe sheen = three_charlie(r_s * r_s);
+    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_MAX);
+    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(sheen.params[0]));
+    m.sheen.f90 = m.sheen.f0;
+    m.albedo = ALBEDO_THREE;
+    m.at = r_s;
+
+    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s.base_color, s.metallic);
+    float f90 = mix(s.specular, 1.0f, s.metallic);
+    m.under = UNDER_GAUSSIAN;
+    m.under_f0 = f0;
+    m.under_f90 = f90;
+    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), mixed, f90, o);
+    m.specular.lobe = three_ggx(s.roughness, s.anisotropy);
+    float again = 1.0f / table_albedo(engine_table(ENGINE_THREE_GGX), o.z, r) - 1.0f;
+    Rgb gain = rgb(1.0f + mixed.r * again, 1.0f + mixed.g * again, 1.0f + mixed.b * again);
+    m.specular.f0 = rgb_mul(m.specular.f0, gain);
+    m.specular.f90 = rgb_mul(m.specular.f90, gain);
+    return m;
+}
+
+#endif

@@ -1,0 +1,41 @@
+/* urp - Unity on phones with a fabric that users added: a highlight that gives way to a rim
+ *
+ *   f     = 0.96 (1 - metallic) base_color mix(1, 0.62 (1 - cos_o^2 / 4), alpha) / pi
+ *           + mix(f0 D_ggx V_urp, c D_charlie V_neubelt, amount),  f0 = mix(0.04, base_color, metallic)
+ *   alpha = max(roughness^2, 1/128) in all
+ *
+ *   The Universal Render Pipeline has no cloth. This is AkiKurisu/IllusionRP,
+ * Shaders/Fabric/Lighting.hlsl (245c961) and ShaderLibrary/BRDF.hlsl (17f8e86), its isotropic form, over
+ * that pipeline's own highlight. It leaves pi out everywhere, as that pipeline does; here everything is
+ * divided by it.
+ *   IBL there differs: the colour of the rim does not enter at all.
+ *   Inputs: c is sheen_color and amount is sheen, 0 where the colour is black. One roughness serves both.
+ * ior, specular and sheen_roughness are not looked at.
+ *   Departures: nothing is cut off at 100 / pi, which is done for half floats only; there is no light from
+ * behind. */
+#ifndef WEFT_PROFILE_URP_H
+#define WEFT_PROFILE_URP_H
+
+#include "shading/lobes/cook_torrance.h"
+#include "shading/workflow.h"
+
+FN Stack urp_stack(Surface s, Dir o) {
+    float r = clamp(s.roughness, 0.0f, 1.0f), alpha = max(r * r, 0.0078125f);
+    float amount = rgb_max3(s.sheen_color) > 0.0f ? clamp(s.sheen, 0.0f, 1.0f) : 0.0f;
+    Stack m = stack_empty();
+    Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT), specular = lobe_default(LOBE_COOK_TORRANCE);
+    sheen.params[0] = alpha;
+    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, amount), s.sheen_second, LAYER_ADDITIVE);
+    specular.params[0] = alpha;
+    specular.params[COOK_TORRANCE_D] = to_float(D_GGX);
+    specular.params[COOK_TORRANCE_V] = to_float(V_URP);
+    specular.params[COOK_TORRANCE_F] = to_float(F_NONE);
+    Rgb f0 = rgb_mix(rgb_grey(0.04f), s.base_color, s.metallic);
+    m.specular = slot_make(specular, f0, f0, 1.0f - amount, (1.0f - amount) * rgb_mean(f0));
+    float dull = mix(1.0f, 0.62f * (1.0f - 0.25f * o.z * o.z), alpha) * 0.96f * (1.0f - s.metallic);
+    m.diffuse = slot_make(lobe_default(LOBE_LAMBERT), s.base_color, s.base_color, dull,
+                          dull * rgb_mean(s.base_color));
+    return m;
+}
+
+#endif

@@ -1,0 +1,14 @@
+/* v_neubelt_clamped - v_neubelt with its rim cut off, as three.js shows it
+ *
+ *   V = min(v_neubelt, 1)
+ *
+ *   V_Neubelt of mrdoob/three.js,
+ * src/renderers/shaders/ShaderChunk/lights_physical_pars_fragment.glsl.js. */
+#ifndef WEFT_V_NEUBELT_CLAMPED_H
+#define WEFT_V_NEUBELT_CLAMPED_H
+
+#include "shading/terms/v_neubelt.h"
+
+FN float neubelt_clamped_v(float o, float i) { return min(neubelt_v(o, i), 1.0f); }
+
+#endif
