@@ -1,13 +1,12 @@
-/* exponential - a rim that the viewer alone decides: black from above, full colour at the edge, in any
- * light
+/* exponential - a rim that the viewer alone decides: black from above, full at the edge, in any light
  *
  *   f = color x(1 - cos_o) / pi,   x(t) = (1 - exp(-beta t)) / (1 - exp(-beta))                 [1/sr]
  *
  *   x is what a layer of optical thickness beta takes from light on a way of length t, by the law of Johann
  *     Heinrich Lambert, "Photometria", 1760, scaled to 1 at t = 1. Shaders mix a sheen colour in by x; no
- *     paper with that form was found. As a lobe: Lambert of albedo x. Under the
- *     layer rules `additive` and `multiplicative` it gives the two forms of its source: color x is added to
- *     the base, or the base is scaled by 1 + color x.
+ *     paper with that form was found. As a lobe: Lambert of albedo x. Under the layer rules `additive` and
+ *     `multiplicative` it gives the two forms of its source: color x is added to the base, or the base is
+ *     scaled by 1 + color x.
  *   roughness: an artist's is spread over the range of beta; more is a wider rim, beta to 0 the ramp x = t.
  *   reciprocal: no, wi is not in it.
  *   energy: E(cos_o) = x(1 - cos_o) exactly, so at most 1.

@@ -14,8 +14,8 @@
  *     tizian/ltc-sheen comes to the same from Koenderink and Pont.
  *   roughness: sigma = roughness^2; tizian/ltc-sheen calls it alpha and leaves it to the artist.
  *   reciprocal: no, p divides by s(wo) alone; the rest is symmetric.
- *   energy: E <= 1/2, since half of p points down; at cos_o 0.02 it is 0.38 at roughness 0.5, and
- *     0.46 at 1.
+ *   energy: E <= 1/2, since half of p points down; at cos_o 0.02 it is 0.38 at roughness 0.5, and 0.46
+ *     at 1.
  *   sampling: half by p, half uniform. */
 #ifndef WEFT_PATRY_H
 #define WEFT_PATRY_H
@@ -23,7 +23,7 @@
 #include "shading/warp.h"
 
 #define PATRY_PARAMS(P)                                                                                      \
-    P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")       \
+    P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")   \
     P(float, density, 1.0f, 0.1f, 4.0f, 0.01f, 100.0f, "fibres met on the way down, in mean free paths")
 #define PATRY_TRAITS TRAIT_CONSERVES
 
@@ -47,7 +47,8 @@ FN float patry_pdf(Patry m, Angles a) {
 FN Dir patry_sample(Patry m, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
-        float sigma = m.roughness * m.roughness, l = 1.0f / sqrt(o.x * o.x + o.y * o.y + sigma * sigma * o.z * o.z);
+        float sigma = m.roughness * m.roughness;
+        float l = 1.0f / sqrt(o.x * o.x + o.y * o.y + sigma * sigma * o.z * o.z);
         float z = 1.0f - 4.0f * u, r = sqrt(max(1.0f - z * z, 0.0f)), phi = 2.0f * PI * v;
         float x = o.x * l + r * cos(phi), y = o.y * l + r * sin(phi), t = sigma * (sigma * o.z * l + z);
         float n = x * x + y * y + t * t;

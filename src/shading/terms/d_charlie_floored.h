@@ -5,7 +5,9 @@
  *
  *   D_Charlie of google/filament, shaders/src/surface_brdf.fs, from which mrdoob/three.js has it.
  *   Departure: the engines leave the gain out, which is at most 1.00035, at alpha 1; their profiles
- * multiply by it. */
+ * multiply by it.
+ *   Without the limit: Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen
+ * BRDF", SIGGRAPH 2017 course. */
 #ifndef WEFT_D_CHARLIE_FLOORED_H
 #define WEFT_D_CHARLIE_FLOORED_H
 

@@ -3,7 +3,8 @@
  *   V = min(v_neubelt, 1)
  *
  *   V_Neubelt of mrdoob/three.js,
- * src/renderers/shaders/ShaderChunk/lights_physical_pars_fragment.glsl.js. */
+ * src/renderers/shaders/ShaderChunk/lights_physical_pars_fragment.glsl.js.
+ *   Without the limit: David Neubelt, Matt Pettineo, SIGGRAPH 2013 course. */
 #ifndef WEFT_V_NEUBELT_CLAMPED_H
 #define WEFT_V_NEUBELT_CLAMPED_H
 
