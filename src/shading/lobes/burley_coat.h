@@ -6,8 +6,9 @@
  *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course, section 5.4 and appendix B.
  *   roughness: alpha = mix(0.1, 0.001, clearcoat_gloss).
  *   reciprocal: yes.
- *   energy: E <= 1 of the white lobe is not promised: D and V are of different roughness, and the paper
- * weighs it by 0.25 clearcoat. sampling: half by D, half uniform. */
+ *   energy: no, not promised of the white lobe: D and V are of different roughness; the paper weighs it by
+ *     0.25 clearcoat.
+ *   sampling: half by D, half uniform. */
 #ifndef WEFT_BURLEY_COAT_H
 #define WEFT_BURLEY_COAT_H
 

@@ -4,8 +4,13 @@
  *
  *   D, V: those of charlie-neubelt, and E its directional albedo from a table made at run time. Dividing by
  * the larger of the two keeps the lobe reciprocal, and E below 1; where charlie-neubelt conserves energy the
- * two are the same. roughness: alpha = roughness^2. reciprocal: yes. energy: E <= 1 (to the table's
- * interpolation, 1e-3). sampling: that of charlie-neubelt. */
+ * two are the same.
+ *   Alejandro Conty Estevez, Christopher Kulla, SIGGRAPH 2017 course (D); David Neubelt, Matt Pettineo,
+ * SIGGRAPH 2013 course (V); the division is weft's own.
+ *   roughness: alpha = roughness^2.
+ *   reciprocal: yes.
+ *   energy: E <= 1, to the interpolation of the table.
+ *   sampling: that of charlie-neubelt. */
 #ifndef WEFT_CHARLIE_NEUBELT_NORMALISED_H
 #define WEFT_CHARLIE_NEUBELT_NORMALISED_H
 
