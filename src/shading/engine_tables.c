@@ -73,9 +73,9 @@ static void fill_ggx_row(void *user, int row, int thread) {
     for (int k = 0; k < table->samples; k++) {
         float u, v;
         hammersley(k, table->samples, &u, &v);
-        float cos2 = (1.0f - v) / (1.0f - (1.0f - a2) * v);
+        float slope = a2 * v / (1.0f - v), cos2 = 1.0f / (1.0f + slope);
         cos_h[k] = sqrt(cos2);
-        x[k] = sqrt(max(1.0f - cos2, 0.0f)) * cos(2.0f * PI * u);
+        x[k] = sqrt(slope * cos2) * cos(2.0f * PI * u);
     }
     for (int column = 0; column < table->side; column++) {
         float o = ((float)column + 0.5f) / (float)table->side, sin_o = sqrt(1.0f - o * o);

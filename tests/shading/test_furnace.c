@@ -71,7 +71,8 @@ static void albedo_view_returns_what_it_receives(void **state) {
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;
-                    if (fabs(all - 1.0) > (id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 5e-3 : 2e-3)) /* what the table may err */
+                    if (fabs(all - 1.0) >
+                        (id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 5e-3 : 2e-3)) /* what the table may err */
                         fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.at,
                                  (double)o.z, all);
                 }

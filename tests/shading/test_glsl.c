@@ -44,7 +44,8 @@ static void inline_file(Text *text, const char *file) {
             snprintf(included, sizeof included, "%.*s", (int)(end - name), name);
             if (strcmp(included, "shading/lobe_tables.h") == 0) { /* C's own way to find a table */
                 inline_file(text, "shading/table.h");
-                put_line(text, "\nTableRef lobe_table_charlie_neubelt() { TableRef t; t.texels = 0; t.kind = TABLE_ROOTS; "
+                put_line(text, "\nTableRef lobe_table_charlie_neubelt() { TableRef t; t.texels = 0; t.kind = "
+                               "TABLE_ROOTS; "
                                "t.rows = 32; t.columns = 40; t.low = 0.5; t.high = 1.2; return t; }\n");
             } else {
                 inline_file(text, included);

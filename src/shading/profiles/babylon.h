@@ -30,8 +30,9 @@ FN Stack babylon_stack(Surface s, Dir o) {
     m.albedo = ALBEDO_BABYLON;
     m.at = r_s;
     Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s.base_color, s.metallic);
-    Rgb below = rgb((1.0f - f0.r) * (1.0f - s.metallic), (1.0f - f0.g) * (1.0f - s.metallic),
-                    (1.0f - f0.b) * (1.0f - s.metallic));
+    float dielectric = 1.0f - s.metallic;
+    Rgb below = rgb(max(1.0f - f0.r, 0.0f) * dielectric, max(1.0f - f0.g, 0.0f) * dielectric,
+                    max(1.0f - f0.b, 0.0f) * dielectric);
     m = workflow_base(m, s, rgb_mul(s.base_color, below), mixed, s.specular, o);
     m.specular.lobe = lobe_default(LOBE_GGX);
     m.specular.lobe.params[0] = max(babylon_alpha(r), 0.001f);

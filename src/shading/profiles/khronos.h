@@ -14,7 +14,7 @@
  * Fdez-Aguera's scattering.
  *   Substitute: E, there the picture lut_sheen_E.png of unknown making, is here the integral of the
  * profile's own lobe, at most 1. If the picture knows nothing of the clamp on V, as the extension's text
- * does not, it is up to 0.12 more at cos_o 0.02 and up to 0.06 from cos_o 0.1 on
+ * does not, it is up to 0.16 more at cos_o 0.02 and up to 0.06 from cos_o 0.1 on
  * (tests/shading/test_profiles).
  *   Departures: alpha of the base is at least 0.001, of the sheen 0.005; keep at least 0. F0 without an ior
  * is weft's. */
