@@ -206,12 +206,12 @@ static inline Stack test_stack(const Surface *surface, int layer, const AlbedoTa
     return stack;
 }
 
-/* E of a lobe as its first parameter runs from the least to 1, as a stack expects it. */
+/* E of a lobe over what a roughness from 0 to 1 makes of its first parameter, as a stack expects it. */
 static inline void fill_albedo(AlbedoTable *table, LobeId id) {
-    const WeftLobeInfo *info = weft_lobe_info((int)id);
     Lobe lobe = lobe_default(id);
-    albedo_table_fill(table, &lobe, info->param_count ? info->params[0].hard_low : 0.0f,
-                      info->param_count ? min(info->params[0].hard_high, 1.0f) : 0.0f, 0);
+    float a = lobe_rough(id, 0.0f).params[0], b = lobe_rough(id, 1.0f).params[0];
+    bool one = weft_lobe_info((int)id)->param_count == 0;
+    albedo_table_fill(table, &lobe, one ? 0.0f : min(a, b), one ? 0.0f : max(a, b), 0);
 }
 
 #endif

@@ -101,7 +101,9 @@ static void put_calls(Text *text, int id, const char *name, const char *record) 
     put_line(text, line);
     if (!info->param_count) put_line(text, "    m.none = 0.0;\n");
     for (int p = 0; p < info->param_count; p++) {
-        snprintf(line, sizeof line, "    m.%s = u[%d];\n", info->params[p].name, p);
+        snprintf(line, sizeof line,
+                 info->params[p].choices ? "    m.%s = int(u[%d]);\n" : "    m.%s = u[%d];\n",
+                 info->params[p].name, p);
         put_line(text, line);
     }
     snprintf(line, sizeof line,
@@ -117,6 +119,14 @@ static void put_lobe(Text *text, int id, const char *name, const char *record) {
     snprintf(file, sizeof file, "shading/lobes/%s.h", name);
     inline_file(text, file);
     put_calls(text, id, name, record);
+}
+
+static void inline_layer(Text *text, const char *id) {
+    char file[128];
+    snprintf(file, sizeof file, "shading/layers/%s.h", id);
+    for (char *c = file; *c; c++)
+        if (*c == '-') *c = '_';
+    inline_file(text, file);
 }
 
 static void every_lobe_compiles(void **state) {
@@ -141,13 +151,13 @@ static void every_lobe_compiles(void **state) {
     }
     WEFT_LOBES(CHECK_LOBE)
 #undef CHECK_LOBE
-#define CHECK_LAYER(id, name, NAME, help)                                                                    \
-    inline_file(&all, "shading/layers/" #name ".h");                                                         \
-    put_line(&calls, "    color *= " #name "_base(u[0], u[1], u[2], u[3]);\n");
+#define CHECK_LAYER(id, index, base, help)                                                                   \
+    inline_layer(&all, id);                                                                                  \
+    put_line(&calls, "    color *= " #base ";\n");
     WEFT_LAYERS(CHECK_LAYER)
 #undef CHECK_LAYER
-    put_line(&all, "void main() {\n    Rgb c;\n    c.r = u[0];\n    c.g = u[1];\n    c.b = u[2];\n    color "
-                   "= vec4(0.0);\n");
+    put_line(&all, "void main() {\n    float c = u[0], e_o = u[1], e_i = u[2], e_avg = u[3];\n"
+                   "    color = vec4(0.0);\n");
     put(&all, calls.bytes, calls.size);
     put_line(&all, "}\n");
     check_both("all of the catalogue together", &all);
