@@ -16,7 +16,7 @@ WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
     int k = weft_lobe_find(id);
     if (k < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "`weft models` lists them");
     *out = (WeftLobe){.lobe = k, .f0 = {1.0f, 1.0f, 1.0f}, .f90 = {1.0f, 1.0f, 1.0f}};
-    memcpy(out->params, lobe_default((LobeId)k).params, sizeof out->params);
+    memcpy(out->params, lobe_default(k).params, sizeof out->params);
     return WEFT_OK;
 }
 
@@ -45,7 +45,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
         for (int c = 0; c < 3; c++) (f90 ? lobe->f90 : lobe->f0)[c] = ranged(v[c], &color_info, param, log);
         return WEFT_OK;
     }
-    int k = lobe_param((LobeId)lobe->lobe, param);
+    int k = lobe_param(lobe->lobe, param);
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
     const WeftParamInfo *row = &info->params[k];
     for (int choice = 0; row->choices && row->choices[choice]; choice++)

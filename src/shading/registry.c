@@ -56,7 +56,7 @@ Lobe lobe_rough(int id, float roughness) {
     return lobe;
 }
 
-int lobe_param(LobeId id, const char *name) {
+int lobe_param(int id, const char *name) {
     for (int k = 0; k < infos[id].param_count; k++)
         if (strcmp(infos[id].params[k].name, name) == 0) return k;
     return -1;

@@ -56,12 +56,12 @@
 
 #define WEFT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
 
-typedef enum LobeId {
+enum {
 #define LOBE_ENUM(id, name, Record, NAME) LOBE_##NAME,
     WEFT_LOBES(LOBE_ENUM)
 #undef LOBE_ENUM
         LOBE_COUNT
-} LobeId;
+};
 
 /* What holds of a lobe over its whole parameter range. The tests check each claim. */
 enum {
@@ -79,7 +79,7 @@ enum { LOBE_PARAMS_MAX = WEFT_LOBE_PARAMS_MAX };
 
 /* A lobe with its parameters, in the order of its table. */
 typedef struct Lobe {
-    int id; /* a LobeId */
+    int id; /* one of LOBE_... */
     float params[LOBE_PARAMS_MAX];
 } Lobe;
 
@@ -91,7 +91,7 @@ Lobe lobe_default(int id);
 Lobe lobe_rough(int id, float roughness);
 
 /* Index of a parameter by name, or -1. */
-int lobe_param(LobeId id, const char *name);
+int lobe_param(int id, const char *name);
 
 /* Sets parameter k, clamped to its hard range. */
 void lobe_set(Lobe *lobe, int k, float value);

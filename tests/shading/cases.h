@@ -66,7 +66,7 @@ static inline int case_values(const WeftParamInfo *p) {
     return p->choices ? 1 + (int)p->hard_high : CASE_VALUES;
 }
 
-static inline int case_count(LobeId id) {
+static inline int case_count(int id) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
     int n = 1 + (info->param_count > 1 ? CASE_COMBINATIONS : 0);
     for (int p = 0; p < info->param_count; p++) n += case_values(&info->params[p]);
@@ -84,7 +84,7 @@ static inline float case_value(const WeftParamInfo *p, int k) {
     }
 }
 
-static inline Lobe case_lobe(LobeId id, int k) {
+static inline Lobe case_lobe(int id, int k) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
     Lobe lobe = lobe_default(id);
     if (k == 0) return lobe;
@@ -207,7 +207,7 @@ static inline Stack test_stack(const Surface *surface, int layer, const AlbedoTa
 }
 
 /* E of a lobe over what a roughness from 0 to 1 makes of its first parameter, as a stack expects it. */
-static inline void fill_albedo(AlbedoTable *table, LobeId id) {
+static inline void fill_albedo(AlbedoTable *table, int id) {
     Lobe lobe = lobe_default(id);
     float a = lobe_rough(id, 0.0f).params[0], b = lobe_rough(id, 1.0f).params[0];
     bool one = weft_lobe_info((int)id)->param_count == 0;

@@ -86,7 +86,7 @@ enum { NAMES = sizeof names / sizeof names[0], PAIRS = 200000 };
 static Lobe lobe_with(const char *id, float value) {
     int k = weft_lobe_find(id);
     assert_true(k >= 0);
-    Lobe lobe = lobe_default((LobeId)k);
+    Lobe lobe = lobe_default(k);
     lobe_set(&lobe, 0, value);
     return lobe;
 }

@@ -57,9 +57,9 @@ static void quadrature_agrees_with_other_estimators(void **state) {
     int cells = test_long() ? 2000 : 200, samples = test_long() ? 4000000 : test_short() ? 10000 : 40000;
     double worst = 0.0;
     for (int id = 0; id < weft_lobe_count(); id++)
-        for (int k = 0; k < case_count((LobeId)id); k++)
+        for (int k = 0; k < case_count(id); k++)
             for (int c = 0; c < COSINES; c++) {
-                Lobe lobe = case_lobe((LobeId)id, k);
+                Lobe lobe = case_lobe(id, k);
                 Dir o = direction_cos(cosines[c], 0.3);
                 const char *name = case_name(&lobe, o).text;
                 Albedo e = albedo_quadrature(&lobe, o, 1e-5);
@@ -90,9 +90,9 @@ static void traits_about_energy_hold(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         unsigned traits = weft_lobe_info(id)->traits;
         double highest = 0.0, lowest = 1e9;
-        for (int k = 0; k < case_count((LobeId)id); k++)
+        for (int k = 0; k < case_count(id); k++)
             for (size_t c = 0; c < sizeof grazing / sizeof grazing[0]; c++) {
-                Lobe lobe = case_lobe((LobeId)id, k);
+                Lobe lobe = case_lobe(id, k);
                 Dir o = direction_cos((double)grazing[c], 0.3);
                 if (is_ridge(&lobe)) continue;
                 Albedo e = albedo_quadrature(&lobe, o, 1e-5);
@@ -168,7 +168,7 @@ static void the_table_is_close_off_its_nodes(void **state) {
     static AlbedoTable table;
     Random random = {5};
     for (int id = 0; id < weft_lobe_count(); id++) {
-        fill_albedo(&table, (LobeId)id);
+        fill_albedo(&table, id);
         const WeftLobeInfo *info = weft_lobe_info(id);
         double worst = 0.0, worst_cos = 0.0, worst_alpha = 0.0;
         for (int n = 0; n < (test_long() ? 20000 : 1000); n++) {
@@ -176,7 +176,7 @@ static void the_table_is_close_off_its_nodes(void **state) {
             double low = info->param_count ? fmax((double)table.low, 0.005) : 0.0, high = (double)table.high;
             double alpha = n % 2 && low > 0.0 ? low * (pow)(high / low, y) : low + (high - low) * y * y;
             Dir o = direction_cos(fmax(n % 4 < 2 ? x * x * x * x : x, 1e-3), 0.0);
-            Lobe lobe = lobe_default((LobeId)id);
+            Lobe lobe = lobe_default(id);
             if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
             Albedo e = albedo_quadrature(&lobe, o, 1e-5);
             double d =

@@ -49,7 +49,7 @@ static void lobes_stay_finite(void **state) {
     Random random = {9};
     float highest = 0.0f;
     for (int n = 0; n < total; n += BLOCK) {
-        LobeId id = (LobeId)((n / BLOCK) % weft_lobe_count());
+        int id = ((n / BLOCK) % weft_lobe_count());
         int spread = case_count(id);
         Lobe lobe = case_lobe(id, (n / BLOCK / weft_lobe_count()) % spread);
         for (int k = 0; k < BLOCK; k++) {

@@ -59,7 +59,7 @@ static void albedo_view_returns_what_it_receives(void **state) {
     static AlbedoTable table;
     int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0;
     for (int id = 0; id < weft_lobe_count(); id++) {
-        fill_albedo(&table, (LobeId)id);
+        fill_albedo(&table, id);
         /* from 4 on where a thinner ridge is more than the grid resolves */
         for (int r = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC ? 4 : 2; r <= 10; r++)
             for (int c = 1; c <= 10; c++) {

@@ -16,7 +16,7 @@ static void reciprocal_lobes_are(void **state) {
         if (!(weft_lobe_info(id)->traits & TRAIT_RECIPROCAL)) continue;
         Random random = {2};
         for (int n = 0; n < PAIRS; n++) {
-            Lobe lobe = case_lobe((LobeId)id, n % case_count((LobeId)id));
+            Lobe lobe = case_lobe(id, n % case_count(id));
             Dir o = random_direction(&random), i = random_direction(&random);
             float f = lobe_eval(&lobe, angles_between(o, i)), g = lobe_eval(&lobe, angles_between(i, o));
             if (!close_to(f, g))
@@ -36,12 +36,12 @@ static void isotropic_lobes_do_not_see_azimuth(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         bool anisotropic = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
-        int k = lobe_param((LobeId)id, "anisotropy");
+        int k = lobe_param(id, "anisotropy");
         if (anisotropic && k < 0) continue; /* no parameter makes it round */
         assert_true(anisotropic || k < 0);
         Random random = {4};
         for (int n = 0; n < PAIRS; n++) {
-            Lobe lobe = case_lobe((LobeId)id, n % case_count((LobeId)id));
+            Lobe lobe = case_lobe(id, n % case_count(id));
             if (anisotropic) lobe_set(&lobe, k, 0.0f);
             if (turning_error(&lobe) > 0.1f) continue;
             double angle = 6.0 * (double)random_unit(&random);
@@ -59,9 +59,9 @@ static void anisotropic_lobes_see_azimuth(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!(weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC)) continue;
         bool seen = false;
-        for (int k = 0; k < case_count((LobeId)id); k++) { /* by some of its choices */
-            Lobe lobe = case_lobe((LobeId)id, k);
-            int how = lobe_param((LobeId)id, "anisotropy"), stretch = lobe_param((LobeId)id, "stretch");
+        for (int k = 0; k < case_count(id); k++) { /* by some of its choices */
+            Lobe lobe = case_lobe(id, k);
+            int how = lobe_param(id, "anisotropy"), stretch = lobe_param(id, "stretch");
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
             /* an eighth of a turn: a quarter may lay one yarn of threads over the other */

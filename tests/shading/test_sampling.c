@@ -151,8 +151,8 @@ static void lobes_sample_what_their_pdf_says(void **state) {
     int tests = 0;
     for (int e = 0; e < ELEVATIONS; e++)
         for (int id = 0; id < weft_lobe_count(); id++)
-            for (int k = 0; k < case_count((LobeId)id); k++) {
-                Lobe lobe = case_lobe((LobeId)id, k);
+            for (int k = 0; k < case_count(id); k++) {
+                Lobe lobe = case_lobe(id, k);
                 if (k > 0 && samples_as_default(&lobe)) continue;
                 tests++;
                 Dir o = direction_cos(elevations[e], 0.4 + e);
@@ -167,7 +167,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
     static AlbedoTable table;
     Random random = {7};
     for (int k = 0; k < 30; k++) {
-        fill_albedo(&table, (LobeId)(k % weft_lobe_count()));
+        fill_albedo(&table, (k % weft_lobe_count()));
         Surface surface = random_surface(&random, k % 2);
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);

@@ -175,7 +175,7 @@ static const struct Sheen {
 enum { SHEENS = sizeof sheens / sizeof sheens[0] };
 
 /* Any parameters of the plausible range, more of them low. */
-static Lobe random_lobe(Random *random, LobeId id) {
+static Lobe random_lobe(Random *random, int id) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
     Lobe lobe = lobe_default(id);
     for (int k = 0; k < info->param_count; k++) {
@@ -189,7 +189,7 @@ static Lobe random_lobe(Random *random, LobeId id) {
 static void formulas_are_those_of_the_papers(void **state) {
     (void)state;
     for (int s = 0; s < SHEENS; s++) {
-        LobeId id = (LobeId)weft_lobe_find(sheens[s].id);
+        int id = weft_lobe_find(sheens[s].id);
         Random random = {41};
         double worst = 0.0;
         for (int n = 0; n < (test_long() ? 1000000 : id == LOBE_EXPONENTIAL_LIT ? 3000 : 50000); n++) {
@@ -230,7 +230,7 @@ static void roughness_means_what_the_headers_say(void **state) {
 static void exponentials_reflect_their_ramp(void **state) {
     (void)state;
     static const float betas[] = {0.01f, 0.1f, 0.25f, 0.5f, 1.0f, 3.0f, 20.0f, 100.0f};
-    static const LobeId ids[] = {LOBE_EXPONENTIAL, LOBE_EXPONENTIAL_LIT};
+    static const int ids[] = {LOBE_EXPONENTIAL, LOBE_EXPONENTIAL_LIT};
     for (int l = 0; l < 2; l++)
         for (int b = 0; b < 8; b++)
             for (int c = 1; c <= 20; c++) {
@@ -246,13 +246,13 @@ static void exponentials_reflect_their_ramp(void **state) {
 }
 
 /* Energies and weights that the headers state. */
-static double white_albedo(LobeId id, float first, double cos_o) {
+static double white_albedo(int id, float first, double cos_o) {
     Lobe lobe = lobe_default(id);
     if (weft_lobe_info((int)id)->param_count) lobe_set(&lobe, 0, first);
     Albedo e = albedo_quadrature(&lobe, direction_cos(cos_o, 0.0), 1e-5);
     return (double)(e.f0 + e.f90);
 }
-static void expect(LobeId id, float first, double cos_o, double stated, double rounding) {
+static void expect(int id, float first, double cos_o, double stated, double rounding) {
     double e = white_albedo(id, first, cos_o);
     if (fabs(e - stated) > rounding)
         fail_msg("%s %g: E %.5f at cos_o %g, the header says %g", weft_lobe_info((int)id)->id, (double)first,
@@ -298,7 +298,7 @@ static void headers_state_true_energies(void **state) {
 static void weights_and_yarns_are_bounded(void **state) {
     (void)state;
     static const struct {
-        LobeId id;
+        int id;
         double bound;
     } rows[] = {
         {LOBE_EXPONENTIAL, 1.0}, {LOBE_EXPONENTIAL_LIT, 1.5}, {LOBE_SILK, 1.0}, {LOBE_THREADS, TEST_PI}};

@@ -561,7 +561,7 @@ static Lobe composed(int d, int v, int f, float alpha, float stretch) {
 static void known_lobes_can_be_composed(void **state) {
     (void)state;
     static const struct Same {
-        LobeId id;
+        int id;
         int d, v;
         float anisotropy;
     } same[] = {{LOBE_GGX, D_GGX, V_SMITH_GGX_CORRELATED, 0.0f},
