@@ -29,6 +29,12 @@ static inline bool test_asked(const char *variable) {
 static inline bool test_long(void) { return test_asked("WEFT_TEST_LONG"); }
 static inline bool test_short(void) { return test_asked("WEFT_TEST_SHORT"); }
 
+/* Whether this case has its turn: each in long runs, one of `usual` in plain ones, one of `few` under
+ * sanitizers. Numbers without a factor in common with the loops around it reach every value of each loop. */
+static inline bool test_turn(int *at, int usual, int few) {
+    return (*at)++ % (test_long() ? 1 : test_short() ? few : usual) == 0;
+}
+
 /* Random numbers that are the same in every run: splitmix64 (Guy L. Steele, Doug Lea, Christine H. Flood,
  * "Fast Splittable Pseudorandom Number Generators", 2014). */
 typedef struct Random {

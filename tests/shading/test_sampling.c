@@ -148,12 +148,13 @@ static bool samples_as_default(const Lobe *lobe) {
 
 static void lobes_sample_what_their_pdf_says(void **state) {
     (void)state;
-    int tests = 0;
+    int tests = 0, turn = 0;
     for (int e = 0; e < ELEVATIONS; e++)
         for (int id = 0; id < weft_lobe_count(); id++)
             for (int k = 0; k < case_count(id); k++) {
                 Lobe lobe = case_lobe(id, k);
                 if (k > 0 && samples_as_default(&lobe)) continue;
+                if (!test_turn(&turn, 1, 7)) continue;
                 tests++;
                 Dir o = direction_cos(elevations[e], 0.4 + e);
                 check_proposal((Proposal){.lobe = &lobe}, o, case_name(&lobe, o).text);
@@ -166,7 +167,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
     (void)state;
     static AlbedoTable table;
     Random random = {7};
-    for (int k = 0; k < 30; k++) {
+    for (int k = 0; k < (test_long() ? 30 : test_short() ? 3 : 12); k++) {
         fill_albedo(&table, (k % weft_lobe_count()));
         Surface surface = random_surface(&random, k % 2);
         for (int e = 1; e < ELEVATIONS; e += 2) {
