@@ -58,7 +58,7 @@ static void albedo_view_returns_what_it_receives(void **state) {
     (void)state;
     static AlbedoTable table;
     int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0, seen = 0,
-        turn = 0;
+        turn = 0, lobes = 0;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!test_turn(&lobes, 1, 7)) continue;
         fill_albedo(&table, id);
