@@ -46,7 +46,7 @@ typedef struct WeftLobeInfo {
 WEFT_API int weft_lobe_count(void);
 WEFT_API const WeftLobeInfo *weft_lobe_info(int lobe);
 
-/* The index of an id or of one of its aliases ("charlie-v"), or -1. */
+/* The index of an id, or -1. */
 WEFT_API int weft_lobe_find(const char *id);
 
 /* The layer rules by index, and a line on what each does; NULL past the end. */
@@ -62,6 +62,16 @@ WEFT_API const char *weft_workflow_help(int workflow);
 WEFT_API const char *weft_profile_id(int profile);
 WEFT_API const char *weft_profile_help(int profile);
 
+/* The names that sources use for some terms ("charlie-v"), taken wherever the id is, and the kind and id that
+ * each stands for ("v conty-kulla"); NULL past the end. */
+WEFT_API const char *weft_alias_name(int alias);
+WEFT_API const char *weft_alias_help(int alias);
+
+/* The text of a file of the catalogue, "terms/d_charlie.h", "lobes/ggx.h", "layers/reciprocal.h",
+ * "workflows/disney.h", "profiles/three.h", as it was compiled: it begins with a comment that says what one
+ * sees, formula and source. Zero-terminated; NULL where there is no such file. */
+WEFT_API const char *weft_catalogue_text(const char *path);
+
 /* A lobe with its parameters. Plain data, may be copied and filled by hand: the calls below clamp params to
  * their hard ranges, and where there is no lobe of that index the answer is 0. f0 and f90 are taken as they
  * are. */
@@ -74,11 +84,10 @@ typedef struct WeftLobe {
 /* The lobe with its default parameters, white. Fails with WEFT_MESSAGE_LOBE_NAME. */
 WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error);
 
-/* Sets a parameter by name: one number, the id of a choice, or "color" ("f0") and "f90" as "r,g,b" or one
- * number for all three.
- * Beyond the plausible range the value is taken with a warning and clamped to the hard range; beyond that
- * range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE, and with
- * _LOBE_NAME where there is no lobe of that index. */
+/* Sets a parameter by name: one number, the id or alias of a choice, or "color" ("f0") and "f90" as "r,g,b"
+ * or one number for all three. Beyond the plausible range the value is taken with a warning and clamped to
+ * the hard range; beyond that range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or
+ * _PARAM_VALUE, and with _LOBE_NAME where there is no lobe of that index. */
 WEFT_API WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                                   WeftError *error);
 

@@ -62,9 +62,12 @@ typedef enum WeftResult {
     M(CAMERA_NAME, USAGE, "is not a camera of this scene")                                                   \
     M(VARIANT_NAME, USAGE, "is not a material variant of this scene")                                        \
     M(MATERIAL_NAME, USAGE, "is not a material of this scene")                                               \
+    M(PRESET_NAME, USAGE, "is not a preset")                                                                 \
+    M(MATERIAL_FILE, INPUT, "is not a valid material file")                                                  \
     M(PARAM_NAME, USAGE, "is not a parameter")                                                               \
     M(PARAM_VALUE, USAGE, "is not a value that the parameter takes")                                         \
     M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
+    M(PLAUSIBLE, WARNING, "is hardly that of a real material")                                               \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \

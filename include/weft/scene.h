@@ -52,6 +52,31 @@ WEFT_API WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, W
 WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value,
                                    const WeftLog *log, WeftError *error);
 
+/* Puts the material of a file (docs/materials.md) or of "preset:NAME" on material MAT: a name, an index, "*"
+ * for all, or NULL for the cloth of the scene: what has a sheen, or, where nothing has, all that sends out no
+ * light. A preset gives no warnings. Fails with WEFT_MESSAGE_MATERIAL_FILE, _MATERIAL_NAME, _PRESET_NAME and
+ * with what reading a file or a picture can fail with; the scene is then as it was. */
+WEFT_API WeftResult weft_scene_dress(WeftScene *scene, const char *material, const char *path,
+                                     const WeftLog *log, WeftError *error);
+
+/* The same from size bytes of a material file that names no texture; name is the subject of messages. */
+WEFT_API WeftResult weft_scene_dress_memory(WeftScene *scene, const char *material, const void *data,
+                                            size_t size, const char *name, const WeftLog *log,
+                                            WeftError *error);
+
+/* The presets: name, a line on what it looks like, and the text of its material file; NULL past the end. */
+WEFT_API const char *weft_preset_name(int index);
+WEFT_API const char *weft_preset_help(int index);
+WEFT_API const char *weft_preset_text(int index);
+
+/* From now on turns every material of workflow "metallic" into "specular", or the other way round, at each
+ * point where it is shaded, so that textures are converted as exactly as numbers. losses (may be NULL) must
+ * hold a number for each material: the greatest change, over a grid of 256 x 256 points of its textures, of a
+ * channel of the diffuse colour or of the reflectance at normal incidence; -1 where the material has another
+ * workflow, or a profile, and stays. */
+WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
+                                       WeftError *error);
+
 /* The material inputs weft_scene_set takes: name and help; NULL past the end. */
 WEFT_API const char *weft_material_input_name(int index);
 WEFT_API const char *weft_material_input_help(int index);

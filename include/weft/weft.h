@@ -7,5 +7,6 @@
 #include "weft/render.h"
 #include "weft/result.h"
 #include "weft/scene.h"
+#include "weft/sheet.h"
 
 #endif

@@ -110,7 +110,7 @@ static void warning(void *user, WeftMessage message, const char *text) {
 static int lobe_make(const Options *options, WeftLobe *lobe) {
     WeftError error;
     WeftLog log = {.fn = warning};
-    if (lobe_named(options->operands[0]) < 0) return WEFT_USAGE;
+    if (kind_named(kind_of("lobe"), options->operands[0]) < 0) return WEFT_USAGE;
     if (weft_lobe_create(options->operands[0], lobe, &error) != WEFT_OK) return report_error(&error);
     int cursor = 0;
     for (const char *text; (text = option_next(options, "-p", &cursor));) {
@@ -144,7 +144,9 @@ static int eval_run(const Options *options) {
 
 static const Option eval_options[] = {
     OPTION_HEADING("Options"),
-    OPTION_LIST("-p", "NAME=VALUE", "a parameter of the lobe, color=r,g,b or f90=r,g,b"),
+    OPTION_LIST(
+        "-p", "NAME=VALUE",
+        "a parameter of the lobe, a number or, where it is a choice, an id; color=r,g,b or f90=r,g,b"),
     OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
     OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
     OPTION_END,
@@ -167,6 +169,7 @@ const Verb verb_eval = {
              "Examples\n"
              "  echo 30 0 60 180 | weft eval charlie-neubelt -p alpha=0.25\n"
              "  weft eval ggx -p alpha=0.1 -p color=1,0.8,0.3 angles.txt\n"
+             "  weft eval cook-torrance -p d=charlie -p v=neubelt -p f=none angles.txt\n"
              "  seq 0.05 0.05 1 | weft eval charlie-neubelt -p alpha=0.25 --albedo\n",
     .run = eval_run,
 };

@@ -1,10 +1,12 @@
 /* models.c - `weft models`: what there is to choose from */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "json.h"
 #include "layout.h"
 #include "names.h"
+#include "page.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -20,47 +22,52 @@ static const struct {
     {WEFT_LOBE_ANISOTROPIC, "anisotropic", "anisotropic"},
     {WEFT_LOBE_REFERENCE, "reference", "for the path tracer only"},
     {WEFT_LOBE_DIFFUSE, "diffuse", "a diffuse term"},
+    {WEFT_LOBE_TABLE, "table", "reads a table made at its first use"},
 };
-enum { TRAIT_COUNT = sizeof traits / sizeof *traits };
-
-/* A list of names such as weft_builtin_name and weft_builtin_help make. */
-typedef const char *Listed(int index);
+enum { TRAIT_COUNT = sizeof traits / sizeof *traits, COLUMN = 32 };
 
 static void append(char *line, size_t size, const char *separator, const char *text) {
     size_t used = strlen(line);
     snprintf(line + used, size - used, "%s%s", used ? separator : "", text);
 }
 
+/* The lobe of an entry of a kind; NULL where the kind is not one of lobes. */
+static const WeftLobeInfo *entry_lobe(const Kind *kind, int k) {
+    return strstr(kind->id, "lobe") || strcmp(kind->key, "diffuse") == 0
+               ? weft_lobe_info(weft_lobe_find(kind->name(k)))
+               : NULL;
+}
+
+/* The choice of an entry, or -1. */
+static int entry_choice(const Kind *kind, int k) { return strcmp(kind->id, "choice") == 0 ? k : -1; }
+
 static void lobe_words(const WeftLobeInfo *info, char *line, size_t size) {
     line[0] = '\0';
     for (int k = 0; k < TRAIT_COUNT; k++)
         if (info->traits & traits[k].bit) append(line, size, ", ", traits[k].words);
-}
-
-static void print_lobe_line(const WeftLobeInfo *info) {
-    char line[512];
-    lobe_words(info, line, sizeof line);
     for (int k = 0; k < info->param_count; k++)
-        append(line, sizeof line, k ? ", " : "; parameters: ", info->params[k].name);
-    layout_entry(stdout, 26, info->id, line);
+        append(line, size, k ? ", " : "; parameters: ", info->params[k].name);
 }
 
-static void print_list(const char *heading, const char *prefix, Listed *name, Listed *help) {
-    printf("\n%s\n", heading);
-    for (int k = 0; name(k); k++) {
-        char full[128];
-        snprintf(full, sizeof full, "%s%s", prefix, name(k));
-        layout_entry(stdout, 26, full, help(k));
-    }
+static void print_entry(const Kind *kind, int k) {
+    char line[512];
+    const WeftLobeInfo *lobe = entry_lobe(kind, k);
+    snprintf(line, sizeof line, "%s", kind->help(k));
+    if (lobe) lobe_words(lobe, line, sizeof line);
+    layout_entry(stdout, COLUMN, kind->name(k), line);
+}
+
+static void print_kind(const Kind *kind) {
+    printf("%s\n", kind->heading);
+    for (int k = 0; kind->name(k); k++) print_entry(kind, k);
 }
 
 static void print_all(void) {
-    printf("Lobes\n");
-    for (int k = 0; k < weft_lobe_count(); k++) print_lobe_line(weft_lobe_info(k));
-    print_list("Layer rules: how a sheen sits on its base", "", weft_layer_id, weft_layer_help);
-    print_list("Material inputs: render --set MATERIAL.INPUT=VALUE", "", weft_material_input_name,
-               weft_material_input_help);
-    print_list("Built-in scenes", "builtin:", weft_builtin_name, weft_builtin_help);
+    for (const Kind *kind = kinds; kind->id; kind++) {
+        if (!kind->shown || !kind->name(0)) continue;
+        if (kind != kinds) printf("\n");
+        print_kind(kind);
+    }
 }
 
 /* One row of a lobe's parameter table. */
@@ -71,101 +78,209 @@ static void print_row(const char *name, const char *def, const char *range, cons
     layout_entry(stdout, 46, left, help);
 }
 
-static void print_lobe(const WeftLobeInfo *info) {
-    print_lobe_line(info);
-    printf("\n");
-    print_row("parameter", "default", "range", "clamped to", "meaning");
-    for (int k = 0; k < info->param_count; k++) {
-        const WeftParamInfo *p = &info->params[k];
-        char def[16], range[32], hard[32];
+static void print_param(const WeftParamInfo *p) {
+    char def[16] = "an id", range[32] = "", hard[32] = "", help[768];
+    snprintf(help, sizeof help, "%s", p->help);
+    if (p->choices) {
+        for (int c = 0; p->choices[c]; c++) append(help, sizeof help, c ? " " : ": ", p->choices[c]);
+        append(help, sizeof help, "; by default ", p->choices[(int)p->def]);
+    } else {
         snprintf(def, sizeof def, "%g", (double)p->def);
         snprintf(range, sizeof range, "%g .. %g", (double)p->low, (double)p->high);
         snprintf(hard, sizeof hard, "%g .. %g", (double)p->hard_low, (double)p->hard_high);
-        print_row(p->name, def, range, hard, p->help);
     }
+    print_row(p->name, def, range, hard, help);
+}
+
+static void print_lobe(const WeftLobeInfo *info) {
+    printf("\n");
+    print_row("parameter", "default", "range", "clamped to", "meaning");
+    for (int k = 0; k < info->param_count; k++) print_param(&info->params[k]);
     print_row("color", "1", "0 .. 1", "", "r,g,b or one number; also called f0");
     if (info->traits & WEFT_LOBE_TWO_COLORS)
         print_row("f90", "1", "0 .. 1", "", "the second colour; at grazing, of a Fresnel term");
 }
 
-static void json_lobe(Json *json, const WeftLobeInfo *info) {
+static void json_param(Json *json, const WeftParamInfo *p) {
     json_open(json, NULL, '{');
-    json_text(json, "id", info->id);
+    json_text(json, "name", p->name);
+    json_text(json, "help", p->help);
+    if (p->choices) {
+        json_text(json, "default", p->choices[(int)p->def]);
+        json_open(json, "values", '[');
+        for (int k = 0; p->choices[k]; k++) json_text(json, NULL, p->choices[k]);
+        json_close(json, ']');
+    } else {
+        json_float(json, "default", p->def);
+        json_floats(json, "range", (float[]){p->low, p->high}, 2);
+        json_floats(json, "clamp", (float[]){p->hard_low, p->hard_high}, 2);
+    }
+    json_close(json, '}');
+}
+
+static void json_lobe(Json *json, const WeftLobeInfo *info) {
     json_open(json, "traits", '[');
     for (int k = 0; k < TRAIT_COUNT; k++)
         if (info->traits & traits[k].bit) json_text(json, NULL, traits[k].id);
     json_close(json, ']');
     json_open(json, "parameters", '[');
-    for (int k = 0; k < info->param_count; k++) {
-        const WeftParamInfo *p = &info->params[k];
-        json_open(json, NULL, '{');
-        json_text(json, "name", p->name);
-        json_text(json, "help", p->help);
-        json_float(json, "default", p->def);
-        json_floats(json, "range", (float[]){p->low, p->high}, 2);
-        json_floats(json, "clamp", (float[]){p->hard_low, p->hard_high}, 2);
-        json_close(json, '}');
-    }
+    for (int k = 0; k < info->param_count; k++) json_param(json, &info->params[k]);
     json_close(json, ']');
+}
+
+/* The ids that a choice may take. */
+static void json_values(Json *json, int choice) {
+    json_open(json, "values", '[');
+    json_text(json, NULL, "auto");
+    for (int k = 0; weft_material_choice_value(choice, k); k++)
+        json_text(json, NULL, weft_material_choice_value(choice, k));
+    json_close(json, ']');
+}
+
+static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
+    const WeftLobeInfo *lobe = entry_lobe(kind, k);
+    json_open(json, NULL, '{');
+    if (with_kind) json_text(json, "kind", kind->id);
+    json_text(json, "id", kind->name(k));
+    if (lobe)
+        json_lobe(json, lobe);
+    else
+        json_text(json, "help", kind->help(k));
+    if (entry_choice(kind, k) >= 0) json_values(json, k);
+    if (strcmp(kind->id, "preset") == 0) json_text(json, "text", weft_preset_text(k));
+    char *page = with_kind ? page_text(kind, kind->name(k)) : NULL;
+    if (page) json_text(json, "page", page);
+    free(page);
     json_close(json, '}');
 }
 
-static void json_list(Json *json, const char *key, Listed *name, Listed *help) {
+/* Of lobes the list of all; which of them are diffuse their traits say. */
+static bool in_json(const Kind *kind) {
+    return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0));
+}
+
+static void json_kind(Json *json, const Kind *kind, const char *key) {
     json_open(json, key, '[');
-    for (int k = 0; name(k); k++) {
-        json_open(json, NULL, '{');
-        json_text(json, "id", name(k));
-        json_text(json, "help", help(k));
-        json_close(json, '}');
-    }
+    for (int k = 0; kind->name(k); k++) json_entry(json, kind, k, false);
     json_close(json, ']');
 }
 
 static void json_all(Json *json) {
     json_open(json, NULL, '{');
-    json_open(json, "lobes", '[');
-    for (int k = 0; k < weft_lobe_count(); k++) json_lobe(json, weft_lobe_info(k));
-    json_close(json, ']');
-    json_list(json, "layers", weft_layer_id, weft_layer_help);
-    json_list(json, "inputs", weft_material_input_name, weft_material_input_help);
-    json_list(json, "scenes", weft_builtin_name, weft_builtin_help);
+    for (const Kind *kind = kinds; kind->id; kind++)
+        if (in_json(kind)) json_kind(json, kind, kind->key);
     json_close(json, '}');
 }
 
-static int models_run(const Options *options) {
-    Json json = {.stream = stdout};
-    bool as_json = option_given(options, "--json");
-    if (options->operand_count == 0) {
-        if (as_json)
-            json_all(&json);
-        else
-            print_all();
-        return 0;
+/* One entry with all there is to say of it. */
+static void print_one(const Kind *kind, int k) {
+    char *page = page_text(kind, kind->name(k));
+    printf("%c%s\n", kind->id[0] & ~0x20, kind->id + 1);
+    print_entry(kind, k);
+    if (page) printf("\n%s", page);
+    if (entry_lobe(kind, k)) print_lobe(entry_lobe(kind, k));
+    if (strcmp(kind->id, "preset") == 0) printf("\n%s", weft_preset_text(k));
+    for (int v = 0; entry_choice(kind, k) >= 0 && weft_material_choice_value(k, v); v++)
+        layout_entry(stdout, COLUMN, v ? "" : "may be auto or", weft_material_choice_value(k, v));
+    free(page);
+}
+
+static int no_such_id(const char *id) {
+    char hint[96];
+    Nearest nearest = {.typed = id};
+    for (const Kind *kind = kinds; kind->id; kind++)
+        for (int k = 0; kind->name(k); k++) nearest_offer(&nearest, kind->name(k));
+    return report(WEFT_USAGE, "%.200s: is not an id of anything%s", id,
+                  nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
+}
+
+/* Ids that begin with id and a dash. */
+static void print_related(const char *id) {
+    char line[512] = "";
+    size_t length = strlen(id);
+    for (const Kind *kind = kinds; kind->id; kind++)
+        for (int k = 0; in_json(kind) && kind->name(k); k++)
+            if (strncmp(kind->name(k), id, length) == 0 && kind->name(k)[length] == '-')
+                append(line, sizeof line, ", ", kind->name(k));
+    if (!line[0]) return;
+    printf("\n");
+    layout_entry(stdout, COLUMN, "see also", line);
+}
+
+static void show_one(const Kind *kind, int k, Json *json, bool first) {
+    if (json) {
+        json_entry(json, kind, k, true);
+        return;
     }
-    int lobe = lobe_named(options->operands[0]);
-    if (lobe < 0) return WEFT_USAGE;
-    if (as_json)
-        json_lobe(&json, weft_lobe_info(lobe));
+    if (!first) printf("\n");
+    print_one(kind, k);
+}
+
+/* An id may be that of several: "cook-torrance" is a lobe, a V and an F. only: of one kind, NULL: of all. */
+static int show(const char *id, const Kind *only, Json *json) {
+    int found = 0;
+    for (const Kind *kind = kinds; kind->id; kind++)
+        found += (only ? kind == only : in_json(kind)) && kind_find(kind, id) >= 0;
+    if (!found) return no_such_id(id);
+    if (json) json_open(json, NULL, '[');
+    found = 0;
+    for (const Kind *kind = kinds; kind->id; kind++)
+        if ((only ? kind == only : in_json(kind)) && kind_find(kind, id) >= 0)
+            show_one(kind, kind_find(kind, id), json, !found++);
+    if (json)
+        json_close(json, ']');
+    else if (!only)
+        print_related(id);
+    return 0;
+}
+
+/* KIND: or KIND:ID. Of a preset the material file and nothing else. */
+static int show_of_kind(const char *text, const char *colon, Json *json) {
+    const Kind *kind = kind_prefixed(text, (int)(colon - text));
+    if (!kind)
+        return report(WEFT_USAGE, "%.200s: has no kind before the colon that `weft models` lists", text);
+    if (!colon[1] && !json) print_kind(kind);
+    if (!colon[1] && json) json_kind(json, kind, NULL);
+    if (!colon[1]) return 0;
+    int k = kind_named(kind, colon + 1);
+    if (k < 0) return WEFT_USAGE;
+    if (json || strcmp(kind->id, "preset") != 0) return show(colon + 1, kind, json);
+    fputs(weft_preset_text(k), stdout);
+    return 0;
+}
+
+static int models_run(const Options *options) {
+    Json stream = {.stream = stdout}, *json = option_given(options, "--json") ? &stream : NULL;
+    const char *id = options->operand_count > 0 ? options->operands[0] : NULL, *colon;
+    if (id && (colon = strchr(id, ':'))) return show_of_kind(id, colon, json);
+    if (id) return show(id, NULL, json);
+    if (json)
+        json_all(json);
     else
-        print_lobe(weft_lobe_info(lobe));
+        print_all();
     return 0;
 }
 
 static const Option models_options[] = {
     OPTION_HEADING("Options"),
-    OPTION_SWITCH("--json", "one JSON object instead of text"),
+    OPTION_SWITCH("--json", "JSON instead of text: an object of lists, or for ID a list of what has that id"),
     OPTION_END,
 };
 
 const Verb verb_models = {
     .name = "models",
-    .operands = "[LOBE] [options]",
-    .help = "lists lobes, layer rules, material inputs and built-in scenes",
+    .operands = "[ID] [options]",
+    .help = "lists terms, lobes, layer rules, workflows, profiles, presets",
     .operands_most = 1,
     .options = models_options,
-    .notes = "Without LOBE everything is listed; with it, the parameters of that lobe.\n\n"
+    .notes = "Without ID everything is listed, by kind; with it, all that has that id: what\n"
+             "one sees, formula and source, of a lobe its parameters, of a choice its values,\n"
+             "of a preset its material file. KIND:ID is one of them: lobe:cook-torrance,\n"
+             "d:charlie, layer:seed, profile:three; KIND: lists all of a kind. preset:NAME\n"
+             "prints a material file and nothing else.\n\n"
              "Examples\n"
              "  weft models\n"
-             "  weft models charlie-neubelt\n",
+             "  weft models charlie-neubelt\n"
+             "  weft models preset:velvet > my-velvet.json\n",
     .run = models_run,
 };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "report.h"
-#include "weft/lobe.h"
+#include "weft/weft.h"
 
 enum { NAME_MAX_LENGTH = 40 };
 
@@ -49,20 +49,93 @@ const char *nearest_hint(const Nearest *nearest, char *buffer, int size) {
     return buffer;
 }
 
-static const char *lobe_id(int lobe) { return lobe < weft_lobe_count() ? weft_lobe_info(lobe)->id : NULL; }
+static const char *d_name(int k) { return weft_term_id(WEFT_TERM_D, k); }
+static const char *d_help(int k) { return weft_term_help(WEFT_TERM_D, k); }
+static const char *v_name(int k) { return weft_term_id(WEFT_TERM_V, k); }
+static const char *v_help(int k) { return weft_term_help(WEFT_TERM_V, k); }
+static const char *f_name(int k) { return weft_term_id(WEFT_TERM_F, k); }
+static const char *f_help(int k) { return weft_term_help(WEFT_TERM_F, k); }
 
-/* The index of id in a list that ends with NULL. */
-static int listed(const char *id, const char *(*name)(int index), WeftMessage message) {
-    char hint[96];
-    Nearest nearest = {.typed = id};
-    for (int k = 0; name(k); k++) {
-        if (strcmp(name(k), id) == 0) return k;
-        nearest_offer(&nearest, name(k));
-    }
-    report(WEFT_USAGE, "%.200s: %s%s", id, weft_message_text(message),
-           nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
+static const char *lobe_name(int k) { return weft_lobe_info(k) ? weft_lobe_info(k)->id : NULL; }
+
+/* The k-th lobe that is, or is not, a diffuse term. */
+static int lobe_among(int k, bool diffuse) {
+    for (int lobe = 0; lobe < weft_lobe_count(); lobe++)
+        if (((weft_lobe_info(lobe)->traits & WEFT_LOBE_DIFFUSE) != 0) == diffuse && k-- == 0) return lobe;
+    return -1;
+}
+static const char *diffuse_name(int k) { return lobe_name(lobe_among(k, true)); }
+static const char *other_name(int k) { return lobe_name(lobe_among(k, false)); }
+
+/* The table of a lobe says more than one line. */
+static const char *no_help(int k) { return k < 0 ? NULL : ""; }
+
+const Kind kinds[] = {
+    {"D term", "a", "d", "D terms: distributions", d_name, d_help, true, "terms/d_"},
+    {"V term", "a", "v", "V terms: visibility, 1 / (4 cos cos) inside", v_name, v_help, true, "terms/v_"},
+    {"F term", "an", "f", "F terms: Fresnel", f_name, f_help, true, "terms/f_"},
+    {"alias", "an", "aliases", "Aliases: names that sources use for terms", weft_alias_name, weft_alias_help,
+     true, NULL},
+    {"diffuse term", "a", "diffuse", "Diffuse lobes: for bases, and for anything a lobe is for", diffuse_name,
+     no_help, true, "lobes/"},
+    {"lobe", "a", "lobes", "Lobes", lobe_name, no_help, false, "lobes/"},
+    {"other lobe", "a", "others", "Lobes", other_name, no_help, true, "lobes/"},
+    {"layer rule", "a", "layers", "Layer rules: how a sheen sits on its base; each by=max or by=channel",
+     weft_layer_id, weft_layer_help, true, "layers/"},
+    {"workflow", "a", "workflows", "Workflows: what the inputs mean", weft_workflow_id, weft_workflow_help,
+     true, "workflows/"},
+    {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_id,
+     weft_profile_help, true, "profiles/"},
+    {"input", "an", "inputs", "Material inputs: render --set MATERIAL.INPUT=VALUE", weft_material_input_name,
+     weft_material_input_help, true, NULL},
+    {"choice", "a", "choices", "Material choices: render --set MATERIAL.CHOICE=ID", weft_material_choice_name,
+     weft_material_choice_help, true, NULL},
+    {"preset", "a", "presets", "Presets: render --preset NAME", weft_preset_name, weft_preset_help, true,
+     NULL},
+    {"built-in scene", "a", "scenes", "Built-in scenes: render builtin:NAME", weft_builtin_name,
+     weft_builtin_help, true, NULL},
+    {0},
+};
+
+const Kind *kind_of(const char *id) {
+    const Kind *kind = kinds;
+    while (strcmp(kind->id, id) != 0) kind++;
+    return kind;
+}
+
+const Kind *kind_prefixed(const char *text, int length) {
+    for (const Kind *kind = kinds; kind->id; kind++)
+        if (length > 0 && strncmp(kind->key, text, (size_t)length) == 0) return kind;
+    return NULL;
+}
+
+int kind_find(const Kind *kind, const char *id) {
+    for (int k = 0; kind->name(k); k++)
+        if (strcmp(kind->name(k), id) == 0) return k;
     return -1;
 }
 
-int lobe_named(const char *id) { return listed(id, lobe_id, WEFT_MESSAGE_LOBE_NAME); }
-int layer_named(const char *id) { return listed(id, weft_layer_id, WEFT_MESSAGE_LAYER_NAME); }
+/* "; several are called so: a, b" where more than one id begins with id and a dash. */
+static const char *several_hint(const Kind *kind, const char *id, char *buffer, size_t size) {
+    size_t length = strlen(id), used = (size_t)snprintf(buffer, size, "; several are called so: ");
+    int found = 0;
+    for (int k = 0; kind->name(k) && used < size; k++) {
+        const char *name = kind->name(k);
+        if (strncmp(name, id, length) != 0 || name[length] != '-') continue;
+        used += (size_t)snprintf(buffer + used, size - used, "%s%s", found++ ? ", " : "", name);
+    }
+    return length && found > 1 ? buffer : NULL;
+}
+
+int kind_named(const Kind *kind, const char *id) {
+    int k = kind_find(kind, id);
+    if (k >= 0) return k;
+    char buffer[320];
+    const char *hint = several_hint(kind, id, buffer, sizeof buffer);
+    Nearest nearest = {.typed = id};
+    for (k = 0; kind->name(k); k++) nearest_offer(&nearest, kind->name(k));
+    if (!hint)
+        hint = nearest.name ? nearest_hint(&nearest, buffer, sizeof buffer) : "; `weft models` lists them";
+    report(WEFT_USAGE, "%.200s: is not %s %s%s", id, kind->article, kind->id, hint);
+    return -1;
+}

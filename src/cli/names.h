@@ -1,6 +1,8 @@
-/* nearest.h - the name that was probably meant */
+/* names.h - the ids of everything there is, by kind, and the name that was probably meant */
 #ifndef WEFT_CLI_NAMES_H
 #define WEFT_CLI_NAMES_H
+
+#include <stdbool.h>
 
 /* The search for the name nearest to `typed` among those offered. Start with {.typed = text}. */
 typedef struct Nearest {
@@ -14,8 +16,27 @@ void nearest_offer(Nearest *nearest, const char *name);
 /* "; did you mean NAME?" in a buffer of the caller's, or "" when nothing is near. */
 const char *nearest_hint(const Nearest *nearest, char *buffer, int size);
 
-/* The index of a lobe or a layer rule by id, or -1 after one line on standard error. */
-int lobe_named(const char *id);
-int layer_named(const char *id);
+/* A list of the catalogue. name and help end with NULL. */
+typedef struct Kind {
+    const char *id;                      /* what one of them is: "lobe" */
+    const char *article, *key, *heading; /* "a", "lobes" as in JSON, "Lobes" over a list */
+    const char *(*name)(int index), *(*help)(int index);
+    bool shown;       /* in the list of everything; else it is part of another kind */
+    const char *file; /* the catalogue's files of these begin so, "terms/d_"; NULL: there are none */
+} Kind;
+
+extern const Kind kinds[]; /* ends with an id of NULL */
+
+/* The kind of that id, which there must be. */
+const Kind *kind_of(const char *id);
+
+/* The kind whose key begins with text of that length, as in "lobe:ggx"; NULL: none. */
+const Kind *kind_prefixed(const char *text, int length);
+
+/* The index of an id in a kind, or -1. */
+int kind_find(const Kind *kind, const char *id);
+
+/* The same, -1 after one line on standard error. */
+int kind_named(const Kind *kind, const char *id);
 
 #endif

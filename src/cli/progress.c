@@ -8,8 +8,9 @@
 
 #include "clock.h"
 
-Progress progress_start(bool quiet, int spp, int spp_most, double pixels, double limit) {
+Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit) {
     Progress progress = {.shown = !quiet && isatty(STDERR_FILENO),
+                         .prefix = prefix,
                          .spp = spp,
                          .spp_most = spp_most,
                          .pixels = pixels,
@@ -47,8 +48,9 @@ void progress_draw(Progress *progress, double fraction) {
     if (done > 0.0) clock_text(elapsed * (1.0 - done) / done, left);
     double samples = fraction * progress->spp_most;
     double rate = elapsed > 0.0 ? samples * progress->pixels / elapsed : 0.0;
-    snprintf(line, sizeof line, "%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
-             floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, asked, past, left, 1e-6 * rate);
+    snprintf(line, sizeof line, "%s%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
+             progress->prefix, floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, asked, past, left,
+             1e-6 * rate);
     fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
     fflush(stderr);
 }

@@ -6,16 +6,18 @@
 
 typedef struct Progress {
     bool shown;
-    int spp;       /* samples a pixel asked for; 0: as many as the time allows */
-    int spp_most;  /* what a fraction of 1 means */
-    double pixels; /* in the picture */
-    double limit;  /* s; 0: none */
+    const char *prefix; /* before all else, such as "2/3 " */
+    int spp;            /* samples a pixel asked for; 0: as many as the time allows */
+    int spp_most;       /* what a fraction of 1 means */
+    double pixels;      /* in the picture */
+    double limit;       /* s; 0: none */
     double started, drawn;
     int width; /* of the terminal, characters */
 } Progress;
 
-/* Shown only where standard error is a terminal and quiet is false. spp may be 0, see above. */
-Progress progress_start(bool quiet, int spp, int spp_most, double pixels, double limit);
+/* Shown only where standard error is a terminal and quiet is false. spp may be 0, see above. prefix must
+ * outlive the line. */
+Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit);
 
 /* Redraws the line, at most ten times a second. fraction is of the samples asked for. */
 void progress_draw(Progress *progress, double fraction);

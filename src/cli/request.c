@@ -8,12 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "names.h"
 #include "report.h"
 
 const Option request_options[] = {
     OPTION_HEADING("Pictures"),
-    OPTION_LIST("-o", "OUT", "write OUT: .exr and .hdr linear, .png as displayed"),
+    OPTION_LIST("-o", "OUT",
+                "write OUT: .exr and .hdr linear, .png as displayed; of several pictures a sheet with their "
+                "differences, .png"),
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
@@ -31,13 +32,7 @@ const Option request_options[] = {
     OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
     OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
 
-    OPTION_HEADING("Materials"),
-    OPTION_TEXT("--variant", "NAME", NULL, "switch to a material variant of the file"),
-    OPTION_TEXT("--sheen", "LOBE", NULL, "the lobe of every sheen; `weft models` lists them"),
-    OPTION_TEXT("--layer", "RULE", NULL, "how every sheen sits on its base; `weft models` lists them"),
-    OPTION_LIST("--set", "MAT.INPUT=VALUE",
-                "set an input of material MAT (name, index or *) to a number or r,g,b; wins over --sheen and "
-                "--layer"),
+    DRESS_OPTIONS,
 
     OPTION_HEADING("Sampling"),
     OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
@@ -123,22 +118,10 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
     return good;
 }
 
-/* Whether every --set has the right form; what it names is for the library to judge. */
-static bool check_sets(const Options *options) {
-    int cursor = 0;
-    for (const char *text; (text = option_next(options, "--set", &cursor));)
-        if (!strchr(text, '.') || !strchr(text, '=')) {
-            report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
-            return false;
-        }
-    return true;
-}
-
 bool request_read(const Options *options, Request *request) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
     *request = (Request){
         .options = options, .scene = options->operands[0], .quiet = option_given(options, "--quiet")};
-    const char *sheen = option_text(options, "--sheen"), *layer = option_text(options, "--layer");
     bool good = read_desc(options, &request->desc) && read_env(options, request) &&
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) &&
@@ -146,8 +129,7 @@ bool request_read(const Options *options, Request *request) {
                 option_number(options, "--env-rotation", &request->env_rotation) &&
                 option_number(options, "--env-strength", &request->env_strength) &&
                 option_choice(options, "--tonemap", curves, &request->tonemap) &&
-                (!sheen || lobe_named(sheen) >= 0) && (!layer || layer_named(layer) >= 0) &&
-                check_sets(options);
+                dress_read(options, &request->dress);
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
 }
@@ -174,17 +156,44 @@ static int output_possible(const char *path) {
                   strerror(reason));
 }
 
-int request_outputs_check(const Options *options) {
+int request_outputs_check(const Request *request) {
+    const Options *options = request->options;
     int cursor = 0, result = 0;
     if (!option_given(options, "-o"))
         return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr or .hdr file");
     for (const char *path; (path = option_next(options, "-o", &cursor));)
         if (!weft_image_suffix_known(path))
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+        else if (request->dress.count > 1 && weft_image_suffix_linear(path))
+            return report(WEFT_USAGE, "%s: a sheet of several pictures is for looking at; write a .png",
+                          path);
     for (cursor = 0; result == 0;) {
         const char *path = option_next(options, "-o", &cursor);
         if (!path) break;
         result = output_possible(path);
     }
     return result;
+}
+
+WeftResult request_outputs_write(const Request *request, const WeftImage *linear, const WeftImage *display,
+                                 WeftError *error) {
+    int cursor = 0;
+    WeftError other;
+    WeftResult result = WEFT_OK;
+    for (const char *path; (path = option_next(request->options, "-o", &cursor));) {
+        const WeftImage *image = weft_image_suffix_linear(path) ? linear : display;
+        WeftResult written = weft_image_write(path, image, result == WEFT_OK ? error : &other);
+        if (result == WEFT_OK) result = written;
+    }
+    return result;
+}
+
+const char *request_outputs_text(const Request *request, char files[REQUEST_FILES]) {
+    int cursor = 0;
+    files[0] = '\0';
+    for (const char *path; (path = option_next(request->options, "-o", &cursor));) {
+        size_t used = strlen(files);
+        snprintf(files + used, REQUEST_FILES - used, "%s%s", used ? ", " : "", path);
+    }
+    return files;
 }

@@ -2,7 +2,7 @@
 #ifndef WEFT_CLI_REQUEST_H
 #define WEFT_CLI_REQUEST_H
 
-#include "options.h"
+#include "dress.h"
 #include "weft/render.h"
 
 enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
@@ -13,6 +13,7 @@ extern const Option request_options[];
 typedef struct Request {
     const Options *options;
     const char *scene;
+    Dress dress;
     WeftRenderDesc desc;
     int spp; /* 0: until the time is up */
     double time_limit, exposure, env_rotation, env_strength;
@@ -27,6 +28,14 @@ bool request_read(const Options *options, Request *request);
 
 /* Whether every -o names a format and a place that can be written, found out by making a file there: what can
  * be known of the outputs before hours of rendering. Returns 0, or an exit code after one line. */
-int request_outputs_check(const Options *options);
+int request_outputs_check(const Request *request);
+
+/* Writes every -o, linear or as displayed; one that fails does not keep the others from being written. */
+WeftResult request_outputs_write(const Request *request, const WeftImage *linear, const WeftImage *display,
+                                 WeftError *error);
+
+/* Their names, comma between, in a buffer of the caller's. */
+enum { REQUEST_FILES = 512 };
+const char *request_outputs_text(const Request *request, char files[REQUEST_FILES]);
 
 #endif

@@ -39,7 +39,8 @@ static void redefault(Material *material, InputId id, float value) {
 
 void material_choose(Material *material, ChoiceId choice, int value) {
     material->choices[choice] = value;
-    if (choice != CHOICE_workflow || strcmp(choice_id(choice, value), "disney") != 0) return;
+    const char *id = choice_id(choice, value); /* of CHOICE_AUTO there is none */
+    if (choice != CHOICE_workflow || !id || strcmp(id, "disney") != 0) return;
     redefault(material, INPUT_specular, 0.5f);
     redefault(material, INPUT_sheen, 0.0f);
 }

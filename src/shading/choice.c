@@ -1,5 +1,8 @@
 #include "shading/choice.h"
 
+#include <stdio.h>
+
+#include "shading/convert.h"
 #include "shading/profile.h"
 #include "weft/lobe.h"
 
@@ -14,12 +17,48 @@ const char *choice_id(ChoiceId choice, int k) {
     case CHOICE_f: return weft_term_id(WEFT_TERM_F, k);
     case CHOICE_layer: return weft_layer_id(k);
     case CHOICE_layer_by: return k == LAYER_BY_MAX ? "max" : k == LAYER_BY_CHANNEL ? "channel" : NULL;
+    case CHOICE_convert:
+        return k == CONVERT_METALLIC ? "metallic" : k == CONVERT_SPECULAR ? "specular" : NULL;
     case CHOICE_COUNT: break;
     }
     return NULL;
 }
 
-int choice_find(ChoiceId choice, const char *id) {
+/* What papers and engines call the halves of the two sheens. Their letter says which half. */
+static const struct {
+    const char *name, *id, *help;
+} aliases[] = {
+    {"ashikhmin-d", "ashikhmin", "d ashikhmin"},
+    {"ashikhmin-v", "neubelt", "v neubelt"},
+    {"charlie-d", "charlie", "d charlie"},
+    {"charlie-v", "conty-kulla", "v conty-kulla"},
+};
+enum { ALIASES = sizeof aliases / sizeof *aliases };
+
+const char *weft_alias_name(int k) { return k >= 0 && k < ALIASES ? aliases[k].name : NULL; }
+const char *weft_alias_help(int k) { return k >= 0 && k < ALIASES ? aliases[k].help : NULL; }
+
+const char *alias_id(const char *name) {
+    for (int k = 0; k < ALIASES; k++)
+        if (strcmp(aliases[k].name, name) == 0) return aliases[k].id;
+    return name;
+}
+
+const char *choice_several(ChoiceId choice, const char *name, char text[SEVERAL_SIZE]) {
+    size_t length = strlen(name), used = 0;
+    int found = 0;
+    const char *id;
+    for (int k = 0; (id = choice_id(choice, k)); k++) {
+        if (strncmp(id, name, length) != 0 || id[length] != '-' || !choice_fits(choice, k)) continue;
+        int wrote = snprintf(text + used, SEVERAL_SIZE - used, "%s%s", found++ ? ", " : "", id);
+        if ((size_t)wrote >= SEVERAL_SIZE - used) break;
+        used += (size_t)wrote;
+    }
+    return length && found > 1 ? text : NULL;
+}
+
+int choice_find(ChoiceId choice, const char *name) {
+    const char *id = alias_id(name);
     if (choice == CHOICE_sheen_lobe || choice == CHOICE_diffuse) return weft_lobe_find(id);
     for (int k = 0; choice_id(choice, k); k++)
         if (strcmp(choice_id(choice, k), id) == 0) return k;

@@ -1,4 +1,4 @@
-/* choice.h - what each choice of inputs.h may be, by id */
+/* choice.h - what each choice of inputs.h may be, by id, and by the other names that sources use */
 #ifndef WEFT_SHADING_CHOICE_H
 #define WEFT_SHADING_CHOICE_H
 
@@ -7,10 +7,18 @@
 /* The id of value k of a choice, NULL past the last. */
 const char *choice_id(ChoiceId choice, int k);
 
-/* The value of an id or of an alias; -1 is none. CHOICE_AUTO is not found: see choice_parse. */
+/* The value of an id or of an alias; -1 is none. "auto", CHOICE_AUTO, is not found. */
 int choice_find(ChoiceId choice, const char *id);
 
 /* Whether a material can be made from that value: a diffuse term as the diffuse lobe, any lobe as a sheen. */
 int choice_fits(ChoiceId choice, int k);
+
+/* The id for which a name is an alias ("charlie-v": conty-kulla), or the name itself. */
+const char *alias_id(const char *name);
+
+/* "a, b, c": all ids that begin with name and a dash, where there are at least two, so that the name alone
+ * says too little (charlie: a lobe of which visibility?). Returns text, or NULL. */
+enum { SEVERAL_SIZE = 200 };
+const char *choice_several(ChoiceId choice, const char *name, char text[SEVERAL_SIZE]);
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef WEFT_SHADING_COMPOSE_H
 #define WEFT_SHADING_COMPOSE_H
 
+#include "shading/convert.h"
 #include "shading/lobes/cook_torrance.h"
 #include "shading/profile.h"
 
@@ -84,7 +85,9 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
 /* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E that compose_table_of asks
  * for. */
 FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
-    return compose_finish(compose_choices(compose_begin(s, c, o), s, c), e, o);
+    Surface t = convert_surface(s, c);
+    Choices d = convert_choices(c);
+    return compose_finish(compose_choices(compose_begin(t, d, o), t, d), e, o);
 }
 
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */

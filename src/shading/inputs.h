@@ -58,7 +58,8 @@
     C(f, "Fresnel term of the specular lobe")                                                                \
     C(sheen_lobe, "the lobe of the sheen")                                                                   \
     C(layer, "the rule by which the sheen sits on the base")                                                 \
-    C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own")
+    C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own")         \
+    C(convert, "turn the inputs of workflow metallic or specular into those of the other one first")
 
 #define CHOICE_AUTO (-1)
 

@@ -2,6 +2,7 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "shading/albedo.h"
+#include "shading/choice.h"
 
 /* The registry's lobe, its parameters clamped; false where there is none of that index. */
 static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
@@ -14,6 +15,10 @@ static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
 
 WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
     int k = weft_lobe_find(id);
+    char text[SEVERAL_SIZE];
+    const char *several = choice_several(CHOICE_sheen_lobe, id, text);
+    if (k < 0 && several)
+        return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "several are called so: %s", several);
     if (k < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "`weft models` lists them");
     *out = (WeftLobe){.lobe = k, .f0 = {1.0f, 1.0f, 1.0f}, .f90 = {1.0f, 1.0f, 1.0f}};
     memcpy(out->params, lobe_default(k).params, sizeof out->params);
@@ -49,7 +54,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
     const WeftParamInfo *row = &info->params[k];
     for (int choice = 0; row->choices && row->choices[choice]; choice++)
-        if (strcmp(row->choices[choice], value) == 0) {
+        if (strcmp(row->choices[choice], alias_id(value)) == 0) {
             lobe->params[k] = (float)choice;
             return WEFT_OK;
         }

@@ -223,6 +223,37 @@ static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
     assert_complaint("1.01\n", LIST("eval", "lambert", "--albedo"), 3, "line 1: is not a cosine");
 }
 
+/* The terms of two lobes of the catalogue give these lobes, by ids and by the names of sources. */
+static void terms_make_a_lobe(void **state) {
+    (void)state;
+    static double rows[ANGLES][4], same[ANGLES][4];
+    evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie", "-p", "v=neubelt", "-p", "f=none", "-p",
+                  "alpha=0.25"),
+             rows);
+    for (int k = 0; k < ANGLES; k++) {
+        Vector o = vector(angles[k][0], angles[k][1]), i = vector(angles[k][2], angles[k][3]);
+        assert_near(rows[k][0], f_charlie_neubelt(0.25, o, i), 1e-4, "charlie over neubelt");
+    }
+    evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie-d", "-p", "v=ashikhmin-v", "-p", "f=none", "-p",
+                  "alpha=0.25"),
+             same);
+    assert_memory_equal(rows, same, sizeof rows);
+    evaluate(LIST("eval", "cook-torrance", "-p", "d=ashikhmin", "-p", "v=conty-kulla", "-p", "f=none"), rows);
+    evaluate(LIST("eval", "cook-torrance", "-p", "d=ashikhmin-d", "-p", "v=charlie-v", "-p", "f=none"), same);
+    assert_memory_equal(rows, same, sizeof rows);
+}
+
+static void names_that_say_too_little_are_refused(void **state) {
+    (void)state;
+    static const char several[] = "several are called so: charlie-neubelt, charlie-conty-kulla";
+    assert_complaint("", LIST("eval", "charlie"), 2, several);
+    assert_complaint("", LIST("eval", "ashikhmin"), 2, "ashikhmin-neubelt, ashikhmin-conty-kulla");
+    assert_complaint("", LIST("eval", "charlie-v"), 2, "charlie-v: is not a lobe");
+    assert_complaint("", LIST("eval", "cook-torrance", "-p", "d=charlie-v"), 2, "charlie-v: is not a value");
+    assert_complaint("", LIST("eval", "cook-torrance", "-p", "v=charlie"), 2, "what v may be");
+    assert_complaint("", LIST("eval", "cook-torrance", "-p", "v=2"), 2, "2: is not a value");
+}
+
 static void implausible_parameters_are_warned_of(void **state) {
     (void)state;
     Ran ran = run_with("10 0 20 0\n", LIST("eval", "ggx", "-p", "alpha=9"));
@@ -244,6 +275,8 @@ int main(void) {
         cmocka_unit_test(malformed_lines_are_named),
         cmocka_unit_test(albedo_of_lambert_is_one),
         cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),
+        cmocka_unit_test(terms_make_a_lobe),
+        cmocka_unit_test(names_that_say_too_little_are_refused),
         cmocka_unit_test(implausible_parameters_are_warned_of),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

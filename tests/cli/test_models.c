@@ -46,13 +46,27 @@ static void parameters_come_through(void **state) {
     (void)state;
     for (int k = 0; k < weft_lobe_count(); k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
-        Ran ran = RUN("models", info->id, "--json");
-        json_t *lobe = parsed(ran.out), *params = json_object_get(lobe, "parameters");
+        char named[64];
+        snprintf(named, sizeof named, "lobe:%s", info->id);
+        Ran ran = RUN("models", named, "--json");
+        json_t *found = parsed(ran.out), *lobe = json_array_get(found, 0),
+               *params = json_object_get(lobe, "parameters");
         assert_int_equal(json_array_size(params), info->param_count);
         for (int p = 0; p < info->param_count; p++) {
             json_t *param = json_array_get(params, (size_t)p), *range = json_object_get(param, "range"),
                    *clamp = json_object_get(param, "clamp");
             const WeftParamInfo *own = &info->params[p];
+            if (own->choices) { /* ids in place of numbers */
+                size_t value = 0;
+                for (; own->choices[value]; value++)
+                    assert_string_equal(
+                        json_string_value(json_array_get(json_object_get(param, "values"), value)),
+                        own->choices[value]);
+                assert_int_equal(json_array_size(json_object_get(param, "values")), value);
+                assert_string_equal(json_string_value(json_object_get(param, "default")),
+                                    own->choices[(int)own->def]);
+                continue;
+            }
             const float values[5] = {own->def, own->low, own->high, own->hard_low, own->hard_high};
             json_t *said[5] = {json_object_get(param, "default"), json_array_get(range, 0),
                                json_array_get(range, 1), json_array_get(clamp, 0), json_array_get(clamp, 1)};
@@ -62,7 +76,7 @@ static void parameters_come_through(void **state) {
             }
             assert_string_equal(json_string_value(json_object_get(param, "name")), own->name);
         }
-        json_decref(lobe);
+        json_decref(found);
         ran_free(&ran);
         ran = RUN("models", info->id);
         for (int p = 0; p < info->param_count; p++) assert_non_null(strstr(ran.out, info->params[p].name));
@@ -70,9 +84,108 @@ static void parameters_come_through(void **state) {
     }
 }
 
+/* The design's table of ids; what comes later is not in it. */
+static const struct {
+    const char *kind, *ids;
+} promised[] = {
+    {"d", "blinn-phong beckmann ggx ggx-aniso gtr1 ashikhmin charlie"},
+    {"v",
+     "implicit neumann cook-torrance kelemen smith-beckmann smith-ggx smith-ggx-correlated smith-ggx-fast "
+     "schlick-beckmann schlick-ggx smith-ggx-aniso neubelt conty-kulla conty-kulla-clamped"},
+    {"f", "none schlick schlick-f90 cook-torrance dielectric conductor"},
+    {"diffuse", "lambert burley burley-subsurface oren-nayar eon fabric-lambert wrap"},
+    {"layer", "additive seed albedo-view albedo-min albedo-max reciprocal stochastic"},
+    {"lobe",
+     "lambert ggx burley-sheen ashikhmin-neubelt ashikhmin-conty-kulla charlie-neubelt charlie-conty-kulla "
+     "charlie-khronos charlie-neubelt-normalised exponential exponential-lit patry silk threads"},
+    {"workflow", "metallic specular disney cloth free"},
+    {"profile",
+     "unreal4 hdrp-cotton hdrp-silk urp filament-cloth filament-sheen khronos three babylon materialx "
+     "cycles-velvet disney-2012 order-1886"},
+    {"alias", "ashikhmin-v ashikhmin-d charlie-d charlie-v"},
+    {"preset", "velvet cotton denim wool silk satin linen felt corduroy microfibre"},
+};
+
+static bool has_row(const char *text, const char *id) {
+    char row[64];
+    int length = snprintf(row, sizeof row, "\n  %s", id);
+    for (const char *at = text; (at = strstr(at, row)); at++)
+        if (strchr(" \n", at[length])) return true;
+    return false;
+}
+
+/* Each is listed, has a page under KIND:ID and under its id alone, and the page of a model holds a source. */
+static void every_promised_id_has_a_page(void **state) {
+    (void)state;
+    Ran all = RUN("models");
+    for (size_t k = 0; k < sizeof promised / sizeof *promised; k++) {
+        char ids[512], named[64];
+        snprintf(ids, sizeof ids, "%s", promised[k].ids);
+        for (char *id = strtok(ids, " "); id; id = strtok(NULL, " ")) {
+            if (!has_row(all.out, id)) fail_msg("`weft models` lacks %s %s", promised[k].kind, id);
+            snprintf(named, sizeof named, "%s:%s", promised[k].kind, id);
+            Ran page = RUN("models", named);
+            bool model = strcmp(promised[k].kind, "alias") != 0 && strcmp(promised[k].kind, "preset") != 0;
+            if (page.code != 0) fail_msg("%s: %s", named, page.err);
+            if (model && strcmp(id, "none") != 0 && strlen(page.out) < 250)
+                fail_msg("%s: says little:\n%s", named, page.out);
+            if (strstr(page.out, "/*") || strstr(page.out, "*/") || strstr(page.out, "#include"))
+                fail_msg("%s: is code:\n%s", named, page.out);
+            ran_free(&page);
+        }
+    }
+    ran_free(&all);
+}
+
+static void an_id_of_several_shows_all(void **state) {
+    (void)state;
+    Ran ran = RUN("models", "cook-torrance");
+    assert_int_equal(ran.code, 0);
+    assert_true(strstr(ran.out, "\nV term\n") || strncmp(ran.out, "V term\n", 7) == 0);
+    assert_true(strstr(ran.out, "\nF term\n") && strstr(ran.out, "\nLobe\n"));
+    ran_free(&ran);
+    ran = RUN("models", "cook-torrance", "--json");
+    json_t *found = parsed(ran.out);
+    assert_int_equal(json_array_size(found), 3);
+    for (size_t k = 0; k < 3; k++)
+        assert_non_null(json_string_value(json_object_get(json_array_get(found, k), "page")));
+    json_decref(found);
+    ran_free(&ran);
+    ran = RUN("models", "schlick-f90"); /* lives in the file of schlick */
+    assert_non_null(strstr(ran.out, "Christophe Schlick"));
+    ran_free(&ran);
+    ran = RUN("models", "d:charlie");
+    assert_null(strstr(ran.out, "Lobe"));
+    ran_free(&ran);
+    ran = RUN("models", "layers:");
+    assert_true(has_row(ran.out, "reciprocal") && !has_row(ran.out, "lambert"));
+    ran_free(&ran);
+    assert_complaint(NULL, LIST("models", "chalrie-neubelt"), 2, "did you mean charlie-neubelt?");
+    assert_complaint(NULL, LIST("models", "d:neubelt"), 2, "is not a D term");
+    assert_complaint(NULL, LIST("models", "paint:ggx"), 2, "no kind");
+    assert_complaint(NULL, LIST("models", ":ggx"), 2, "no kind");
+}
+
+/* What preset:NAME prints is a material file that dresses a scene just so. */
+static void presets_can_be_taken_away(void **state) {
+    (void)state;
+    size_t size;
+    Ran ran = run_shell(
+        "\"$0\" models preset:silk > silk.json && "
+        "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --preset silk -o a.exr && "
+        "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --material silk.json -o b.exr");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    char *bytes = file_bytes("a.exr", &size);
+    assert_true(same_bytes("b.exr", bytes, size));
+    free(bytes);
+    ran_free(&ran);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(text_names_everything),
-                                       cmocka_unit_test(json_names_everything),
-                                       cmocka_unit_test(parameters_come_through)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_names_everything),      cmocka_unit_test(json_names_everything),
+        cmocka_unit_test(parameters_come_through),    cmocka_unit_test(every_promised_id_has_a_page),
+        cmocka_unit_test(an_id_of_several_shows_all), cmocka_unit_test(presets_can_be_taken_away)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -1,0 +1,240 @@
+#include "dress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "names.h"
+#include "report.h"
+
+/* Options whose value is the id of a choice for all materials, in the order in which they are applied. */
+static const struct {
+    const char *option, *kind, *choice;
+} axes[] = {
+    {"--workflow", "workflow", "workflow"},   {"--profile", "profile", "profile"},
+    {"--diffuse", "diffuse term", "diffuse"}, {"--sheen", "lobe", "sheen_lobe"},
+    {"--layer", "layer rule", "layer"},
+};
+enum { AXES = sizeof axes / sizeof *axes };
+
+static bool is_by(const char *text) { return strncmp(text, "by=", 3) == 0; }
+
+/* The end of the item that begins at text: a comma or the end. "RULE,by=channel" is one item. */
+static const char *item_end(const char *text) {
+    const char *end = text + strcspn(text, ",");
+    while (*end && is_by(end + 1)) end += 1 + strcspn(end + 1, ",");
+    return end;
+}
+
+static int item_count(const char *text) {
+    int count = 1;
+    for (const char *end = item_end(text); *end; end = item_end(end + 1)) count++;
+    return count;
+}
+
+/* Item k of a list, or of one that has a single item that one; false where it is too long to be an id. */
+static bool item_at(const char *text, int k, char item[DRESS_LABEL]) {
+    const char *end = item_end(text);
+    while (k-- > 0 && *end) {
+        text = end + 1;
+        end = item_end(text);
+    }
+    return snprintf(item, DRESS_LABEL, "%.*s", (int)(end - text), text) < DRESS_LABEL;
+}
+
+/* Cuts "RULE,by=channel" into rule and "channel"; NULL where there is no such end. */
+static const char *split_by(char *item) {
+    char *comma = strchr(item, ',');
+    if (!comma) return NULL;
+    *comma = '\0';
+    return comma + 1 + strlen("by=");
+}
+
+static bool check_item(int axis, const char *text, int k) {
+    char item[DRESS_LABEL];
+    if (!item_at(text, k, item)) {
+        report(WEFT_USAGE, "%s: \"%.80s\" is too long for an id", axes[axis].option, text);
+        return false;
+    }
+    const char *by = split_by(item);
+    if (by &&
+        (strcmp(axes[axis].choice, "layer") != 0 || (strcmp(by, "max") != 0 && strcmp(by, "channel") != 0))) {
+        report(WEFT_USAGE, "%s: \"by=%.80s\" is not by=max or by=channel of a layer rule", axes[axis].option,
+               by);
+        return false;
+    }
+    return kind_named(kind_of(axes[axis].kind), item) >= 0;
+}
+
+static bool check_axis(int axis, Dress *dress) {
+    const char *text = option_text(dress->options, axes[axis].option);
+    int count = text ? item_count(text) : 1;
+    if (!text) return true;
+    if (count > DRESS_VARIANTS_MOST) {
+        report(WEFT_USAGE, "%s: has more than %d ids", axes[axis].option, DRESS_VARIANTS_MOST);
+        return false;
+    }
+    for (int k = 0; k < count; k++)
+        if (!check_item(axis, text, k)) return false;
+    if (count > 1 && dress->varied) {
+        report(WEFT_USAGE, "%s: has several ids, and so has %s; one option may", axes[axis].option,
+               dress->varied);
+        return false;
+    }
+    if (count > 1) {
+        dress->varied = axes[axis].option;
+        dress->count = count;
+    }
+    return true;
+}
+
+/* "MAT=NAME": what is behind the '=', or all of it; *material is NULL where there is none. */
+static const char *split_material(const char *text, bool is_file, char material[256], bool *named) {
+    const char *equals = strchr(text, '=');
+    *named = equals && !(is_file && access(text, F_OK) == 0);
+    if (!*named) return text;
+    snprintf(material, 256, "%.*s", (int)(equals - text), text);
+    return equals + 1;
+}
+
+static bool check_presets(const Options *options) {
+    char material[256];
+    bool named;
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--preset", &cursor));)
+        if (kind_named(kind_of("preset"), split_material(text, false, material, &named)) < 0) return false;
+    return true;
+}
+
+/* Whether every --set has the right form; what it names is for the library to judge. */
+static bool check_sets(const Options *options) {
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--set", &cursor));)
+        if (!strchr(text, '.') || !strchr(text, '=')) {
+            report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
+            return false;
+        }
+    return true;
+}
+
+bool dress_read(const Options *options, Dress *dress) {
+    static const char *const targets[] = {"metallic", "specular", NULL};
+    int target;
+    *dress = (Dress){.options = options, .count = 1};
+    for (int k = 0; k < AXES; k++)
+        if (!check_axis(k, dress)) return false;
+    if (option_given(options, "--workflow") && option_given(options, "--profile")) {
+        report(WEFT_USAGE, "--workflow: a profile stands in its place; give --workflow or --profile");
+        return false;
+    }
+    return check_presets(options) && check_sets(options) &&
+           (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
+}
+
+const char *dress_varied(const Dress *dress) {
+    for (int k = 0; k < AXES; k++)
+        if (dress->varied && strcmp(axes[k].option, dress->varied) == 0) return axes[k].choice;
+    return NULL;
+}
+
+void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]) {
+    label[0] = '\0';
+    if (dress->varied) item_at(option_text(dress->options, dress->varied), k, label);
+}
+
+/* The choice of all materials. */
+static WeftResult choose(WeftScene *scene, const char *choice, const char *id, const WeftLog *log,
+                         WeftError *error) {
+    char target[64];
+    snprintf(target, sizeof target, "*.%s", choice);
+    return weft_scene_set(scene, target, id, log, error);
+}
+
+/* A profile is exact: what a material chose before makes room for it. A workflow takes the profile's place.
+ */
+static WeftResult make_room(WeftScene *scene, const char *choice, const char *id, WeftError *error) {
+    if (strcmp(choice, "workflow") == 0) return choose(scene, "profile", "none", NULL, error);
+    if (strcmp(choice, "profile") != 0 || strcmp(id, "none") == 0) return WEFT_OK;
+    WeftResult result = WEFT_OK;
+    for (int k = 0; weft_material_choice_name(k) && result == WEFT_OK; k++) {
+        const char *name = weft_material_choice_name(k);
+        if (strcmp(name, "profile") != 0 && strcmp(name, "workflow") != 0 && strcmp(name, "convert") != 0)
+            result = choose(scene, name, "auto", NULL, error);
+    }
+    return result;
+}
+
+static WeftResult apply_axis(const Dress *dress, int axis, int k, WeftScene *scene, const WeftLog *log,
+                             WeftError *error) {
+    char item[DRESS_LABEL];
+    const char *text = option_text(dress->options, axes[axis].option), *choice = axes[axis].choice;
+    if (!text) return WEFT_OK;
+    item_at(text, k, item);
+    const char *by = split_by(item);
+    WeftResult result = make_room(scene, choice, item, error);
+    if (result == WEFT_OK) result = choose(scene, choice, item, log, error);
+    if (result == WEFT_OK && by) result = choose(scene, "layer_by", by, log, error);
+    return result;
+}
+
+/* Every --preset, or every --material. */
+static WeftResult apply_dressings(const Dress *dress, const char *option, WeftScene *scene,
+                                  const WeftLog *log, WeftError *error) {
+    bool is_file = strcmp(option, "--material") == 0, named;
+    WeftResult result = WEFT_OK;
+    int cursor = 0;
+    for (const char *text; result == WEFT_OK && (text = option_next(dress->options, option, &cursor));) {
+        char material[256], preset[64];
+        const char *path = split_material(text, is_file, material, &named);
+        snprintf(preset, sizeof preset, "preset:%s", path);
+        result = weft_scene_dress(scene, named ? material : NULL, is_file ? path : preset, log, error);
+    }
+    return result;
+}
+
+/* Every --set. A material's name may hold '=' and '.', so the last of each divides. */
+static WeftResult apply_sets(const Dress *dress, WeftScene *scene, const WeftLog *log, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    int cursor = 0;
+    for (const char *text; result == WEFT_OK && (text = option_next(dress->options, "--set", &cursor));) {
+        char target[512];
+        const char *equals = strrchr(text, '=');
+        snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
+        result = weft_scene_set(scene, target, equals + 1, log, error);
+    }
+    return result;
+}
+
+static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog *log, WeftError *error) {
+    int count = weft_scene_info(scene).material_count;
+    float *losses = calloc((size_t)count + 1, sizeof *losses);
+    WeftResult result = weft_scene_convert(scene, workflow, losses, error);
+    for (int k = 0; losses && k < count && result == WEFT_OK; k++) {
+        char line[160], name[80];
+        snprintf(name, sizeof name, "%.79s", weft_scene_material_name(scene, k));
+        if (!name[0]) snprintf(name, sizeof name, "%d", k);
+        if (losses[k] < 0.0f)
+            snprintf(line, sizeof line, "material %s: is of another workflow or a profile and stays", name);
+        else
+            snprintf(line, sizeof line, "material %s: conversion to %s loses %.3f", name, workflow,
+                     (double)losses[k]);
+        log->fn(log->user, WEFT_MESSAGE_NONE, line);
+    }
+    free(losses);
+    return result;
+}
+
+WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLog *log, WeftError *error) {
+    const char *variant = option_text(dress->options, "--variant"),
+               *workflow = option_text(dress->options, "--convert");
+    WeftResult result = WEFT_OK;
+    if (variant) result = weft_scene_set_variant(scene, variant, error);
+    if (result == WEFT_OK) result = apply_dressings(dress, "--preset", scene, log, error);
+    if (result == WEFT_OK) result = apply_dressings(dress, "--material", scene, log, error);
+    for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
+        result = apply_axis(dress, axis, k, scene, log, error);
+    if (result == WEFT_OK) result = apply_sets(dress, scene, log, error);
+    if (result == WEFT_OK && workflow) result = convert(workflow, scene, log, error);
+    return result;
+}

@@ -1,0 +1,44 @@
+/* job.h - one picture at work: a scene loaded, dressed, lit and traced, and what is told of it */
+#ifndef WEFT_CLI_JOB_H
+#define WEFT_CLI_JOB_H
+
+#include "json.h"
+#include "request.h"
+
+/* What was said along the way, each line once. */
+typedef struct Warnings {
+    bool quiet;
+    char **lines;
+    int count;
+} Warnings;
+
+typedef struct Job {
+    const Request *request;
+    Warnings *warnings;
+    int number;        /* of the picture among those of the request */
+    WeftImage linear;  /* owned, see job_free */
+    WeftImage display; /* owned */
+    WeftRenderInfo info;
+    long long triangles;
+    double load_seconds;
+    int width, height; /* of the picture, which a crop makes smaller */
+    bool interrupted;
+} Job;
+
+/* Makes the picture. An interruption is noted; only one before the first sample is a failure. */
+WeftResult job_run(Job *job, WeftError *error);
+void job_free(Job *job);
+
+double job_samples_per_second(const Job *job);
+
+/* The members of its object. */
+void job_json(const Job *job, Json *json);
+
+/* What is not grave is told and kept, but not called a warning. */
+void warnings_add(Warnings *warnings, bool grave, const char *text);
+void warnings_free(Warnings *warnings);
+
+/* A failure that is the program's own. */
+WeftResult failure(WeftError *error, WeftResult result, const char *text);
+
+#endif

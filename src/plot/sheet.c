@@ -1,0 +1,266 @@
+#include "weft/sheet.h"
+
+#include <cairo.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "plot/scale.h"
+
+enum { SIDE_MAX = 32767 }; /* of a Cairo surface, pixels */
+
+static const double background[3] = {0.086, 0.090, 0.098}, bright[3] = {0.92, 0.92, 0.93},
+                    dim[3] = {0.58, 0.60, 0.63};
+
+/* Places in pixels; everything follows from the size of the type. */
+typedef struct Layout {
+    int columns, rows;
+    double type;                    /* size of titles */
+    int column_width, image_height; /* of the largest panel */
+    int margin, gap, caption, label;
+    bool stacked; /* notes stand below titles: side by side they would not fit */
+    int width, height;
+} Layout;
+
+static void set_font(cairo_t *cairo, double size, bool bold) {
+    cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, size);
+}
+
+static double note_size(const Layout *layout) { return 0.82 * layout->type; }
+
+/* The bytes of a well-formed UTF-8 sequence, or 0. Cairo takes nothing else. */
+static size_t utf8_length(const unsigned char *s) {
+    static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (s[0] < 0x80) return 1;
+    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+    unsigned code = s[0] & (0x7fu >> length);
+    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
+    for (size_t k = 1; k < length; k++) {
+        if ((s[k] & 0xc0) != 0x80) return 0;
+        code = code << 6 | (s[k] & 0x3f);
+    }
+    return code < least[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : length;
+}
+
+enum { TEXT_MAX = 256, ELLIPSIS = 3 };
+
+/* A copy of text fit to be drawn: at most TEXT_MAX bytes, without control characters and damage. */
+static void drawable(const char *text, char line[TEXT_MAX + ELLIPSIS + 1]) {
+    size_t used = 0, length;
+    const unsigned char *s = (const unsigned char *)text;
+    for (; *s && used + 4 <= TEXT_MAX; s += length ? length : 1) {
+        length = utf8_length(s);
+        if (length > 1 || (length == 1 && *s >= 0x20 && *s != 0x7f))
+            memcpy(line + used, s, length);
+        else
+            line[used] = '?';
+        used += length ? length : 1;
+    }
+    memcpy(line + used, *s ? "\xe2\x80\xa6" : "", *s ? ELLIPSIS + 1 : 1);
+}
+
+static double text_width(cairo_t *cairo, const char *text) {
+    char line[TEXT_MAX + ELLIPSIS + 1];
+    cairo_text_extents_t extents;
+    drawable(text, line);
+    cairo_text_extents(cairo, line, &extents);
+    return extents.x_advance;
+}
+
+/* Writes text from x on; what does not fit into `room` ends in an ellipsis. */
+static void write_text(cairo_t *cairo, const double color[3], double x, double y, double room,
+                       const char *text) {
+    char line[TEXT_MAX + ELLIPSIS + 1];
+    drawable(text, line);
+    for (size_t length = strlen(line); length > 0 && text_width(cairo, line) > room;) {
+        do length--;
+        while (length > 0 && ((unsigned char)line[length] & 0xc0) == 0x80);
+        memcpy(line + length, "\xe2\x80\xa6", ELLIPSIS + 1);
+    }
+    cairo_set_source_rgb(cairo, color[0], color[1], color[2]);
+    cairo_move_to(cairo, x, y);
+    cairo_show_text(cairo, line);
+}
+
+static bool notes_fit(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+    for (int k = 0; k < desc->count; k++) {
+        const WeftPanel *panel = &desc->panels[k];
+        if (!panel->title || !panel->note) continue;
+        set_font(cairo, layout->type, true);
+        double width = text_width(cairo, panel->title) + layout->type;
+        set_font(cairo, note_size(layout), false);
+        if (width + text_width(cairo, panel->note) > layout->column_width) return false;
+    }
+    return true;
+}
+
+static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
+    enum { NARROWEST = 240 };
+    Layout layout = {.columns = desc->columns, .rows = (desc->count + desc->columns - 1) / desc->columns};
+    bool labels = false;
+    for (int k = 0; k < desc->count; k++) {
+        const WeftPanel *panel = &desc->panels[k];
+        labels |= panel->title || panel->note;
+        if (!panel->image) continue;
+        if (panel->image->width > layout.column_width) layout.column_width = panel->image->width;
+        if (panel->image->height > layout.image_height) layout.image_height = panel->image->height;
+    }
+    if (layout.column_width < NARROWEST) layout.column_width = NARROWEST;
+    layout.type = fmin(fmax(layout.column_width / 30.0, 12.0), 40.0);
+    layout.stacked = !notes_fit(cairo, &layout, desc);
+    layout.margin = (int)lround(1.5 * layout.type);
+    layout.gap = (int)lround(0.6 * layout.type);
+    layout.caption = desc->caption ? (int)lround(2.1 * layout.type) : 0;
+    layout.label = labels ? (int)lround((layout.stacked ? 3.3 : 2.1) * layout.type) : 0;
+    double width =
+        2.0 * layout.margin + (double)layout.columns * (layout.column_width + layout.gap) - layout.gap;
+    double height = 2.0 * layout.margin + layout.caption +
+                    (double)layout.rows * (layout.image_height + layout.label + layout.gap) - layout.gap;
+    layout.width = (int)fmin(width, SIDE_MAX + 1.0);
+    layout.height = (int)fmin(height, SIDE_MAX + 1.0);
+    return layout;
+}
+
+static void draw_label(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
+    double baseline = y + 1.35 * layout->type, room = layout->column_width;
+    if (panel->title) {
+        set_font(cairo, layout->type, true);
+        write_text(cairo, bright, x, baseline, room, panel->title);
+    }
+    if (!panel->note) return;
+    set_font(cairo, note_size(layout), false);
+    double at = layout->stacked || !panel->title ? x : fmax(x, x + room - text_width(cairo, panel->note));
+    write_text(cairo, dim, at, baseline + (layout->stacked ? 1.2 * layout->type : 0.0), room, panel->note);
+}
+
+/* A bar of the scale's colours in the middle of a panel, with numbers at its ends. */
+static void draw_scale(cairo_t *cairo, const Layout *layout, float scale, double x, double y) {
+    double width = 0.7 * layout->column_width, height = 0.9 * layout->type;
+    double left = x + 0.5 * (layout->column_width - width), top = y + 0.5 * (layout->image_height - height);
+    int steps = (int)width;
+    for (int k = 0; k < steps; k++) {
+        float rgb[3];
+        scale_color(2.0f * ((float)k + 0.5f) / (float)steps - 1.0f, rgb);
+        cairo_set_source_rgb(cairo, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+        cairo_rectangle(cairo, floor(left) + k, floor(top), 1.0, floor(height));
+        cairo_fill(cairo);
+    }
+    const char *const words[3] = {"darker", "same", "brighter"};
+    for (int k = 0; k < 3; k++) {
+        char number[32];
+        snprintf(number, sizeof number, "%s%g",
+                 k == 0   ? "\xe2\x88\x92"
+                 : k == 2 ? "+"
+                          : "",
+                 k == 1 ? 0.0 : (double)scale);
+        set_font(cairo, note_size(layout), false);
+        double share = 0.5 * k, at = left + share * width;
+        write_text(cairo, dim, at - share * text_width(cairo, words[k]), top - 0.5 * layout->type, width,
+                   words[k]);
+        write_text(cairo, bright, at - share * text_width(cairo, number), top + height + 1.1 * layout->type,
+                   width, number);
+    }
+}
+
+/* The pixels themselves, so that what is seen is what was rendered. RGB24: a 32-bit word a pixel, 0x00rrggbb.
+ */
+static void copy_image(const WeftImage *image, unsigned char *pixels, int stride, int x, int y) {
+    const uint8_t *from = image->pixels;
+    for (int row = 0; row < image->height; row++)
+        for (int column = 0; column < image->width; column++, from += image->channels) {
+            uint32_t word = 0, alpha = image->channels == 4 ? from[3] : 255;
+            for (int c = 0; c < 3; c++) {
+                uint32_t below = (uint32_t)(background[c] * 255.0 + 0.5);
+                word = word << 8 | (from[c] * alpha + below * (255 - alpha) + 127) / 255;
+            }
+            memcpy(pixels + (size_t)(y + row) * (size_t)stride + 4 * (size_t)(x + column), &word, 4);
+        }
+}
+
+/* Where panel k begins. */
+static void panel_place(const Layout *layout, int k, int *x, int *y) {
+    *x = layout->margin + k % layout->columns * (layout->column_width + layout->gap);
+    *y = layout->margin + layout->caption +
+         k / layout->columns * (layout->image_height + layout->label + layout->gap);
+}
+
+static void draw(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+    cairo_set_source_rgb(cairo, background[0], background[1], background[2]);
+    cairo_paint(cairo);
+    if (desc->caption) {
+        set_font(cairo, 1.2 * layout->type, false);
+        write_text(cairo, bright, layout->margin, layout->margin + layout->type,
+                   layout->width - 2.0 * layout->margin, desc->caption);
+    }
+    for (int k = 0; k < desc->count; k++) {
+        const WeftPanel *panel = &desc->panels[k];
+        int x, y;
+        panel_place(layout, k, &x, &y);
+        draw_label(cairo, layout, panel, x, y + layout->image_height);
+        if (!panel->image && panel->scale > 0.0f) draw_scale(cairo, layout, panel->scale, x, y);
+    }
+}
+
+static WeftResult from_surface(cairo_surface_t *surface, const Layout *layout, const WeftSheetDesc *desc,
+                               WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(layout->width, layout->height, 3, WEFT_PIXEL_U8, out, error);
+    if (result != WEFT_OK) return result;
+    cairo_surface_flush(surface);
+    unsigned char *pixels = cairo_image_surface_get_data(surface);
+    int stride = cairo_image_surface_get_stride(surface);
+    for (int k = 0; k < desc->count; k++) {
+        int x, y;
+        const WeftImage *image = desc->panels[k].image;
+        panel_place(layout, k, &x, &y);
+        if (image)
+            copy_image(image, pixels, stride, x + (layout->column_width - image->width) / 2,
+                       y + layout->image_height - image->height);
+    }
+    uint8_t *to = out->pixels;
+    for (int row = 0; row < layout->height; row++)
+        for (int column = 0; column < layout->width; column++) {
+            uint32_t word;
+            memcpy(&word, pixels + (size_t)row * (size_t)stride + 4 * (size_t)column, 4);
+            for (int c = 0; c < 3; c++) *to++ = (uint8_t)(word >> (16 - 8 * c));
+        }
+    return WEFT_OK;
+}
+
+static WeftResult check(const WeftSheetDesc *desc, WeftError *error) {
+    if (desc->count < 1 || desc->count > WEFT_SHEET_PANELS_MAX || desc->columns < 1 ||
+        desc->columns > desc->count || !desc->panels)
+        return fail(error, WEFT_MESSAGE_DESC, "sheet", "%d panels in %d columns", desc->count, desc->columns);
+    for (int k = 0; k < desc->count; k++) {
+        const WeftImage *image = desc->panels[k].image;
+        if (image && (image->type != WEFT_PIXEL_U8 || image->channels < 3 || !image->pixels))
+            return fail(error, WEFT_MESSAGE_DESC, "sheet", "panel %d is not U8 of 3 or 4 channels", k);
+    }
+    return WEFT_OK;
+}
+
+WeftResult weft_sheet_compose(const WeftSheetDesc *desc, WeftImage *out, WeftError *error) {
+    *out = (WeftImage){0};
+    WeftResult result = check(desc, error);
+    if (result != WEFT_OK) return result;
+    cairo_surface_t *probe = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1);
+    cairo_t *ruler = cairo_create(probe);
+    Layout layout = layout_of(desc, ruler);
+    cairo_destroy(ruler);
+    cairo_surface_destroy(probe);
+    if (layout.width > SIDE_MAX || layout.height > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "sheet", "a side would have more than %d pixels", SIDE_MAX);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.width, layout.height);
+    cairo_t *cairo = cairo_create(surface);
+    draw(cairo, &layout, desc);
+    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS)
+        result = fail(error, WEFT_MESSAGE_MEMORY, "sheet", "%s", cairo_status_to_string(cairo_status(cairo)));
+    else
+        result = from_surface(surface, &layout, desc, out, error);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+    return result;
+}

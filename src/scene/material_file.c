@@ -1,0 +1,301 @@
+#include "scene/material_file.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "scene/set.h"
+
+/* A file being read. The first failure stays. */
+typedef struct Reader {
+    const char *name, *folder, *key; /* key: where we are, for messages */
+    MaterialFile *out;
+    const WeftLog *log;
+    WeftError *error;
+    WeftResult result;
+} Reader;
+
+__attribute__((format(printf, 2, 3))) static void refuse(Reader *r, const char *format, ...) {
+    char text[256];
+    if (r->result != WEFT_OK) return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    r->result =
+        fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "%.60s%s%s", r->key, r->key[0] ? ": " : "", text);
+}
+
+enum { SUBJECT = 160 };
+
+/* "FILE: KEY", what a warning is about. */
+static const char *subject(const Reader *r, const char *key, char text[SUBJECT]) {
+    snprintf(text, SUBJECT, "%.120s: %.36s", r->name, key);
+    return text;
+}
+
+/* A number as a float: what is too large for one is as good as the largest. */
+static float number(Reader *r, const json_t *json, const char *what) {
+    if (!json_is_number(json)) {
+        refuse(r, "%s is not a number", what);
+        return 0.0f;
+    }
+    double value = json_number_value(json);
+    if (!isfinite(value)) refuse(r, "%s is not finite", what);
+    return (float)fmin(fmax(value, -1e30), 1e30);
+}
+
+static int hex_digit(char c) {
+    const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c | 0x20) : NULL;
+    return at ? (int)(at - digits) : -1;
+}
+
+/* "#rrggbb", as pictures are encoded. */
+static void hex_color(Reader *r, const char *text, float v[3]) {
+    SrgbTable srgb = srgb_table();
+    bool good = strlen(text) == 7 && text[0] == '#';
+    for (int c = 0; c < 3 && good; c++) {
+        int high = hex_digit(text[1 + 2 * c]), low = hex_digit(text[2 + 2 * c]);
+        good = high >= 0 && low >= 0;
+        if (good) v[c] = srgb.linear[16 * high + low];
+    }
+    if (!good) refuse(r, "\"%.40s\" is not a color such as \"#c02030\"", text);
+}
+
+/* A value without a texture: a number and, for a color, [r, g, b] or "#rrggbb". */
+static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
+    const InputInfo *info = &input_infos[id];
+    bool color = info->kind == INPUT_COLOR;
+    if (color && json_is_string(json)) {
+        hex_color(r, json_string_value(json), v);
+    } else if (color && json_is_array(json) && json_array_size(json) == 3) {
+        for (size_t c = 0; c < 3; c++) v[c] = number(r, json_array_get(json, c), "an element");
+    } else if (json_is_number(json)) {
+        v[0] = v[1] = v[2] = number(r, json, "it");
+        if (info->kind == INPUT_DIRECTION) v[0] *= 3.14159265f / 180.0f;
+    } else {
+        refuse(r, color ? "expected a number, [r, g, b], \"#rrggbb\" or an object with a texture"
+                        : "expected a number or an object with a texture");
+    }
+    char about[SUBJECT];
+    subject(r, r->key, about);
+    for (int c = 0; c < (color ? 3 : 1) && r->result == WEFT_OK; c++)
+        v[c] = input_ranged(id, v[c], about, r->log);
+}
+
+/* The index of a text among names, which end with NULL. */
+static int one_of(Reader *r, const json_t *json, const char *what, const char *const *names) {
+    const char *text = json_string_value(json);
+    char list[128] = "";
+    for (int k = 0; names[k]; k++) {
+        if (text && strcmp(names[k], text) == 0) return k;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "", names[k]);
+    }
+    refuse(r, "%s is not one of %s", what, list);
+    return 0;
+}
+
+/* The image of a file: read once, however many inputs look at it. */
+static int image_index(Reader *r, const char *file) {
+    MaterialFile *out = r->out;
+    if (!r->folder) {
+        refuse(r, "a texture needs a file to lie beside");
+        return 0;
+    }
+    size_t size = strlen(r->folder) + strlen(file) + 1;
+    char *path = malloc(size);
+    if (!path) {
+        r->result = fail(r->error, WEFT_MESSAGE_MEMORY, r->name, NULL);
+        return 0;
+    }
+    snprintf(path, size, "%s%s", file[0] == '/' ? "" : r->folder, file);
+    for (int k = 0; k < out->image_count; k++)
+        if (strcmp(out->paths[k], path) == 0) {
+            free(path);
+            return k;
+        }
+    out->paths[out->image_count] = path; /* of at most one image an input, so there is room */
+    WeftResult result = weft_image_read(path, &out->images[out->image_count], r->log, r->error);
+    if (r->result == WEFT_OK) r->result = result;
+    return out->image_count++;
+}
+
+static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
+    if (json_is_array(json) && json_array_size(json) == 2) {
+        for (size_t k = 0; k < 2; k++) v[k] = number(r, json_array_get(json, k), what);
+    } else {
+        v[0] = v[1] = number(r, json, what);
+    }
+}
+
+/* As in KHR_texture_transform: scale, then turn, then shift. */
+static void place(Input *input, const float scale[2], float degrees, const float offset[2]) {
+    float angle = degrees * (3.14159265f / 180.0f), c = cosf(angle), s = sinf(angle);
+    const float m[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+    memcpy(input->transform, m, sizeof m);
+}
+
+/* {"texture": FILE, ...} */
+static void read_texture(Reader *r, const json_t *object, InputId id, Input *input) {
+    static const char *const channels[] = {"r", "g", "b", "a", NULL}, *const wraps[] = {"repeat", "mirror",
+                                                                                        "clamp",
+                                                                                        NULL}; /* as Wrap */
+    MaterialFile *out = r->out;
+    float scale[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f}, degrees = 0.0f;
+    Texture texture = {0};
+    const char *key, *file = NULL;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)object, key, value) {
+        if (strcmp(key, "texture") == 0) {
+            file = json_string_value(value);
+            if (!file || !file[0] || strlen(file) > 4096) refuse(r, "texture is not the name of a file");
+        } else if (strcmp(key, "factor") == 0) {
+            read_value(r, value, id, input->value);
+        } else if (strcmp(key, "channel") == 0 && input_infos[id].kind == INPUT_SCALAR) {
+            input->channel = (uint8_t)one_of(r, value, key, channels);
+        } else if (strcmp(key, "texcoord") == 0) {
+            float set = number(r, value, key);
+            if (set < 0.0f || set > 1.0f || set > floorf(set)) refuse(r, "texcoord is 0 or 1");
+            input->texcoord = set > 0.5f;
+        } else if (strcmp(key, "scale") == 0) {
+            pair(r, value, key, scale);
+        } else if (strcmp(key, "offset") == 0) {
+            pair(r, value, key, offset);
+        } else if (strcmp(key, "rotation") == 0) {
+            degrees = number(r, value, key);
+        } else if (strcmp(key, "wrap") == 0) {
+            texture.wrap_u = texture.wrap_v = (Wrap)one_of(r, value, key, wraps);
+        } else if (strcmp(key, "nearest") == 0 && json_is_boolean(value)) {
+            texture.nearest = json_is_true(value);
+        } else {
+            refuse(r, "\"%.40s\" is not a key of a texture", key);
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        if (fabsf(scale[k]) > 1e6f || fabsf(offset[k]) > 1e6f || fabsf(degrees) > 1e6f)
+            refuse(r, "it is placed beyond 1e6");
+    if (!file) refuse(r, "the object lacks \"texture\"");
+    if (r->result != WEFT_OK) return;
+    place(input, scale, degrees, offset);
+    texture.image = image_index(r, file);
+    out->textures[out->texture_count++] = texture;
+    input->texture = out->texture_count;
+}
+
+static void read_input(Reader *r, const json_t *json, InputId id) {
+    Input *input = &r->out->material.inputs[id];
+    r->out->named[id] = true;
+    if (!json_is_object(json)) {
+        read_value(r, json, id, input->value);
+        return;
+    }
+    /* the texture alone counts, unless there is a factor; an angle is added */
+    bool angle = input_infos[id].kind == INPUT_DIRECTION;
+    for (int c = 0; c < 3; c++) input->value[c] = angle ? 0.0f : 1.0f;
+    read_texture(r, json, id, input);
+}
+
+static void read_choice(Reader *r, const json_t *json, ChoiceId id) {
+    int value;
+    WeftError error;
+    const char *text = json_string_value(json);
+    if (!text)
+        refuse(r, "expected the id of a choice");
+    else if (choice_value(id, text, &value, &error) == WEFT_OK)
+        material_choose(&r->out->material, id, value);
+    else
+        refuse(r, "%s", error.text);
+}
+
+static void read_keep(Reader *r, const json_t *json) {
+    if (!json_is_array(json)) refuse(r, "expected an array of inputs");
+    for (size_t k = 0; k < json_array_size(json); k++) {
+        const char *name = json_string_value(json_array_get(json, k));
+        int id = name ? material_input(name) : -1;
+        if (id < 0)
+            refuse(r, "\"%.40s\" is not an input", name ? name : "");
+        else
+            r->out->keep[id] = true;
+    }
+}
+
+/* What a material has beside inputs and choices. */
+static void read_rest(Reader *r, const json_t *json) {
+    static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as AlphaMode */
+    MaterialFile *out = r->out;
+    const char *key = r->key;
+    if (strcmp(key, "name") == 0 || strcmp(key, "help") == 0) {
+        if (!json_is_string(json)) refuse(r, "expected a text");
+    } else if (strcmp(key, "keep") == 0) {
+        read_keep(r, json);
+    } else if (strcmp(key, "alpha_mode") == 0) {
+        out->material.alpha_mode = (AlphaMode)one_of(r, json, "it", modes);
+        out->alpha_named = true;
+    } else if (strcmp(key, "alpha_cutoff") == 0) {
+        out->material.alpha_cutoff = number(r, json, "it");
+        out->alpha_named = true;
+    } else if (strcmp(key, "double_sided") == 0) {
+        if (!json_is_boolean(json)) refuse(r, "expected true or false");
+        out->material.double_sided = json_is_true(json);
+        out->sided_named = true;
+    } else {
+        r->key = "";
+        refuse(r, "\"%.40s\" is not a key: `weft models` lists inputs and choices", key);
+    }
+}
+
+/* Choices come first: a workflow has defaults of its own, which inputs then replace. */
+static void read_object(Reader *r, const json_t *root) {
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)root, key, value) {
+        r->key = key;
+        if (r->result == WEFT_OK && material_choice(key) >= 0)
+            read_choice(r, value, (ChoiceId)material_choice(key));
+    }
+    json_object_foreach((json_t *)(uintptr_t)root, key, value) {
+        r->key = key;
+        if (r->result != WEFT_OK || material_choice(key) >= 0) continue;
+        if (material_input(key) >= 0)
+            read_input(r, value, (InputId)material_input(key));
+        else
+            read_rest(r, value);
+    }
+    char about[SUBJECT];
+    for (int k = 0; k < INPUT_COUNT && r->result == WEFT_OK; k++) {
+        if (!r->out->named[k]) continue;
+        plausible_check(&r->out->material, k, -1, subject(r, input_infos[k].name, about), r->log);
+        r->key = "keep";
+        if (r->out->keep[k]) refuse(r, "%s is both kept and given", input_infos[k].name);
+    }
+    for (int k = 0; k < CHOICE_COUNT && r->result == WEFT_OK; k++)
+        plausible_check(&r->out->material, -1, k, subject(r, weft_material_choice_name(k), about), r->log);
+}
+
+WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
+                              MaterialFile *out, const WeftLog *log, WeftError *error) {
+    *out = (MaterialFile){.material = material_default("")};
+    Reader reader = {.name = name, .folder = folder, .key = "", .out = out, .log = log, .error = error};
+    json_error_t where;
+    json_t *root = json_loadb(data, size, JSON_REJECT_DUPLICATES, &where);
+    if (!root)
+        refuse(&reader, "line %d: %s", where.line, where.text);
+    else if (!json_is_object(root))
+        refuse(&reader, "it is not an object");
+    else
+        read_object(&reader, root);
+    json_decref(root);
+    return reader.result;
+}
+
+void material_file_free(MaterialFile *file) {
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        weft_image_free(&file->images[k]);
+        free(file->paths[k]);
+    }
+    *file = (MaterialFile){0};
+}

@@ -1,0 +1,13 @@
+/* presets.h - the materials that need no file: scenes/presets/NAME.json, embedded */
+#ifndef WEFT_SCENE_PRESETS_H
+#define WEFT_SCENE_PRESETS_H
+
+typedef struct Preset {
+    const char *name, *help;
+    const char *text; /* a material file, zero-terminated */
+} Preset;
+
+/* The preset at index, NULL past the end; generated. */
+const Preset *preset_at(int index);
+
+#endif

@@ -1,0 +1,132 @@
+#include "scene/set.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/number.h"
+#include "scene/tangents.h"
+#include "shading/choice.h"
+
+const char *weft_material_input_name(int index) {
+    return index >= 0 && index < INPUT_COUNT ? input_infos[index].name : NULL;
+}
+
+const char *weft_material_input_help(int index) {
+    return index >= 0 && index < INPUT_COUNT ? input_infos[index].help : NULL;
+}
+
+static const char *const choice_texts[CHOICE_COUNT][2] = {
+#define CHOICE_TEXT(name, help) {#name, help},
+    SURFACE_CHOICES(CHOICE_TEXT)
+#undef CHOICE_TEXT
+};
+
+const char *weft_material_choice_name(int index) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_texts[index][0] : NULL;
+}
+
+const char *weft_material_choice_help(int index) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_texts[index][1] : NULL;
+}
+
+const char *weft_material_choice_value(int index, int value) {
+    return index >= 0 && index < CHOICE_COUNT ? choice_id((ChoiceId)index, value) : NULL;
+}
+
+int material_choice(const char *name) {
+    for (int k = 0; k < CHOICE_COUNT; k++)
+        if (strcmp(choice_texts[k][0], name) == 0) return k;
+    return -1;
+}
+
+WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error) {
+    char text[SEVERAL_SIZE];
+    *value = strcmp(id, "auto") == 0 ? CHOICE_AUTO : choice_find(choice, id);
+    if (*value == CHOICE_AUTO && strcmp(id, "auto") == 0) return WEFT_OK;
+    if (*value >= 0 && choice_fits(choice, *value)) return WEFT_OK;
+    const char *several = choice_several(choice, id, text), *name = choice_texts[choice][0];
+    if (several) return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "several are called so: %s", several);
+    return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "`weft models` lists what %s may be", name);
+}
+
+bool material_matches(const WeftScene *scene, int k, const char *name) {
+    char index[16];
+    snprintf(index, sizeof index, "%d", k);
+    return strcmp(name, "*") == 0 || strcmp(scene->materials[k].name, name) == 0 || strcmp(index, name) == 0;
+}
+
+static bool parse_input(const InputInfo *info, const char *text, float value[3]) {
+    if (info->kind == INPUT_COLOR) return parse_color(text, value);
+    if (!parse_number(text, value)) return false;
+    if (info->kind == INPUT_DIRECTION) value[0] *= 3.14159265f / 180.0f;
+    return true;
+}
+
+float input_ranged(InputId input, float value, const char *target, const WeftLog *log) {
+    const InputInfo *info = &input_infos[input];
+    float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
+    if (taken < value || taken > value)
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g was clamped to %g", (double)value, (double)taken);
+    else if (info->kind != INPUT_DIRECTION && (value < info->low || value > info->high))
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is not in %g .. %g", (double)value, (double)info->low,
+             (double)info->high);
+    return taken;
+}
+
+/* What a setting asks for: an input, or a choice. The other is -1. */
+typedef struct Setting {
+    int input, choice, value; /* value: of the choice */
+    float v[3];
+} Setting;
+
+static WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
+                               const WeftLog *log, WeftError *error) {
+    *setting = (Setting){.input = material_input(name), .choice = material_choice(name)};
+    if (setting->input < 0 && setting->choice < 0)
+        return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
+    if (setting->input < 0) return choice_value((ChoiceId)setting->choice, value, &setting->value, error);
+    const InputInfo *info = &input_infos[setting->input];
+    if (!parse_input(info, value, setting->v))
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
+                    info->kind == INPUT_COLOR ? "a number or r,g,b" : "a number");
+    int count = info->kind == INPUT_COLOR ? 3 : 1;
+    for (int c = 0; c < count; c++)
+        setting->v[c] = input_ranged((InputId)setting->input, setting->v[c], target, log);
+    return WEFT_OK;
+}
+
+static void material_set(Material *material, const Setting *setting) {
+    if (setting->input < 0) {
+        material_choose(material, (ChoiceId)setting->choice, setting->value);
+        return;
+    }
+    Input *slot = &material->inputs[setting->input];
+    memcpy(slot->value, setting->v, sizeof setting->v);
+    if (input_infos[setting->input].kind != INPUT_NORMAL) slot->texture = 0;
+}
+
+WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
+                          WeftError *error) {
+    const char *point = strrchr(target, '.');
+    char name[256];
+    if (!point || (size_t)(point - target) >= sizeof name)
+        return fail(error, WEFT_MESSAGE_PARAM_NAME, target, "write MATERIAL.INPUT=VALUE");
+    memcpy(name, target, (size_t)(point - target));
+    name[point - target] = '\0';
+    Setting setting;
+    WeftResult result = setting_read(point + 1, value, target, &setting, log, error);
+    if (result != WEFT_OK) return result;
+    int matched = 0;
+    for (int k = 0; k < scene->material_count; k++) {
+        Material *material = &scene->materials[k];
+        if (!material_matches(scene, k, name)) continue;
+        material_set(material, &setting);
+        if (matched++ == 0) plausible_check(material, setting.input, setting.choice, target, log);
+    }
+    if (matched) return tangents_complete(scene, error);
+    char names[NAMES_SIZE];
+    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s",
+                scene_names(scene, weft_scene_material_name, names));
+}

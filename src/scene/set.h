@@ -1,0 +1,23 @@
+/* set.h - giving a material's inputs and choices values, with a word on those that are hardly real */
+#ifndef WEFT_SCENE_SET_H
+#define WEFT_SCENE_SET_H
+
+#include "scene/scene.h"
+
+/* Whether "name", a decimal index or "*" means material k. */
+bool material_matches(const WeftScene *scene, int k, const char *name);
+
+/* A choice by name, or -1. */
+int material_choice(const char *name);
+
+/* The value of a choice from an id, an alias or "auto". Fails with PARAM_VALUE. */
+WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
+
+/* value, clamped to the hard range of an input; a warning about target where it is beyond the plausible one.
+ * Angles are in radians, and any of them is plausible. */
+float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
+
+/* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
+void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
+
+#endif

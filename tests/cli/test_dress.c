@@ -1,0 +1,240 @@
+/* What the materials of a render are to be: which option wins, what is refused, sheets of several. */
+#include "run.h"
+
+#include <jansson.h>
+
+#include "weft/weft.h"
+
+#define TINY "--width=32", "--height=24", "--spp=2", "--quiet"
+
+/* The bytes of the picture that these options make of the test scene. */
+static char *picture(size_t *size, const char *const *options) {
+    const char *arguments[32] = {"render", "scene.gltf", TINY, "-o", "out.exr"};
+    int count = 8;
+    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%s ...: %d: %s", options[0], ran.code, ran.err);
+    ran_free(&ran);
+    return file_bytes("out.exr", size);
+}
+
+static bool same(const char *const *a, const char *const *b) {
+    size_t size_a, size_b;
+    char *one = picture(&size_a, a), *two = picture(&size_b, b);
+    bool equal = size_a == size_b && memcmp(one, two, size_a) == 0;
+    free(one);
+    free(two);
+    return equal;
+}
+
+#define CHOICES "\"sheen_lobe\":\"charlie-neubelt\",\"layer\":\"additive\""
+#define INPUTS  "\"base_color\":0.2,\"sheen_color\":[0.9,0.5,0.2],\"sheen_roughness\":0.4"
+
+static int begin(void **state) {
+    if (scene_begin(state) != 0) return -1;
+    static const char with[] = "{" INPUTS "," CHOICES "}", without[] = "{" INPUTS "}",
+                      red[] = "{\"base_color\":[1,0,0]}";
+    file_make("with.json", with, sizeof with - 1);
+    file_make("without.json", without, sizeof without - 1);
+    file_make("a=red.json", red, sizeof red - 1);
+    file_make("bad.json", "{\"layer\":1,\"layer\":2}", 21);
+    return 0;
+}
+
+static void what_is_stronger_wins(void **state) {
+    (void)state;
+    /* --set over --sheen and --layer, in either order */
+    assert_true(same(LIST("--sheen=charlie-neubelt", "--set", "cloth.sheen_lobe=ashikhmin-neubelt"),
+                     LIST("--sheen=ashikhmin-neubelt")));
+    assert_true(same(LIST("--set", "*.layer=additive", "--layer", "seed"), LIST("--layer=additive")));
+    assert_false(same(LIST("--layer=additive"), LIST("--layer=seed")));
+    /* --sheen and --layer over --profile */
+    assert_true(
+        same(LIST("--layer=additive", "--profile=khronos"), LIST("--profile=khronos", "--layer=additive")));
+    assert_false(same(LIST("--layer=additive", "--profile=khronos"), LIST("--profile=khronos")));
+    assert_false(same(LIST("--sheen=ashikhmin-neubelt", "--profile=khronos"), LIST("--profile=khronos")));
+    /* a profile keeps the inputs of a material and drops its choices */
+    assert_true(same(LIST("--profile=three", "--material=with.json"),
+                     LIST("--material=without.json", "--profile=three")));
+    assert_false(same(LIST("--material=with.json"), LIST("--material=without.json")));
+    assert_false(same(LIST("--profile=three", "--material=with.json"), LIST("--profile=three")));
+    /* --sheen and --layer over a material, a material over a preset, a preset over the asset */
+    assert_true(same(LIST("--material=with.json", "--sheen=charlie-conty-kulla", "--layer=albedo-view"),
+                     LIST("--material=without.json", "--sheen=charlie-conty-kulla", "--layer=albedo-view")));
+    assert_true(same(LIST("--material=with.json", "--preset=velvet"), LIST("--material=with.json")));
+    assert_false(same(LIST("--preset=velvet"), LIST("--preset=denim")));
+    assert_true(same(LIST("--preset=velvet"), LIST("--preset=cloth=velvet")));
+    assert_true(same(LIST("--preset=velvet"), LIST("--preset=0=velvet")));
+    /* a workflow in place of a profile that the material has */
+    assert_true(same(LIST("--set=*.profile=three"), LIST("--profile=three")));
+    assert_false(same(LIST("--workflow=cloth"), LIST("--workflow=metallic")));
+    assert_true(same(LIST("--diffuse=burley"), LIST("--set=*.diffuse=burley")));
+}
+
+/* A profile reads the inputs as they are. */
+static void profiles_are_not_converted(void **state) {
+    (void)state;
+    assert_true(same(LIST("--profile=three", "--convert=specular"), LIST("--profile=three")));
+    assert_false(same(LIST("--workflow=specular", "--set=*.specular_color=0.5,0,0", "--convert=metallic"),
+                      LIST("--workflow=specular", "--set=*.specular_color=0.5,0,0")));
+}
+
+static void files_have_any_name(void **state) {
+    (void)state;
+    assert_true(same(LIST("--material=a=red.json"), LIST("--material=cloth=a=red.json")));
+    assert_false(same(LIST("--material=a=red.json"), LIST("--material=with.json")));
+}
+
+static void aliases_are_taken(void **state) {
+    (void)state;
+    assert_true(same(LIST("--set=*.v=charlie-v", "--workflow=free"),
+                     LIST("--set=*.v=conty-kulla", "--workflow=free")));
+    assert_true(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"),
+                     LIST("--set=*.d=ashikhmin", "--workflow=free")));
+    assert_false(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"), LIST("--workflow=free")));
+}
+
+static void refused(const char *const *options, int code, const char *part) {
+    const char *arguments[32] = {"render", "scene.gltf", TINY, "-o", "out.png"};
+    int count = 8;
+    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
+    assert_complaint(NULL, arguments, code, part);
+}
+
+static void mistakes_are_named(void **state) {
+    (void)state;
+    static const char several[] = "charlie-neubelt, charlie-conty-kulla";
+    refused(LIST("--sheen=charlie"), 2, several);
+    refused(LIST("--sheen=ggx,charlie"), 2, several);
+    refused(LIST("--set=*.sheen_lobe=charlie"), 2, several);
+    refused(LIST("--profile=filament"), 2, "filament-cloth, filament-sheen");
+    refused(LIST("--profile=kronos"), 2, "did you mean khronos?");
+    refused(LIST("--profile=khronos,"), 2, "is not a profile");
+    refused(LIST("--profile="), 2, "is not a profile");
+    refused(LIST("--workflow=metal"), 2, "did you mean metallic?");
+    refused(LIST("--diffuse=ggx"), 2, "is not a diffuse term");
+    refused(LIST("--layer=seed,by=both"), 2, "by=both");
+    refused(LIST("--sheen=ggx,by=max"), 2, "by=max");
+    refused(LIST("--workflow=cloth", "--profile=three"), 2, "--workflow or --profile");
+    refused(LIST("--sheen=ggx,patry", "--layer=seed,additive"), 2,
+            "--layer: has several ids, and so has --sheen");
+    refused(LIST("--preset=velvt"), 2, "did you mean velvet?");
+    refused(LIST("--preset=wool=velvet"), 2, "there is cloth");
+    refused(LIST("--material=none.json"), 3, "none.json: ");
+    refused(LIST("--material=bad.json"), 3, "bad.json: is not a valid material file: line 1: duplicate");
+    refused(LIST("--convert=disney"), 2, "metallic");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "--sheen=ggx,patry", "-o", "a.exr"), 2, ".png");
+}
+
+static void conversion_says_what_it_loses(void **state) {
+    (void)state;
+    Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+                  "--convert=specular");
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.err, "material cloth: conversion to specular loses 0.000\n"));
+    assert_null(strstr(ran.err, "warning"));
+    ran_free(&ran);
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+              "--workflow=specular", "--set=*.specular_color=0.5,0,0", "--convert=metallic", "--json");
+    assert_int_equal(ran.code, 0);
+    const char *loses = strstr(ran.err, "material cloth: conversion to metallic loses 0.");
+    assert_non_null(loses);
+    assert_true(strtod(strstr(loses, "loses ") + 6, NULL) > 0.01);
+    assert_non_null(strstr(ran.out, "conversion to metallic loses"));
+    ran_free(&ran);
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+              "--workflow=disney", "--convert=metallic");
+    assert_non_null(strstr(ran.err, "material cloth: is of another workflow or a profile and stays"));
+    ran_free(&ran);
+}
+
+/* The picture alone, as bytes of three channels. */
+static WeftImage png(const char *path) {
+    WeftImage image;
+    WeftError error;
+    if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(image.type, WEFT_PIXEL_U8);
+    return image;
+}
+
+/* Whether the picture lies somewhere on the sheet, to the byte. */
+static bool holds(const WeftImage *sheet, const WeftImage *image) {
+    const uint8_t *s = sheet->pixels, *p = image->pixels;
+    for (int y = 0; y + image->height <= sheet->height; y++)
+        for (int x = 0; x + image->width <= sheet->width; x++) {
+            int row = 0;
+            for (; row < image->height; row++)
+                for (int c = 0; c < image->width; c++)
+                    if (memcmp(s + sheet->channels * ((y + row) * sheet->width + x + c),
+                               p + image->channels * (row * image->width + c), 3) != 0)
+                        goto next;
+            return true;
+        next:;
+        }
+    return false;
+}
+
+/* A sheet holds the very pictures that single renders make. */
+static void a_sheet_holds_the_pictures(void **state) {
+    (void)state;
+    static const char *const ids[] = {"ashikhmin-neubelt", "charlie-neubelt"};
+    Ran ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment",
+                  "-o", "sheet.png", "--sheen", "ashikhmin-neubelt,charlie-neubelt", "--json");
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.err, "2 pictures in "));
+    assert_non_null(strstr(ran.err, "wrote sheet.png\n"));
+    json_t *shots = json_loads(ran.out, 0, NULL);
+    assert_int_equal(json_array_size(shots), 2);
+    for (size_t k = 0; k < 2; k++) {
+        json_t *shot = json_array_get(shots, k), *difference = json_object_get(shot, "difference");
+        assert_string_equal(json_string_value(json_object_get(shot, "sheen_lobe")), ids[k]);
+        double mean = json_number_value(json_object_get(difference, "mean")),
+               relmse = json_number_value(json_object_get(difference, "relmse"));
+        assert_true(k == 0 ? mean <= 0.0 && relmse <= 0.0 : mean > 1e-4 && relmse > 1e-6);
+    }
+    json_decref(shots);
+    ran_free(&ran);
+    WeftImage sheet = png("sheet.png");
+    for (int k = 0; k < 2; k++) {
+        ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment",
+                  "--quiet", "-o", "one.png", "--sheen", ids[k]);
+        assert_int_equal(ran.code, 0);
+        ran_free(&ran);
+        WeftImage one = png("one.png");
+        assert_true(holds(&sheet, &one));
+        ((uint8_t *)one.pixels)[one.channels * (64 * 24 + 32)] ^= 64;
+        assert_false(holds(&sheet, &one));
+        weft_image_free(&one);
+    }
+    weft_image_free(&sheet);
+}
+
+static void every_axis_makes_a_sheet(void **state) {
+    (void)state;
+    static const char *const axes[] = {
+        "--workflow=metallic,cloth,free", "--profile=khronos,none,filament-sheen,three,babylon,urp",
+        "--diffuse=lambert,eon", "--layer=additive,reciprocal,by=channel,albedo-max"};
+    static const size_t counts[] = {3, 6, 2, 3};
+    for (size_t k = 0; k < 4; k++) {
+        Ran ran = RUN("render", "scene.gltf", TINY, "-o", "sheet.png", axes[k], "--json");
+        assert_int_equal(ran.code, 0);
+        assert_string_equal(ran.err, "");
+        json_t *shots = json_loads(ran.out, 0, NULL);
+        assert_int_equal(json_array_size(shots), counts[k]);
+        json_decref(shots);
+        ran_free(&ran);
+        WeftImage sheet = png("sheet.png");
+        assert_true(sheet.width > 480 && sheet.height > 120);
+        weft_image_free(&sheet);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_stronger_wins),      cmocka_unit_test(files_have_any_name),
+        cmocka_unit_test(profiles_are_not_converted), cmocka_unit_test(aliases_are_taken),
+        cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(conversion_says_what_it_loses),
+        cmocka_unit_test(a_sheet_holds_the_pictures), cmocka_unit_test(every_axis_makes_a_sheet),
+    };
+    return cmocka_run_group_tests(tests, begin, work_end);
+}
