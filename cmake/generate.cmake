@@ -67,27 +67,23 @@ const Preset *preset_at(int index) {
 ")
 weft_embedded(presets ${files})
 
-# texts.c holds the files of the catalogue.
-file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src/shading
-  src/shading/terms/*.h src/shading/lobes/*.h src/shading/layers/*.h src/shading/workflows/*.h
-  src/shading/profiles/*.h)
+# catalogue.c holds the shading headers as they are, by name: src/text makes GLSL and pages of them.
+file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src src/shading/*.h)
 set(assembly "")
 set(names "")
 set(rows "")
 foreach(file ${files})
   string(MAKE_C_IDENTIFIER "embedded_${file}" symbol)
-  weft_embed(${symbol} ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/${file})
-  string(APPEND names "extern const char ${symbol}[];\n")
-  string(APPEND rows "    if (strcmp(path, \"${file}\") == 0) return ${symbol};\n")
+  weft_embed(${symbol} ${CMAKE_CURRENT_SOURCE_DIR}/src/${file})
+  string(APPEND names "extern const char ${symbol}[], ${symbol}_end[];\n")
+  string(APPEND rows "    {\"${file}\", ${symbol}, ${symbol}_end},\n")
 endforeach()
-set(code "#include <string.h>
-
-#include \"weft/lobe.h\"
+set(code "#include \"text/catalogue.h\"
 
 ${names}
-const char *weft_catalogue_text(const char *path) {
-${rows}    return NULL;
-}
+const CatalogueFile catalogue_files[] = {
+${rows}    {0, 0, 0},
+};
 ")
-list(TRANSFORM files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/)
-weft_embedded(texts ${files})
+list(TRANSFORM files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/)
+weft_embedded(catalogue ${files})

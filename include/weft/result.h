@@ -71,7 +71,12 @@ typedef enum WeftResult {
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
-    M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")
+    M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
+    M(TEXT_NAME, USAGE, "is not a file of the catalogue")                                                    \
+    M(TEXT_DIALECT, INPUT, "is not shading text")                                                            \
+    M(GL_CONTEXT, RESOURCES, "has no OpenGL to draw with")                                                   \
+    M(GL_COMPILE, INPUT, "does not compile for the GPU")                                                     \
+    M(GL_MEMORY, RESOURCES, "does not fit the GPU")
 
 /* What a warning's result would be; warnings are only ever logged, never returned. */
 #define WEFT_WARNING WEFT_OK

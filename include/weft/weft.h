@@ -2,6 +2,7 @@
 #ifndef WEFT_H
 #define WEFT_H
 
+#include "weft/arrays.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/render.h"

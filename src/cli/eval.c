@@ -1,103 +1,184 @@
 /* eval.c - `weft eval`: numbers of one lobe, a line in, a line out */
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "decimal.h"
 #include "json.h"
 #include "names.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
 
-enum { LINE_SIZE = 4096, STREAM_BUFFER = 1 << 20 };
+enum { LINE_MOST = 4095, CHUNK = 1 << 18, BATCH = 1024 };
+
+/* Lines that wait for their answers. A line of --albedo has its cosine in o[2]. */
+typedef struct Batch {
+    size_t n;
+    float o[3][BATCH], i[3][BATCH];
+    float f[3][BATCH], pdf[BATCH];
+    char text[BATCH * 4 * DECIMAL_SIZE];
+} Batch;
 
 /* Exactly count finite numbers separated by blanks and tabs, with at most one comma among them. */
 static bool line_numbers(const char *text, int count, double *numbers) {
     for (int k = 0; k < count; k++) {
-        char *end;
         text += strspn(text, " \t");
         if (k && *text == ',') text += 1 + strspn(text + 1, " \t");
-        numbers[k] = strtod(text, &end);
-        if (end == text || !isfinite(numbers[k]) || !strchr(" \t,\r\n", *end)) return false;
+        const char *end = decimal_read(text, &numbers[k]);
+        if (end == text || !isfinite(numbers[k]) || !strchr(" \t,\r", *end)) return false;
         text = end;
     }
-    return text[strspn(text, " \t\r\n")] == '\0';
+    return text[strspn(text, " \t\r")] == '\0';
 }
 
 /* Unit direction from degrees. The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
-static void direction(double theta, double phi, float w[3]) {
+static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
     const double radians = 3.14159265358979323846 / 180.0;
     double sin_theta = sin(theta * radians);
-    w[0] = (float)(sin_theta * cos(phi * radians));
-    w[1] = (float)(sin_theta * sin(phi * radians));
-    w[2] = (float)sin((90.0 - theta) * radians);
+    w[0][k] = (float)(sin_theta * cos(phi * radians));
+    w[1][k] = (float)(sin_theta * sin(phi * radians));
+    w[2][k] = (float)sin((90.0 - theta) * radians);
 }
 
-/* One line's work: numbers in, a line out. */
+/* What is done with lines: numbers taken in, then all answered. */
 typedef struct Task {
-    const char *form; /* of the input line */
-    int count;        /* numbers in it */
-    bool (*valid)(const double *numbers);
-    void (*run)(const WeftLobe *lobe, const double *numbers, bool json);
+    const char *form;                                  /* of a line */
+    int count;                                         /* numbers in it */
+    bool (*take)(Batch *batch, const double *numbers); /* false: not what they should be */
+    void (*answer)(Batch *batch, const WeftLobe *lobe, bool json);
 } Task;
 
-static bool any(const double *numbers) { return numbers != NULL; }
-static bool is_cosine(const double *numbers) { return numbers[0] > 0.0 && numbers[0] <= 1.0; }
-
-static void run_eval(const WeftLobe *lobe, const double *numbers, bool as_json) {
-    float wo[3], wi[3], f[3];
-    direction(numbers[0], numbers[1], wo);
-    direction(numbers[2], numbers[3], wi);
-    weft_lobe_eval(lobe, wo, wi, f);
-    float pdf = weft_lobe_pdf(lobe, wo, wi);
-    if (!as_json) {
-        printf("%.9g %.9g %.9g %.9g\n", (double)f[0], (double)f[1], (double)f[2], (double)pdf);
-        return;
-    }
-    Json json = {.stream = stdout, .compact = true};
-    json_open(&json, NULL, '{');
-    json_floats(&json, "f", f, 3);
-    json_float(&json, "pdf", pdf);
-    json_close(&json, '}');
+static bool take_angles(Batch *batch, const double *numbers) {
+    direction(numbers[0], numbers[1], batch->o, batch->n);
+    direction(numbers[2], numbers[3], batch->i, batch->n);
+    batch->n++;
+    return true;
 }
 
-static void run_albedo(const WeftLobe *lobe, const double *numbers, bool as_json) {
-    float e[3];
-    weft_lobe_albedo(lobe, (float)numbers[0], e);
-    if (as_json) {
-        Json json = {.stream = stdout, .compact = true};
-        json_open(&json, NULL, '{');
-        json_floats(&json, "albedo", e, 3);
-        json_close(&json, '}');
-    } else if (!(e[0] < e[1] || e[0] > e[1] || e[0] < e[2] || e[0] > e[2])) {
-        printf("%.9g\n", (double)e[0]);
-    } else {
-        printf("%.9g %.9g %.9g\n", (double)e[0], (double)e[1], (double)e[2]);
-    }
+static bool take_cosine(Batch *batch, const double *numbers) {
+    if (!(numbers[0] > 0.0 && numbers[0] <= 1.0)) return false;
+    batch->o[2][batch->n++] = (float)numbers[0];
+    return true;
 }
 
-static const Task task_eval = {"theta_o phi_o theta_i phi_i", 4, any, run_eval};
-static const Task task_albedo = {"a cosine in (0, 1]", 1, is_cosine, run_albedo};
+static void answer_eval(Batch *batch, const WeftLobe *lobe, bool as_json) {
+    WeftDirections wo = {batch->o[0], batch->o[1], batch->o[2]}, wi = {batch->i[0], batch->i[1], batch->i[2]};
+    WeftColors colors = {batch->f[0], batch->f[1], batch->f[2]};
+    weft_eval_n(lobe, batch->n, wo, wi, colors, NULL);
+    weft_pdf_n(lobe, batch->n, wo, wi, batch->pdf, NULL);
+    char *text = batch->text;
+    for (size_t k = 0; k < batch->n; k++) {
+        float f[3] = {batch->f[0][k], batch->f[1][k], batch->f[2][k]};
+        if (as_json) {
+            Json json = {.stream = stdout, .compact = true};
+            json_open(&json, NULL, '{');
+            json_floats(&json, "f", f, 3);
+            json_float(&json, "pdf", batch->pdf[k]);
+            json_close(&json, '}');
+            continue;
+        }
+        for (int c = 0; c < 3; c++) {
+            text = decimal_write(text, f[c]);
+            *text++ = ' ';
+        }
+        text = decimal_write(text, batch->pdf[k]);
+        *text++ = '\n';
+    }
+    fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
+}
 
-static int eval_lines(FILE *stream, const char *name, const Task *task, const WeftLobe *lobe, bool json) {
-    char line[LINE_SIZE];
+static void answer_albedo(Batch *batch, const WeftLobe *lobe, bool as_json) {
+    weft_albedo_n(lobe, batch->n, batch->o[2], (WeftColors){batch->f[0], batch->f[1], batch->f[2]}, NULL);
+    char *text = batch->text;
+    for (size_t k = 0; k < batch->n; k++) {
+        float e[3] = {batch->f[0][k], batch->f[1][k], batch->f[2][k]};
+        if (as_json) {
+            Json json = {.stream = stdout, .compact = true};
+            json_open(&json, NULL, '{');
+            json_floats(&json, "albedo", e, 3);
+            json_close(&json, '}');
+            continue;
+        }
+        bool grey = !(e[0] < e[1] || e[0] > e[1] || e[0] < e[2] || e[0] > e[2]);
+        for (int c = 0; c < (grey ? 1 : 3); c++) {
+            text = decimal_write(text, e[c]);
+            *text++ = c < 2 && !grey ? ' ' : '\n';
+        }
+    }
+    fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
+}
+
+static const Task task_eval = {"theta_o phi_o theta_i phi_i", 4, take_angles, answer_eval};
+static const Task task_albedo = {"a cosine in (0, 1]", 1, take_cosine, answer_albedo};
+
+/* A file as it is read. */
+typedef struct Lines {
+    const char *name;
+    int file;
+    long long count; /* of lines so far */
+    size_t held;     /* bytes in chunk */
+    char chunk[CHUNK + 1];
+} Lines;
+
+/* One line, a zero at its end. */
+static int take_line(const Lines *lines, const char *line, size_t length, Batch *batch, const Task *task) {
     double numbers[4];
-    for (long long k = 1; fgets(line, sizeof line, stream); k++) {
-        if (!strchr(line, '\n') && !feof(stream))
-            return report(WEFT_INPUT, "%s: line %lld: is too long or not text", name, k);
-        const char *first = line + strspn(line, " \t\r\n");
-        if (*first == '\0' || *first == '#') continue;
-        if (!line_numbers(line, task->count, numbers) || !task->valid(numbers))
-            return report(WEFT_INPUT, "%s: line %lld: is not %s", name, k, task->form);
-        task->run(lobe, numbers, json);
-        if (ferror(stdout)) return 0; /* main reports it */
-    }
-    if (ferror(stream))
-        return report(WEFT_INPUT, "%s: %s: %s", name, weft_message_text(WEFT_MESSAGE_FILE_READ),
-                      strerror(errno));
+    if (length > LINE_MOST || strlen(line) != length)
+        return report(WEFT_INPUT, "%s: line %lld: is too long or not text", lines->name, lines->count);
+    const char *first = line + strspn(line, " \t\r");
+    if (*first == '\0' || *first == '#') return 0;
+    if (!line_numbers(line, task->count, numbers) || !task->take(batch, numbers))
+        return report(WEFT_INPUT, "%s: line %lld: is not %s", lines->name, lines->count, task->form);
     return 0;
+}
+
+/* The whole lines of the chunk, answered whenever the batch is full and at the end. What is left of the chunk
+ * goes to its front. */
+static int take_chunk(Lines *lines, Batch *batch, const Task *task, const WeftLobe *lobe, bool json) {
+    int result = 0;
+    char *line = lines->chunk, *last = lines->chunk + lines->held, *end;
+    while (result == 0 && !ferror(stdout) && (end = memchr(line, '\n', (size_t)(last - line)))) {
+        *end = '\0';
+        lines->count++;
+        result = take_line(lines, line, (size_t)(end - line), batch, task);
+        line = end + 1;
+        if (batch->n < BATCH) continue;
+        task->answer(batch, lobe, json);
+        batch->n = 0;
+    }
+    task->answer(batch, lobe, json);
+    batch->n = 0;
+    lines->held = (size_t)(last - line);
+    memmove(lines->chunk, line, lines->held);
+    return result;
+}
+
+/* Answers what has arrived before it waits for more. */
+static int eval_lines(Lines *lines, Batch *batch, const Task *task, const WeftLobe *lobe, bool json) {
+    int result = 0;
+    ssize_t got = 1;
+    while (result == 0 && got > 0 && !ferror(stdout)) { /* a failed output is for main to report */
+        do got = read(lines->file, lines->chunk + lines->held, CHUNK - lines->held);
+        while (got < 0 && errno == EINTR);
+        if (got < 0)
+            return report(WEFT_INPUT, "%s: %s: %s", lines->name, weft_message_text(WEFT_MESSAGE_FILE_READ),
+                          strerror(errno));
+        lines->held += (size_t)got;
+        if (got == 0 && lines->held > 0)
+            lines->chunk[lines->held++] = '\n'; /* the last line may lack its own */
+        result = take_chunk(lines, batch, task, lobe, json);
+        if (result == 0 && !ferror(stdout) && lines->held > LINE_MOST) {
+            lines->count++;
+            result = take_line(lines, lines->chunk, lines->held, batch, task);
+        }
+        fflush(stdout);
+    }
+    return result;
 }
 
 static void warning(void *user, WeftMessage message, const char *text) {
@@ -130,15 +211,23 @@ static int eval_run(const Options *options) {
     if (result != 0) return result;
     const char *path = options->operand_count > 1 ? options->operands[1] : "-";
     bool piped = strcmp(path, "-") == 0;
-    FILE *stream = piped ? stdin : fopen(path, "r");
-    if (!stream)
+    int file = piped ? STDIN_FILENO : open(path, O_RDONLY);
+    if (file < 0)
         return report(WEFT_INPUT, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_OPEN),
                       strerror(errno));
-    setvbuf(stream, NULL, _IOFBF, STREAM_BUFFER);
-    result = eval_lines(stream, piped ? "standard input" : path,
-                        option_given(options, "--albedo") ? &task_albedo : &task_eval, &lobe,
-                        option_given(options, "--json"));
-    if (!piped) fclose(stream);
+    Lines *lines = calloc(1, sizeof *lines);
+    Batch *batch = calloc(1, sizeof *batch);
+    if (lines && batch) {
+        lines->name = piped ? "standard input" : path;
+        lines->file = file;
+        result = eval_lines(lines, batch, option_given(options, "--albedo") ? &task_albedo : &task_eval,
+                            &lobe, option_given(options, "--json"));
+    } else {
+        result = report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
+    }
+    free(batch);
+    free(lines);
+    if (!piped) close(file);
     return result;
 }
 

@@ -14,9 +14,10 @@ STRUCT(Rgb) { float r, g, b; };
 
 /* All that a lobe may ask for; what it does not use costs nothing once inlined. */
 STRUCT(Angles) {
-    Dir o, i; /* wo, wi: z is the cosine to the normal */
-    Dir h;    /* half vector, unit */
-    float d;  /* wi . h = wo . h */
+    Dir o, i;     /* wo, wi: z is the cosine to the normal */
+    Dir h;        /* half vector, unit */
+    float d;      /* wi . h = wo . h */
+    float sin2_h; /* sin^2 from the normal to h: 1 - h.z^2 has no digits left where this is small */
 };
 
 FN Dir dir(float x, float y, float z) {
@@ -36,9 +37,10 @@ FN Angles angles_between(Dir o, Dir i) {
     a.o = o;
     a.i = i;
     float x = o.x + i.x, y = o.y + i.y, z = max(o.z + i.z, 1e-12f);
-    float s = sqrt(x * x + y * y + z * z), r = 1.0f / s;
+    float t2 = x * x + y * y, s2 = t2 + z * z, s = sqrt(s2), r = 1.0f / s;
     a.h = dir(x * r, y * r, z * r);
     a.d = 0.5f * s;
+    a.sin2_h = t2 / s2;
     return a;
 }
 

@@ -2,17 +2,34 @@
  * start-up
  *
  * Only this file is compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test is folded
- * away. */
+ * away, and a question about NaN has to be one about bits. */
 #include "lobes.gen.h"
 #include "shading/registry.h"
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#if defined(CLONES) /* bench/ makes each clone by itself */
+#elif defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define CLONES
 #endif
 
 #define FROM_ARRAY(type, name, def, low, high, hard_low, hard_high, help) m.name = (type)*p++;
+
+/* Whether both directions are above the horizon and none of their components is infinite or NaN, which
+ * their sum would show. */
+FN bool pair_counts(Dir o, Dir i) {
+    float sum = (o.x + i.x) + (o.y + i.y) + (o.z + i.z);
+    uint32_t bits;
+    memcpy(&bits, &sum, 4);
+    return ((int32_t)(bits & 0x7fffffffu) < 0x7f800000) & (o.z > 0.0f) & (i.z > 0.0f);
+}
+
+/* A pair, its cosines such that no formula divides by 0 where it does not count. */
+#define TAKE_PAIR(o, i, counts)                                                                              \
+    Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                \
+    bool counts = pair_counts(o, i);                                                                         \
+    o.z = max(o.z, 1e-30f);                                                                                  \
+    i.z = max(i.z, 1e-30f)
 
 /* name_QUESTION_n asks the lobe for one float per pair of directions. */
 #define ASK_N(question, name, Record, NAME)                                                                  \
@@ -23,9 +40,9 @@
         Record m = {0};                                                                                      \
         NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
         _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
-            Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                        \
+            TAKE_PAIR(o, i, counts);                                                                         \
             float e = name##_##question(m, angles_between(o, i));                                            \
-            f[k] = o.z > 0.0f && i.z > 0.0f ? e : 0.0f;                                                      \
+            f[k] = counts ? e : 0.0f;                                                                        \
         }                                                                                                    \
     }
 #define EVAL_N(id, name, Record, NAME)  ASK_N(eval, name, Record, NAME)
@@ -51,10 +68,10 @@ FN CookTorrance composed(const float *p) {
         CookTorrance m = composed(p);                                                                        \
         m.choice = NAME;                                                                                     \
         _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
-            Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                        \
+            TAKE_PAIR(o, i, counts);                                                                         \
             Angles a = angles_between(o, i);                                                                 \
             float e = value;                                                                                 \
-            f[k] = o.z > 0.0f && i.z > 0.0f ? e : 0.0f;                                                      \
+            f[k] = counts ? e : 0.0f;                                                                        \
         }                                                                                                    \
     }
 #define SPREAD_N(id, NAME, ...) TERM_N(spread, d, NAME, cook_torrance_spread(m, a))

@@ -31,10 +31,14 @@
     typedef struct Name Name;                                                                                \
     struct Name
 
-/* log2 of a normal x > 0: degree-7 polynomial for log2(1 + t) / t on the mantissa in [sqrt(1/2), sqrt(2)),
- * interpolated at Chebyshev nodes. Relative error at most 3.1e-7, and 1.6e-7 of max(1, |log2 x|)
- * (tests/shading/test_dialect). Written here because a library call stops a loop from vectorising. */
-FN float weft_log2(float x) {
+/* log2 x of a normal x > 0, as the exponent and what it leaves, within a half of 0. The mantissa in
+ * [sqrt(1/2), sqrt(2)) is 1 + t, and log2(1 + t) / t a degree-7 polynomial interpolated at Chebyshev nodes.
+ * Written here because a library call stops a loop from vectorising. */
+typedef struct WeftLog2 {
+    float whole, rest;
+} WeftLog2;
+
+FN WeftLog2 weft_log2_parts(float x) {
     int32_t i;
     memcpy(&i, &x, 4);
     int32_t e = (i - 0x3f3504f3) >> 23; /* 0x3f3504f3 is sqrt(1/2) */
@@ -49,24 +53,67 @@ FN float weft_log2(float x) {
     p = p * t + 0.480916708f;
     p = p * t - 0.721352931f;
     p = p * t + 1.44269499f;
-    return (float)e + p * t;
+    WeftLog2 l = {(float)e, p * t};
+    return l;
 }
 
-/* 2^x, clamped to the normal floats: degree-6 polynomial on the fraction in [-1/2, 1/2], exponent by bits.
- * Relative error at most 1e-7; so pow(x, y) is within 2e-7 (1 + |y log2 x|). */
-FN float weft_exp2(float x) {
-    x = x < -126.0f ? -126.0f : x > 127.0f ? 127.0f : x;
-    float k = floorf(x + 0.5f), t = x - k, p = 0.000154531629f;
+/* Relative error at most 3.1e-7, and 1.6e-7 of max(1, |log2 x|) (tests/shading/test_dialect). */
+FN float weft_log2(float x) {
+    WeftLog2 l = weft_log2_parts(x);
+    return l.whole + l.rest;
+}
+
+/* x + WEFT_ROUND has no room for the fraction of x, |x| < 2^22, and keeps the nearest whole number in its
+ * last bits: without a call, and cheap in every set of instructions. */
+#define WEFT_ROUND          12582912.0f /* 1.5 * 2^23 */
+
+/* 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a degree-6 polynomial for 2^t, k added to its
+ * exponent. */
+FN float weft_exp2_parts(float rounded, float t) {
+    float p = 0.000154531629f;
     p = p * t + 0.00133908634f;
     p = p * t + 0.00961808256f;
     p = p * t + 0.0555035711f;
     p = p * t + 0.240226508f;
     p = p * t + 0.693147188f;
     p = p * t + 1.0f;
-    int32_t i = (int32_t)((uint32_t)((int32_t)k + 127) << 23);
-    float s;
-    memcpy(&s, &i, 4);
-    return p * s;
+    uint32_t k, i;
+    memcpy(&k, &rounded, 4);
+    memcpy(&i, &p, 4);
+    i += k << 23;
+    memcpy(&p, &i, 4);
+    return p;
+}
+
+/* 2^x, clamped to the normal floats. Relative error at most 1e-7. */
+FN float weft_exp2(float x) {
+    x = x < -126.0f ? -126.0f : x > 127.0f ? 127.0f : x;
+    float rounded = x + WEFT_ROUND;
+    return weft_exp2_parts(rounded, x - (rounded - WEFT_ROUND));
+}
+
+FN float weft_exp(float x) {
+    x = x < -87.3f ? -87.3f : x > 88.0f ? 88.0f : x;
+    float rounded = x * 1.44269504f + WEFT_ROUND;
+    return weft_exp2_parts(rounded, x * 1.44269504f - (rounded - WEFT_ROUND));
+}
+
+/* x^y of a normal x > 0; ends at 2^-125.51 and 2^127.51. Relative error at most 1.3e-7 (1 + |y|): y log2 x is
+ * never rounded as a whole, since the first 12 bits of y times the exponent of x, less the nearest whole
+ * number, is exact. */
+FN float weft_pow(float x, float y) {
+    WeftLog2 l = weft_log2_parts(x);
+    uint32_t i;
+    float head;
+    memcpy(&i, &y, 4);
+    i &= 0xfffff000u;
+    memcpy(&head, &i, 4);
+    float w = y * (l.whole + l.rest);
+    w = w < -125.0f ? -125.0f : w > 127.0f ? 127.0f : w;
+    float rounded = w + WEFT_ROUND;
+    float t = (head * l.whole - (rounded - WEFT_ROUND)) + ((y - head) * l.whole + y * l.rest);
+    t = t < -0.51f ? -0.51f : t > 0.51f ? 0.51f : t; /* beyond 1/2 by more than rounding: w was clamped */
+    return weft_exp2_parts(rounded, t);
 }
 
 /* One instruction each; the C library's versions are calls, since they let a number win over a NaN. */
@@ -89,13 +136,20 @@ FN float table_texel(Table t, int stride, int row, int column) { return t[row * 
 #define sqrt(x)             sqrtf(x)
 #define sin(x)              sinf(x)
 #define cos(x)              cosf(x)
-#define log2(x)             weft_log2(x)
-#define exp2(x)             weft_exp2(x)
-#define exp(x)              weft_exp2((x)*1.44269504f)
-#define pow(x, y)           weft_exp2((y)*weft_log2(x))
 #define mix(a, b, t)        weft_mix(a, b, t)
-#define to_float(x)         ((float)(x))
-#define to_int(x)           ((int)(x))
+#ifdef WEFT_LIBM /* the C library's own, for bench/arrays.c to compare with */
+#define log2(x)   log2f(x)
+#define exp2(x)   exp2f(x)
+#define exp(x)    expf(x)
+#define pow(x, y) powf(x, y)
+#else
+#define log2(x)   weft_log2(x)
+#define exp2(x)   weft_exp2(x)
+#define exp(x)    weft_exp(x)
+#define pow(x, y) weft_pow(x, y)
+#endif
+#define to_float(x) ((float)(x))
+#define to_int(x)   ((int)(x))
 
 #endif
 

@@ -4,8 +4,7 @@
 #include "shading/albedo.h"
 #include "shading/choice.h"
 
-/* The registry's lobe, its parameters clamped; false where there is none of that index. */
-static bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
+bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(public_lobe->lobe);
     if (!info) return false;
     *lobe = lobe_default(public_lobe->lobe);

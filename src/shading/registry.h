@@ -96,6 +96,9 @@ int lobe_param(int id, const char *name);
 /* Sets parameter k, clamped to its hard range. */
 void lobe_set(Lobe *lobe, int k, float value);
 
+/* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
+bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
+
 /* What a pair of directions gets from a lobe. */
 typedef struct LobeValue {
     float f;   /* 1/sr, without colour */
@@ -120,7 +123,7 @@ __attribute__((noinline)) float lobe_second(Lobe lobe, float f0, float f90);
 __attribute__((noinline)) Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
 
 /* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
- * of arrays; 0 where a direction is not above the horizon. */
+ * of arrays; 0 where a direction is not above the horizon or a component is infinite or NaN. */
 void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                  const float *ix, const float *iy, const float *iz, float *f, float *s);
 

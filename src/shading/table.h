@@ -33,20 +33,19 @@ FN Taps table_taps(float x, int count) {
     float t = clamp(x - k, 0.0f, 1.0f), s = 1.0f - t;
     float a = -0.5f * t * s * s, d = -0.5f * t * t * s;
     float b = s * (1.0f + t - 1.5f * t * t), c = t * (1.0f + s - 1.5f * s * s);
+    int first = to_int(k); /* of a NaN it is any number */
     Taps m;
-    m.first = to_int(k) - 1;
+    m.first = first < 1 ? 0 : first > count - 3 ? count - 4 : first - 1;
     m.a = a;
     m.b = b;
     m.c = c;
     m.d = d;
     if (k < 0.5f) {
-        m.first = 0;
         m.a = b + 3.0f * a;
         m.b = c - 3.0f * a;
         m.c = d + a;
         m.d = 0.0f;
     } else if (k > to_float(count - 2) - 0.5f) {
-        m.first = count - 4;
         m.a = 0.0f;
         m.b = a + d;
         m.c = b - 3.0f * d;

@@ -24,7 +24,7 @@
 STRUCT(CharlieContyKulla){CHARLIE_CONTY_KULLA_PARAMS(FIELD)};
 
 FN float charlie_conty_kulla_eval(CharlieContyKulla m, Angles a) {
-    return charlie_d(m.alpha, a.h) * conty_kulla_v(m.alpha, a.o.z, a.i.z);
+    return charlie_d_sin2(m.alpha, a.sin2_h) * conty_kulla_v(m.alpha, a.o.z, a.i.z);
 }
 FN float charlie_conty_kulla_pdf(CharlieContyKulla m, Angles a) { return charlie_pdf(m.alpha, a); }
 FN Dir charlie_conty_kulla_sample(CharlieContyKulla m, Dir o, float u, float v) {

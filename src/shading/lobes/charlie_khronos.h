@@ -31,7 +31,7 @@ FN float charlie_khronos_v(float alpha, float o, float i) {
 }
 
 FN float charlie_khronos_eval(CharlieKhronos m, Angles a) {
-    return charlie_d(m.alpha, a.h) * charlie_khronos_v(m.alpha, a.o.z, a.i.z);
+    return charlie_d_sin2(m.alpha, a.sin2_h) * charlie_khronos_v(m.alpha, a.o.z, a.i.z);
 }
 FN float charlie_khronos_pdf(CharlieKhronos m, Angles a) { return charlie_pdf(m.alpha, a); }
 FN Dir charlie_khronos_sample(CharlieKhronos m, Dir o, float u, float v) {

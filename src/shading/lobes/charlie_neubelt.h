@@ -22,7 +22,7 @@
 STRUCT(CharlieNeubelt){CHARLIE_NEUBELT_PARAMS(FIELD)};
 
 FN float charlie_neubelt_eval(CharlieNeubelt m, Angles a) {
-    return charlie_d(m.alpha, a.h) * neubelt_v(a.o.z, a.i.z);
+    return charlie_d_sin2(m.alpha, a.sin2_h) * neubelt_v(a.o.z, a.i.z);
 }
 FN float charlie_neubelt_pdf(CharlieNeubelt m, Angles a) { return charlie_pdf(m.alpha, a); }
 FN Dir charlie_neubelt_sample(CharlieNeubelt m, Dir o, float u, float v) {

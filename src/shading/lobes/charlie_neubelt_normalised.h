@@ -26,7 +26,7 @@ STRUCT(CharlieNeubeltNormalised){CHARLIE_NEUBELT_NORMALISED_PARAMS(FIELD)};
 FN float charlie_neubelt_normalised_eval(CharlieNeubeltNormalised m, Angles a) {
     TableRef e = lobe_table_charlie_neubelt();
     float most = max(table_roots(e, a.o.z, m.alpha), table_roots(e, a.i.z, m.alpha));
-    return charlie_d(m.alpha, a.h) * neubelt_v(a.o.z, a.i.z) / max(1.0f, most);
+    return charlie_d_sin2(m.alpha, a.sin2_h) * neubelt_v(a.o.z, a.i.z) / max(1.0f, most);
 }
 FN float charlie_neubelt_normalised_pdf(CharlieNeubeltNormalised m, Angles a) {
     return charlie_pdf(m.alpha, a);

@@ -11,12 +11,11 @@
 
 #include "shading/terms/facet.h"
 
-/* The exponent reaches 80000, and the square of a cosine near 1 has too few digits for that: what it lost is
- * taken from the tangential part of h. */
+/* The exponent reaches 80000, and the square of a cosine near 1 has too few digits for that: they come from
+ * the tangential part of h. */
 FN float blinn_phong_d(float alpha, Dir h) {
-    float a2 = alpha * alpha, cos2 = max(h.z * h.z, 1e-30f), sin2 = h.x * h.x + h.y * h.y;
-    float lost = cos2 > 0.5f ? ((1.0f - cos2) - sin2) / cos2 : 0.0f;
-    return exp2((1.0f / a2 - 1.0f) * (log2(cos2) + 1.44269504f * lost)) / (PI * a2);
+    float a2 = alpha * alpha, sin2 = h.x * h.x + h.y * h.y;
+    return exp((1.0f - 1.0f / a2) * facet_fall(sin2, max(h.z * h.z, 1e-30f))) / (PI * a2);
 }
 
 /* h from D cos_h: cos_h^2 = u^(alpha^2). */

@@ -11,10 +11,11 @@
 
 /* sin^2 comes from the tangential part of h: 1 - cos^2 has no digits left where the lobe is small. The floor
  * keeps the argument of pow a normal number. */
-FN float charlie_d(float alpha, Dir h) {
-    float sin2 = max(h.x * h.x + h.y * h.y, 1e-30f);
-    return (2.0f + 1.0f / alpha) * pow(sin2, 0.5f / alpha) / (2.0f * PI);
+FN float charlie_d_sin2(float alpha, float sin2) {
+    return (2.0f + 1.0f / alpha) / (2.0f * PI) * pow(max(sin2, 1e-30f), 0.5f / alpha);
 }
+
+FN float charlie_d(float alpha, Dir h) { return charlie_d_sin2(alpha, h.x * h.x + h.y * h.y); }
 
 /* h from D cos_h, at any azimuth: sin_h = u^(alpha / (2 alpha + 1)) inverts the integral. */
 FN Dir charlie_facet(float alpha, float u, float v) {
@@ -37,7 +38,7 @@ FN Dir charlie_sample_h(float alpha, Dir o, float u, float v) {
 FN float charlie_pdf_h(float alpha, Angles a) {
     float s = sqrt(a.o.x * a.o.x + a.o.y * a.o.y);
     float side = s > 1e-6f ? a.h.x * a.o.x + a.h.y * a.o.y : a.h.x;
-    return side > 0.0f ? 2.0f * charlie_d(alpha, a.h) * a.h.z / (4.0f * max(a.d, 1e-6f)) : 0.0f;
+    return side > 0.0f ? 2.0f * charlie_d_sin2(alpha, a.sin2_h) * a.h.z / (4.0f * max(a.d, 1e-6f)) : 0.0f;
 }
 
 /* The sampler of the lobes built on D: half of the samples by D, half uniform, which bounds the weight where

@@ -16,13 +16,13 @@ FN float gtr1_square(float alpha) { return min(alpha * alpha, 0.999999f); }
 
 FN float gtr1_d(float alpha, Dir h) {
     float a2 = gtr1_square(alpha), q = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
-    return (1.0f - a2) / (-0.693147181f * log2(a2) * PI * q);
+    return (1.0f - a2) / (facet_fall(1.0f - a2, a2) * PI * q);
 }
 
 /* h from D cos_h: sin_h^2 = (alpha^(2u) - alpha^2) / (1 - alpha^2), here without its cancellations (the same
  * appendix, solved for the sine). */
 FN Dir gtr1_facet(float alpha, float u, float v) {
-    float m = -0.693147181f * log2(gtr1_square(alpha));
+    float a2 = gtr1_square(alpha), m = facet_fall(1.0f - a2, a2);
     float sin2 = exp(-u * m) * facet_rise((1.0f - u) * m) / facet_rise(m);
     return facet(sqrt(min(sin2, 1.0f)), sqrt(max(1.0f - sin2, 0.0f)), v);
 }

@@ -10,6 +10,6 @@
 
 #include "shading/lang.h"
 
-FN float neubelt_v(float o, float i) { return 1.0f / (4.0f * max(o + i - o * i, 1e-20f)); }
+FN float neubelt_v(float o, float i) { return 0.25f / max(o + i - o * i, 1e-20f); }
 
 #endif

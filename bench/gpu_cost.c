@@ -1,0 +1,289 @@
+/* gpu_cost - what each lobe and each term costs on a GPU, without one: Mesa's RADV compiles for any of AMD's
+ * and says what it made
+ *
+ *   bench_gpu_cost          prints the page docs/cost.md
+ *
+ * Needs the RADV driver and glslangValidator. RADV_FORCE_FAMILY names the GPU (NAVI21, an RDNA2); one version
+ * of the driver prints the same numbers in every run. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <vulkan/vulkan.h>
+
+#include "base/file.h"
+#include "shading/terms.h"
+#include "text/dispatch.h"
+#include "text/number.h"
+
+/* The cycles are those of the busiest unit: so many multiplications beside the lines in question make sure
+ * that it is the one that computes, not the one that reads. */
+enum { BALLAST = 256, INPUTS_MOST = 6 + LOBE_PARAMS_MAX };
+
+typedef struct Cost {
+    double instructions, registers, cycles;
+} Cost;
+
+typedef struct Gpu {
+    VkInstance instance;
+    VkDevice device;
+    VkPipelineLayout layout;
+    VkPhysicalDeviceProperties2 properties;
+    VkPhysicalDeviceDriverProperties driver;
+    char folder[32];             /* for the compiler's files */
+    Cost empty[INPUTS_MOST + 1]; /* of a shader that reads so many numbers, once it is known */
+} Gpu;
+
+static void stop(const char *why) {
+    fprintf(stderr, "gpu_cost: %s\n", why);
+    exit(4);
+}
+
+static void check(VkResult result, const char *what) {
+    if (result != VK_SUCCESS) stop(what);
+}
+
+/* RADV, among what the machine has. */
+static VkPhysicalDevice find_device(Gpu *gpu) {
+    VkPhysicalDevice devices[16];
+    uint32_t count = 16;
+    vkEnumeratePhysicalDevices(gpu->instance, &count, devices);
+    for (uint32_t k = 0; k < count; k++) {
+        gpu->driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+        gpu->properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+        gpu->properties.pNext = &gpu->driver;
+        vkGetPhysicalDeviceProperties2(devices[k], &gpu->properties);
+        if (gpu->driver.driverID == VK_DRIVER_ID_MESA_RADV) return devices[k];
+    }
+    stop("there is no RADV driver (Debian: mesa-vulkan-drivers)");
+    return VK_NULL_HANDLE;
+}
+
+static void make_layout(Gpu *gpu) {
+    static const VkDescriptorType types[] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VkDescriptorSetLayoutBinding bindings[3] = {0};
+    for (uint32_t k = 0; k < 3; k++) {
+        bindings[k].binding = k;
+        bindings[k].descriptorType = types[k];
+        bindings[k].descriptorCount = 1;
+        bindings[k].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+    VkDescriptorSetLayout set;
+    VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                .bindingCount = 3,
+                                                .pBindings = bindings};
+    check(vkCreateDescriptorSetLayout(gpu->device, &set_info, NULL, &set), "no descriptor set layout");
+    VkPipelineLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &set};
+    check(vkCreatePipelineLayout(gpu->device, &info, NULL, &gpu->layout), "no pipeline layout");
+    vkDestroyDescriptorSetLayout(gpu->device, set, NULL);
+}
+
+static void gpu_begin(Gpu *gpu) {
+    setenv("RADV_FORCE_FAMILY", "NAVI21", 0);
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                     .apiVersion = VK_API_VERSION_1_2};
+    VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                     .pApplicationInfo = &application};
+    if (vkCreateInstance(&instance, NULL, &gpu->instance) != VK_SUCCESS) stop("there is no Vulkan driver");
+    VkPhysicalDevice physical = find_device(gpu);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+        .pipelineExecutableInfo = VK_TRUE};
+    float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    VkDeviceCreateInfo device = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                 .pNext = &statistics,
+                                 .queueCreateInfoCount = 1,
+                                 .pQueueCreateInfos = &queue,
+                                 .enabledExtensionCount = 1,
+                                 .ppEnabledExtensionNames =
+                                     (const char *[]){VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME}};
+    check(vkCreateDevice(physical, &device, NULL, &gpu->device), "the driver tells nothing of its shaders");
+    make_layout(gpu);
+    snprintf(gpu->folder, sizeof gpu->folder, "/tmp/weft-gpu-cost-XXXXXX");
+    if (!mkdtemp(gpu->folder)) stop("no folder for the compiler");
+}
+
+static void gpu_end(Gpu *gpu) {
+    rmdir(gpu->folder);
+    vkDestroyPipelineLayout(gpu->device, gpu->layout, NULL);
+    vkDestroyDevice(gpu->device, NULL);
+    vkDestroyInstance(gpu->instance, NULL);
+}
+
+/* The text as SPIR-V. */
+static FileBytes compile(const Gpu *gpu, const char *bytes) {
+    char source[64], binary[64], command[256];
+    snprintf(source, sizeof source, "%s/cost.comp", gpu->folder);
+    snprintf(binary, sizeof binary, "%s/cost.spv", gpu->folder);
+    FILE *stream = fopen(source, "wb");
+    if (!stream || fputs(bytes, stream) < 0 || fclose(stream) != 0) stop("no file for the compiler");
+    snprintf(command, sizeof command, "glslangValidator -V %s -o %s >/dev/null", source, binary);
+    FileBytes spirv = {0};
+    bool made = system(command) == 0 && file_read(binary, 1 << 24, &spirv, NULL) == WEFT_OK;
+    unlink(source);
+    unlink(binary);
+    if (!made) {
+        rmdir(gpu->folder);
+        stop("glslangValidator made nothing (Debian: glslang-tools)");
+    }
+    return spirv;
+}
+
+static Cost read_cost(const Gpu *gpu, VkPipeline pipeline) {
+    PFN_vkGetPipelineExecutableStatisticsKHR get_statistics =
+        (PFN_vkGetPipelineExecutableStatisticsKHR)vkGetDeviceProcAddr(gpu->device,
+                                                                      "vkGetPipelineExecutableStatisticsKHR");
+    VkPipelineExecutableInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR,
+                                        .pipeline = pipeline};
+    VkPipelineExecutableStatisticKHR statistics[64] = {0};
+    uint32_t count = 64;
+    for (uint32_t k = 0; k < count; k++)
+        statistics[k].sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+    check(get_statistics(gpu->device, &info, &count, statistics), "no statistics");
+    Cost cost = {-1.0, -1.0, -1.0};
+    for (uint32_t k = 0; k < count; k++) {
+        double value = (double)statistics[k].value.u64;
+        if (strcmp(statistics[k].name, "Instructions") == 0) cost.instructions = value;
+        if (strcmp(statistics[k].name, "VGPRs") == 0) cost.registers = value;
+        if (strcmp(statistics[k].name, "Inverse Throughput") == 0) cost.cycles = value;
+    }
+    if (cost.instructions < 0.0 || cost.registers < 0.0 || cost.cycles < 0.0)
+        stop("the driver does not count instructions, registers or cycles");
+    return cost;
+}
+
+static Cost cost_of(const Gpu *gpu, const char *bytes) {
+    FileBytes spirv = compile(gpu, bytes);
+    VkShaderModule module;
+    VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = spirv.size,
+                                            .pCode = (const uint32_t *)(const void *)spirv.data};
+    check(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), "no shader module");
+    free(spirv.data);
+    VkPipeline pipeline;
+    VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = gpu->layout};
+    check(vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline), "no pipeline");
+    Cost cost = read_cost(gpu, pipeline);
+    vkDestroyPipeline(gpu->device, pipeline, NULL);
+    vkDestroyShaderModule(gpu->device, module, NULL);
+    return cost;
+}
+
+/* main: thread k reads `inputs` floats of its own into u, and writes their sum, so that all of them are read
+ * in any case, and the two numbers f and s. */
+static void put_main(Text *text, int inputs, const char *lines) {
+    text_line(text, "\nlayout(local_size_x = 64) in;\n"
+                    "layout(std430, set = 0, binding = 1) readonly buffer Inputs { float values[]; };\n"
+                    "layout(std430, set = 0, binding = 2) writeonly buffer Outputs { vec4 answers[]; };\n");
+    text_line(text, "void main() {\n    uint k = gl_GlobalInvocationID.x;\n    float u[%d], sum = 0.0;",
+              inputs);
+    for (int k = 0; k < inputs; k++)
+        text_line(text, "    u[%d] = values[%du * k + %du];\n    sum += u[%d];", k, inputs, k, k);
+    for (int k = 0; k < BALLAST; k++) text_line(text, "    sum = fma(sum, sum, u[0]);");
+    text_line(text, "    float f = 0.0, s = 0.0;\n%s    answers[k] = vec4(sum, f, s, 0.0);\n}", lines);
+}
+
+/* The text with that main. */
+static Cost cost_with(const Gpu *gpu, Text *text, int inputs, const char *lines) {
+    WeftError error = {0};
+    put_main(text, inputs, lines);
+    if (text_end(text, &error) != WEFT_OK) stop(error.text);
+    Cost cost = cost_of(gpu, text->bytes);
+    text_free(text);
+    return cost;
+}
+
+/* Prints what the lines add to a shader that reads as many numbers; registers are those of the whole. */
+static void put_row(Gpu *gpu, const char *name, Text *text, int inputs, const char *lines) {
+    Cost *empty = &gpu->empty[inputs], cost = cost_with(gpu, text, inputs, lines);
+    if (!(empty->instructions > 0.0)) {
+        Text nothing;
+        text_begin(&nothing, &(TextDesc){.language = TEXT_GLSL_450});
+        *empty = cost_with(gpu, &nothing, inputs, "");
+    }
+    printf("| %s | %.0f | %.0f | %.0f |\n", name, cost.instructions - empty->instructions,
+           cost.cycles - empty->cycles, cost.registers);
+}
+
+#define ANGLES "    Angles a = angles_between(dir(u[0], u[1], u[2]), dir(u[3], u[4], u[5]));\n"
+
+/* f and s, without pdf. Choices are constants, as in a program made for a material. */
+static void lobe_row(Gpu *gpu, int id) {
+    const WeftLobeInfo *info = weft_lobe_info(id);
+    Lobe lobe = lobe_default(id);
+    Text text;
+    Buffer lines = {0};
+    char line[96];
+    int inputs = 6;
+    snprintf(line, sizeof line, "    Lobe m = lobe_default(%d);\n", id);
+    buffer_put_text(&lines, line);
+    for (int p = 0; p < info->param_count; p++) {
+        if (info->params[p].choices)
+            snprintf(line, sizeof line, "    m.params[%d] = %s;\n", p, number(lobe.params[p]).text);
+        else
+            snprintf(line, sizeof line, "    m.params[%d] = u[%d];\n", p, inputs++);
+        buffer_put_text(&lines, line);
+    }
+    buffer_put_text(&lines, ANGLES "    f = lobe_f(m, a);\n    s = lobe_share(m, a);\n");
+    if (lines.failed) stop("short of memory");
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
+    text_dispatch(&text, &id, 1);
+    put_row(gpu, info->id, &text, inputs, lines.bytes);
+    buffer_free(&lines);
+}
+
+/* u[6] is alpha, or the index of refraction; u[7] the width along x, or k. */
+static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
+    static const char *const arguments[] = {[WEFT_TERM_D] = "u[6], u[7], u[6], a.h",
+                                            [WEFT_TERM_V] = "u[6], u[7], u[6], a",
+                                            [WEFT_TERM_F] = "u[6], u[7], a.d"};
+    char lines[256], name[64];
+    Text text;
+    snprintf(lines, sizeof lines, ANGLES "    f = term_%c(%d, %s);\n", "dvf"[kind], term, arguments[kind]);
+    snprintf(name, sizeof name, "%c %s", "DVF"[kind], weft_term_id(kind, term));
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450});
+    text_include(&text, "shading/terms.h");
+    put_row(gpu, name, &text, 8, lines);
+}
+
+int main(void) {
+    Gpu gpu = {0};
+    gpu_begin(&gpu);
+    printf(
+        "# What lobes and terms cost on a GPU\n\n"
+        "Made by `build/release/bench/bench_gpu_cost > docs/cost.md`, without a GPU: %s %s compiles each\n"
+        "text for %s and says what it made.\n\n"
+        "* Instructions and cycles are what the text adds to a shader that only reads the same numbers. A\n"
+        "  lobe's are of f and, where it has two colours, the share of the second, the half vector\n"
+        "  included; pdf and sampling are not. A term's are of its value alone, the half vector included\n"
+        "  where it is asked for.\n"
+        "* Cycles are the driver's estimate of how long a wave of 64 threads keeps the units that compute;\n"
+        "  waiting for memory, as for a table of E, is not in them.\n"
+        "* Registers are the vector registers of the whole shader, in the steps of 8 that the GPU gives "
+        "out.\n"
+        "* The terms of cook-torrance are those of its defaults, constants as in a program made for one\n"
+        "  material; all other parameters are read per thread.\n\n"
+        "| lobe | instructions | cycles | registers |\n|---|---|---|---|\n",
+        gpu.driver.driverName, gpu.driver.driverInfo, gpu.properties.properties.deviceName);
+    for (int id = 0; id < weft_lobe_count(); id++)
+        if (!(weft_lobe_info(id)->traits & WEFT_LOBE_REFERENCE)) lobe_row(&gpu, id);
+    printf("\n| term | instructions | cycles | registers |\n|---|---|---|---|\n");
+    for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
+        for (int term = 0; weft_term_id((WeftTermKind)kind, term); term++)
+            term_row(&gpu, (WeftTermKind)kind, term);
+    gpu_end(&gpu);
+    return 0;
+}

@@ -1,0 +1,179 @@
+#include "raster/context.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <dlfcn.h>
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+
+enum { DEVICES_MAX = 16 };
+
+struct GlContext {
+    EGLDisplay display;
+    EGLContext context;
+    EGLSurface surface; /* EGL_NO_SURFACE, or one pixel where the driver insists */
+    TextLanguage language;
+    char driver[128];
+};
+
+static const char *version_name(TextLanguage language) {
+    return language == TEXT_GLSL_ES_300 ? "OpenGL ES 3.0" : "OpenGL 3.3";
+}
+
+static EGLenum api_of(TextLanguage language) {
+    return language == TEXT_GLSL_ES_300 ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
+}
+
+static bool has_library(const char *name) {
+    void *library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+    if (library) dlclose(library);
+    return library != NULL;
+}
+
+/* Asked beforehand, since libepoxy ends the process where a library is missing. */
+static const char *missing_library(TextLanguage language) {
+    if (!epoxy_has_egl()) return "libEGL is not installed";
+    if (language == TEXT_GLSL_ES_300)
+        return has_library("libGLESv2.so.2") ? NULL : "libGLESv2 is not installed";
+    return has_library("libGL.so.1") || has_library("libOpenGL.so.0") ? NULL : "libGL is not installed";
+}
+
+/* A display is the process's, not ours: eglTerminate would end the contexts of everyone else on it. So it is
+ * initialised, which may be done again and again, and left. */
+static bool display_begin(EGLDisplay display) {
+    EGLint major, minor;
+    return display != EGL_NO_DISPLAY && eglInitialize(display, &major, &minor);
+}
+
+static EGLConfig choose_config(EGLDisplay display, TextLanguage language, bool pixel) {
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
+                             language == TEXT_GLSL_ES_300 ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
+                             EGL_SURFACE_TYPE, pixel ? EGL_PBUFFER_BIT : 0, EGL_NONE};
+    EGLConfig config = EGL_NO_CONFIG_KHR;
+    EGLint count = 0;
+    return eglChooseConfig(display, wanted, &config, 1, &count) && count ? config : EGL_NO_CONFIG_KHR;
+}
+
+/* Fills in context and surface on that display. */
+static bool make_on(GlContext *self, EGLDisplay display) {
+    if (!display_begin(display)) return false;
+    if (!epoxy_has_egl_extension(display, "EGL_KHR_create_context") && epoxy_egl_version(display) < 15)
+        return false;
+    if (!eglBindAPI(api_of(self->language))) return false;
+    bool pixel = !epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context");
+    bool any = epoxy_has_egl_extension(display, "EGL_KHR_no_config_context") && !pixel;
+    EGLConfig config = any ? EGL_NO_CONFIG_KHR : choose_config(display, self->language, pixel);
+    if (!any && config == EGL_NO_CONFIG_KHR) return false;
+    static const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_MINOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                                     EGL_NONE};
+    static const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0, EGL_NONE};
+    self->display = display;
+    self->context =
+        eglCreateContext(display, config, EGL_NO_CONTEXT, self->language == TEXT_GLSL_ES_300 ? es : desktop);
+    if (self->context == EGL_NO_CONTEXT) return false;
+    static const EGLint one[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    self->surface = pixel ? eglCreatePbufferSurface(display, config, one) : EGL_NO_SURFACE;
+    if (!pixel || self->surface != EGL_NO_SURFACE) return true;
+    eglDestroyContext(display, self->context);
+    self->context = EGL_NO_CONTEXT;
+    return false;
+}
+
+/* Tries what needs no screen first: no surfaces at all, then each device, then what the system takes for the
+ * display. */
+static bool make_anywhere(GlContext *self) {
+    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
+        if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
+            make_on(self, eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL)))
+            return true;
+        EGLDeviceEXT devices[DEVICES_MAX];
+        EGLint count = 0;
+        if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
+            epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
+            eglQueryDevicesEXT(DEVICES_MAX, devices, &count))
+            for (int k = 0; k < count; k++)
+                if (make_on(self, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[k], NULL)))
+                    return true;
+    }
+    return make_on(self, eglGetDisplay(EGL_DEFAULT_DISPLAY));
+}
+
+static GlOuter outer_now(void) {
+    return (GlOuter){eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+                     eglGetCurrentSurface(EGL_READ), eglQueryAPI()};
+}
+
+static void put_back(GlContext *self, const GlOuter *outer) {
+    eglBindAPI(outer->api);
+    if (outer->context != EGL_NO_CONTEXT)
+        eglMakeCurrent(outer->display, outer->draw, outer->read, outer->context);
+    else
+        eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+WeftResult context_create(TextLanguage language, GlContext **out, WeftError *error) {
+    *out = NULL;
+    const char *version = version_name(language);
+    if (language == TEXT_GLSL_450) return fail(error, WEFT_MESSAGE_GL_CONTEXT, "Vulkan", NULL);
+    const char *missing = missing_library(language);
+    if (missing) return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "%s", missing);
+    GlContext *self = alloc_array(1, sizeof *self);
+    if (!self) return fail(error, WEFT_MESSAGE_MEMORY, version, NULL);
+    self->language = language;
+    GlOuter outer = outer_now();
+    bool made = make_anywhere(self);
+    EGLint code = eglGetError();
+    eglBindAPI(outer.api);
+    if (!made) {
+        free(self);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "no driver offers it (EGL says 0x%x)",
+                    (unsigned)code);
+    }
+    if (!context_enter(self, &outer)) {
+        context_destroy(self);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "its context cannot be used");
+    }
+    snprintf(self->driver, sizeof self->driver, "%s", (const char *)glGetString(GL_RENDERER));
+    bool floats = epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
+    context_leave(self, &outer);
+    if (!floats) {
+        context_destroy(self);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "the driver cannot draw floating-point numbers");
+    }
+    *out = self;
+    return WEFT_OK;
+}
+
+void context_destroy(GlContext *self) {
+    if (!self) return;
+    if (eglGetCurrentContext() == self->context)
+        eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(self->display, self->context);
+    if (self->surface != EGL_NO_SURFACE) eglDestroySurface(self->display, self->surface);
+    free(self);
+}
+
+bool context_enter(GlContext *self, GlOuter *outer) {
+    *outer = outer_now();
+    if (outer->context == self->context) return true;
+    eglBindAPI(api_of(self->language));
+    if (eglMakeCurrent(self->display, self->surface, self->surface, self->context)) return true;
+    put_back(self, outer);
+    return false;
+}
+
+void context_leave(GlContext *self, const GlOuter *outer) {
+    if (outer->context != self->context) put_back(self, outer);
+}
+
+TextLanguage context_language(const GlContext *self) { return self->language; }
+const char *context_driver(const GlContext *self) { return self->driver; }

@@ -1,0 +1,38 @@
+/* context.h - OpenGL without a window: a context of its own, through EGL
+ *
+ * Drawing goes to framebuffer objects; there is no surface. A context belongs to one thread at a time.
+ * Several may be alive at once, in one thread too: every call of this folder makes its own current while it
+ * works, and puts back what was there. */
+#ifndef WEFT_RASTER_CONTEXT_H
+#define WEFT_RASTER_CONTEXT_H
+
+#include "text/text.h"
+
+typedef struct GlContext GlContext;
+
+/* A context for shaders of that language: desktop OpenGL 3.3 core (TEXT_GLSL_330), or OpenGL ES 3.0 with
+ * targets of floats (TEXT_GLSL_ES_300); a driver may give a later version. Fails with WEFT_MESSAGE_GL_CONTEXT
+ * where there is no EGL, no driver, or no such version. */
+WeftResult context_create(TextLanguage language, GlContext **out, WeftError *error);
+
+/* Makes it current nowhere and releases it; NULL is fine. What was made in it must be destroyed before. */
+void context_destroy(GlContext *context);
+
+/* What was current in a thread before. */
+typedef struct GlOuter {
+    void *display, *context, *draw, *read;
+    unsigned api;
+} GlOuter;
+
+/* Makes the context current in this thread until context_leave(outer). Pairs may lie inside each other. False
+ * where the driver refuses: the context is in use in another thread. */
+bool context_enter(GlContext *context, GlOuter *outer);
+void context_leave(GlContext *context, const GlOuter *outer);
+
+/* The language it was made for. */
+TextLanguage context_language(const GlContext *context);
+
+/* The driver's own name for itself ("llvmpipe (LLVM 15.0.6, 256 bits)"); lives as long as the context. */
+const char *context_driver(const GlContext *context);
+
+#endif

@@ -1,0 +1,14 @@
+/* catalogue.h - the files of src/shading as they are, inside the library; cmake/generate.cmake makes the
+ * table */
+#ifndef WEFT_TEXT_CATALOGUE_H
+#define WEFT_TEXT_CATALOGUE_H
+
+typedef struct CatalogueFile {
+    const char *name; /* "shading/lobes/ggx.h" */
+    const char *bytes, *end;
+} CatalogueFile;
+
+/* Every header below src/shading; ends with a NULL name. */
+extern const CatalogueFile catalogue_files[];
+
+#endif

@@ -1,0 +1,158 @@
+#include <stdio.h>
+
+#include "text/dispatch.h"
+
+#include "text/number.h"
+#include "text/tables.h"
+
+/* How a lobe's text names its things. */
+typedef struct LobeNames {
+    const char *prefix, *record, *macros;
+} LobeNames;
+
+#define LOBE_NAMES(id, name, Record, NAME) {#name, #Record, #NAME},
+static const LobeNames names[LOBE_COUNT] = {WEFT_LOBES(LOBE_NAMES)};
+
+void text_lobe(Text *text, int id) {
+    char file[128];
+    if (weft_lobe_info(id)->traits & TRAIT_TABLE) text_lobe_tables(text);
+    snprintf(file, sizeof file, "shading/lobes/%s.h", names[id].prefix);
+    text_include(text, file);
+}
+
+static bool has_two_colors(int id) { return weft_lobe_info(id)->traits & TRAIT_TWO_COLORS; }
+
+/* The lobe's record from the array of parameters, in the order of its table: the table itself says the types.
+ */
+static void put_record(Text *text, int id) {
+    const LobeNames *lobe = &names[id];
+    char call[128];
+    int size = snprintf(call, sizeof call, "%s_PARAMS(FIELD)", lobe->macros), param = 0;
+    Buffer members = {0};
+    macro_expand(&text->macros, call, call + size, &members);
+    text_line(text, "\n%s %s_record(Lobe m) {\n    %s r;", lobe->record, lobe->prefix, lobe->record);
+    const char *c = members.bytes, *end = c ? c + members.size : NULL;
+    while (c) {
+        Token type = token_solid(&c, end), name = token_solid(&c, end);
+        if (name.kind != TOKEN_NAME || !token_is(token_solid(&c, end), ";")) break;
+        bool plain = token_is(type, "float");
+        char cast[64];
+        snprintf(cast, sizeof cast, "%.*s(", (int)type.size, type.at);
+        text_line(text, "    r.%.*s = %sm.params[%d]%s;", (int)name.size, name.at, plain ? "" : cast, param++,
+                  plain ? "" : ")");
+    }
+    if (!param) text_line(text, "    r.none = 0.0;");
+    text_line(text, "    return r;\n}");
+    buffer_free(&members);
+}
+
+static void put_default(Text *text, const int *ids, int count) {
+    text_line(text, "\nLobe lobe_default(int id) {\n    Lobe m;\n    m.id = id;");
+    for (int p = 0; p < LOBE_PARAMS_MAX; p++) text_line(text, "    m.params[%d] = 0.0;", p);
+    for (int k = 0; k < count; k++) {
+        const WeftLobeInfo *info = weft_lobe_info(ids[k]);
+        Lobe lobe = lobe_default(ids[k]);
+        if (!info->param_count) continue;
+        text_line(text, "    if (id == LOBE_%s) {", names[ids[k]].macros);
+        for (int p = 0; p < info->param_count; p++)
+            text_line(text, "        m.params[%d] = %s;", p, number(lobe.params[p]).text);
+        text_line(text, "    }");
+    }
+    text_line(text, "    return m;\n}");
+}
+
+/* What lobe_rough of registry.c does with that parameter. */
+static void put_rough(Text *text, const int *ids, int count) {
+    text_line(text, "\nLobe lobe_rough(int id, float roughness) {\n    Lobe m = lobe_default(id);");
+    for (int k = 0; k < count; k++) {
+        const WeftLobeInfo *info = weft_lobe_info(ids[k]);
+        const WeftParamInfo *p = &info->params[0];
+        if (!info->param_count || p->choices) continue;
+        char value[96] = "roughness";
+        if (strcmp(p->name, "alpha") == 0)
+            snprintf(value, sizeof value, "roughness * roughness");
+        else if (strcmp(p->name, "roughness") != 0)
+            snprintf(value, sizeof value, "mix(%s, %s, roughness)", number(p->low).text,
+                     number(p->high).text);
+        text_line(text, "    if (id == LOBE_%s) m.params[0] = clamp(%s, %s, %s);", names[ids[k]].macros,
+                  value, number(p->hard_low).text, number(p->hard_high).text);
+    }
+    text_line(text, "    return m;\n}");
+}
+
+static void put_at(Text *text, const int *ids, int count) {
+    text_line(text,
+              "\nLobeValue lobe_at(Lobe m, Angles a) {\n    LobeValue v;\n    v.f = 0.0;\n    v.s = 0.0;\n"
+              "    v.pdf = 0.0;");
+    for (int k = 0; k < count; k++) {
+        const LobeNames *lobe = &names[ids[k]];
+        text_line(text,
+                  "    if (m.id == LOBE_%s) {\n        %s r = %s_record(m);\n        v.f = %s_eval(r, a);",
+                  lobe->macros, lobe->record, lobe->prefix, lobe->prefix);
+        if (has_two_colors(ids[k])) text_line(text, "        v.s = %s_share(r, a);", lobe->prefix);
+        text_line(text, "        v.pdf = %s_pdf(r, a);\n    }", lobe->prefix);
+    }
+    text_line(text, "    return v;\n}\n\nfloat lobe_f(Lobe m, Angles a) { return lobe_at(m, a).f; }\n"
+                    "float lobe_share(Lobe m, Angles a) { return lobe_at(m, a).s; }\n"
+                    "float lobe_pdf(Lobe m, Angles a) { return lobe_at(m, a).pdf; }");
+}
+
+static void put_second(Text *text, const int *ids, int count) {
+    text_line(text, "\nfloat lobe_second(Lobe m, float f0, float f90) {");
+    for (int k = 0; k < count; k++) {
+        const LobeNames *lobe = &names[ids[k]];
+        if (has_two_colors(ids[k]))
+            text_line(text, "    if (m.id == LOBE_%s) return %s_second(%s_record(m), f0, f90);", lobe->macros,
+                      lobe->prefix, lobe->prefix);
+    }
+    text_line(text, "    return f0;\n}");
+}
+
+static void put_sample(Text *text, const int *ids, int count) {
+    text_line(text, "\nDir lobe_sample(Lobe m, Dir o, float u, float v) {");
+    for (int k = 0; k < count; k++) {
+        const LobeNames *lobe = &names[ids[k]];
+        text_line(text, "    if (m.id == LOBE_%s) return %s_sample(%s_record(m), o, u, v);", lobe->macros,
+                  lobe->prefix, lobe->prefix);
+    }
+    text_line(text, "    return dir(0.0, 0.0, -1.0);\n}");
+}
+
+/* The numbers of all lobes: constants of those that are there; what asks for others gets the bare number. */
+static void put_ids(Text *text, const bool there[LOBE_COUNT]) {
+    text_line(text, "%s", "");
+    for (int id = 0; id < LOBE_COUNT; id++) {
+        char name[96], value[16];
+        snprintf(name, sizeof name, "LOBE_%s", names[id].macros);
+        snprintf(value, sizeof value, "%d", id);
+        if (there[id])
+            text_line(text, "const int %s = %s;", name, value);
+        else
+            text_define(text, name, value);
+    }
+}
+
+void text_dispatch(Text *text, const int *lobes, int lobe_count) {
+    bool there[LOBE_COUNT] = {false};
+    int ids[LOBE_COUNT]; /* each once */
+    int count = 0;
+    for (int k = 0; k < lobe_count; k++) {
+        if (!there[lobes[k]]) ids[count++] = lobes[k];
+        there[lobes[k]] = true;
+    }
+    text_include(text, "shading/angles.h");
+    for (int k = 0; k < count; k++) text_lobe(text, ids[k]);
+    text_provide(text, "shading/registry.h");
+    char most[16];
+    snprintf(most, sizeof most, "%d", LOBE_PARAMS_MAX);
+    text_define(text, "LOBE_PARAMS_MAX", most);
+    text_line(text, "\nstruct Lobe {\n    int id;\n    float params[%s];\n};\n", most);
+    text_line(text, "struct LobeValue {\n    float f;\n    float s;\n    float pdf;\n};");
+    put_ids(text, there);
+    for (int k = 0; k < count; k++) put_record(text, ids[k]);
+    put_default(text, ids, count);
+    put_rough(text, ids, count);
+    put_at(text, ids, count);
+    put_second(text, ids, count);
+    put_sample(text, ids, count);
+}

@@ -1,0 +1,29 @@
+/* macro.h - the macros of shading text, defined and expanded as C does: tables of rows, token pasting, calls
+ * in arguments. Not there, since no table needs it: variable arguments, and a call whose name and parenthesis
+ * come from different macros. */
+#ifndef WEFT_TEXT_MACRO_H
+#define WEFT_TEXT_MACRO_H
+
+#include "base/memory.h"
+#include "text/buffer.h"
+#include "text/token.h"
+
+/* Zero-initialise; release with arena_free(&macros->arena). */
+typedef struct Macros {
+    Arena arena;
+    struct Macro *newest;
+    bool short_of_memory;
+    int depth, steps; /* calls inside each other now; expansions so far */
+    char wrong[96];   /* what cannot be a macro or a call; empty while all is well */
+} Macros;
+
+/* Takes what follows "#define", which may run over several lines. A later definition wins. */
+void macro_define(Macros *macros, const char *definition, size_t size);
+
+void macro_undefine(Macros *macros, Token name);
+bool macro_defined(const Macros *macros, Token name);
+
+/* Appends [source, end) with every macro expanded. */
+void macro_expand(Macros *macros, const char *source, const char *end, Buffer *out);
+
+#endif

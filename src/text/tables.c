@@ -1,0 +1,42 @@
+#include <stdio.h>
+
+#include "text/tables.h"
+
+#include "shading/engine_tables.h"
+#include "shading/lobe_tables.h"
+#include "text/number.h"
+
+/* Lines that fill `t` with what e is, the table being a layer of its own. */
+static void put_reference(Text *text, const TableRef *e, const char *indent) {
+    int columns = e->kind == TABLE_ROOTS ? e->columns + 1 : e->columns;
+    int layer = text_table(text, (TextTable){e->texels, e->rows, columns});
+    text_line(text, "%st.texels = %d;\n%st.kind = %d;\n%st.rows = %d;\n%st.columns = %d;", indent, layer,
+              indent, e->kind, indent, e->rows, indent, e->columns);
+    text_line(text, "%st.low = %s;\n%st.high = %s;", indent, number(e->low).text, indent,
+              number(e->high).text);
+}
+
+void text_lobe_tables(Text *text) {
+    if (!text_provide(text, "shading/lobe_tables.h")) return;
+    text_include(text, "shading/table.h");
+    lobe_tables_make();
+    text_line(text, "\nTableRef lobe_table_charlie_neubelt() {\n    TableRef t;");
+    put_reference(text, &lobe_table_refs[0], "    ");
+    text_line(text, "    return t;\n}");
+}
+
+void text_engine_tables(Text *text, const int *which, int count) {
+    /* the names of the tables, and the function's declaration */
+    text_include(text, "shading/engine_tables.h");
+    text_line(
+        text,
+        "\nTableRef engine_table(int which) {\n    TableRef t;\n    t.texels = 0;\n    t.kind = TABLE_NONE;\n"
+        "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;");
+    for (int k = 0; k < count; k++) {
+        TableRef e = engine_table(which[k]);
+        text_line(text, "    if (which == %d) {", which[k]);
+        put_reference(text, &e, "        ");
+        text_line(text, "    }");
+    }
+    text_line(text, "    return t;\n}");
+}

@@ -1,0 +1,14 @@
+/* tables.h - the catalogue's own tables in a text: layers of weft_tables, and the functions that name them */
+#ifndef WEFT_TEXT_TABLES_H
+#define WEFT_TEXT_TABLES_H
+
+#include "text/text.h"
+
+/* The functions of shading/lobe_tables.h, whose place this takes. text_lobe calls it where it must. */
+void text_lobe_tables(Text *text);
+
+/* Defines the function of shading/engine_tables.h for those tables; any other is TABLE_NONE there, so E is 0.
+ * Call it once in a text that has a profile. Making a table takes up to half a second the first time. */
+void text_engine_tables(Text *text, const int *which, int count);
+
+#endif

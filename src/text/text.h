@@ -1,0 +1,86 @@
+/* text.h - the catalogue as GLSL: its files flattened into one text, for a driver or for an engine
+ *
+ *   Text text;
+ *   text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330});
+ *   text_include(&text, "shading/lobes/ggx.h");
+ *   text_line(&text, "void main() { ... }");
+ *   if (text_end(&text, &error) == WEFT_OK) use(text.bytes);
+ *   text_free(&text);
+ *
+ * The texts are those of src/shading when the library was built. What they include is put in its place, once;
+ * comments, the branches for C and the macros are gone: tables of parameters are members, enumerations
+ * constants. A failure stays in the Text: later calls do nothing, and text_end returns it.
+ *
+ * A Text belongs to one thread at a time; two of them share nothing. */
+#ifndef WEFT_TEXT_TEXT_H
+#define WEFT_TEXT_TEXT_H
+
+#include "text/macro.h"
+#include "weft/result.h"
+
+typedef enum TextLanguage {
+    TEXT_GLSL_330,    /* desktop OpenGL 3.3 core */
+    TEXT_GLSL_ES_300, /* OpenGL ES 3.0, WebGL 2 */
+    TEXT_GLSL_450     /* Vulkan, through its compilers */
+} TextLanguage;
+
+/* Zero-initialise. */
+typedef struct TextDesc {
+    TextLanguage language;
+    /* Declares the array texture weft_tables that shading/table.h reads: one float a texel, a layer a table.
+     */
+    bool tables;
+    /* A folder whose files win over those of the library: shading/lobes/ggx.h below it is taken where it is
+     * there. May be NULL; must outlive the Text. */
+    const char *folder;
+} TextDesc;
+
+/* A layer of weft_tables: `rows` rows of `columns` floats. Borrowed: it must outlive whoever uploads it. */
+typedef struct TextTable {
+    const float *texels;
+    int rows, columns;
+} TextTable;
+
+enum { TEXT_TABLES_MAX = 32 };
+
+typedef struct Text {
+    const char *bytes; /* what text_end has closed; ends with a zero byte */
+    size_t size;
+    TextTable tables[TEXT_TABLES_MAX]; /* what the text expects in the layers of weft_tables, from 0 on */
+    int table_count;
+    /* The rest is the text's own. */
+    TextDesc desc;
+    Buffer buffer;
+    Macros macros;
+    struct TextName *included;
+    bool gap; /* a blank line is due */
+    WeftError error;
+} Text;
+
+/* Starts with the #version and precision lines. Call text_free afterwards, in any case. */
+void text_begin(Text *text, const TextDesc *desc);
+
+/* A file of the catalogue by its name ("shading/lobes/ggx.h") and what it includes, except what the text has
+ * already. Fails with WEFT_MESSAGE_TEXT_NAME, or _TEXT_DIALECT where the file is not shading text. */
+void text_include(Text *text, const char *file);
+
+/* From here on an include of that file is nothing: the caller's own lines take its place. False where the
+ * text has the file already. */
+bool text_provide(Text *text, const char *file);
+
+/* From here on the name stands for that body ("int", "4") in files of the catalogue. */
+void text_define(Text *text, const char *name, const char *body);
+
+/* One line of the caller's own, as printf makes it. Macros are not expanded in it. */
+__attribute__((format(printf, 2, 3))) void text_line(Text *text, const char *format, ...);
+
+/* Adds a table and returns its layer, the Table of shading/table.h; -1 where there are TEXT_TABLES_MAX, which
+ * is a failure too (WEFT_MESSAGE_DESC). */
+int text_table(Text *text, TextTable table);
+
+/* Sets text->bytes and size, or returns what went wrong first. */
+WeftResult text_end(Text *text, WeftError *error);
+
+void text_free(Text *text);
+
+#endif

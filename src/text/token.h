@@ -1,0 +1,75 @@
+/* token.h - shading text cut into tokens */
+#ifndef WEFT_TEXT_TOKEN_H
+#define WEFT_TEXT_TOKEN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+typedef enum TokenKind {
+    TOKEN_NONE,
+    TOKEN_BLANK,
+    TOKEN_NAME,
+    TOKEN_NUMBER,
+    TOKEN_STRING,
+    TOKEN_MARK
+} TokenKind;
+
+/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". */
+typedef struct Token {
+    TokenKind kind;
+    const char *at;
+    size_t size;
+} Token;
+
+static inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+static inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static inline bool is_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
+}
+
+/* Where a string that opens at c has its last character, or end. */
+static inline const char *string_end(const char *c, const char *end) {
+    for (c++; c < end && *c != '"'; c++)
+        if (*c == '\\' && c + 1 < end) c++;
+    return c < end ? c + 1 : end;
+}
+
+/* Takes the next token from [*cursor, end); TOKEN_NONE at the end. */
+static inline Token token_next(const char **cursor, const char *end) {
+    const char *c = *cursor;
+    Token token = {TOKEN_NONE, c, 0};
+    if (c == end) return token;
+    if (is_blank(*c)) {
+        token.kind = TOKEN_BLANK;
+        while (c < end && is_blank(*c)) c++;
+    } else if (is_digit(*c) || (*c == '.' && c + 1 < end && is_digit(c[1]))) {
+        token.kind = TOKEN_NUMBER;
+        for (; c < end && (is_name(*c) || *c == '.'); c++)
+            if ((*c == 'e' || *c == 'E') && c + 1 < end && (c[1] == '-' || c[1] == '+')) c++;
+    } else if (is_name(*c)) {
+        token.kind = TOKEN_NAME;
+        while (c < end && is_name(*c)) c++;
+    } else if (*c == '"') {
+        token.kind = TOKEN_STRING;
+        c = string_end(c, end);
+    } else {
+        token.kind = TOKEN_MARK;
+        c += *c == '#' && c + 1 < end && c[1] == '#' ? 2 : 1;
+    }
+    token.size = (size_t)(c - token.at);
+    *cursor = c;
+    return token;
+}
+
+/* The next token that is not blank. */
+static inline Token token_solid(const char **cursor, const char *end) {
+    Token token = token_next(cursor, end);
+    return token.kind == TOKEN_BLANK ? token_next(cursor, end) : token;
+}
+
+static inline bool token_is(Token token, const char *text) {
+    return token.size == strlen(text) && memcmp(token.at, text, token.size) == 0;
+}
+
+#endif

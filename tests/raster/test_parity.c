@@ -1,0 +1,664 @@
+/* The GPU and the processor get the same numbers from the same text: every lobe that the GPU has, every term,
+ * layer rule, workflow and profile, over random directions and over all that their numbers may be, in both
+ * languages
+ *
+ * The two round differently (order of operations, log2 and exp2), so parity is a tolerance. A few samples may
+ * be beyond it: at a jump both sides are right, and what is left of a difference of two large numbers has no
+ * more digits than they have. */
+#include "shading/cases.h"
+
+#include <sys/stat.h>
+
+#include "base/thread.h"
+#include "raster/compute.h"
+#include "shading/choice.h"
+#include "shading/engine_tables.h"
+#include "shading/lobe_tables.h"
+#include "text/dispatch.h"
+#include "text/tables.h"
+
+enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = 16, OUTPUTS = 2, ANSWERS = 4 * OUTPUTS };
+
+/* |gpu - c| is to be at most RELATIVE |c| + ABSOLUTE; of a subject's samples this share may be beyond.
+ * Directions have a tolerance of their own: the steep ends of a sampler's maps, where a number that is off by
+ * 1e-7 turns a direction by its square root. */
+#define RELATIVE     5e-4
+#define ABSOLUTE     1e-5
+#define TURN         1e-3
+#define BEYOND_SHARE 2.5e-4
+
+/* What is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
+ */
+typedef struct Subject {
+    const char *body;
+    int inputs;                     /* vec4 */
+    const char *answers;            /* a letter each: n a number, d part of a direction */
+    void (*put)(Text *, int which); /* declarations */
+    void (*fill)(Random *, int which, float row[4 * INPUTS]);
+    void (*answer)(int which, const float row[4 * INPUTS], float answers[ANSWERS]);
+} Subject;
+
+static const TextLanguage languages[LANGUAGES] = {TEXT_GLSL_330, TEXT_GLSL_ES_300};
+static const char *const language_names[LANGUAGES] = {"330", "es"};
+static GlContext *contexts[LANGUAGES]; /* NULL where the machine has none */
+static float *in[INPUTS], *out[LANGUAGES][OUTPUTS], *expected;
+static size_t samples;
+
+/* Uniform over the hemisphere; one in eight grazes, down to a cosine of 1e-4; one in sixteen is the normal's
+ * neighbour. */
+static Dir any_direction(Random *random) {
+    double z = 1.0 - (double)random_unit(random), kind = (double)random_unit(random);
+    if (kind < 1.0 / 8.0) z = (exp2)(-13.0 * z);
+    if (kind > 15.0 / 16.0) z = 1.0 - 1e-4 * z;
+    double s = (sqrt)(1.0 - z * z), phi = 2.0 * TEST_PI * (double)random_unit(random);
+    return dir((float)(s * (cos)(phi)), (float)(s * (sin)(phi)), (float)z);
+}
+
+/* Near the mirror of o as often as anywhere: narrow lobes are nothing elsewhere. */
+static Dir any_partner(Random *random, Dir o) {
+    Dir i = any_direction(random);
+    if (random_unit(random) < 0.5f) return i;
+    float t = 0.3f * random_unit(random) * random_unit(random);
+    i = dir(weft_mix(-o.x, i.x, t), weft_mix(-o.y, i.y, t), weft_mix(o.z, i.z, t));
+    float n = 1.0f / sqrtf(dir_dot(i, i));
+    return dir(i.x * n, i.y * n, i.z * n);
+}
+
+/* Half plausible, half all that is possible; lower values are the finer ones. One in sixteen is at an end. */
+static float any_value(Random *random, float low, float high, float hard_low, float hard_high) {
+    float kind = random_unit(random), t = random_unit(random);
+    if (kind < 1.0f / 32.0f) return hard_low;
+    if (kind < 1.0f / 16.0f) return hard_high;
+    if (kind < 0.5f) return weft_mix(low, high, t * t);
+    return weft_mix(hard_low, hard_high, t * t * t);
+}
+
+static float any_param(Random *random, const WeftParamInfo *p) {
+    if (p->choices) return floorf(random_unit(random) * (p->hard_high + 1.0f));
+    return any_value(random, p->low, p->high, p->hard_low, p->hard_high);
+}
+
+/* in0: o, u.  in1: i, v. */
+static void fill_pair(Random *random, float *row) {
+    Dir o = any_direction(random), i = any_partner(random, o);
+    row[0] = o.x, row[1] = o.y, row[2] = o.z, row[3] = random_unit(random);
+    row[4] = i.x, row[5] = i.y, row[6] = i.z, row[7] = random_unit(random);
+}
+static Dir row_o(const float *row) { return dir(row[0], row[1], row[2]); }
+static Angles row_angles(const float *row) { return angles_between(row_o(row), dir(row[4], row[5], row[6])); }
+
+#define ANGLES                                                                                               \
+    "    Dir o = dir(in0.x, in0.y, in0.z);\n"                                                                \
+    "    Angles a = angles_between(o, dir(in1.x, in1.y, in1.z));\n"
+
+/* A subject's programs, one a language. */
+typedef struct Programs {
+    const Subject *subject;
+    int which;
+    const char *name, *folder; /* in which other text may lie, or NULL */
+    Compute *computes[LANGUAGES];
+    WeftError errors[LANGUAGES];
+} Programs;
+
+static void make_program(void *user, int language, int thread) {
+    Programs *programs = user;
+    const Subject *subject = programs->subject;
+    GlContext *context = contexts[language];
+    WeftError *error = &programs->errors[language];
+    Text text;
+    if (!context) return;
+    text_begin(&text, &(TextDesc){context_language(context), true, programs->folder});
+    subject->put(&text, programs->which);
+    if (text_end(&text, error) == WEFT_OK) {
+        ComputeDesc desc = {.name = programs->name,
+                            .text = text.bytes,
+                            .body = subject->body,
+                            .inputs = subject->inputs,
+                            .outputs = ((int)strlen(subject->answers) + 3) / 4};
+        if (compute_create(context, &desc, &programs->computes[language], error) == WEFT_OK)
+            compute_tables(programs->computes[language], text.tables, text.table_count, error);
+    }
+    text_free(&text);
+}
+
+static void run_program(void *user, int language, int thread) {
+    Programs *programs = user;
+    if (contexts[language])
+        compute_run(programs->computes[language], samples, (const float *const *)in, out[language],
+                    &programs->errors[language]);
+}
+
+static void check_programs(const Programs *programs) {
+    for (int k = 0; k < LANGUAGES; k++)
+        if (programs->errors[k].result != WEFT_OK)
+            fail_msg("%s %s: %s", language_names[k], programs->name, programs->errors[k].text);
+}
+
+/* Both languages at once: most of the time is the drivers', who compile. */
+static Programs make_programs(const Subject *subject, int which, const char *name, const char *folder) {
+    Programs programs = {.subject = subject, .which = which, .name = name, .folder = folder};
+    parallel_for(LANGUAGES, LANGUAGES, make_program, &programs);
+    check_programs(&programs);
+    return programs;
+}
+
+static void run_programs(Programs *programs) {
+    parallel_for(LANGUAGES, LANGUAGES, run_program, programs);
+    check_programs(programs);
+}
+
+static void free_programs(Programs *programs) {
+    for (int k = 0; k < LANGUAGES; k++) compute_destroy(programs->computes[k]);
+}
+
+static void fill(const Subject *subject, int which) {
+    Random random = {(uint64_t)which};
+    for (size_t s = 0; s < samples; s++) {
+        float row[4 * INPUTS] = {0};
+        subject->fill(&random, which, row);
+        subject->answer(which, row, expected + ANSWERS * s);
+        for (size_t k = 0; k < 4 * (size_t)subject->inputs; k++) in[k / 4][4 * s + k % 4] = row[k];
+    }
+}
+
+typedef struct Tally {
+    size_t beyond;
+    double worst;  /* error in tolerances, of all */
+    size_t sample; /* where */
+} Tally;
+
+static Tally compare(const Subject *subject, int language) {
+    Tally tally = {0};
+    for (size_t s = 0; s < samples; s++) {
+        double most = 0.0;
+        for (size_t k = 0; subject->answers[k]; k++) {
+            double c = (double)expected[ANSWERS * s + k], gpu = (double)out[language][k / 4][4 * s + k % 4];
+            double allowed = subject->answers[k] == 'd' ? TURN : RELATIVE * fabs(c) + ABSOLUTE;
+            double error = isfinite(gpu) && isfinite(c) ? fabs(gpu - c) / allowed : HUGE_VAL;
+            if (error > tally.worst) {
+                tally.worst = error;
+                tally.sample = s;
+            }
+            most = fmax(most, error);
+        }
+        tally.beyond += most > 1.0;
+    }
+    return tally;
+}
+
+static bool holds(const Tally *tally) { return (double)tally->beyond <= BEYOND_SHARE * (double)samples; }
+
+static void report(const Subject *subject, int language, const char *name, const Tally *tally) {
+    print_message("%-3s %s: %.2g of the tolerance", language_names[language], name, tally->worst);
+    if (tally->beyond) print_message(", %zu beyond it", tally->beyond);
+    print_message("\n");
+    if (!tally->beyond) return;
+    size_t s = tally->sample;
+    print_message("    answers for what C answers:");
+    for (size_t k = 0; subject->answers[k]; k++)
+        print_message(" %.9g/%.9g", (double)out[language][k / 4][4 * s + k % 4],
+                      (double)expected[ANSWERS * s + k]);
+    print_message("\n    of");
+    for (size_t r = 0; r < 4 * (size_t)subject->inputs; r++)
+        print_message(" %.9g", (double)in[r / 4][4 * s + r % 4]);
+    print_message("\n");
+}
+
+/* Whether both languages agree with C. */
+static bool programs_agree(Programs *programs, int which, const char *name) {
+    bool good = true;
+    fill(programs->subject, which);
+    run_programs(programs);
+    for (int language = 0; language < LANGUAGES; language++) {
+        if (!contexts[language]) continue;
+        Tally tally = compare(programs->subject, language);
+        report(programs->subject, language, name, &tally);
+        good &= holds(&tally);
+    }
+    return good;
+}
+
+static bool agree(const Subject *subject, int which, const char *name) {
+    Programs programs = make_programs(subject, which, name, NULL);
+    bool good = programs_agree(&programs, which, name);
+    free_programs(&programs);
+    return good;
+}
+
+static void need_gpu(void) {
+    if (!contexts[0] && !contexts[1]) skip();
+}
+
+static void put_lobe(Text *text, int which) {
+    text_dispatch(text, &which, 1);
+    text_line(text, "\nconst int FIRST = %d;", which);
+}
+
+static void fill_lobe(Random *random, int which, float *row) {
+    const WeftLobeInfo *info = weft_lobe_info(which);
+    fill_pair(random, row);
+    for (int p = 0; p < info->param_count; p++) row[8 + p] = any_param(random, &info->params[p]);
+}
+
+static void answer_lobe(int which, const float *row, float *answers) {
+    Lobe lobe = {.id = which};
+    memcpy(lobe.params, row + 8, sizeof lobe.params);
+    LobeValue v = lobe_value(&lobe, row_angles(row));
+    Dir s = lobe_sample(&lobe, row_o(row), row[3], row[7]);
+    const float all[] = {v.f, v.s, v.pdf, lobe_second(lobe, 0.25f, 0.75f), s.x, s.y, s.z};
+    memcpy(answers, all, sizeof all);
+}
+
+static const Subject lobes = {
+    .body = ANGLES "    Lobe m;\n    m.id = in0.w < 2.0 ? FIRST : -1;\n" /* no constant to the compiler */
+                   "    for (int k = 0; k < 4; k++) {\n"
+                   "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
+                   "    LobeValue v = lobe_at(m, a);\n    Dir s = lobe_sample(m, o, in0.w, in1.w);\n"
+                   "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
+                   "    out1 = vec4(s.x, s.y, s.z, 0.0);\n",
+    .inputs = 4,
+    .answers = "nnnnddd",
+    .put = put_lobe,
+    .fill = fill_lobe,
+    .answer = answer_lobe,
+};
+
+static bool on_gpu(int id) { return !(weft_lobe_info(id)->traits & TRAIT_REFERENCE); }
+
+static void lobes_agree(void **state) {
+    (void)state;
+    need_gpu();
+    bool good = true;
+    for (int id = 0; id < LOBE_COUNT; id++)
+        if (on_gpu(id)) good &= agree(&lobes, id, weft_lobe_info(id)->id);
+    assert_true(good);
+}
+
+static int lobes_on_gpu(int ids[LOBE_COUNT]) {
+    int count = 0;
+    for (int id = 0; id < LOBE_COUNT; id++)
+        if (on_gpu(id)) ids[count++] = id;
+    return count;
+}
+
+static void put_all_lobes(Text *text, int which) {
+    int ids[LOBE_COUNT];
+    text_dispatch(text, ids, lobes_on_gpu(ids));
+}
+
+static void fill_any_lobe(Random *random, int which, float *row) {
+    int ids[LOBE_COUNT];
+    int count = lobes_on_gpu(ids);
+    fill_pair(random, row);
+    row[8] = (float)ids[random_bits(random) % (uint32_t)count];
+}
+
+static void answer_any_lobe(int which, const float *row, float *answers) {
+    Angles a = row_angles(row);
+    LobeValue v = lobe_at(lobe_default((int)row[8]), a), w = lobe_at(lobe_rough((int)row[8], row[7]), a);
+    const float all[] = {v.f, v.s, v.pdf, lobe_second(lobe_default((int)row[8]), 0.25f, 0.75f),
+                         w.f, w.s, w.pdf};
+    memcpy(answers, all, sizeof all);
+}
+
+/* The chain of questions finds each lobe, with its defaults and its own meaning of roughness. */
+static void lobes_are_told_apart(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
+                       "    LobeValue v = lobe_at(m, a), w = lobe_at(lobe_rough(m.id, in1.w), a);\n"
+                       "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
+                       "    out1 = vec4(w.f, w.s, w.pdf, 0.0);\n",
+        .inputs = 3,
+        .answers = "nnnnnnn",
+        .put = put_all_lobes,
+        .fill = fill_any_lobe,
+        .answer = answer_any_lobe,
+    };
+    need_gpu();
+    assert_true(agree(&subject, 0, "all lobes"));
+}
+
+static void put_term(Text *text, int which) {
+    text_include(text, "shading/terms.h");
+    text_line(text, "\nconst int TERM = %d;", which);
+}
+
+/* in2: alpha, its stretch along x, ior, k, over the ranges that the composed lobe gives them. */
+static void fill_term(Random *random, int which, float *row) {
+    static const int params[] = {0, COOK_TORRANCE_STRETCH, COOK_TORRANCE_IOR, COOK_TORRANCE_K};
+    const WeftLobeInfo *info = weft_lobe_info(LOBE_COOK_TORRANCE);
+    fill_pair(random, row);
+    for (int p = 0; p < 4; p++) row[8 + p] = any_param(random, &info->params[params[p]]);
+}
+
+static void answer_d(int which, const float *row, float *answers) {
+    float alpha = row[8], ax = alpha * row[9];
+    Dir h = term_facet(which, alpha, ax, alpha, row[3], row[7]);
+    const float all[] = {term_d(which, alpha, ax, alpha, row_angles(row).h), h.x, h.y, h.z};
+    memcpy(answers, all, sizeof all);
+}
+static void answer_v(int which, const float *row, float *answers) {
+    answers[0] = term_v(which, row[8], row[8] * row[9], row[8], row_angles(row));
+}
+static void answer_f(int which, const float *row, float *answers) {
+    answers[0] = term_f(which, row[10], row[11], row_angles(row).d);
+    answers[1] = term_second(which, row[3], row[7]);
+}
+
+static const Subject d_terms = {
+    .body = ANGLES
+    "    float ax = in2.x * in2.y;\n    Dir h = term_facet(TERM, in2.x, ax, in2.x, in0.w, in1.w);\n"
+    "    out0 = vec4(term_d(TERM, in2.x, ax, in2.x, a.h), h.x, h.y, h.z);\n",
+    .inputs = 3,
+    .answers = "nddd",
+    .put = put_term,
+    .fill = fill_term,
+    .answer = answer_d,
+};
+static const Subject v_terms = {
+    .body = ANGLES "    out0.x = term_v(TERM, in2.x, in2.x * in2.y, in2.x, a);\n",
+    .inputs = 3,
+    .answers = "n",
+    .put = put_term,
+    .fill = fill_term,
+    .answer = answer_v,
+};
+static const Subject f_terms = {
+    .body = ANGLES "    out0.x = term_f(TERM, in2.z, in2.w, a.d);\n"
+                   "    out0.y = term_second(TERM, in0.w, in1.w);\n",
+    .inputs = 3,
+    .answers = "nn",
+    .put = put_term,
+    .fill = fill_term,
+    .answer = answer_f,
+};
+
+static void terms_agree(void **state) {
+    (void)state;
+    static const Subject *const subjects[] = {
+        [WEFT_TERM_D] = &d_terms, [WEFT_TERM_V] = &v_terms, [WEFT_TERM_F] = &f_terms};
+    need_gpu();
+    bool good = true;
+    char name[64];
+    for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
+        for (int k = 0; weft_term_id((WeftTermKind)kind, k); k++) {
+            snprintf(name, sizeof name, "%c %s", "dvf"[kind], weft_term_id((WeftTermKind)kind, k));
+            good &= agree(subjects[kind], k, name);
+        }
+    assert_true(good);
+}
+
+static void put_layer(Text *text, int which) {
+    text_include(text, "shading/layer.h");
+    text_line(text, "\nconst int LAYER = %d;", which);
+}
+
+/* A colour, and E of a lobe that may reflect three times what it receives. */
+static void fill_layer(Random *random, int which, float *row) {
+    row[0] = any_value(random, 0.0f, 1.0f, 0.0f, 1000.0f);
+    for (int k = 1; k < 4; k++) row[k] = any_value(random, 0.0f, 1.0f, 0.0f, 3.0f);
+}
+
+static void answer_layer(int which, const float *row, float *answers) {
+    answers[0] = layer_base(which, row[0], row[1], row[2], row[3]);
+}
+
+static void layers_agree(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body = "    out0.x = layer_base(LAYER, in0.x, in0.y, in0.z, in0.w);\n",
+        .inputs = 1,
+        .answers = "n",
+        .put = put_layer,
+        .fill = fill_layer,
+        .answer = answer_layer,
+    };
+    need_gpu();
+    bool good = true;
+    for (int k = 0; weft_layer_id(k); k++) good &= agree(&subject, k, weft_layer_id(k));
+    assert_true(good);
+}
+
+/* A surface and its choices are numbers in a row behind the pair of directions. */
+enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
+enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
+_Static_assert((int)STACK_INPUTS == 15, "the body of stacks_agree reads as many");
+
+/* Functions that make a Surface and Choices of the row. */
+static void put_readers(Text *text) {
+    int at = SURFACE_AT;
+    text_line(text, "\nfloat row[%d];\n\nSurface row_surface() {\n    Surface s;", 4 * STACK_INPUTS);
+#define READ_SCALAR(name) text_line(text, "    s.%s = row[%d];", name, at), at += 1
+#define READ_THREE(name, make)                                                                               \
+    text_line(text, "    s.%s = %s(row[%d], row[%d], row[%d]);", name, make, at, at + 1, at + 2), at += 3
+#define READ_COLOR(name)                                                  READ_THREE(name, "rgb")
+#define READ_NORMAL(name)                                                 READ_THREE(name, "dir")
+#define READ_DIRECTION(name)                                              READ_THREE(name, "dir")
+#define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help) READ_##kind(#name);
+    SURFACE_INPUTS(READ_INPUT)
+    text_line(text, "    return s;\n}\n\nChoices row_choices() {\n    Choices c;");
+#define READ_CHOICE(name, help) text_line(text, "    c." #name " = int(row[%d]);", at++);
+    SURFACE_CHOICES(READ_CHOICE)
+    text_line(text, "    return c;\n}");
+}
+
+static int workflow_count(void) {
+    int count = 0;
+    while (weft_workflow_id(count)) count++;
+    return count;
+}
+
+/* The choice that is made for stacks of that number: a workflow, behind them a profile, behind them any. */
+static const char *stack_name(int which) {
+    int workflows = workflow_count();
+    if (which < workflows) return weft_workflow_id(which);
+    return weft_profile_id(which - workflows + 1); /* profile 0 is none */
+}
+
+static void put_stack(Text *text, int which) {
+    static const int engines[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN,
+                                  ENGINE_BABYLON_GGX, ENGINE_THREE_GGX};
+    put_all_lobes(text, which);
+    text_lobe_tables(text);
+    text_engine_tables(text, engines, ENGINE_COUNT);
+    text_include(text, "shading/compose.h");
+    put_readers(text);
+}
+
+static float *fill_scalar(Random *random, const float range[4], float *at) {
+    *at = any_value(random, range[0], range[1], range[2], range[3]);
+    return at + 1;
+}
+static float *fill_color(Random *random, const float range[4], float *at) {
+    for (int c = 0; c < 3; c++) at = fill_scalar(random, range, at);
+    return at;
+}
+static float *fill_normal(Random *random, const float range[4], float *at) {
+    Dir n = random_unit(random) < 0.5f ? dir(0.0f, 0.0f, 1.0f) : any_direction(random);
+    at[0] = n.x, at[1] = n.y, at[2] = n.z;
+    return at + 3;
+}
+static float *fill_direction(Random *random, const float range[4], float *at) {
+    Dir d = direction(0.5 * TEST_PI, 2.0 * TEST_PI * (double)random_unit(random));
+    at[0] = d.x, at[1] = d.y, at[2] = 0.0f;
+    return at + 3;
+}
+
+static int any_choice(Random *random, ChoiceId choice) {
+    int count = 0;
+    while (choice_id(choice, count)) count++;
+    int k = (int)(random_bits(random) % (uint32_t)(count + 1)) - 1;
+    bool lobe = choice == CHOICE_diffuse || choice == CHOICE_sheen_lobe;
+    return k >= 0 && lobe && !(choice_fits(choice, k) && on_gpu(k)) ? CHOICE_AUTO : k;
+}
+
+static void fill_stack(Random *random, int which, float *row) {
+    fill_pair(random, row);
+    float *at = row + SURFACE_AT;
+#define fill_SCALAR    fill_scalar
+#define fill_COLOR     fill_color
+#define fill_NORMAL    fill_normal
+#define fill_DIRECTION fill_direction
+#define FILL_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
+    at = fill_##kind(random, (const float[]){low, high, hard_low, hard_high}, at);
+    SURFACE_INPUTS(FILL_INPUT)
+    for (int choice = 0; choice < CHOICE_COUNT; choice++)
+        at[choice] = (float)(stack_name(which) ? CHOICE_AUTO : any_choice(random, (ChoiceId)choice));
+    int workflows = workflow_count();
+    if (which < workflows)
+        at[CHOICE_workflow] = (float)which;
+    else if (stack_name(which))
+        at[CHOICE_profile] = (float)(which - workflows + 1);
+}
+
+static void answer_stack(int which, const float *row, float *answers) {
+    Surface s;
+    Choices c;
+    Stack m;
+    memcpy(&s, row + SURFACE_AT, sizeof s);
+    const float *at = row + CHOICES_AT;
+#define ANSWER_CHOICE(name, help) c.name = (int)*at++;
+    SURFACE_CHOICES(ANSWER_CHOICE)
+    Angles a = row_angles(row);
+    stack_make(&m, &s, &c, lobe_table_charlie_neubelt(), a.o);
+    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));
+    StackValue v = stack_value(m, a, coat);
+    const float all[ANSWERS] = {v.f_cos.r,      v.f_cos.g,       v.f_cos.b,    v.pdf,
+                                m.diffuse.pick, m.specular.pick, m.sheen.pick, m.coat.pick};
+    memcpy(answers, all, sizeof all);
+}
+
+#define ROW(k) "        row[4 * " #k " + c] = in" #k "[c];\n"
+
+/* All that a renderer asks of a surface: with each workflow and each profile, and with choices of all kinds
+ * mixed. */
+static void stacks_agree(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
+            ROW(10) ROW(11) ROW(12) ROW(13)
+                ROW(14) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
+                        "lobe_table_charlie_neubelt(), o);\n"
+                        "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
+                        "    StackValue v = stack_value(m, a, coat);\n"
+                        "    out0 = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);\n"
+                        "    out1 = vec4(m.diffuse.pick, m.specular.pick, m.sheen.pick, m.coat.pick);\n",
+        .inputs = STACK_INPUTS,
+        .answers = "nnnnnnnn",
+        .put = put_stack,
+        .fill = fill_stack,
+        .answer = answer_stack,
+    };
+    need_gpu();
+    Programs programs = make_programs(&subject, 0, "stacks", NULL);
+    bool good = true;
+    int which = 0;
+    for (; stack_name(which); which++) good &= programs_agree(&programs, which, stack_name(which));
+    good &= programs_agree(&programs, which, "any choices");
+    free_programs(&programs);
+    assert_true(good);
+}
+
+static void put_tables(Text *text, int which) {
+    text_lobe_tables(text);
+    text_engine_tables(text, (const int[]){ENGINE_THREE_GGX, ENGINE_FILAMENT_GGX}, 2);
+}
+
+static void fill_cosine(Random *random, int which, float *row) {
+    row[0] = any_direction(random).z;
+    row[1] = any_value(random, 0.0f, 1.0f, 0.0f, 4.0f);
+}
+
+static void answer_tables(int which, const float *row, float *answers) {
+    TableRef e = lobe_table_charlie_neubelt();
+    const float all[] = {table_albedo(e, row[0], row[1]), table_average(e, row[1]),
+                         table_albedo(engine_table(ENGINE_THREE_GGX), row[0], row[1]),
+                         table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]), 0.0f};
+    memcpy(answers, all, sizeof all);
+}
+
+/* Each table is found in its own layer and mixed alike; one that the text was not given is 0. */
+static void tables_agree(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body = "    TableRef e = lobe_table_charlie_neubelt();\n"
+                "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_average(e, in0.y),\n"
+                "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
+                "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
+                "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n",
+        .inputs = 1,
+        .answers = "nnnnn",
+        .put = put_tables,
+        .fill = fill_cosine,
+        .answer = answer_tables,
+    };
+    need_gpu();
+    assert_true(agree(&subject, 0, "tables"));
+}
+
+/* A term whose text says something else by a thousandth, laid over the library's. */
+static void a_wrong_text_is_found(void **state) {
+    (void)state;
+    need_gpu();
+    char folder[] = "/tmp/weft-test-parity-XXXXXX", path[128], command[128];
+    assert_non_null(mkdtemp(folder));
+    for (int part = 0; part < 2; part++) {
+        static const char *const parts[] = {"shading", "shading/terms"};
+        snprintf(path, sizeof path, "%s/%s", folder, parts[part]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    snprintf(path, sizeof path, "%s/shading/terms/f_schlick.h", folder);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(
+        fputs("#include \"shading/lang.h\"\nFN float schlick_s(float d) {\n    float m = 1.001f - d;\n"
+              "    return m * m * m * m * m;\n}\n",
+              stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+    fill(&f_terms, F_SCHLICK);
+    Programs programs = make_programs(&f_terms, F_SCHLICK, "a wrong schlick", folder);
+    run_programs(&programs);
+    free_programs(&programs);
+    for (int language = 0; language < LANGUAGES; language++) {
+        if (!contexts[language]) continue;
+        Tally tally = compare(&f_terms, language);
+        assert_true(tally.beyond > samples / 2);
+        assert_false(holds(&tally));
+    }
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static int begin(void **state) {
+    (void)state;
+    WeftError error = {0};
+    for (int k = 0; k < LANGUAGES; k++)
+        if (context_create(languages[k], &contexts[k], &error) != WEFT_OK) print_message("%s\n", error.text);
+    samples = test_short() ? SAMPLES_MOST / 8 : SAMPLES_MOST;
+    for (int k = 0; k < INPUTS; k++) in[k] = calloc(samples, 4 * sizeof(float));
+    for (int k = 0; k < LANGUAGES * OUTPUTS; k++)
+        out[k / OUTPUTS][k % OUTPUTS] = calloc(samples, 4 * sizeof(float));
+    lobe_tables_make();
+    expected = calloc(samples, ANSWERS * sizeof(float));
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    for (int k = 0; k < INPUTS; k++) free(in[k]);
+    for (int k = 0; k < LANGUAGES * OUTPUTS; k++) free(out[k / OUTPUTS][k % OUTPUTS]);
+    free(expected);
+    for (int k = 0; k < LANGUAGES; k++) context_destroy(contexts[k]);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lobes_agree),           cmocka_unit_test(lobes_are_told_apart),
+        cmocka_unit_test(terms_agree),           cmocka_unit_test(layers_agree),
+        cmocka_unit_test(stacks_agree),          cmocka_unit_test(tables_agree),
+        cmocka_unit_test(a_wrong_text_is_found),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}

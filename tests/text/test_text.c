@@ -1,0 +1,465 @@
+/* The catalogue's text is GLSL (3.30 core, ES 3.00, 4.50 for Vulkan), compiled by glslangValidator where it
+ * is installed; and what the flattener makes of macros, tables, enumerations, and of text that is none */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "shading/engine_tables.h"
+#include "shading/layer.h"
+#include "text/catalogue.h"
+#include "text/dispatch.h"
+#include "text/tables.h"
+
+static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300, TEXT_GLSL_450};
+enum { LANGUAGES = 3 };
+static const char *const language_names[] = {"330 core", "300 es", "450"};
+
+static bool has_validator(void) { return system("command -v glslangValidator >/dev/null 2>&1") == 0; }
+
+/* Many fragment shaders, to be compiled by one call of the compiler. */
+typedef struct Batch {
+    char folder[32];
+    int count;
+} Batch;
+
+static void batch_begin(Batch *batch) {
+    *batch = (Batch){.folder = "/tmp/weft-test-text-XXXXXX"};
+    assert_non_null(mkdtemp(batch->folder));
+}
+
+static void batch_add(Batch *batch, const char *name, TextLanguage language, const char *bytes) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s.%s.frag", batch->folder, name, language_names[language]);
+    for (char *c = path + strlen(batch->folder) + 1; *c; c++)
+        if (*c == '/' || *c == ' ') *c = '_';
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(bytes, stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+    batch->count++;
+}
+
+/* The compiler's status; its words go to this test's output. */
+static int batch_compile(Batch *batch) {
+    char command[512];
+    snprintf(
+        command, sizeof command,
+        "cd %s && s=0; for f in *.frag; do case $f in *450.frag) v='-V -o /dev/null';; *) v=;; esac; "
+        "glslangValidator $v -S frag $f >log 2>&1 || { s=1; grep -v '^$' log | head -5; }; done; exit $s",
+        batch->folder);
+    int status = system(command);
+    snprintf(command, sizeof command, "rm -r %s", batch->folder);
+    assert_int_equal(system(command), 0);
+    return status;
+}
+
+/* No comment, string, directive (but the first line), joined line or blank at a line's end; never two blank
+ * lines, and none behind an opening brace. */
+static void assert_clean(const char *name, const char *bytes) {
+    static const char *const banned[] = {"/*", "//",     "\"",    "##",    "\\", " \n",
+                                         "\t", "\n\n\n", "{\n\n", "WEFT_", "\r"};
+    for (size_t k = 0; k < sizeof banned / sizeof *banned; k++)
+        if (strstr(bytes, banned[k]))
+            fail_msg("%s: the text has '%s': %.60s", name, banned[k], strstr(bytes, banned[k]));
+    assert_memory_equal(bytes, "#version ", 9);
+    if (strchr(bytes + 1, '#')) fail_msg("%s: %.60s", name, strchr(bytes + 1, '#'));
+    size_t size = strlen(bytes);
+    assert_true(bytes[size - 1] == '\n' && bytes[size - 2] != '\n');
+}
+
+static int occurrences(const char *bytes, const char *word) {
+    int n = 0;
+    for (const char *c = bytes; (c = strstr(c, word)); c += strlen(word)) n++;
+    return n;
+}
+
+static void end_clean(Text *text, const char *name) {
+    WeftError error = {0};
+    if (text_end(text, &error) != WEFT_OK) fail_msg("%s: %s", name, error.text);
+    assert_int_equal(strlen(text->bytes), text->size);
+    assert_clean(name, text->bytes);
+}
+
+static void put_main(Text *text, const char *line) {
+    bool vulkan = text->desc.language == TEXT_GLSL_450;
+    text_line(text, "\n%suniform Inputs { vec4 u[4]; };",
+              vulkan ? "layout(set = 0, binding = 1) " : "layout(std140) ");
+    text_line(text, "%sout vec4 color;\n", vulkan ? "layout(location = 0) " : "");
+    text_line(text, "void main() {\n    %s\n}", line);
+}
+
+static const char all_calls[] =
+    "Lobe m;\n    m.id = int(u[0].x);\n    for (int k = 0; k < 8; k++) m.params[k] = u[1][k & 3];\n"
+    "    Angles a = angles_between(dir(u[2].x, u[2].y, u[2].z), dir(u[3].x, u[3].y, u[3].z));\n"
+    "    Dir s = lobe_sample(m, a.o, u[0].y, u[0].z);\n"
+    "    color = vec4(lobe_f(m, a), lobe_pdf(m, a), lobe_share(m, a), lobe_second(m, s.x, s.y));";
+
+/* The lobes that the GPU has. */
+static int gpu_lobes(int ids[LOBE_COUNT]) {
+    int n = 0;
+    for (int k = 0; k < LOBE_COUNT; k++)
+        if (!(weft_lobe_info(k)->traits & TRAIT_REFERENCE)) ids[n++] = k;
+    return n;
+}
+
+/* Together in all languages; and each alone, in the strictest, whether it includes what it needs. */
+static void every_lobe_is_glsl(void **state) {
+    (void)state;
+    int ids[LOBE_COUNT];
+    int count = gpu_lobes(ids);
+    Batch batch;
+    batch_begin(&batch);
+    for (int k = 0; k <= count; k++)
+        for (int l = 0; l < LANGUAGES; l++) {
+            const char *name = k < count ? weft_lobe_info(ids[k])->id : "all-lobes";
+            Text text;
+            text_begin(&text, &(TextDesc){.language = languages[l], .tables = true});
+            text_dispatch(&text, k < count ? &ids[k] : ids, k < count ? 1 : count);
+            put_main(&text, all_calls);
+            end_clean(&text, name);
+            assert_int_equal(occurrences(text.bytes, "struct Angles"), 1);
+            assert_int_equal(occurrences(text.bytes, "const int LOBE_"), k < count ? 1 : count);
+            if (k == count || languages[l] == TEXT_GLSL_ES_300)
+                batch_add(&batch, name, languages[l], text.bytes);
+            text_free(&text);
+        }
+    int status = batch_compile(&batch);
+    if (!has_validator()) skip();
+    assert_int_equal(status, 0);
+}
+
+static bool is_below(const char *name, const char *folder) {
+    return strncmp(name, folder, strlen(folder)) == 0;
+}
+
+/* Terms and layers that nothing uses yet are shading text too; all of them together, since names are unique.
+ */
+static void every_term_is_glsl(void **state) {
+    (void)state;
+    Batch batch;
+    batch_begin(&batch);
+    int files = 0;
+    for (int l = 0; l < LANGUAGES; l++) {
+        Text all;
+        text_begin(&all, &(TextDesc){.language = languages[l]});
+        for (const CatalogueFile *file = catalogue_files; file->name; file++) {
+            if (!is_below(file->name, "shading/terms/") && !is_below(file->name, "shading/layers/")) continue;
+            text_include(&all, file->name);
+            files++;
+            Text text;
+            text_begin(&text, &(TextDesc){.language = languages[l]});
+            text_include(&text, file->name);
+            put_main(&text, "color = u[0];");
+            end_clean(&text, file->name);
+            if (languages[l] == TEXT_GLSL_ES_300) batch_add(&batch, file->name, languages[l], text.bytes);
+            text_free(&text);
+        }
+        put_main(&all, "color = u[0];");
+        end_clean(&all, "all terms");
+        batch_add(&batch, "all-terms", languages[l], all.bytes);
+        text_free(&all);
+    }
+    assert_true(files >= 3 * 8);
+    int status = batch_compile(&batch);
+    if (!has_validator()) skip();
+    assert_int_equal(status, 0);
+}
+
+/* A whole surface, with every workflow, profile, layer and lobe. */
+static void a_surface_is_glsl(void **state) {
+    (void)state;
+    int ids[LOBE_COUNT];
+    int count = gpu_lobes(ids);
+    Batch batch;
+    batch_begin(&batch);
+    for (int l = 0; l < LANGUAGES; l++) {
+        Text text;
+        text_begin(&text, &(TextDesc){.language = languages[l], .tables = true});
+        text_dispatch(&text, ids, count);
+        text_engine_tables(&text, (const int[]){ENGINE_THREE_GGX}, 1);
+        assert_int_equal(text.table_count, 2);
+        assert_int_equal(text_table(&text, (TextTable){NULL, 1, 1}), 2); /* the surface's own E */
+        text_include(&text, "shading/compose.h");
+        for (const CatalogueFile *file = catalogue_files; file->name; file++)
+            if (is_below(file->name, "shading/workflows/") || is_below(file->name, "shading/profiles/"))
+                text_include(&text, file->name);
+        put_main(&text, "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
+                        "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
+                        "    StackValue v = stack_value(surface_stack(s, c, e, o), a, a);\n"
+                        "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
+        end_clean(&text, "surface");
+        batch_add(&batch, "surface", languages[l], text.bytes);
+        text_free(&text);
+    }
+    int status = batch_compile(&batch);
+    if (!has_validator()) skip();
+    assert_int_equal(status, 0);
+}
+
+/* Each by itself, in the strictest language, whether it includes what it needs. */
+static void every_composition_is_glsl(void **state) {
+    (void)state;
+    Batch batch;
+    int files = 0;
+    batch_begin(&batch);
+    for (const CatalogueFile *file = catalogue_files; file->name; file++) {
+        if (!is_below(file->name, "shading/workflows/") && !is_below(file->name, "shading/profiles/"))
+            continue;
+        Text text;
+        text_begin(&text, &(TextDesc){.language = TEXT_GLSL_ES_300, .tables = true});
+        text_dispatch(&text, &(int){LOBE_LAMBERT}, 1);
+        text_engine_tables(&text, NULL, 0);
+        text_include(&text, file->name);
+        put_main(&text, "color = u[0];");
+        end_clean(&text, file->name);
+        batch_add(&batch, file->name, TEXT_GLSL_ES_300, text.bytes);
+        text_free(&text);
+        files++;
+    }
+    assert_true(files >= 5 + 13);
+    int status = batch_compile(&batch);
+    if (!has_validator()) skip();
+    assert_int_equal(status, 0);
+}
+
+static void what_is_not_glsl_is_found(void **state) {
+    (void)state;
+    if (!has_validator()) skip();
+    for (int l = 0; l < LANGUAGES; l++) {
+        Batch batch;
+        batch_begin(&batch);
+        Text text;
+        text_begin(&text, &(TextDesc){.language = languages[l]});
+        text_include(&text, "shading/angles.h");
+        text_line(&text, "float half_of(Dir d) { return d->x * 0.5; }");
+        put_main(&text, "color = u[0];");
+        assert_int_equal(text_end(&text, NULL), WEFT_OK);
+        batch_add(&batch, "wrong", languages[l], text.bytes);
+        text_free(&text);
+        print_message("an error is expected here:\n");
+        assert_int_not_equal(batch_compile(&batch), 0);
+    }
+}
+
+static void a_file_comes_once(void **state) {
+    (void)state;
+    Text once, twice;
+    text_begin(&once, &(TextDesc){.language = TEXT_GLSL_330});
+    text_lobe(&once, LOBE_GGX);
+    text_lobe(&once, LOBE_LAMBERT);
+    text_begin(&twice, &(TextDesc){.language = TEXT_GLSL_330});
+    for (int k = 0; k < 3; k++) {
+        text_lobe(&twice, LOBE_GGX);
+        text_lobe(&twice, LOBE_LAMBERT);
+        text_include(&twice, "shading/angles.h");
+        text_include(&twice, "shading/lang.h");
+    }
+    assert_int_equal(text_end(&once, NULL), WEFT_OK);
+    assert_int_equal(text_end(&twice, NULL), WEFT_OK);
+    assert_string_equal(once.bytes, twice.bytes);
+    assert_int_equal(occurrences(once.bytes, "Dir dir("), 1);
+    assert_int_equal(occurrences(once.bytes, "struct Ggx {"), 1);
+    text_free(&once);
+    text_free(&twice);
+}
+
+/* Files of a folder of the test's own, laid over the library's. */
+static char overlay[] = "/tmp/weft-test-overlay-XXXXXX";
+
+static int make_overlay(void **state) {
+    (void)state;
+    char path[128];
+    if (!mkdtemp(overlay)) return -1;
+    snprintf(path, sizeof path, "%s/shading", overlay);
+    return mkdir(path, 0700);
+}
+
+static int remove_overlay(void **state) {
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", overlay);
+    return system(command);
+}
+
+static void write_overlay(const char *name, const char *bytes) {
+    char path[128];
+    snprintf(path, sizeof path, "%s/shading/%s", overlay, name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(bytes, stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+}
+
+/* What the flattener makes of one file, behind "#version 330 core" and a blank line. */
+static WeftResult flatten(const char *source, char out[4096], WeftError *error) {
+    write_overlay("own.h", source);
+    Text text;
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .folder = overlay});
+    text_include(&text, "shading/own.h");
+    WeftResult result = text_end(&text, error);
+    out[0] = 0;
+    if (result == WEFT_OK) {
+        assert_clean(source, text.bytes);
+        snprintf(out, 4096, "%s", text.size > 19 ? text.bytes + 19 : "");
+    }
+    text_free(&text);
+    return result;
+}
+
+static void assert_flat(const char *source, const char *expected) {
+    char out[4096];
+    WeftError error = {0};
+    if (flatten(source, out, &error) != WEFT_OK) fail_msg("%s: %s", source, error.text);
+    assert_string_equal(out, expected);
+}
+
+static void macros_are_expanded(void **state) {
+    (void)state;
+    assert_flat("#ifndef X_H\n#define X_H\nfloat a; /* c */\n#endif\n", "float a;\n");
+    assert_flat("/* one\n * two */\n\n\n/* three */\nfloat a;// four\n\n\n\nfloat b;\n",
+                "float a;\n\nfloat b;\n");
+    assert_flat(
+        "#define TWO 2.0f\n#define SIX 6\n#define MINUS -1e-3f\n#define MASK 0xef\nfloat a = TWO;\n",
+        "const float TWO = 2.0f;\nconst int SIX = 6;\nconst float MINUS = -1e-3f;\nconst int MASK = 0xef;\n"
+        "float a = TWO;\n");
+    assert_flat("#define SQUARE(x) ((x) * (x))\nfloat f(float a) { return SQUARE(SQUARE(a + 1.0f)); }\n",
+                "float f(float a) { return ((((a + 1.0f) * (a + 1.0f))) * (((a + 1.0f) * (a + 1.0f)))); }\n");
+    /* a macro does not expand itself, nor where its name is not called */
+    assert_flat("#define a(x) a(x + b)\n#define b a\nfloat f = a(1);\nfloat g = a;\n",
+                "float f = a(1 + a);\nfloat g = a;\n");
+    assert_flat("#define ROWS(P) \\\n    P(float, alpha, \"say \\\"(,\") \\\n    P(int, kind, \"\")\n"
+                "#define FIELD_OF(type, name, help) type name;\nstruct Own{ROWS(FIELD_OF)};\n",
+                "struct Own {\n    float alpha;\n    int kind;\n};\n");
+    assert_flat("#define LIST(L) L(red, RED) L(blue, BLUE)\n#define ONE(name, NAME) COLOR_##NAME,\n"
+                "typedef enum Color { LIST(ONE) COLOR_COUNT } Color;\nColor next(Color c) { return c; }\n",
+                "const int COLOR_RED = 0;\nconst int COLOR_BLUE = 1;\nconst int COLOR_COUNT = 2;\n"
+                "int next(int c) { return c; }\n");
+    assert_flat("enum { A, B = 4, C, D, E = B, F };\n",
+                "const int A = 0;\nconst int B = 4;\nconst int C = B + 1;\n"
+                "const int D = B + 2;\nconst int E = B;\nconst int F = E + 1;\n");
+    assert_flat(
+        "#define NONE\n#define NO_ROWS(P)\nNONE float f() {\n    NO_ROWS(ROW)\n    return 1.0f; NONE\n}\n",
+        "float f() {\n    return 1.0f;\n}\n");
+    assert_flat("typedef float Metre;\nMetre up(Metre m) { return m; }\n",
+                "float up(float m) { return m; }\n");
+    assert_flat("#if defined(GL_ES) || defined(GL_core_profile)\nfloat gl;\n#else\n#include <math.h>\nfloat "
+                "c;\n#endif\n"
+                "#if !(1 && defined NO)\nfloat yes;\n#elif 1\nfloat no;\n#endif\n#undef NO\n#ifdef NO\nfloat "
+                "no;\n#endif\n",
+                "float gl;\nfloat yes;\n");
+}
+
+static void what_is_no_shading_text_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *source, *why;
+    } wrong[] = {
+        {"#include <math.h>\n", "includes a header of C"},
+        {"const char *s = \"text\";\n", "a string"},
+        {"#if 1 + 1\n#endif\n", "an #if of more"},
+        {"#if 1\nfloat a;\n", "an #if without its #endif"},
+        {"#endif\n", "without its #if"},
+        {"#pragma once\n", "a directive"},
+        {"#define F(a, b) a\nfloat x = F(1);\n", "F is called with"},
+        {"#define F(a...) a\n", "F has parameters"},
+        {"typedef struct Own { float x; } Own;\n", "a record not made with STRUCT"},
+        {"float a = \\ 1.0;\n", "a joined line"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char out[4096];
+        WeftError error = {0};
+        if (flatten(wrong[k].source, out, &error) != WEFT_INPUT) fail_msg("taken: %s", wrong[k].source);
+        assert_int_equal(error.message, WEFT_MESSAGE_TEXT_DIALECT);
+        if (!strstr(error.text, wrong[k].why)) fail_msg("%s: %s", wrong[k].source, error.text);
+    }
+    Text text;
+    WeftError error = {0};
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330});
+    text_include(&text, "shading/nothing.h");
+    text_include(&text, "shading/angles.h"); /* the first failure stays */
+    assert_int_equal(text_end(&text, &error), WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_TEXT_NAME);
+    assert_null(text.bytes);
+    text_free(&text);
+}
+
+/* What grows without end stops, whether it grows in size, in time or in depth. */
+static void endless_text_stops(void **state) {
+    (void)state;
+    static const char *const first[] = {"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx", ""};
+    char *source = calloc(1, 1 << 18), out[4096];
+    WeftError error;
+    assert_non_null(source);
+    for (int k = 0; k < 2; k++) {
+        int size = sprintf(source, "#define M0 %s\n", first[k]);
+        for (int m = 1; m < 40; m++) size += sprintf(source + size, "#define M%d M%d M%d\n", m, m - 1, m - 1);
+        sprintf(source + size, "float M39;\n");
+        assert_int_not_equal(flatten(source, out, &error), WEFT_OK);
+    }
+    int size = sprintf(source, "#define F(x) x\nfloat a = ");
+    for (int k = 0; k < 20000; k++) size += sprintf(source + size, "F(");
+    for (int k = 0; k < 20000; k++) size += sprintf(source + size, ")");
+    sprintf(source + size, ";\n");
+    assert_int_equal(flatten(source, out, &error), WEFT_INPUT);
+    assert_non_null(strstr(error.text, "F expands without end"));
+    size = sprintf(source, "#if ");
+    for (int k = 0; k < 100000; k++) size += sprintf(source + size, "!");
+    sprintf(source + size, "1\n#endif\n");
+    assert_int_equal(flatten(source, out, &error), WEFT_INPUT);
+    free(source);
+}
+
+/* A file of the caller's may stand on the dispatch, as registry.h serves C; own lines may take a file's
+ * place. */
+static void callers_lines_take_a_files_place(void **state) {
+    (void)state;
+    write_overlay(
+        "own.h",
+        "#include \"shading/registry.h\"\n#include \"shading/mine.h\"\n"
+        "FN float own_f(int id, Lobe m, Angles a, Table t) {\n"
+        "    return id == LOBE_GGX ? lobe_f(m, a) * table_texel(t, 1, 0, LOBE_PARAMS_MAX) : mine(m);\n}\n");
+    Batch batch;
+    batch_begin(&batch);
+    for (int l = 0; l < LANGUAGES; l++) {
+        Text text;
+        text_begin(&text, &(TextDesc){.language = languages[l], .tables = true, .folder = overlay});
+        text_dispatch(&text, (const int[]){LOBE_GGX, LOBE_LAMBERT, LOBE_GGX}, 3);
+        text_provide(&text, "shading/mine.h");
+        text_line(&text, "\nfloat mine(Lobe m) { return m.params[%d]; }", 2);
+        text_include(&text, "shading/own.h");
+        put_main(&text, "color = u[0];");
+        end_clean(&text, "own.h");
+        assert_int_equal(occurrences(text.bytes, "const int LOBE_GGX"), 1);
+        assert_non_null(strstr(text.bytes, "float own_f(int id, Lobe m, Angles a, int t) {"));
+        batch_add(&batch, "own", languages[l], text.bytes);
+        text_free(&text);
+    }
+    int status = batch_compile(&batch);
+    if (!has_validator()) skip();
+    assert_int_equal(status, 0);
+}
+
+int main(void) {
+    if (!has_validator()) print_message("glslangValidator is not installed: nothing is compiled\n");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_lobe_is_glsl),
+        cmocka_unit_test(every_term_is_glsl),
+        cmocka_unit_test(a_surface_is_glsl),
+        cmocka_unit_test(every_composition_is_glsl),
+        cmocka_unit_test(what_is_not_glsl_is_found),
+        cmocka_unit_test(a_file_comes_once),
+        cmocka_unit_test_setup_teardown(macros_are_expanded, make_overlay, NULL),
+        cmocka_unit_test(what_is_no_shading_text_is_refused),
+        cmocka_unit_test(endless_text_stops),
+        cmocka_unit_test_setup_teardown(callers_lines_take_a_files_place, NULL, remove_overlay),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
