@@ -70,6 +70,7 @@ typedef enum WeftResult {
     M(PLAUSIBLE, WARNING, "is hardly that of a real material")                                               \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
+    M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
     M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
     M(TEXT_NAME, USAGE, "is not a file of the catalogue")                                                    \

@@ -10,7 +10,10 @@
  *   roughness: alpha = roughness^2, the same in D and V.
  *   reciprocal: yes.
  *   energy: E <= 0.97, the most at alpha 0.6 near cos_o 0.01; at cos_o 0.02 it is 0.67 at alpha 0.25.
- *   sampling: half by D, half uniform. */
+ *   sampling: half by D, half uniform.
+ *   measured by weft check ashikhmin-conty-kulla: E at most 0.96 (alpha 0.64, cos_o 0.01);
+ *     reciprocal to 1e-3; weight variance 0.29 of the cosine's;
+ *     half precision: no floor keeps it finite (alpha 1, cos_o 1, cos_i 1, phi 0). */
 #ifndef WEFT_ASHIKHMIN_CONTY_KULLA_H
 #define WEFT_ASHIKHMIN_CONTY_KULLA_H
 

@@ -10,7 +10,10 @@
  *   energy: E <= 0.87, the most at the horizon at alpha 0.32; at cos_o 0.02 it is 0.73 at alpha 0.25 and
  *     0.52 at alpha 1.
  *   sampling: half by D, half uniform.
- *   Not for: a pure rim; a part 1 / (1 + 4 alpha^2) of D is the same for all h, and hazes the front. */
+ *   Not for: a pure rim; a part 1 / (1 + 4 alpha^2) of D is the same for all h, and hazes the front.
+ *   measured by weft check ashikhmin-neubelt: E at most 0.85 (alpha 0.36, cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance 0.30 of the cosine's;
+ *     half precision: no floor keeps it finite (alpha 1, cos_o 1, cos_i 1, phi 0). */
 #ifndef WEFT_ASHIKHMIN_NEUBELT_H
 #define WEFT_ASHIKHMIN_NEUBELT_H
 

@@ -9,7 +9,10 @@
  *   reciprocal: yes.
  *   energy: no, E passes 1 from roughness 0.41 on: at cos_o 0.02 it is 0.535 at roughness 0, 1.011 at 0.5 and
  *     1.519 at 1.
- *   sampling: cosine; the weight is at most 2.5^2. */
+ *   sampling: cosine; the weight is at most 2.5^2.
+ *   measured by weft check burley: E at most 1.56 (roughness 1, cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
+ *     half precision: finite for any cosines. */
 #ifndef WEFT_BURLEY_H
 #define WEFT_BURLEY_H
 

@@ -8,7 +8,10 @@
  *   reciprocal: yes.
  *   energy: no, not promised of the white lobe: D and V are of different roughness; the paper weighs it by
  *     0.25 clearcoat.
- *   sampling: half by D, half uniform. */
+ *   sampling: half by D, half uniform.
+ *   measured by weft check burley-coat: E at most 1.38 (alpha 0.1, cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
+ *     half precision: finite for cosines >= 2^-13 and alpha >= 0.0026. */
 #ifndef WEFT_BURLEY_COAT_H
 #define WEFT_BURLEY_COAT_H
 

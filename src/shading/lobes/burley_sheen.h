@@ -9,7 +9,10 @@
  *   reciprocal: yes.
  *   energy: E <= 0.09; it is 0.0836 at cos_o 0.02, 0.0156 at 0.5 and 0.0003 at the normal.
  *   sampling: half by (1 - d)^5 about wo, half uniform.
- *   Not for: a sheen whose width matters; it has no parameter. */
+ *   Not for: a sheen whose width matters; it has no parameter.
+ *   measured by weft check burley-sheen: E at most 0.09 (cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance 0.29 of the cosine's;
+ *     half precision: finite for any cosines. */
 #ifndef WEFT_BURLEY_SHEEN_H
 #define WEFT_BURLEY_SHEEN_H
 

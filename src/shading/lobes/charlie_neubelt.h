@@ -8,7 +8,10 @@
  *   energy: no, E passes 1 near grazing for alpha < 0.21: at cos_o 0.02 it is 1.38 at alpha 0.0625,
  *     and 2.69 at alpha 0.01.
  *   sampling: half by D, half uniform.
- *   Not for: satin and leather, which have a highlight in the mirror direction. */
+ *   Not for: satin and leather, which have a highlight in the mirror direction.
+ *   measured by weft check charlie-neubelt: E at most 3.88 (alpha 0.01, cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance 0.32 of the cosine's;
+ *     half precision: finite for cosines >= 2^-13. */
 #ifndef WEFT_CHARLIE_NEUBELT_H
 #define WEFT_CHARLIE_NEUBELT_H
 

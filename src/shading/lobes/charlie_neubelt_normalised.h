@@ -10,7 +10,10 @@
  *   roughness: alpha = roughness^2.
  *   reciprocal: yes.
  *   energy: E <= 1, to the interpolation of the table.
- *   sampling: that of charlie-neubelt. */
+ *   sampling: that of charlie-neubelt.
+ *   measured by weft check charlie-neubelt-normalised: E at most 1.00 (alpha 0.01, cos_o 0.001);
+ *     reciprocal to 1e-3; weight variance 0.32 of the cosine's;
+ *     half precision: finite for cosines >= 2^-13. */
 #ifndef WEFT_CHARLIE_NEUBELT_NORMALISED_H
 #define WEFT_CHARLIE_NEUBELT_NORMALISED_H
 

@@ -14,7 +14,10 @@
  * Mathematical Functions", 1964; rho in the denominator is at most 1.
  *   roughness: 0 is Lambert, 1 the roughest; not squared.
  *   reciprocal: yes.  energy: E = 1 within 2e-5 for rho 1, and rho E(cos_o) + rho_ms (1 - E(cos_o)) for any.
- *   sampling: cosine and uniform mixed in the ratio 1 : roughness; the weight is at most 3.2. */
+ *   sampling: cosine and uniform mixed in the ratio 1 : roughness; the weight is at most 3.2.
+ *   measured by weft check eon: E at most 1.00 (roughness 0, cos_o 1);
+ *     reciprocal to 1e-3; weight variance 0.96 of the cosine's;
+ *     half precision: finite for cosines >= 2^-11. */
 #ifndef WEFT_EON_H
 #define WEFT_EON_H
 

@@ -11,7 +11,10 @@
  *   reciprocal: no, wi is not in it.
  *   energy: E(cos_o) = x(1 - cos_o) exactly, so at most 1.
  *   sampling: cosine, weight constant.
- *   Not for: light from one side; the rim glows wherever a Lambert base would be lit. */
+ *   Not for: light from one side; the rim glows wherever a Lambert base would be lit.
+ *   measured by weft check exponential: E at most 1.00 (beta 6.35, cos_o 0.001);
+ *     f(wo, wi) and f(wi, wo) up to 1.00 of the larger apart; weight variance 1.00 of the cosine's;
+ *     half precision: finite for any cosines. */
 #ifndef WEFT_EXPONENTIAL_H
 #define WEFT_EXPONENTIAL_H
 

@@ -5,7 +5,10 @@
  *   Unity Technologies, High Definition Render Pipeline, FabricLambertNoPI in BSDF.hlsl, 2018; empirical by
  * its own comment.
  *   roughness: Fabric.hlsl passes alpha, the square of the artist's roughness.
- *   reciprocal: yes.  energy: E = color (1 - roughness / 2) exactly.  sampling: cosine, weight constant. */
+ *   reciprocal: yes.  energy: E = color (1 - roughness / 2) exactly.  sampling: cosine, weight constant.
+ *   measured by weft check fabric-lambert: E at most 1.00 (roughness 0, cos_o 1);
+ *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
+ *     half precision: finite for any cosines. */
 #ifndef WEFT_FABRIC_LAMBERT_H
 #define WEFT_FABRIC_LAMBERT_H
 

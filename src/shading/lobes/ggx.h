@@ -10,7 +10,10 @@
  *   energy: E <= 1; light scattered more than once between facets is lost, of a white lobe at most 16 % at
  *     alpha 0.25, 32 % at 0.5 and, at normal incidence, ln 2 = 69 % at alpha 1.
  *   sampling: visible normals; the weight is F G2 / G1 <= 1.
- *   Not for: cloth whose fibres stand up; those have no highlight in the mirror direction. */
+ *   Not for: cloth whose fibres stand up; those have no highlight in the mirror direction.
+ *   measured by weft check ggx: E at most 1.00 (alpha 0.01, cos_o 1);
+ *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
+ *     half precision: finite for cosines >= 2^-7 and alpha >= 0.062. */
 #ifndef WEFT_GGX_H
 #define WEFT_GGX_H
 

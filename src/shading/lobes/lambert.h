@@ -3,7 +3,10 @@
  *   f = color / pi                                                                               [1/sr]
  *
  *   Johann Heinrich Lambert, "Photometria", 1760.
- *   reciprocal: yes.  energy: E = color exactly.  sampling: cosine, weight constant. */
+ *   reciprocal: yes.  energy: E = color exactly.  sampling: cosine, weight constant.
+ *   measured by weft check lambert: E at most 1.00 (cos_o 1);
+ *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
+ *     half precision: finite for any cosines. */
 #ifndef WEFT_LAMBERT_H
 #define WEFT_LAMBERT_H
 

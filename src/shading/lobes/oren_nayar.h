@@ -10,7 +10,10 @@
  *   reciprocal: yes.
  *   energy: no, E passes 1 at the horizon for sigma below 0.326, by 1.5 % at 0.2. Elsewhere light that
  *     meets two facets is lost, 22 % at the normal at sigma 0.5.
- *   sampling: cosine and uniform mixed in the ratio A : B; the weight is at most 2 (A + B). */
+ *   sampling: cosine and uniform mixed in the ratio A : B; the weight is at most 2 (A + B).
+ *   measured by weft check oren-nayar: E at most 1.01 (sigma 0.2, cos_o 0.005);
+ *     reciprocal to 1e-3; weight variance 1.11 of the cosine's;
+ *     half precision: finite for cosines >= 2^-17. */
 #ifndef WEFT_OREN_NAYAR_H
 #define WEFT_OREN_NAYAR_H
 

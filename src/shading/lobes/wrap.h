@@ -9,7 +9,10 @@
  *   roughness: none; wrap is how far past the horizon the light reaches, 0 is Lambert.
  *   reciprocal: no, cos_i alone is in it.
  *   energy: E = color (1 + 2 wrap) / (1 + wrap)^2 from everywhere, 3/4 at wrap 1.
- *   sampling: cosine and uniform mixed in the ratio 1 : 2 wrap, weight constant. */
+ *   sampling: cosine and uniform mixed in the ratio 1 : 2 wrap, weight constant.
+ *   measured by weft check wrap: E at most 1.00 (wrap 0, cos_o 1);
+ *     f(wo, wi) and f(wi, wo) up to 1.00 of the larger apart; weight variance under 0.01 of the cosine's;
+ *     half precision: finite for cosines >= 2^-19. */
 #ifndef WEFT_WRAP_H
 #define WEFT_WRAP_H
 

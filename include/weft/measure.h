@@ -1,0 +1,123 @@
+/* measure.h - the passport of a lobe or of an engine profile: what it does with light, in numbers
+ *
+ * Everything is measured on the code that renders, with fixed seeds: two runs give the same numbers, whatever
+ * the number of threads. docs/check.md says how to read them. */
+#ifndef WEFT_MEASURE_H
+#define WEFT_MEASURE_H
+
+#include "weft/lobe.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    WEFT_PASSPORT_ROWS = 11,    /* values of the parameter, at most */
+    WEFT_PASSPORT_COSINES = 21, /* of wo, for E */
+    WEFT_PASSPORT_VIEWS = 5,    /* of wo, for furnace and sampling */
+    WEFT_PASSPORT_LAYERS = 16,  /* layer rules, at most */
+    WEFT_PASSPORT_SHEENS = 3,   /* roughnesses of the sheen in the furnace */
+    WEFT_HALF_FREE = 25,        /* in place of a floor's exponent: none is needed */
+    WEFT_HALF_MOST = 7          /* exponent of the largest floor that is tried */
+};
+
+/* Where something was found: the row's parameter and the pair of directions; phi between them in degrees. */
+typedef struct WeftPlace {
+    float value, cos_o, cos_i, phi;
+} WeftPlace;
+
+/* A white lobe, or a whole white material under an engine profile. For a lobe the rows run over its first
+ * parameter from the low to the high end of what is plausible, as `roughness` runs from 0 to 1; the other
+ * parameters stay. For a profile they run over the roughness of the sheen. */
+typedef struct WeftPassport {
+    char id[64];
+    int profile;        /* 0: a lobe */
+    unsigned traits;    /* of a lobe */
+    char parameter[64]; /* what the rows run over; empty where there is one row and no parameter */
+    char surface[256];  /* of a profile: the material in words */
+    int rows;           /* 1 .. WEFT_PASSPORT_ROWS */
+    int row_default;    /* the row nearest to the default; of a profile, to roughness 0.5 */
+    float values[WEFT_PASSPORT_ROWS];
+
+    /* Directional albedo, colour white, for wo in the plane of the tangent. */
+    float cosines[WEFT_PASSPORT_COSINES]; /* from 1 downwards */
+    float albedo[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_COSINES];
+    float albedo_most;
+    WeftPlace albedo_place;
+    int albedo_above; /* cells above 1.001 */
+
+    /* The largest |f(wo, wi) - f(wi, wo)| over the larger of the two (of 1e-3 / sr at the least). */
+    float reciprocity;
+    WeftPlace reciprocity_place;
+
+    /* Of a lobe: what a white Lambert base under it as a white sheen returns of uniform light, for each layer
+     * rule (weft_layer_id), roughness of the sheen and view. A profile's own E says that already. */
+    float views[WEFT_PASSPORT_VIEWS]; /* cos_o, from 1 downwards */
+    int layers;                       /* 0 of a profile */
+    float sheens[WEFT_PASSPORT_SHEENS];
+    float furnace[WEFT_PASSPORT_LAYERS][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS];
+
+    /* Sampling. p is the least p value of the chi-square tests; in a run of several passports the tests of
+     * all count: weft_passport_significance. */
+    float pdf_most; /* the largest integral of the pdf */
+    WeftPlace pdf_place;
+    int tests;
+    double p;
+    WeftPlace p_place;
+    int stray; /* samples that their own pdf calls impossible */
+
+    /* Variance of f cos / pdf, with the lobe's own sampling and with the cosine's; their ratio, views
+     * together and 1e-3 added to both, at the default row and at the row where it is worst. */
+    float variance[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
+    float variance_cosine[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
+    float variance_ratio, variance_worst;
+    float variance_value; /* the parameter there */
+
+    /* The adversarial sweep: grazing, opposite, equal, below the horizon, both ends of each parameter. */
+    long long sweep_count;
+    long long sweep_infinite, sweep_negative; /* f, pdf or a sample that is not finite; f or pdf below 0 */
+    long long sweep_below;                    /* f or pdf that is not 0 below the horizon */
+
+    /* f over the sweep in half precision, every value and operation rounded to 16 bits. A floor is on both
+     * cosines. half_floor: of a row, the exponent e of the smallest power of two, 2^-e, with which all is
+     * finite and not negative; WEFT_HALF_FREE where it takes no floor, 0 where none up to 2^-7 helps. */
+    int half_measured;              /* 0: the compiler that built this has no _Float16; or a profile */
+    long long half_count, half_bad; /* without floors, over all rows */
+    int half_floor[WEFT_PASSPORT_ROWS];
+    WeftPlace half_place; /* where no floor helps: such a pair; all 0 where there is none */
+    /* As the parameter falls from its plausible high end to its hard low end: the least value down to which a
+     * floor keeps all finite, whether that is the hard end, and the exponent of the smallest floor that then
+     * does; 0: there is none. */
+    float half_parameter;
+    int half_whole, half_cosine;
+
+    /* The same text run by the GPU: the largest relative difference within the tolerance of 5e-4 and the
+     * share of pairs beyond it. */
+    int parity_measured;
+    float parity_worst, parity_beyond;
+    char parity_words[160]; /* the driver, or why it was not measured */
+} WeftPassport;
+
+/* Zero-initialise. */
+typedef struct WeftPassportDesc {
+    const char *id;       /* of a lobe or of a profile */
+    const WeftLobe *lobe; /* in place of the id: a lobe whose further parameters are not the defaults; NULL */
+    int threads;          /* 0: all */
+    int quick;            /* fewer rows, pairs and samples: for a first look, not for documents */
+    int no_gpu;           /* parity is not measured */
+    /* Only E, reciprocity, variance and half precision: what the files of the lobes say of themselves. */
+    int brief;
+} WeftPassportDesc;
+
+/* Fails with WEFT_MESSAGE_CHECK_NAME, _DESC or _MEMORY. */
+WEFT_API WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error);
+
+/* The chance that the least p value of so many tests is at most p, were all samplers right (Zbynek Sidak,
+ * "Rectangular Confidence Regions for the Means of Multivariate Normal Distributions", 1967). */
+WEFT_API double weft_passport_significance(double p, int tests);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

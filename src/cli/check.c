@@ -1,0 +1,263 @@
+/* check.c - `weft check`: what a lobe or an engine profile does with light, in numbers */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "names.h"
+#include "output.h"
+#include "passports.h"
+#include "report.h"
+#include "verbs.h"
+#include "weft/weft.h"
+
+/* Bounds. What a bound is about, as its option and as a sentence has it; those without an option hold always.
+ */
+typedef struct Bound {
+    const char *option, *words;
+    double most; /* where the option is not given; HUGE_VAL: none */
+    double (*value)(const WeftPassport *passport);
+} Bound;
+
+static double albedo(const WeftPassport *p) { return (double)p->albedo_most; }
+static double reciprocity(const WeftPassport *p) { return (double)p->reciprocity; }
+static double variance(const WeftPassport *p) { return (double)p->variance_worst; }
+static double integral(const WeftPassport *p) { return (double)p->pdf_most; }
+static double improbable(const WeftPassport *p) { return 1.0 - weft_passport_significance(p->p, p->tests); }
+static double stray(const WeftPassport *p) { return p->stray; }
+static double beyond(const WeftPassport *p) { return (double)p->parity_beyond; }
+static double swept(const WeftPassport *p) {
+    return (double)(p->sweep_infinite + p->sweep_negative + p->sweep_below);
+}
+
+/* Of all layer rules but additive, which takes nothing from the base and so exceeds 1 with any lobe. */
+static double furnace(const WeftPassport *p) {
+    float most = 0.0f;
+    for (int layer = 0; layer < p->layers; layer++)
+        for (int k = 0; k < WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS; k++) {
+            float e = p->furnace[layer][k / WEFT_PASSPORT_VIEWS][k % WEFT_PASSPORT_VIEWS];
+            if (strcmp(weft_layer_id(layer), "additive") != 0 && e > most) most = e;
+        }
+    return (double)most;
+}
+
+static const Bound bounds[] = {
+    {"--max-albedo", "the directional albedo", HUGE_VAL, albedo},
+    {"--max-reciprocity", "the error of reciprocity", HUGE_VAL, reciprocity},
+    {"--max-furnace", "the furnace under a layer rule", HUGE_VAL, furnace},
+    {"--max-variance", "the variance of the weight over the cosine's", HUGE_VAL, variance},
+    {NULL, "the number of results that are not finite, negative or from below", 0.0, swept},
+    {NULL, "the integral of the pdf", 1.002, integral},
+    {NULL, "the confidence that samples do not follow their pdf", 0.999, improbable},
+    {NULL, "the number of samples whose pdf is 0", 0.0, stray},
+    {NULL, "the share of results in which C and GPU differ", 1e-3, beyond},
+};
+enum { BOUNDS = sizeof bounds / sizeof bounds[0] };
+
+/* What was asked for. */
+typedef struct Check {
+    const Options *options;
+    WeftPassportDesc desc;
+    double most[BOUNDS];
+    bool json, header, lines, watched;
+    WeftPassport *passports;
+    int count, room;
+    bool broken;
+} Check;
+
+static void judge(Check *check, const WeftPassport *p) {
+    for (int k = 0; k < BOUNDS; k++) {
+        double value = bounds[k].value(p);
+        if (value <= check->most[k]) continue;
+        report(WEFT_FAILED, "%s: %s is %.4g, more than %.4g", p->id, bounds[k].words, value, check->most[k]);
+        check->broken = true;
+    }
+}
+
+static void print(const Check *check, const WeftPassport *p) {
+    if (check->header)
+        passport_header(p);
+    else if (check->lines)
+        passport_line(p);
+    else
+        passport_text(p);
+}
+
+/* Makes one more passport and prints it, but for JSON. */
+static int add(Check *check, const char *id, int of) {
+    WeftError error;
+    WeftPassport *p = &check->passports[check->count];
+    if (check->watched) fprintf(stderr, "\rchecking %s (%d of %d)\033[K", id, check->count + 1, of);
+    check->desc.id = id;
+    WeftResult result = weft_passport_make(&check->desc, p, &error);
+    if (check->watched) fprintf(stderr, "\r\033[K");
+    if (result != WEFT_OK) return report_error(&error);
+    check->count++;
+    if (!check->json) print(check, p);
+    fflush(stdout);
+    if (!check->header) judge(check, p);
+    return 0;
+}
+
+static int add_all(Check *check) {
+    int lobes = weft_lobe_count(), profiles = 0, result = 0;
+    while (!check->header && weft_profile_id(profiles)) profiles++;
+    check->passports = calloc((size_t)(lobes + profiles), sizeof *check->passports);
+    if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
+    if (check->lines && !check->json && !check->header) passport_line_heading();
+    for (int k = 0; k < lobes + profiles && result == 0; k++)
+        result = add(check, k < lobes ? weft_lobe_info(k)->id : weft_profile_id(k - lobes), lobes + profiles);
+    return result;
+}
+
+static int unknown(const char *id) {
+    char hint[96];
+    Nearest nearest = {.typed = id};
+    for (int k = 0; k < weft_lobe_count(); k++) nearest_offer(&nearest, weft_lobe_info(k)->id);
+    for (int k = 0; weft_profile_id(k); k++) nearest_offer(&nearest, weft_profile_id(k));
+    return report(WEFT_USAGE, "%.200s: %s%s", id, weft_message_text(WEFT_MESSAGE_CHECK_NAME),
+                  nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
+}
+
+static void warning(void *user, WeftMessage message, const char *text) {
+    (void)user;
+    (void)message;
+    report(0, "warning: %s", text);
+}
+
+/* The lobe with every -p name=value, but for the parameter that the passport's rows run over. */
+static int lobe_make(const Options *options, const char *id, WeftLobe *lobe) {
+    WeftError error;
+    WeftLog log = {.fn = warning};
+    if (weft_lobe_create(id, lobe, &error) != WEFT_OK) return report_error(&error);
+    const WeftParamInfo *first = weft_lobe_info(lobe->lobe)->params;
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "-p", &cursor));) {
+        char param[64];
+        const char *equals = strchr(text, '=');
+        if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)
+            return report(WEFT_USAGE, "-p: \"%.80s\" is not name=value", text);
+        snprintf(param, sizeof param, "%.*s", (int)(equals - text), text);
+        if (first->name && !first->choices && strcmp(param, first->name) == 0)
+            return report(WEFT_USAGE, "-p: the rows of the passport run over %s", param);
+        if (weft_lobe_set(lobe, param, equals + 1, &log, &error) != WEFT_OK) return report_error(&error);
+    }
+    return 0;
+}
+
+static bool is_profile(const char *id) {
+    for (int k = 0; weft_profile_id(k); k++)
+        if (strcmp(weft_profile_id(k), id) == 0) return true;
+    return false;
+}
+
+static int add_one(Check *check, const char *id) {
+    WeftLobe lobe;
+    bool set = option_given(check->options, "-p"), whole = is_profile(id);
+    if (!whole && weft_lobe_find(id) < 0) return unknown(id);
+    if (whole && (set || check->header))
+        return report(WEFT_USAGE, "%s: is for lobes, and %s is a profile", set ? "-p" : "--header", id);
+    if (set) {
+        int result = lobe_make(check->options, id, &lobe);
+        if (result != 0) return result;
+        check->desc.lobe = &lobe;
+    }
+    check->passports = calloc(1, sizeof *check->passports);
+    if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
+    return add(check, id, 1);
+}
+
+static bool check_read(const Options *options, Check *check) {
+    *check = (Check){.options = options,
+                     .json = option_given(options, "--json"),
+                     .header = option_given(options, "--header"),
+                     .lines = strcmp(options->operands[0], "all") == 0,
+                     .watched = isatty(STDERR_FILENO) != 0};
+    check->desc.quick = option_given(options, "--quick") && !check->header;
+    check->desc.no_gpu = option_given(options, "--no-gpu");
+    check->desc.brief = check->header;
+    for (int k = 0; k < BOUNDS; k++) {
+        check->most[k] = bounds[k].most;
+        if (bounds[k].option && !option_number(options, bounds[k].option, &check->most[k])) return false;
+    }
+    return option_integer(options, "--threads", &check->desc.threads);
+}
+
+/* Whether the page can be written: better known before than after minutes of measuring. */
+static int page_probe(const char *path) {
+    Output output;
+    int result = output_begin(&output, path);
+    if (result == 0) output_drop(&output);
+    return result;
+}
+
+static int page_write(const char *path, const Check *check) {
+    Output output;
+    int result = output_begin(&output, path);
+    if (result != 0) return result;
+    passports_page(output.stream, check->passports, check->count);
+    return output_end(&output);
+}
+
+static int check_run(const Options *options) {
+    Check check;
+    if (!check_read(options, &check)) return WEFT_USAGE;
+    const char *page = option_text(options, "--html");
+    if (check.header && (check.json || page))
+        return report(WEFT_USAGE, "--header: does not go with --json or --html");
+    if (check.lines && option_given(options, "-p")) return report(WEFT_USAGE, "-p: does not go with all");
+    int result = page ? page_probe(page) : 0;
+    if (result == 0) result = check.lines ? add_all(&check) : add_one(&check, options->operands[0]);
+    if (result == 0 && check.json) {
+        Json json = {.stream = stdout};
+        if (check.lines) json_open(&json, NULL, '[');
+        for (int k = 0; k < check.count; k++) passport_json(&json, &check.passports[k]);
+        if (check.lines) json_close(&json, ']');
+    }
+    if (result == 0 && page) result = page_write(page, &check);
+    free(check.passports);
+    return result ? result : check.broken ? WEFT_FAILED : 0;
+}
+
+static const Option check_options[] = {
+    OPTION_HEADING("Options"),
+    OPTION_LIST("-p", "NAME=VALUE",
+                "a parameter of the lobe other than the first, over which the rows of the passport run"),
+    OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
+    OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
+    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256,
+                  "processors to use; 0: all; no influence on the numbers"),
+    OPTION_SWITCH("--json", "JSON instead of text; of all, an array"),
+    OPTION_TEXT("--html", "FILE", NULL, "write one page with plots, which needs no other file"),
+    OPTION_SWITCH("--header", "only the lines that the opening comment of the lobe's file ends with"),
+    OPTION_HEADING("Bounds: exit 1 where one is broken"),
+    OPTION_NUMBER("--max-albedo", "E", NULL, 0, 1e6, "of E, anywhere in its table"),
+    OPTION_NUMBER("--max-reciprocity", "ERROR", NULL, 0, 1e6, "of |f(wo, wi) - f(wi, wo)| over the larger"),
+    OPTION_NUMBER("--max-furnace", "E", NULL, 0, 1e6, "of the furnace, under every layer rule but additive"),
+    OPTION_NUMBER("--max-variance", "RATIO", NULL, 0, 1e6,
+                  "of the variance of f cos / pdf, to that of sampling by the cosine"),
+    OPTION_END,
+};
+
+const Verb verb_check = {
+    .name = "check",
+    .operands = "LOBE|PROFILE|all [options]",
+    .help = "measures what a lobe or an engine profile does with light: its passport",
+    .operands_least = 1,
+    .operands_most = 1,
+    .options = check_options,
+    .notes = "The passport says where more light comes back than arrived, whether f is reciprocal,\n"
+             "what each layer rule makes of a white cloth, whether samples follow their pdf and how\n"
+             "much their weights scatter, what hard directions and 16-bit floats do, and whether\n"
+             "the GPU agrees. docs/check.md explains the numbers. Of `all`, a line each.\n\n"
+             "Whatever the options, the exit code is 1 too where a result is not finite, is negative\n"
+             "or comes from below the horizon, where samples do not follow their pdf, and where\n"
+             "more than 0.1 % of the results on the GPU differ.\n\n"
+             "Examples\n"
+             "  weft check charlie-neubelt\n"
+             "  weft check charlie-neubelt --max-albedo 1\n"
+             "  weft check cook-torrance -p d=charlie -p v=neubelt -p f=none\n"
+             "  weft check all --html passports.html\n",
+    .run = check_run,
+};

@@ -1,0 +1,67 @@
+#include "measure/grid.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* x in (0, 1) to (0, 1), flat at both ends; its derivative; its inverse. */
+static double stretch(double x) {
+    double a = x * x * x * x, y = 1.0 - x, b = y * y * y * y;
+    return a / (a + b);
+}
+static double stretch_slope(double x) {
+    double y = 1.0 - x, xy = x * y, n = x * x * x * x + y * y * y * y;
+    return 4.0 * xy * xy * xy / (n * n);
+}
+static double unstretch(double m) {
+    if (m >= 1.0) return 1.0;
+    double r = (sqrt)((sqrt)(m / (1.0 - m)));
+    return r / (1.0 + r);
+}
+
+Dir grid_direction(double cosine, double phi) {
+    double s = (sqrt)(fmax(1.0 - cosine * cosine, 0.0));
+    return dir((float)(s * (cos)(phi)), (float)(s * (sin)(phi)), (float)cosine);
+}
+
+static double polar(Dir w) { return atan2(hypot((double)w.x, (double)w.y), (double)w.z); }
+
+void grid_make(Grid *grid, Dir o, int cells) {
+    grid->cells = cells;
+    grid->theta = polar(o);
+    grid->phi = atan2(-(double)o.y, -(double)o.x);
+    for (int k = 0; k < cells; k++) {
+        double t = -1.0 + 2.0 * (k + 0.5) / cells, side = t < 0.0 ? -1.0 : 1.0;
+        double phi = grid->phi + side * pi * stretch(fabs(t));
+        grid->cos_phi[k] = (float)(cos)(phi);
+        grid->sin_phi[k] = (float)(sin)(phi);
+        grid->width[k] = pi * stretch_slope(fabs(t)) * 2.0 / cells;
+    }
+}
+
+Dirs grid_ring(const Grid *grid, int k, Ring *ring) {
+    double s = -1.0 + 2.0 * (k + 0.5) / grid->cells, side = s < 0.0 ? -1.0 : 1.0;
+    double range = s < 0.0 ? grid->theta : pi / 2.0 - grid->theta;
+    double theta = grid->theta + side * range * stretch(fabs(s));
+    double height = range * stretch_slope(fabs(s)) * 2.0 / grid->cells * (sin)(theta);
+    float sine = (float)(sin)(theta), cosine = (float)(cos)(theta);
+    for (int c = 0; c < grid->cells; c++) {
+        ring->x[c] = sine * grid->cos_phi[c];
+        ring->y[c] = sine * grid->sin_phi[c];
+        ring->z[c] = cosine;
+        ring->area[c] = height * grid->width[c];
+    }
+    return (Dirs){(size_t)grid->cells, ring->x, ring->y, ring->z};
+}
+
+static int cell(double place, int bins) {
+    int k = (int)((place + 1.0) * 0.5 * bins);
+    return k < 0 ? 0 : k < bins ? k : bins - 1;
+}
+
+int grid_bin(const Grid *grid, Dir i, int bins) {
+    double theta = polar(i) - grid->theta, range = theta < 0.0 ? grid->theta : pi / 2.0 - grid->theta;
+    double phi = atan2((double)i.y, (double)i.x) - grid->phi;
+    phi -= 2.0 * pi * (floor)(phi / (2.0 * pi) + 0.5);
+    double s = range > 0.0 ? (theta < 0.0 ? -1.0 : 1.0) * unstretch(fabs(theta) / range) : 0.0;
+    double t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / pi);
+    return cell(s, bins) * bins + cell(t, bins);
+}

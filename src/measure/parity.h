@@ -1,0 +1,10 @@
+/* parity.h - whether the GPU gets the same numbers from the same text */
+#ifndef WEFT_MEASURE_PARITY_H
+#define WEFT_MEASURE_PARITY_H
+
+#include "measure/subject.h"
+
+/* Fills the parity_ members of the passport of a lobe. */
+void parity_measure(const Subject *subject, WeftPassport *out);
+
+#endif

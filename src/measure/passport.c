@@ -1,0 +1,266 @@
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "measure/passport.h"
+
+#include "base/fail.h"
+#include "base/thread.h"
+#include "measure/chi_square.h"
+#include "measure/furnace.h"
+#include "measure/half_floor.h"
+#include "measure/parity.h"
+#include "measure/reciprocity.h"
+#include "measure/sweep.h"
+#include "measure/weight.h"
+#include "weft/render.h"
+
+static const float cosines[WEFT_PASSPORT_COSINES] = {1.0f, 0.95f, 0.9f,  0.85f, 0.8f,  0.7f,   0.6f,
+                                                     0.5f, 0.4f,  0.35f, 0.3f,  0.25f, 0.2f,   0.15f,
+                                                     0.1f, 0.07f, 0.05f, 0.02f, 0.01f, 0.005f, 0.001f};
+static const float views[WEFT_PASSPORT_VIEWS] = {1.0f, 0.7f, 0.4f, 0.15f, 0.05f};
+static const float sheens[WEFT_PASSPORT_SHEENS] = {0.2f, 0.5f, 0.8f};
+
+enum { CELLS = 200, WHOLE_CELLS = 100, FURNACE_CELLS = 100 };
+
+/* What the parallel loops share. Each writes to its own places; extremes are found afterwards, in order, so
+ * that threads cannot change them. */
+typedef struct Work {
+    const Subject *subject;
+    const WeftPassportDesc *desc;
+    WeftPassport *out;
+    atomic_bool short_of_memory;
+
+    Reciprocity reciprocity[WEFT_PASSPORT_ROWS];
+    ChiSquare chi[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
+    bool drawn[WEFT_PASSPORT_ROWS];
+    AlbedoTable sheens[WEFT_PASSPORT_SHEENS];
+    Sweep sweeps[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES];
+} Work;
+
+/* Directional albedo. */
+
+static void measure_albedo(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    int row = item / WEFT_PASSPORT_COSINES, c = item % WEFT_PASSPORT_COSINES;
+    Dir o = grid_direction((double)cosines[c], 0.0);
+    if (work->subject->whole) {
+        View view;
+        work->subject->look(work->subject, row, o, &view);
+        work->out->albedo[row][c] = (float)weight_albedo(&view, WHOLE_CELLS);
+        return;
+    }
+    Lobe lobe = subject_lobe(work->subject, row);
+    Albedo e = albedo_quadrature(&lobe, o, 1e-4);
+    work->out->albedo[row][c] = e.f0 + e.f90 * lobe_second(lobe, 1.0f, 1.0f);
+}
+
+static void find_albedo(Work *work) {
+    WeftPassport *out = work->out;
+    memcpy(out->cosines, cosines, sizeof cosines);
+    parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_COSINES, measure_albedo, work);
+    for (int row = 0; row < out->rows; row++)
+        for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) {
+            float e = out->albedo[row][c];
+            out->albedo_above += e > 1.001f;
+            /* equal but for the last digits is not more: else rounding would choose the place */
+            if (row + c > 0 && !(e > out->albedo_most * 1.0002f)) continue;
+            out->albedo_most = e;
+            out->albedo_place = (WeftPlace){.value = out->values[row], .cos_o = cosines[c]};
+        }
+}
+
+/* Reciprocity. */
+
+static void measure_reciprocity(void *user, int row, int thread) {
+    (void)thread;
+    Work *work = user;
+    int pairs = (work->subject->whole ? 4000 : 20000) / (work->desc->quick ? 4 : 1);
+    work->reciprocity[row] = reciprocity_measure(work->subject, row, pairs);
+}
+
+static void find_reciprocity(Work *work) {
+    parallel_for(work->desc->threads, work->out->rows, measure_reciprocity, work);
+    for (int row = 0; row < work->out->rows; row++) {
+        const Reciprocity *r = &work->reciprocity[row];
+        if (!(r->error > work->out->reciprocity)) continue;
+        work->out->reciprocity = r->error;
+        work->out->reciprocity_place = r->place;
+    }
+}
+
+/* The furnace. */
+
+static void fill_sheen(void *user, int k, int thread) {
+    (void)thread;
+    Work *work = user;
+    Lobe lobe = work->subject->lobe, rough = lobe_rough(lobe.id, sheens[k]);
+    lobe.params[0] = rough.params[0];
+    albedo_table_fill(&work->sheens[k], &lobe, lobe.params[0], lobe.params[0], 1);
+}
+
+static void measure_furnace(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
+    int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
+    Dir o = grid_direction((double)views[view], 0.0);
+    work->out->furnace[layer][k][view] =
+        (float)furnace_measure(&work->subject->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS);
+}
+
+static void find_furnace(Work *work) {
+    if (work->subject->whole) return;
+    memcpy(work->out->sheens, sheens, sizeof sheens);
+    int layers = 0;
+    while (layers < WEFT_PASSPORT_LAYERS && weft_layer_id(layers)) layers++;
+    work->out->layers = layers;
+    parallel_for(work->desc->threads, WEFT_PASSPORT_SHEENS, fill_sheen, work);
+    parallel_for(work->desc->threads, layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS, measure_furnace,
+                 work);
+}
+
+/* Sampling. */
+
+static void measure_sampling(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    const Subject *subject = work->subject;
+    int row = item / WEFT_PASSPORT_VIEWS, v = item % WEFT_PASSPORT_VIEWS;
+    View view;
+    subject->look(subject, row, grid_direction((double)views[v], 0.4 + v), &view);
+    Weight weight = weight_measure(&view, subject->whole ? WHOLE_CELLS : CELLS);
+    work->out->variance[row][v] = (float)weight.own;
+    work->out->variance_cosine[row][v] = (float)weight.by_cosine;
+    if (!work->drawn[row]) return;
+    int count = work->desc->quick ? 15000 : 60000;
+    if (!chi_square_measure(&view, count, subject->whole ? 10 : 20, (uint32_t)item, &work->chi[row][v]))
+        work->short_of_memory = true;
+}
+
+/* own / by_cosine of a row, where neither scatters 1: a variance of 1e-3 is a deviation of 3 % a sample. */
+static double row_ratio(const WeftPassport *out, int row) {
+    double own = 0.0, by_cosine = 0.0;
+    for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
+        own += (double)out->variance[row][v] / WEFT_PASSPORT_VIEWS;
+        by_cosine += (double)out->variance_cosine[row][v] / WEFT_PASSPORT_VIEWS;
+    }
+    return (own + 1e-3) / (by_cosine + 1e-3);
+}
+
+static void find_sampling(Work *work) {
+    const Subject *subject = work->subject;
+    WeftPassport *out = work->out;
+    memcpy(out->views, views, sizeof views);
+    for (int row = 0; row < out->rows; row++) /* a material's take long: the ends and the default */
+        work->drawn[row] = !work->desc->brief && (!subject->whole || row == 0 ||
+                                                  row == subject->row_default || row == out->rows - 1);
+    parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_VIEWS, measure_sampling, work);
+    out->p = 1.0;
+    for (int row = 0; row < out->rows; row++) {
+        double ratio = row_ratio(out, row);
+        if (ratio > (double)out->variance_worst * 1.0002) {
+            out->variance_worst = (float)ratio;
+            out->variance_value = out->values[row];
+        }
+        if (row == subject->row_default) out->variance_ratio = (float)ratio;
+        for (int v = 0; v < WEFT_PASSPORT_VIEWS && work->drawn[row]; v++) {
+            WeftPlace place = {.value = out->values[row], .cos_o = views[v]};
+            const ChiSquare *chi = &work->chi[row][v];
+            out->tests++;
+            out->stray += chi->stray;
+            if (chi->integral > (double)out->pdf_most * 1.0002) {
+                out->pdf_most = (float)chi->integral;
+                out->pdf_place = place;
+            }
+            if (!(chi->p >= out->p)) {
+                out->p = chi->p;
+                out->p_place = place;
+            }
+        }
+    }
+}
+
+/* The sweep. */
+
+static void measure_sweep(void *user, int setting, int thread) {
+    (void)thread;
+    Work *work = user;
+    work->sweeps[setting] = sweep_setting(work->subject, setting);
+}
+
+static void find_sweep(Work *work) {
+    WeftPassport *out = work->out;
+    parallel_for(work->desc->threads, work->subject->settings, measure_sweep, work);
+    for (int k = 0; k < work->subject->settings; k++) {
+        out->sweep_count += work->sweeps[k].count;
+        out->sweep_infinite += work->sweeps[k].infinite;
+        out->sweep_negative += work->sweeps[k].negative;
+        out->sweep_below += work->sweeps[k].below;
+    }
+}
+
+bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, WeftPassport *out) {
+    Work *work = calloc(1, sizeof *work);
+    if (!work) return false;
+    work->subject = subject;
+    work->desc = desc;
+    work->out = out;
+    out->rows = subject->rows;
+    out->row_default = subject->row_default;
+    memcpy(out->values, subject->values, sizeof out->values);
+    snprintf(out->parameter, sizeof out->parameter, "%s", subject->parameter);
+    find_albedo(work);
+    find_reciprocity(work);
+    if (!desc->brief) find_furnace(work);
+    find_sampling(work);
+    if (!desc->brief) find_sweep(work);
+    half_floor_measure(subject, out, desc->threads);
+    if (desc->no_gpu || desc->brief)
+        snprintf(out->parity_words, sizeof out->parity_words, "not asked for");
+    else
+        parity_measure(subject, out);
+    bool held = !work->short_of_memory;
+    free(work);
+    return held;
+}
+
+static int profile_named(const char *id) {
+    for (int k = 0; weft_profile_id(k); k++)
+        if (strcmp(weft_profile_id(k), id) == 0) return k;
+    return -1;
+}
+
+WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
+    const WeftLobe *given = desc->lobe;
+    int lobe = given ? given->lobe : desc->id ? weft_lobe_find(desc->id) : -1;
+    int profile = !given && lobe < 0 && desc->id ? profile_named(desc->id) : -1;
+    if (given ? !weft_lobe_info(lobe) : lobe < 0 && profile < 0)
+        return fail(error, WEFT_MESSAGE_CHECK_NAME, desc->id ? desc->id : "index", NULL);
+    if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
+    *out = (WeftPassport){.profile = profile >= 0};
+    snprintf(out->id, sizeof out->id, "%s",
+             profile >= 0 ? weft_profile_id(profile) : weft_lobe_info(lobe)->id);
+    Subject *subject = calloc(1, sizeof *subject);
+    bool held = subject != NULL;
+    if (held && profile >= 0) {
+        held = subject_of_profile(subject, profile, desc->quick != 0, desc->threads);
+        snprintf(out->surface, sizeof out->surface, "%s", subject_velvet);
+    } else if (held) {
+        Lobe inner = lobe_default(lobe);
+        for (int k = 0; given && k < weft_lobe_info(lobe)->param_count; k++)
+            lobe_set(&inner, k, given->params[k]);
+        out->traits = weft_lobe_info(lobe)->traits;
+        subject_of_lobe(subject, &inner, desc->quick != 0);
+    }
+    held = held && passport_measure(subject, desc, out);
+    if (subject) subject_free(subject);
+    free(subject);
+    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, out->id, NULL);
+}
+
+double weft_passport_significance(double p, int tests) {
+    return -expm1(tests * log1p(-fmin(fmax(p, 0.0), 1.0)));
+}

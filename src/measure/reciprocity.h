@@ -1,0 +1,16 @@
+/* reciprocity.h - whether f stays the same when viewer and light change places */
+#ifndef WEFT_MEASURE_RECIPROCITY_H
+#define WEFT_MEASURE_RECIPROCITY_H
+
+#include "measure/subject.h"
+
+typedef struct Reciprocity {
+    float
+        error; /* the largest |f(wo, wi) - f(wi, wo)| over the larger of the two, of 1e-3 / sr at the least */
+    WeftPlace place;
+} Reciprocity;
+
+/* Of one setting, over random pairs, half of which graze. */
+Reciprocity reciprocity_measure(const Subject *subject, int setting, int pairs);
+
+#endif

@@ -1,0 +1,248 @@
+#include <stdlib.h>
+
+#include "measure/subject.h"
+
+#include "base/memory.h"
+#include "base/thread.h"
+
+/* Lobes. */
+
+static bool is_number(const WeftLobeInfo *info) { return info->param_count > 0 && !info->params[0].choices; }
+
+/* Extremes of a lobe: all parameters at their hard ends together, then each alone. A choice is tried at each
+ * of its ids, with the others as they are. */
+static bool extreme(const Lobe *lobe, int k, Lobe *out) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->id);
+    *out = *lobe;
+    if (k < 2) {
+        for (int p = 0; p < info->param_count; p++)
+            if (!info->params[p].choices)
+                lobe_set(out, p, k ? info->params[p].hard_high : info->params[p].hard_low);
+        return info->param_count > 0;
+    }
+    k -= 2;
+    for (int p = 0; p < info->param_count; p++) {
+        const WeftParamInfo *row = &info->params[p];
+        int count = row->choices ? 1 + (int)row->hard_high : 2;
+        if (k < count) {
+            lobe_set(out, p, row->choices ? (float)k : k ? row->hard_high : row->hard_low);
+            return true;
+        }
+        k -= count;
+    }
+    return false;
+}
+
+Lobe subject_lobe(const Subject *subject, int setting) {
+    Lobe lobe = subject->lobe;
+    if (setting >= subject->rows)
+        extreme(&subject->lobe, setting - subject->rows, &lobe);
+    else if (is_number(weft_lobe_info(lobe.id)))
+        lobe_set(&lobe, 0, subject->values[setting]);
+    return lobe;
+}
+
+static void lobe_look(const Subject *subject, int setting, Dir o, View *view) {
+    view->subject = subject;
+    view->o = o;
+    view->lobe = subject_lobe(subject, setting);
+    view->second = lobe_second(view->lobe, 1.0f, 1.0f);
+}
+
+enum { BLOCK = 256 };
+
+/* The same wo for a block of wi. */
+typedef struct Ours {
+    float x[BLOCK], y[BLOCK], z[BLOCK];
+} Ours;
+
+static void ours_fill(Ours *ours, Dir o) {
+    for (int k = 0; k < BLOCK; k++) ours->x[k] = o.x, ours->y[k] = o.y, ours->z[k] = o.z;
+}
+
+static void lobe_f(const View *view, Dirs i, float *f) {
+    Ours o;
+    float share[BLOCK];
+    ours_fill(&o, view->o);
+    bool mixes = (weft_lobe_info(view->lobe.id)->traits & TRAIT_TWO_COLORS) != 0;
+    for (size_t at = 0; at < i.n; at += BLOCK) {
+        size_t n = i.n - at < BLOCK ? i.n - at : BLOCK;
+        lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at,
+                    mixes ? share : NULL);
+        for (size_t k = 0; mixes && k < n; k++) f[at + k] *= 1.0f - share[k] + share[k] * view->second;
+    }
+}
+
+static void lobe_density(const View *view, Dirs i, float *pdf) {
+    Ours o;
+    ours_fill(&o, view->o);
+    for (size_t at = 0; at < i.n; at += BLOCK)
+        lobe_pdf_n(&view->lobe, i.n - at < BLOCK ? i.n - at : BLOCK, o.x, o.y, o.z, i.x + at, i.y + at,
+                   i.z + at, pdf + at);
+}
+
+static Dir lobe_draw(const View *view, float u, float v) { return lobe_sample(&view->lobe, view->o, u, v); }
+
+static int nearest_row(const Subject *subject, float value) {
+    int best = 0;
+    for (int k = 1; k < subject->rows; k++)
+        if (fabsf(subject->values[k] - value) < fabsf(subject->values[best] - value)) best = k;
+    return best;
+}
+
+void subject_of_lobe(Subject *subject, const Lobe *lobe, bool quick) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->id);
+    *subject = (Subject){.lobe = *lobe,
+                         .parameter = "",
+                         .look = lobe_look,
+                         .f = lobe_f,
+                         .pdf = lobe_density,
+                         .sample = lobe_draw};
+    if (is_number(info)) {
+        const WeftParamInfo *p = &info->params[0];
+        subject->parameter = p->name;
+        for (int k = 0; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
+            float value = lobe_rough(lobe->id, (float)k / (WEFT_PASSPORT_ROWS - 1)).params[0];
+            value = clamp(value, p->low, p->high);
+            if (subject->rows > 0 && value < 1.001f * subject->values[subject->rows - 1]) continue;
+            subject->values[subject->rows++] = value;
+        }
+        subject->row_default = nearest_row(subject, p->def);
+    } else {
+        subject->rows = 1;
+    }
+    Lobe ignored;
+    int extremes = 0;
+    while (extremes < SUBJECT_EXTREMES && extreme(lobe, extremes, &ignored)) extremes++;
+    subject->settings = subject->rows + extremes;
+}
+
+/* Materials. */
+
+const char subject_velvet[] =
+    "white velvet: base_color, sheen_color and specular_color 1, roughness 1, ior 1.5, "
+    "no metal, no coat";
+
+static const Surface velvet = {.base_color = {1.0f, 1.0f, 1.0f},
+                               .opacity = 1.0f,
+                               .roughness = 1.0f,
+                               .normal = {0.0f, 0.0f, 1.0f},
+                               .occlusion = 1.0f,
+                               .emission_strength = 1.0f,
+                               .ior = 1.5f,
+                               .extinction = 3.0f,
+                               .reflectance = 0.26f,
+                               .specular = 1.0f,
+                               .specular_color = {1.0f, 1.0f, 1.0f},
+                               .anisotropy_direction = {1.0f, 0.0f, 0.0f},
+                               .clearcoat_normal = {0.0f, 0.0f, 1.0f},
+                               .clearcoat_gloss = 1.0f,
+                               .sheen = 1.0f,
+                               .sheen_tint = 0.5f,
+                               .sheen_second = {1.0f, 1.0f, 1.0f},
+                               .sheen_color = {1.0f, 1.0f, 1.0f}};
+
+/* Roughnesses at their ends, metal or not, a coat or not, a sheen or not. */
+static Surface extreme_velvet(int k) {
+    static const float ends[4] = {0.0f, 1.0f, 0.02f, 2.0f};
+    Surface s = velvet;
+    s.roughness = ends[k & 3];
+    s.sheen_roughness = ends[k >> 2 & 3];
+    s.clearcoat_roughness = ends[k & 1];
+    s.metallic = (float)(k >> 4 & 1);
+    s.clearcoat = (float)(k >> 5 & 1);
+    if (k % 7 == 3) s.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
+    return s;
+}
+
+static void whole_look(const Subject *subject, int setting, Dir o, View *view) {
+    view->subject = subject;
+    view->o = o;
+    stack_make(&view->stack, &subject->surfaces[setting], &subject->choices,
+               albedo_table_ref(&subject->tables[subject->table_of[setting]]), o);
+}
+
+static void whole_f(const View *view, Dirs i, float *f) {
+    for (size_t k = 0; k < i.n; k++) {
+        StackValue value = stack_eval(&view->stack, view->o, dir(i.x[k], i.y[k], i.z[k]), 0);
+        f[k] = i.z[k] > 0.0f ? rgb_max3(value.f_cos) / i.z[k] : rgb_max3(value.f_cos);
+    }
+}
+
+static void whole_pdf(const View *view, Dirs i, float *pdf) {
+    for (size_t k = 0; k < i.n; k++)
+        pdf[k] = stack_eval(&view->stack, view->o, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
+}
+
+static Dir whole_sample(const View *view, float u, float v) {
+    return stack_sample(&view->stack, view->o, u, v);
+}
+
+/* A sheen's lobe and the parameter with which E is asked for. */
+typedef struct Sheen {
+    Lobe lobe;
+    float at;
+} Sheen;
+
+static Sheen sheen_of(const Subject *subject, int setting) {
+    Stack stack;
+    stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE},
+               dir(0.0f, 0.0f, 1.0f));
+    return (Sheen){stack.sheen.lobe, stack.at};
+}
+
+typedef struct Fill {
+    Subject *subject;
+    Sheen sheens[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES]; /* of table k */
+} Fill;
+
+static void fill_table(void *user, int k, int thread) {
+    (void)thread;
+    const Fill *fill = user;
+    albedo_table_fill(&fill->subject->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at,
+                      fill->sheens[k].at, 1);
+}
+
+/* One table for all settings of the same sheen. False when memory is short. */
+static bool fill_tables(Subject *subject, int threads) {
+    Fill fill = {.subject = subject};
+    int count = 0;
+    for (int k = 0; k < subject->settings; k++) {
+        Sheen sheen = sheen_of(subject, k);
+        int found = 0;
+        while (found < count && memcmp(&fill.sheens[found], &sheen, sizeof sheen) != 0) found++;
+        if (found == count) fill.sheens[count++] = sheen;
+        subject->table_of[k] = found;
+    }
+    subject->tables = alloc_array((size_t)count, sizeof *subject->tables);
+    if (!subject->tables) return false;
+    parallel_for(threads, count, fill_table, &fill);
+    return true;
+}
+
+bool subject_of_profile(Subject *subject, int profile, bool quick, int threads) {
+    *subject = (Subject){.whole = true,
+                         .parameter = "sheen_roughness",
+                         .look = whole_look,
+                         .f = whole_f,
+                         .pdf = whole_pdf,
+                         .sample = whole_sample};
+#define CHOICE_UNMADE(name, help) .name = CHOICE_AUTO,
+    subject->choices = (Choices){SURFACE_CHOICES(CHOICE_UNMADE)};
+    subject->choices.profile = profile;
+    for (int k = 1; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
+        Surface *s = &subject->surfaces[subject->rows];
+        *s = velvet;
+        s->sheen_roughness = (float)k / (WEFT_PASSPORT_ROWS - 1);
+        subject->values[subject->rows++] = s->sheen_roughness;
+    }
+    subject->row_default = nearest_row(subject, 0.5f);
+    for (int k = 0; k < SUBJECT_EXTREMES; k++) subject->surfaces[subject->rows + k] = extreme_velvet(k);
+    subject->settings = subject->rows + SUBJECT_EXTREMES;
+    return fill_tables(subject, threads);
+}
+
+void subject_free(Subject *subject) {
+    free(subject->tables);
+    subject->tables = NULL;
+}

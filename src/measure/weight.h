@@ -1,0 +1,16 @@
+/* weight.h - how much the weights f cos / pdf of a sampler scatter, by quadrature */
+#ifndef WEFT_MEASURE_WEIGHT_H
+#define WEFT_MEASURE_WEIGHT_H
+
+#include "measure/grid.h"
+
+typedef struct Weight {
+    double albedo;         /* E */
+    double own, by_cosine; /* variance of f cos / pdf: with the subject's sampling, with the cosine's */
+} Weight;
+
+double weight_albedo(const View *view, int cells);
+
+Weight weight_measure(const View *view, int cells);
+
+#endif

@@ -1,0 +1,225 @@
+/* `weft check`: the passport as text, JSON and page; bounds and complaints */
+#include "run.h"
+
+#include <math.h>
+
+#include <jansson.h>
+
+#include "weft/lobe.h"
+
+static void passport_tells_all_in_words(void **state) {
+    (void)state;
+    static const char *const parts[] = {"charlie-neubelt\n",
+                                        "Directional albedo",
+                                        "*3.",
+                                        "Reciprocity",
+                                        "White furnace",
+                                        "additive",
+                                        "Sampling",
+                                        "Adversarial sweep",
+                                        "Half precision",
+                                        "C and GPU\n  not compared: not asked for"};
+    Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (!strstr(ran.out, parts[k])) fail_msg("\"%s\" is missing in\n%s", parts[k], ran.out);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 110);
+    ran_free(&ran);
+}
+
+static void only_what_exceeds_one_is_marked(void **state) {
+    (void)state;
+    Ran ran = RUN("check", "lambert", "--quick", "--no-gpu");
+    assert_int_equal(ran.code, 0);
+    const char *table = strstr(ran.out, "cos_o"), *end = strstr(ran.out, "at most");
+    assert_true(table && end && table < end);
+    assert_null(memchr(table, '*', (size_t)(end - table)));
+    ran_free(&ran);
+}
+
+static json_t *json_of(const char *text) {
+    json_error_t error;
+    json_t *json = json_loads(text, JSON_REJECT_DUPLICATES, &error);
+    if (!json) fail_msg("line %d: %s", error.line, error.text);
+    return json;
+}
+
+static double json_at(json_t *json, const char *outer, const char *inner) {
+    json_t *value = json_object_get(json_object_get(json, outer), inner);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static void json_has_the_numbers(void **state) {
+    (void)state;
+    Ran ran = RUN("check", "burley-sheen", "--quick", "--no-gpu", "--json");
+    assert_int_equal(ran.code, 0);
+    json_t *json = json_of(ran.out), *e;
+    assert_string_equal(json_string_value(json_object_get(json, "id")), "burley-sheen");
+    assert_string_equal(json_string_value(json_object_get(json, "kind")), "lobe");
+    e = json_array_get(json_object_get(json_object_get(json, "albedo"), "e"), 0);
+    /* towards the normal: 2 pi integral of (1 - cos(t / 2))^5 cos t sin t dt, by the midpoint rule */
+    double sum = 0.0;
+    for (int k = 0; k < 1000; k++) {
+        double z = (k + 0.5) / 1000.0, d = sqrt(0.5 + 0.5 * z);
+        sum += 2.0 * 3.14159265358979 * pow(1.0 - d, 5.0) * z / 1000.0;
+    }
+    assert_true(fabs(json_number_value(json_array_get(e, 0)) - sum) < 2e-4);
+    assert_true(json_at(json, "reciprocity", "worst") < 1e-5);
+    assert_true(fabs(json_at(json, "sampling", "integral_most") - 1.0) < 0.02);
+    assert_true(json_at(json, "sweep", "results") > 1000.0);
+    assert_true(json_at(json, "sweep", "not_finite") == 0.0);
+    assert_true(json_is_false(json_object_get(json_object_get(json, "parity"), "measured")));
+    json_decref(json);
+    ran_free(&ran);
+}
+
+static void profiles_have_passports_too(void **state) {
+    (void)state;
+    Ran ran = RUN("check", "filament-cloth", "--quick", "--json");
+    assert_int_equal(ran.code, 0);
+    json_t *json = json_of(ran.out);
+    assert_string_equal(json_string_value(json_object_get(json, "kind")), "profile");
+    assert_non_null(json_object_get(json, "surface"));
+    assert_true(json_at(json, "albedo", "most") > 1.0); /* nothing is taken from its diffuse lobe */
+    json_decref(json);
+    ran_free(&ran);
+}
+
+static void numbers_do_not_depend_on_threads(void **state) {
+    (void)state;
+    Ran one = RUN("check", "oren-nayar", "--quick", "--no-gpu", "--json", "--threads", "1");
+    Ran three = RUN("check", "oren-nayar", "--quick", "--no-gpu", "--json", "--threads", "3");
+    assert_string_equal(one.out, three.out);
+    ran_free(&one);
+    ran_free(&three);
+}
+
+/* A line on every lobe and profile, under a heading. WEFT_TEST_SHORT=1 passes it over. */
+static void all_has_a_line_each(void **state) {
+    (void)state;
+    const char *wish = getenv("WEFT_TEST_SHORT");
+    if (wish && wish[0] == '1') skip();
+    int profiles = 0, lines = 0;
+    while (weft_profile_id(profiles)) profiles++;
+    Ran ran = RUN("check", "all", "--quick", "--no-gpu");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    for (const char *c = ran.out; *c; c++) lines += *c == '\n';
+    assert_int_equal(lines, 1 + weft_lobe_count() + profiles);
+    assert_non_null(strstr(ran.out, "\ncharlie-neubelt "));
+    assert_non_null(strstr(ran.out, "\nfilament-sheen "));
+    ran_free(&ran);
+}
+
+static void page_needs_nothing_else(void **state) {
+    (void)state;
+    size_t size;
+    Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--html", "page.html");
+    assert_int_equal(ran.code, 0);
+    char *page = file_bytes("page.html", &size);
+    assert_non_null(page);
+    assert_non_null(strstr(page, "<!DOCTYPE html>"));
+    assert_non_null(strstr(page, "<svg"));
+    assert_non_null(strstr(page, "class=\"above\">3."));
+    assert_non_null(strstr(page, "</html>"));
+    assert_null(strstr(page, "src="));
+    assert_null(strstr(page, "href="));
+    assert_null(strstr(page, "url("));
+    assert_null(strstr(page, "nan"));
+    int open = 0, closed = 0;
+    for (const char *c = page; (c = strstr(c, "<svg")); c++) open++;
+    for (const char *c = page; (c = strstr(c, "</svg>")); c++) closed++;
+    assert_int_equal(open, 3);
+    assert_int_equal(closed, 3);
+    free(page);
+    ran_free(&ran);
+}
+
+static void broken_bounds_are_told(void **state) {
+    (void)state;
+    Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-albedo", "1");
+    assert_int_equal(ran.code, 1);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(strstr(ran.err, "charlie-neubelt: the directional albedo is 3."));
+    assert_non_null(strstr(ran.out, "Directional albedo"));
+    ran_free(&ran);
+    ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-albedo", "10", "--max-reciprocity",
+              "1e-3");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    ran = RUN("check", "wrap", "--quick", "--no-gpu", "--max-reciprocity", "0.1", "--max-variance", "1e-9");
+    assert_int_equal(ran.code, 1);
+    assert_non_null(strstr(ran.err, "reciprocity"));
+    assert_non_null(strstr(ran.err, "variance"));
+    ran_free(&ran);
+    ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-furnace", "1.001");
+    assert_int_equal(ran.code, 1);
+    ran_free(&ran);
+}
+
+static void parameters_are_those_of_the_lobe(void **state) {
+    (void)state;
+    Ran cloth = RUN("check", "cook-torrance", "--quick", "--no-gpu", "--json", "-p", "d=charlie", "-p",
+                    "v=neubelt", "-p", "f=none");
+    Ran charlie = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--json");
+    assert_int_equal(cloth.code, 0);
+    json_t *a = json_of(cloth.out), *b = json_of(charlie.out);
+    double most_a = json_at(a, "albedo", "most"), most_b = json_at(b, "albedo", "most");
+    assert_true(fabs(most_a - most_b) < 2e-3 * most_b);
+    json_decref(a);
+    json_decref(b);
+    ran_free(&cloth);
+    ran_free(&charlie);
+    assert_complaint(NULL, LIST("check", "ggx", "-p", "alpha=0.5"), 2,
+                     "the rows of the passport run over alpha");
+    assert_complaint(NULL, LIST("check", "ggx", "-p", "beta=0.5"), 2, "is not a parameter");
+    assert_complaint(NULL, LIST("check", "ggx", "-p", "0.5"), 2, "is not name=value");
+}
+
+static void header_lines_end_a_comment(void **state) {
+    (void)state;
+    Ran ran = RUN("check", "eon", "--header");
+    assert_int_equal(ran.code, 0);
+    assert_memory_equal(ran.out, " *   measured by weft check eon: E at most 1.00 (", 49);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) {
+        assert_memory_equal(line, " * ", 3);
+        assert_true(strcspn(line, "\n") <= 107);
+    }
+    assert_null(strstr(ran.out, "*/"));
+    ran_free(&ran);
+}
+
+static void nonsense_is_refused(void **state) {
+    (void)state;
+    assert_complaint(NULL, LIST("check", "charly-neubelt"), 2, "did you mean charlie-neubelt?");
+    assert_complaint(NULL, LIST("check", "moleskin"), 2, "is neither a lobe nor an engine profile");
+    assert_complaint(NULL, LIST("check"), 2, "check");
+    assert_complaint(NULL, LIST("check", "ggx", "lambert"), 2, "");
+    assert_complaint(NULL, LIST("check", "ggx", "--max-albedo", "much"), 2, "--max-albedo");
+    assert_complaint(NULL, LIST("check", "ggx", "--threads", "-1"), 2, "--threads");
+    assert_complaint(NULL, LIST("check", "all", "-p", "alpha=1"), 2, "does not go with all");
+    assert_complaint(NULL, LIST("check", "three", "-p", "alpha=1"), 2, "is for lobes");
+    assert_complaint(NULL, LIST("check", "three", "--header"), 2, "is for lobes");
+    assert_complaint(NULL, LIST("check", "ggx", "--header", "--json"), 2, "does not go with");
+    assert_complaint(NULL, LIST("check", "lambert", "--html", "no/such/folder.html"), 4, "cannot be written");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(passport_tells_all_in_words),
+        cmocka_unit_test(only_what_exceeds_one_is_marked),
+        cmocka_unit_test(json_has_the_numbers),
+        cmocka_unit_test(profiles_have_passports_too),
+        cmocka_unit_test(numbers_do_not_depend_on_threads),
+        cmocka_unit_test(all_has_a_line_each),
+        cmocka_unit_test(page_needs_nothing_else),
+        cmocka_unit_test(broken_bounds_are_told),
+        cmocka_unit_test(parameters_are_those_of_the_lobe),
+        cmocka_unit_test(header_lines_end_a_comment),
+        cmocka_unit_test(nonsense_is_refused),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}

@@ -1,0 +1,45 @@
+/* fakes.h - subjects that are wrong in one way each, for the measurements to find out
+ *
+ * Include it after cmocka: the dialect's names shadow <math.h>. */
+#ifndef WEFT_TEST_MEASURE_FAKES_H
+#define WEFT_TEST_MEASURE_FAKES_H
+
+#include "measure/passport.h"
+#include "measure/subject.h"
+#include "shading/warp.h"
+
+static inline void fake_look(const Subject *subject, int setting, Dir o, View *view) {
+    view->subject = subject;
+    view->o = o;
+}
+
+static inline void fake_f(const View *view, Dirs i, float *f) {
+    for (size_t k = 0; k < i.n; k++) f[k] = i.z[k] > 0.0f ? 1.0f / PI : 0.0f;
+}
+
+static inline void fake_pdf(const View *view, Dirs i, float *pdf) {
+    for (size_t k = 0; k < i.n; k++)
+        pdf[k] = i.z[k] > 0.0f ? warp_cosine_pdf(dir(i.x[k], i.y[k], i.z[k])) : 0.0f;
+}
+
+static inline Dir fake_sample(const View *view, float u, float v) { return warp_cosine(u, v); }
+
+/* A white Lambert surface: nothing is wrong with it. */
+static inline Subject fake_lambert(void) {
+    return (Subject){.rows = 1,
+                     .parameter = "",
+                     .settings = 1,
+                     .whole = true,
+                     .look = fake_look,
+                     .f = fake_f,
+                     .pdf = fake_pdf,
+                     .sample = fake_sample};
+}
+
+static inline WeftPassport fake_passport(const Subject *subject) {
+    WeftPassport passport = {0};
+    assert_true(passport_measure(subject, &(WeftPassportDesc){.no_gpu = 1}, &passport));
+    return passport;
+}
+
+#endif
