@@ -101,7 +101,7 @@ static void charlie_neubelt_is_rounded_at_each_step(void **state) {
         sum_length(q, v);
         float t2 = h(h(v[0] * v[0]) + h(v[1] * v[1])), s2 = h(t2 + h(v[2] * v[2])), sin2 = h(t2 / s2);
         float power = h(powf(sin2, h(0.5f / a)));
-        float d = h(h(h(2.0f + h(1.0f / a)) * power) / two_pi), z = q.o[2], w = q.i[2];
+        float d = h(h(h(2.0f + h(1.0f / a)) / two_pi) * power), z = q.o[2], w = q.i[2];
         float expected = h(d * h(0.25f / h(h(z + w) - h(z * w))));
         float got = ask("charlie-neubelt", &alpha, p);
         if (got != expected) fail_msg("case %d: %.9g, not %.9g", k, (double)got, (double)expected);
