@@ -59,6 +59,7 @@ enum { BOUNDS = sizeof bounds / sizeof bounds[0] };
 typedef struct Check {
     const Options *options;
     WeftPassportDesc desc;
+    WeftLobe lobe; /* desc.lobe, where there is -p */
     double most[BOUNDS];
     bool json, header, lines, watched;
     WeftPassport *passports;
@@ -103,7 +104,7 @@ static int add(Check *check, const char *id, int of) {
 static int add_all(Check *check) {
     int lobes = weft_lobe_count(), profiles = 0, result = 0;
     while (!check->header && weft_profile_id(profiles)) profiles++;
-    check->passports = calloc((size_t)(lobes + profiles), sizeof *check->passports);
+    check->passports = calloc((size_t)lobes + (size_t)profiles, sizeof *check->passports);
     if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
     if (check->lines && !check->json && !check->header) passport_line_heading();
     for (int k = 0; k < lobes + profiles && result == 0; k++)
@@ -153,15 +154,14 @@ static bool is_profile(const char *id) {
 }
 
 static int add_one(Check *check, const char *id) {
-    WeftLobe lobe;
     bool set = option_given(check->options, "-p"), whole = is_profile(id);
     if (!whole && weft_lobe_find(id) < 0) return unknown(id);
     if (whole && (set || check->header))
         return report(WEFT_USAGE, "%s: is for lobes, and %s is a profile", set ? "-p" : "--header", id);
     if (set) {
-        int result = lobe_make(check->options, id, &lobe);
+        int result = lobe_make(check->options, id, &check->lobe);
         if (result != 0) return result;
-        check->desc.lobe = &lobe;
+        check->desc.lobe = &check->lobe;
     }
     check->passports = calloc(1, sizeof *check->passports);
     if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));

@@ -76,7 +76,8 @@ static WeftResult measure(Comparison *all, WeftError *error) {
 /* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. */
 static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
     WeftPanel panels[2 * (DRESS_VARIANTS_MOST + COLUMNS_MOST)] = {0};
-    int bands = (all->count + COLUMNS_MOST - 1) / COLUMNS_MOST, columns = (all->count + bands - 1) / bands;
+    int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST,
+        columns = 1 + last / bands;
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
         int at = k / columns * 2 * columns + k % columns;

@@ -98,7 +98,8 @@ char *decimal_write(char *text, float value) {
         return fraction_end(first, text + 8 - exponent);
     }
     if (exponent < 0 && exponent >= -4) { /* 0.000123456789 */
-        memcpy(text, "0.000", 5);
+        memset(text, '0', 5);
+        text[1] = '.';
         text += 1 - exponent;
         memcpy(text, digits, 9);
         return fraction_end(first, text + 9);

@@ -184,6 +184,11 @@ typedef struct Sheen {
     float at;
 } Sheen;
 
+static bool same_sheen(const Sheen *a, const Sheen *b) {
+    bool same = a->lobe.id == b->lobe.id && memcmp(&a->at, &b->at, sizeof a->at) == 0;
+    return same && memcmp(a->lobe.params, b->lobe.params, sizeof a->lobe.params) == 0;
+}
+
 static Sheen sheen_of(const Subject *subject, int setting) {
     Stack stack;
     stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE},
@@ -210,7 +215,7 @@ static bool fill_tables(Subject *subject, int threads) {
     for (int k = 0; k < subject->settings; k++) {
         Sheen sheen = sheen_of(subject, k);
         int found = 0;
-        while (found < count && memcmp(&fill.sheens[found], &sheen, sizeof sheen) != 0) found++;
+        while (found < count && !same_sheen(&fill.sheens[found], &sheen)) found++;
         if (found == count) fill.sheens[count++] = sheen;
         subject->table_of[k] = found;
     }

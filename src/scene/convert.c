@@ -21,7 +21,8 @@ static float greatest_loss(const WeftScene *scene, const Material *material) {
     if (!textured(material)) return convert_loss(plain, choices);
     float loss = 0.0f;
     for (int k = 0; k < GRID * GRID; k++) {
-        float u = (to_float(k % GRID) + 0.5f) / GRID, v = (to_float(k / GRID) + 0.5f) / GRID;
+        int row = k / GRID, column = k % GRID;
+        float u = (to_float(column) + 0.5f) / GRID, v = (to_float(row) + 0.5f) / GRID;
         float uv[2][2] = {{u, v}, {u, v}};
         Surface surface = plain;
         material_textures(scene, material, uv, white, &surface);

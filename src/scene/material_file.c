@@ -140,7 +140,7 @@ static void place(Input *input, const float scale[2], float degrees, const float
 }
 
 /* {"texture": FILE, ...} */
-static void read_texture(Reader *r, const json_t *object, InputId id, Input *input) {
+static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
     static const char *const channels[] = {"r", "g", "b", "a", NULL}, *const wraps[] = {"repeat", "mirror",
                                                                                         "clamp",
                                                                                         NULL}; /* as Wrap */
@@ -149,7 +149,7 @@ static void read_texture(Reader *r, const json_t *object, InputId id, Input *inp
     Texture texture = {0};
     const char *key, *file = NULL;
     json_t *value;
-    json_object_foreach((json_t *)(uintptr_t)object, key, value) {
+    json_object_foreach(object, key, value) {
         if (strcmp(key, "texture") == 0) {
             file = json_string_value(value);
             if (!file || !file[0] || strlen(file) > 4096) refuse(r, "texture is not the name of a file");
@@ -179,14 +179,14 @@ static void read_texture(Reader *r, const json_t *object, InputId id, Input *inp
         if (fabsf(scale[k]) > 1e6f || fabsf(offset[k]) > 1e6f || fabsf(degrees) > 1e6f)
             refuse(r, "it is placed beyond 1e6");
     if (!file) refuse(r, "the object lacks \"texture\"");
-    if (r->result != WEFT_OK) return;
+    if (!file || r->result != WEFT_OK) return;
     place(input, scale, degrees, offset);
     texture.image = image_index(r, file);
     out->textures[out->texture_count++] = texture;
     input->texture = out->texture_count;
 }
 
-static void read_input(Reader *r, const json_t *json, InputId id) {
+static void read_input(Reader *r, json_t *json, InputId id) {
     Input *input = &r->out->material.inputs[id];
     r->out->named[id] = true;
     if (!json_is_object(json)) {
@@ -249,15 +249,15 @@ static void read_rest(Reader *r, const json_t *json) {
 }
 
 /* Choices come first: a workflow has defaults of its own, which inputs then replace. */
-static void read_object(Reader *r, const json_t *root) {
+static void read_object(Reader *r, json_t *root) {
     const char *key;
     json_t *value;
-    json_object_foreach((json_t *)(uintptr_t)root, key, value) {
+    json_object_foreach(root, key, value) {
         r->key = key;
         if (r->result == WEFT_OK && material_choice(key) >= 0)
             read_choice(r, value, (ChoiceId)material_choice(key));
     }
-    json_object_foreach((json_t *)(uintptr_t)root, key, value) {
+    json_object_foreach(root, key, value) {
         r->key = key;
         if (r->result != WEFT_OK || material_choice(key) >= 0) continue;
         if (material_input(key) >= 0)

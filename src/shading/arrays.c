@@ -24,12 +24,12 @@ FN bool pair_counts(Dir o, Dir i) {
     return ((int32_t)(bits & 0x7fffffffu) < 0x7f800000) & (o.z > 0.0f) & (i.z > 0.0f);
 }
 
-/* A pair, its cosines such that no formula divides by 0 where it does not count. */
+/* A pair; where it does not count the normal twice, which no formula minds. */
 #define TAKE_PAIR(o, i, counts)                                                                              \
     Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                \
     bool counts = pair_counts(o, i);                                                                         \
-    o.z = max(o.z, 1e-30f);                                                                                  \
-    i.z = max(i.z, 1e-30f)
+    o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                \
+    i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
 
 /* name_QUESTION_n asks the lobe for one float per pair of directions. */
 #define ASK_N(question, name, Record, NAME)                                                                  \
