@@ -185,8 +185,10 @@ typedef struct Sheen {
 } Sheen;
 
 static bool same_sheen(const Sheen *a, const Sheen *b) {
-    bool same = a->lobe.id == b->lobe.id && memcmp(&a->at, &b->at, sizeof a->at) == 0;
-    return same && memcmp(a->lobe.params, b->lobe.params, sizeof a->lobe.params) == 0;
+    bool same = a->lobe.id == b->lobe.id && !(a->at < b->at) && !(a->at > b->at);
+    for (int k = 0; k < LOBE_PARAMS_MAX; k++)
+        same &= !(a->lobe.params[k] < b->lobe.params[k]) && !(a->lobe.params[k] > b->lobe.params[k]);
+    return same;
 }
 
 static Sheen sheen_of(const Subject *subject, int setting) {
