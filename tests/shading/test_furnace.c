@@ -59,6 +59,7 @@ static void albedo_view_returns_what_it_receives(void **state) {
     static AlbedoTable table;
     int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0, seen = 0,
         turn = 0, lobes = 0;
+    double worst = 0.0;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!test_turn(&lobes, 1, 7)) continue;
         fill_albedo(&table, id);
@@ -75,14 +76,16 @@ static void albedo_view_returns_what_it_receives(void **state) {
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;
+                    worst = fmax(worst, id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 0.0 : fabs(all - 1.0));
                     if (fabs(all - 1.0) >
-                        (id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 5e-3 : 2e-3)) /* what the table may err */
+                        (id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 5e-3 : 1e-3)) /* its table has a crease */
                         fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.at,
                                  (double)o.z, all);
                 }
                 assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (2e-3f + 2e-3f * e));
             }
     }
+    print_message("all but charlie-neubelt-normalised within %.1e\n", worst);
     assert_true(checked > seen / 2);
 }
 
