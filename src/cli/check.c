@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "given_lobe.h"
 #include "names.h"
 #include "output.h"
 #include "passports.h"
@@ -121,32 +122,6 @@ static int unknown(const char *id) {
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }
 
-static void warning(void *user, WeftMessage message, const char *text) {
-    (void)user;
-    (void)message;
-    report(0, "warning: %s", text);
-}
-
-/* The lobe with every -p name=value, but for the parameter that the passport's rows run over. */
-static int lobe_make(const Options *options, const char *id, WeftLobe *lobe) {
-    WeftError error;
-    WeftLog log = {.fn = warning};
-    if (weft_lobe_create(id, lobe, &error) != WEFT_OK) return report_error(&error);
-    const WeftParamInfo *first = weft_lobe_info(lobe->lobe)->params;
-    int cursor = 0;
-    for (const char *text; (text = option_next(options, "-p", &cursor));) {
-        char param[64];
-        const char *equals = strchr(text, '=');
-        if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)
-            return report(WEFT_USAGE, "-p: \"%.80s\" is not name=value", text);
-        snprintf(param, sizeof param, "%.*s", (int)(equals - text), text);
-        if (first->name && !first->choices && strcmp(param, first->name) == 0)
-            return report(WEFT_USAGE, "-p: the rows of the passport run over %s", param);
-        if (weft_lobe_set(lobe, param, equals + 1, &log, &error) != WEFT_OK) return report_error(&error);
-    }
-    return 0;
-}
-
 static bool is_profile(const char *id) {
     for (int k = 0; weft_profile_id(k); k++)
         if (strcmp(weft_profile_id(k), id) == 0) return true;
@@ -159,7 +134,7 @@ static int add_one(Check *check, const char *id) {
     if (whole && (set || check->header))
         return report(WEFT_USAGE, "%s: is for lobes, and %s is a profile", set ? "-p" : "--header", id);
     if (set) {
-        int result = lobe_make(check->options, id, &check->lobe);
+        int result = given_lobe(check->options, id, true, &check->lobe);
         if (result != 0) return result;
         check->desc.lobe = &check->lobe;
     }
@@ -222,8 +197,7 @@ static int check_run(const Options *options) {
 
 static const Option check_options[] = {
     OPTION_HEADING("Options"),
-    OPTION_LIST("-p", "NAME=VALUE",
-                "a parameter of the lobe other than the first, over which the rows of the passport run"),
+    OPTION_PARAMS("; but not the first, over which the rows of the passport run"),
     OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
     OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
     OPTION_NUMBER("--threads", "COUNT", "0", 0, 256,

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "decimal.h"
+#include "given_lobe.h"
 #include "json.h"
-#include "names.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -181,33 +181,9 @@ static int eval_lines(Lines *lines, Batch *batch, const Task *task, const WeftLo
     return result;
 }
 
-static void warning(void *user, WeftMessage message, const char *text) {
-    (void)user;
-    (void)message;
-    report(0, "warning: %s", text);
-}
-
-/* The lobe with every -p name=value. */
-static int lobe_make(const Options *options, WeftLobe *lobe) {
-    WeftError error;
-    WeftLog log = {.fn = warning};
-    if (kind_named(kind_of("lobe"), options->operands[0]) < 0) return WEFT_USAGE;
-    if (weft_lobe_create(options->operands[0], lobe, &error) != WEFT_OK) return report_error(&error);
-    int cursor = 0;
-    for (const char *text; (text = option_next(options, "-p", &cursor));) {
-        char param[64];
-        const char *equals = strchr(text, '=');
-        if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)
-            return report(WEFT_USAGE, "-p: \"%.80s\" is not name=value", text);
-        snprintf(param, sizeof param, "%.*s", (int)(equals - text), text);
-        if (weft_lobe_set(lobe, param, equals + 1, &log, &error) != WEFT_OK) return report_error(&error);
-    }
-    return 0;
-}
-
 static int eval_run(const Options *options) {
     WeftLobe lobe;
-    int result = lobe_make(options, &lobe);
+    int result = given_lobe(options, options->operands[0], false, &lobe);
     if (result != 0) return result;
     const char *path = options->operand_count > 1 ? options->operands[1] : "-";
     bool piped = strcmp(path, "-") == 0;
@@ -233,9 +209,7 @@ static int eval_run(const Options *options) {
 
 static const Option eval_options[] = {
     OPTION_HEADING("Options"),
-    OPTION_LIST(
-        "-p", "NAME=VALUE",
-        "a parameter of the lobe, a number or, where it is a choice, an id; color=r,g,b or f90=r,g,b"),
+    OPTION_PARAMS(""),
     OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
     OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
     OPTION_END,

@@ -174,7 +174,7 @@ static void parameters_are_those_of_the_lobe(void **state) {
     ran_free(&cloth);
     ran_free(&charlie);
     assert_complaint(NULL, LIST("check", "ggx", "-p", "alpha=0.5"), 2,
-                     "the rows of the passport run over alpha");
+                     "the rows of the report run over alpha");
     assert_complaint(NULL, LIST("check", "ggx", "-p", "beta=0.5"), 2, "is not a parameter");
     assert_complaint(NULL, LIST("check", "ggx", "-p", "0.5"), 2, "is not name=value");
 }
