@@ -67,7 +67,7 @@ typedef enum WeftResult {
     M(PARAM_NAME, USAGE, "is not a parameter")                                                               \
     M(PARAM_VALUE, USAGE, "is not a value that the parameter takes")                                         \
     M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
-    M(PLAUSIBLE, WARNING, "is hardly that of a real material")                                               \
+    M(PLAUSIBLE, WARNING, "is not plausible")                                                                \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \

@@ -38,8 +38,8 @@ static float diffuse_on_metal(const Material *material) {
 /* A measure that should be in low .. high, of materials of one workflow; it depends on up to three inputs.
  * Nothing is said of an input that a texture gives. */
 typedef struct Limit {
-    const char *workflow; /* NULL: any */
-    int inputs[3];        /* beyond the last: -1 */
+    const char *workflow;
+    int inputs[3]; /* beyond the last: -1 */
     float (*measure)(const Material *material);
     float low, high;
     const char *what; /* the measure %g in words */
@@ -53,8 +53,8 @@ static const Limit limits[] = {
      DIELECTRIC_HIGH,
      "reflectance of a dielectric"},
     {"disney", {INPUT_specular, -1, -1}, f0_disney, 0.0f, DIELECTRIC_HIGH, "reflectance of a dielectric"},
-    {"metallic", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "distance to dielectric or metal"},
-    {"disney", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "distance to dielectric or metal"},
+    {"metallic", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "between dielectric and metal by"},
+    {"disney", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "between dielectric and metal by"},
     {"specular",
      {INPUT_base_color, INPUT_specular_color, INPUT_specular},
      diffuse_on_metal,
