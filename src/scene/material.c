@@ -30,19 +30,42 @@ Material material_default(const char *name) {
     return material;
 }
 
-static void redefault(Material *material, InputId id, float value) {
-    Input *input = &material->inputs[id];
-    bool untouched = !input->texture && !(input->value[0] < input_infos[id].def) &&
-                     !(input->value[0] > input_infos[id].def);
-    if (untouched) input->value[0] = value;
+/* Inputs for which some have a default of their own: the principled BRDF a fainter highlight and no sheen,
+ * workflow specular the reflectance that a dielectric has elsewhere. */
+static const InputId redefaulted[] = {INPUT_specular, INPUT_sheen, INPUT_specular_color};
+enum { REDEFAULTED = sizeof redefaulted / sizeof redefaulted[0] };
+
+static bool chosen(const Material *material, ChoiceId choice, const char *id) {
+    const char *value = choice_id(choice, material->choices[choice]);
+    return value && strcmp(value, id) == 0;
+}
+
+static float input_default(const Material *material, InputId id) {
+    bool engine = material->choices[CHOICE_profile] > 0;
+    bool disney = engine ? chosen(material, CHOICE_profile, "disney-2012")
+                         : chosen(material, CHOICE_workflow, "disney");
+    if (disney && id == INPUT_specular) return 0.5f;
+    if (disney && id == INPUT_sheen) return 0.0f;
+    if (!engine && id == INPUT_specular_color && chosen(material, CHOICE_workflow, "specular")) return 0.03f;
+    return input_infos[id].def;
+}
+
+static bool is_default(const Material *material, InputId id) {
+    const Input *input = &material->inputs[id];
+    float def = input_default(material, id);
+    bool same = !input->texture && !input->given;
+    for (int c = 0; c < (input_infos[id].kind == INPUT_COLOR ? 3 : 1); c++)
+        same &= !(input->value[c] < def) && !(input->value[c] > def);
+    return same;
 }
 
 void material_choose(Material *material, ChoiceId choice, int value) {
+    bool moves[REDEFAULTED];
+    for (int k = 0; k < REDEFAULTED; k++) moves[k] = is_default(material, redefaulted[k]);
     material->choices[choice] = value;
-    const char *id = choice_id(choice, value); /* of CHOICE_AUTO there is none */
-    if (choice != CHOICE_workflow || !id || strcmp(id, "disney") != 0) return;
-    redefault(material, INPUT_specular, 0.5f);
-    redefault(material, INPUT_sheen, 0.0f);
+    for (int k = 0; k < REDEFAULTED; k++)
+        for (int c = 0; moves[k] && c < 3; c++)
+            material->inputs[redefaulted[k]].value[c] = input_default(material, redefaulted[k]);
 }
 
 Choices material_choices(const Material *material) {

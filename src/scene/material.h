@@ -31,6 +31,7 @@ typedef struct Input {
     int texture;      /* index into the scene's textures + 1; 0 is none */
     uint8_t texcoord; /* UV set, 0 or 1 */
     uint8_t channel;  /* of the texture, for SCALAR: 0 r, 1 g, 2 b, 3 a */
+    bool given;       /* by the user: no workflow has a default of its own for it */
     /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
     float transform[6];
 } Input;
@@ -54,8 +55,9 @@ Material material_default(const char *name);
 /* Index of an input by name, or -1. */
 int material_input(const char *name);
 
-/* Makes a choice, and where it is a workflow sets the inputs that mean something else in it (disney: specular
- * 0.5, sheen 0) unless they hold a texture or a value other than their default. */
+/* Makes a choice. Inputs that mean something else to a workflow (disney, and profile disney-2012: specular
+ * 0.5, sheen 0; specular: specular_color 0.03) move from default to default, unless they are given, hold a
+ * texture or another value. */
 void material_choose(Material *material, ChoiceId choice, int value);
 
 #endif

@@ -188,7 +188,7 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
 
 static void read_input(Reader *r, json_t *json, InputId id) {
     Input *input = &r->out->material.inputs[id];
-    r->out->named[id] = true;
+    r->out->named[id] = input->given = true;
     if (!json_is_object(json)) {
         read_value(r, json, id, input->value);
         return;

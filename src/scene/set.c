@@ -104,6 +104,9 @@ static void material_set(Material *material, const Setting *setting) {
     }
     Input *slot = &material->inputs[setting->input];
     memcpy(slot->value, setting->v, sizeof setting->v);
+    slot->given = true;
+    if (setting->input == INPUT_opacity && material->alpha_mode == ALPHA_OPAQUE)
+        material->alpha_mode = ALPHA_BLEND; /* else it would say nothing */
     if (input_infos[setting->input].kind != INPUT_NORMAL) slot->texture = 0;
 }
 

@@ -7,22 +7,50 @@
 
 #include "shading/convert.h"
 #include "shading/lobes/cook_torrance.h"
+#include "shading/lobes/ggx.h"
+#include "shading/lobes/silk.h"
 #include "shading/profile.h"
 
-/* The specular lobe with terms of one's own choice; what is not chosen stays. */
-FN Lobe compose_specular(Lobe lobe, Choices c) {
-    Lobe m = lobe;
-    if (lobe.id != LOBE_COOK_TORRANCE) {
-        m = lobe_default(LOBE_COOK_TORRANCE);
-        float alpha = lobe.params[0], anisotropy = lobe.params[1];
-        m.params[0] = alpha;
-        if (lobe.id == LOBE_GGX)
-            m.params[COOK_TORRANCE_STRETCH] = mix(alpha, 1.0f, anisotropy * anisotropy) / alpha;
+/* A lobe of facets as the composition that it is. */
+FN Lobe compose_facets(Lobe lobe) {
+    if (lobe.id != LOBE_GGX && lobe.id != LOBE_SILK) return lobe;
+    float ax = 0.0f, ay = 0.0f;
+    if (lobe.id == LOBE_GGX) {
+        Ggx g;
+        g.alpha = lobe.params[0];
+        g.anisotropy = lobe.params[1];
+        ax = ggx_ax(g);
+        ay = g.alpha;
+    } else {
+        Silk k;
+        k.alpha = lobe.params[0];
+        k.anisotropy = lobe.params[1];
+        ax = silk_ax(k);
+        ay = silk_ay(k);
     }
+    Lobe m = lobe_rough(LOBE_COOK_TORRANCE, sqrt(ay));
+    if (ax < ay || ax > ay) {
+        m.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
+        m.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
+    }
+    m.params[COOK_TORRANCE_STRETCH] = clamp(ax / m.params[0], 0.01f, 100.0f);
+    return m;
+}
+
+/* The specular lobe with terms of one's own choice; what is not chosen stays. A distribution or visibility
+ * that knows no direction makes it round. */
+FN Lobe compose_specular(Lobe lobe, Choices c) {
+    Lobe m = compose_facets(lobe);
     if (c.d >= 0) m.params[COOK_TORRANCE_D] = to_float(c.d);
     if (c.v >= 0) m.params[COOK_TORRANCE_V] = to_float(c.v);
     if (c.f >= 0) m.params[COOK_TORRANCE_F] = to_float(c.f);
     return m;
+}
+
+/* The index of refraction; where none is given, that of the reflectance. */
+FN float compose_ior(Surface s) {
+    float root = sqrt(dielectric_f0(s));
+    return s.ior > 0.0f ? max(s.ior, 1.0f) : (1.0f + root) / max(1.0f - root, 0.1f);
 }
 
 FN Stack compose_choices(Stack m, Surface s, Choices c) {
@@ -33,10 +61,14 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
         m.at = lobe.params[0];
     }
     if (c.layer >= 0) m.layer = c.layer;
+    if ((c.layer == LAYER_RECIPROCAL || c.layer == LAYER_STOCHASTIC) && m.albedo > ALBEDO_KHRONOS) {
+        m.albedo = ALBEDO_TABLE; /* these ask for more than engines' own formulas know */
+        m.at = m.sheen.lobe.params[0];
+    }
     if (c.layer_by >= 0) m.by = c.layer_by;
     if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && m.specular.pick > 0.0f) {
         m.specular.lobe = compose_specular(m.specular.lobe, c);
-        m.specular.lobe.params[COOK_TORRANCE_IOR] = max(s.ior, 1.0f);
+        m.specular.lobe.params[COOK_TORRANCE_IOR] = compose_ior(s);
         m.specular.lobe.params[COOK_TORRANCE_K] = s.extinction;
     }
     if (c.diffuse >= 0 && m.diffuse.pick > 0.0f) {
@@ -82,8 +114,8 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
     return m;
 }
 
-/* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E that compose_table_of asks
- * for. */
+/* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E of the sheen's lobe over
+ * its first parameter, where the stack without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. */
 FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
     Surface t = convert_surface(s, c);
     Choices d = convert_choices(c);
@@ -93,10 +125,11 @@ FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
 FN StackValue stack_value(Stack m, Angles a, Angles coat) {
     float e_i = m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f ? stack_albedo(m, a.i.z) : 0.0f;
-    Rgb keep = m.color.r + m.color.g + m.color.b > 0.0f ? stack_keep(m, e_i) : rgb_grey(1.0f);
+    bool worn = m.color.r + m.color.g + m.color.b > 0.0f;
+    Rgb keep = worn ? stack_keep(m, e_i) : rgb_grey(1.0f);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
-    if (m.layer == LAYER_SEED) {
-        under = rgb_grey(1.0f - rgb_max3(stack_fresnel(m, a.d)));
+    if (m.layer == LAYER_SEED && worn) {
+        under = rgb_grey(1.0f - stack_interface(m, a));
         over = under;
         specular_keep = rgb_grey(1.0f);
     }

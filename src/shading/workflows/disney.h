@@ -3,7 +3,7 @@
  *   f        = (1 - metallic) (base_color mix(burley, subsurface) + sheen) + D V F + coat
  *   sheen    = sheen mix(1, tint, sheen_tint) (1 - wi . h)^5
  *   f0       = mix(0.08 specular mix(1, tint, specular_tint), base_color, metallic)
- *   tint     = base_color / luminance
+ *   tint     = base_color / luminance,  D = ggx-aniso,  V = smith-ggx-aniso-separate
  *   alpha_x  = roughness^2 / aspect,  alpha_y = roughness^2 aspect,  aspect = sqrt(1 - 0.9 anisotropy)
  *   coat     = 0.25 clearcoat GTR1 V F,  alpha = mix(0.1, 0.001, clearcoat_gloss),  V at alpha 0.25,  F0 =
  * 0.04
@@ -24,10 +24,9 @@ FN Rgb disney_tint(Rgb base) {
     return y > 0.0f ? rgb_scale(base, 1.0f / y) : rgb_grey(1.0f);
 }
 
-FN Stack disney_stack(Surface s, Dir o) {
+FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
     Stack m = stack_empty();
     float s_o = schlick_s(o.z), below = 1.0f - s.metallic;
-    Rgb tint = disney_tint(s.base_color);
     Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s.specular_tint), 0.08f * s.specular),
                      s.base_color, s.metallic);
 
@@ -36,10 +35,11 @@ FN Stack disney_stack(Surface s, Dir o) {
 
     float aspect = sqrt(1.0f - 0.9f * s.anisotropy), alpha = s.roughness * s.roughness;
     Lobe specular = lobe_default(LOBE_COOK_TORRANCE);
-    specular.params[0] = max(alpha * aspect, 0.001f);
-    specular.params[COOK_TORRANCE_STRETCH] = 1.0f / (aspect * aspect);
+    float ax = max(alpha / aspect, 0.001f), ay = max(alpha * aspect, 0.001f);
+    specular.params[0] = ay;
+    specular.params[COOK_TORRANCE_STRETCH] = ax / ay;
     specular.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
-    specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
+    specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO_SEPARATE);
     specular.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);
     m.specular = slot_make(specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
 
@@ -54,5 +54,7 @@ FN Stack disney_stack(Surface s, Dir o) {
     m.coat = slot_make(coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));
     return m;
 }
+
+FN Stack disney_stack(Surface s, Dir o) { return disney_tinted(s, disney_tint(s.base_color), o); }
 
 #endif
