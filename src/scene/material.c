@@ -46,7 +46,8 @@ static float input_default(const Material *material, InputId id) {
                          : chosen(material, CHOICE_workflow, "disney");
     if (disney && id == INPUT_specular) return 0.5f;
     if (disney && id == INPUT_sheen) return 0.0f;
-    if (!engine && id == INPUT_specular_color && chosen(material, CHOICE_workflow, "specular")) return 0.03f;
+    bool bare = chosen(material, CHOICE_workflow, "specular") || chosen(material, CHOICE_workflow, "free");
+    if (!engine && bare && id == INPUT_specular_color) return 0.03f;
     return input_infos[id].def;
 }
 

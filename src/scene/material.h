@@ -56,8 +56,8 @@ Material material_default(const char *name);
 int material_input(const char *name);
 
 /* Makes a choice. Inputs that mean something else to a workflow (disney, and profile disney-2012: specular
- * 0.5, sheen 0; specular: specular_color 0.03) move from default to default, unless they are given, hold a
- * texture or another value. */
+ * 0.5, sheen 0; specular and free: specular_color 0.03) move from default to default, unless they are given,
+ * hold a texture or another value. */
 void material_choose(Material *material, ChoiceId choice, int value);
 
 #endif
