@@ -72,8 +72,8 @@ WEFT_API const char *weft_preset_text(int index);
 /* From now on turns every material of workflow "metallic" into "specular", or the other way round, at each
  * point where it is shaded, so that textures are converted as exactly as numbers. losses (may be NULL) must
  * hold a number for each material: the greatest change, over a grid of 256 x 256 points of its textures, of a
- * channel of the diffuse colour or of the reflectance at normal incidence; -1 where the material has another
- * workflow, or a profile, and stays. */
+ * channel of the diffuse colour or of the reflectance at normal incidence. Where the material stays it is
+ * negative: -1 with another workflow, or a profile; -2 where it is of that workflow already. */
 WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
                                        WeftError *error);
 

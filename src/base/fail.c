@@ -21,7 +21,7 @@ const char *weft_version(void) { return WEFT_VERSION; }
 
 static void compose(char *line, size_t size, WeftMessage message, const char *subject, const char *detail,
                     va_list arguments) {
-    int used = snprintf(line, size, "%.200s: %s", subject, messages[message].text);
+    int used = snprintf(line, size, "%.200s: %s", subject[0] ? subject : "\"\"", messages[message].text);
     if (detail && used > 0 && (size_t)used + 2 < size) {
         memcpy(line + used, ": ", 3);
         vsnprintf(line + used + 2, size - (size_t)used - 2, detail, arguments);

@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "base/file.h"
 
 #include <errno.h>
@@ -25,6 +26,10 @@ static WeftResult read_limited(const char *path, size_t limit, bool cut, FileByt
         return fail(error, WEFT_MESSAGE_FILE_READ, path, "it is a folder");
     }
     if (S_ISREG(status.st_mode) && status.st_size >= 0) expected = (size_t)status.st_size + 1;
+    if (S_ISREG(status.st_mode) && !cut && expected > limit + 1) { /* known without reading */
+        fclose(stream);
+        return fail(error, WEFT_MESSAGE_FILE_LARGE, path, "the limit is %zu bytes", limit);
+    }
     if (expected > limit) expected = limit + 1;
 
     WeftResult result = WEFT_OK;
@@ -92,12 +97,33 @@ static int create_beside(const char *path, char *name, size_t size) {
     return handle;
 }
 
+/* The file that writing to path would replace: behind its links, so that they stay. Only a plain file may be
+ * replaced. */
+static WeftResult find_target(const char *path, char **target, WeftError *error) {
+    struct stat status;
+    *target = NULL;
+    if (!path[0]) return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it has no name");
+    bool there = stat(path, &status) == 0;
+    if (there && !S_ISREG(status.st_mode))
+        return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it is not a plain file");
+    if (!there && lstat(path, &status) == 0)
+        return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it is a link that leads nowhere");
+    *target = there ? realpath(path, NULL) : strdup(path);
+    return *target ? WEFT_OK : fail(error, WEFT_MESSAGE_FILE_WRITE, path, "%s", strerror(errno));
+}
+
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error) {
     *file = (OutputFile){.path = path};
-    size_t size = strlen(path) + sizeof ".123456";
+    WeftResult found = find_target(path, &file->target, error);
+    if (found != WEFT_OK) return found;
+    size_t size = strlen(file->target) + sizeof ".123456";
     file->temporary = alloc_array(size, 1);
-    if (!file->temporary) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    int handle = create_beside(path, file->temporary, size);
+    if (!file->temporary) {
+        free(file->target);
+        *file = (OutputFile){0};
+        return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    }
+    int handle = create_beside(file->target, file->temporary, size);
     if (handle >= 0) {
         file->stream = fdopen(handle, "wb");
         if (!file->stream) close(handle);
@@ -106,6 +132,7 @@ WeftResult output_open(OutputFile *file, const char *path, WeftError *error) {
         WeftResult result = fail(error, WEFT_MESSAGE_FILE_WRITE, path, "%s", strerror(errno));
         if (handle >= 0) unlink(file->temporary);
         free(file->temporary);
+        free(file->target);
         *file = (OutputFile){0};
         return result;
     }
@@ -119,7 +146,7 @@ WeftResult output_commit(OutputFile *file, WeftError *error) {
         failed = 1;
         reason = errno;
     }
-    if (!failed && rename(file->temporary, file->path) != 0) {
+    if (!failed && rename(file->temporary, file->target) != 0) {
         failed = 1;
         reason = errno;
     }
@@ -129,6 +156,7 @@ WeftResult output_commit(OutputFile *file, WeftError *error) {
         unlink(file->temporary);
     }
     free(file->temporary);
+    free(file->target);
     *file = (OutputFile){0};
     return result;
 }
@@ -138,5 +166,6 @@ void output_discard(OutputFile *file) {
     fclose(file->stream);
     unlink(file->temporary);
     free(file->temporary);
+    free(file->target);
     *file = (OutputFile){0};
 }

@@ -22,10 +22,12 @@ WeftResult file_read_start(const char *path, size_t most, FileBytes *out, WeftEr
 typedef struct OutputFile {
     FILE *stream;     /* write here */
     const char *path; /* borrowed: must outlive the OutputFile */
+    char *target;     /* the file behind path's links */
     char *temporary;
 } OutputFile;
 
-/* Opens the temporary file beside path. */
+/* Opens a temporary file beside path, or beside the file that path links to. Fails where path is there and is
+ * no plain file: a folder, a device, a pipe. */
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error);
 
 /* Closes and renames; on any failure the temporary is gone and the old file stands. */

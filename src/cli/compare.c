@@ -73,15 +73,17 @@ static WeftResult measure(Comparison *all, WeftError *error) {
     return result;
 }
 
-/* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. */
+/* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. One
+ * picture has none of these. */
 static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
     WeftPanel panels[2 * (DRESS_VARIANTS_MOST + COLUMNS_MOST)] = {0};
     int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST,
-        columns = 1 + last / bands;
+        columns = 1 + last / bands, rows = last ? 2 * bands : 1;
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
         int at = k / columns * 2 * columns + k % columns;
         panels[at] = (WeftPanel){.image = &shot->job.display, .title = shot->label, .note = shot->samples};
+        if (!last) break;
         panels[at + columns] =
             k ? (WeftPanel){.image = &shot->picture, .title = shot->title, .note = shot->figures}
               : (WeftPanel){.scale = all->scale,
@@ -91,7 +93,7 @@ static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *er
     char caption[512];
     snprintf(caption, sizeof caption, "%.200s, by %s", all->request->scene, all->request->dress.varied + 2);
     const WeftSheetDesc desc = {
-        .caption = caption, .panels = panels, .count = 2 * bands * columns, .columns = columns};
+        .caption = caption, .panels = panels, .count = rows * columns, .columns = columns};
     return weft_sheet_compose(&desc, sheet, error);
 }
 
@@ -115,10 +117,11 @@ static void figures(const Comparison *all) {
 }
 
 static void summary(const Comparison *all, bool interrupted) {
-    char files[REQUEST_FILES];
+    char files[REQUEST_FILES], part[48] = "";
     double seconds = 0.0;
     for (int k = 0; k < all->count; k++) seconds += all->shots[k].job.info.render_seconds;
-    report(0, "%s%d pictures in %.2f s; wrote %s", interrupted ? "interrupted at " : "", all->count, seconds,
+    if (interrupted) snprintf(part, sizeof part, "interrupted at %d of ", all->count);
+    report(0, "%s%d pictures in %.2f s; wrote %s", part, all->request->dress.count, seconds,
            request_outputs_text(all->request, files));
 }
 

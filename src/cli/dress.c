@@ -18,12 +18,16 @@ static const struct {
 };
 enum { AXES = sizeof axes / sizeof *axes };
 
-static bool is_by(const char *text) { return strncmp(text, "by=", 3) == 0; }
+/* What follows "by=", NULL where text does not begin so. */
+static const char *after_by(const char *text) {
+    text += strspn(text, " ");
+    return strncmp(text, "by=", 3) == 0 ? text + 3 : NULL;
+}
 
 /* The end of the item that begins at text: a comma or the end. "RULE,by=channel" is one item. */
 static const char *item_end(const char *text) {
     const char *end = text + strcspn(text, ",");
-    while (*end && is_by(end + 1)) end += 1 + strcspn(end + 1, ",");
+    while (*end && after_by(end + 1)) end += 1 + strcspn(end + 1, ",");
     return end;
 }
 
@@ -33,13 +37,16 @@ static int item_count(const char *text) {
     return count;
 }
 
-/* Item k of a list, or of one that has a single item that one; false where it is too long to be an id. */
+/* Item k of a list, without blanks around it, or of a list of one that one; false where it is too long to be
+ * an id. */
 static bool item_at(const char *text, int k, char item[DRESS_LABEL]) {
     const char *end = item_end(text);
     while (k-- > 0 && *end) {
         text = end + 1;
         end = item_end(text);
     }
+    while (text < end && *text == ' ') text++;
+    while (text < end && end[-1] == ' ') end--;
     return snprintf(item, DRESS_LABEL, "%.*s", (int)(end - text), text) < DRESS_LABEL;
 }
 
@@ -47,8 +54,10 @@ static bool item_at(const char *text, int k, char item[DRESS_LABEL]) {
 static const char *split_by(char *item) {
     char *comma = strchr(item, ',');
     if (!comma) return NULL;
-    *comma = '\0';
-    return comma + 1 + strlen("by=");
+    const char *by = after_by(comma + 1);
+    do *comma = '\0';
+    while (comma > item && *--comma == ' ');
+    return by;
 }
 
 static bool check_item(int axis, const char *text, int k) {
@@ -64,7 +73,23 @@ static bool check_item(int axis, const char *text, int k) {
                by);
         return false;
     }
-    return kind_named(kind_of(axes[axis].kind), item) >= 0;
+    const Kind *kind = kind_of(axes[axis].kind);
+    if (item[0]) return kind_named(kind, item) >= 0;
+    report(WEFT_USAGE, "%s: \"\" is not %s %s", axes[axis].option, kind->article, kind->id);
+    return false;
+}
+
+/* Whether item k of a list stands there once; it was checked, and so were those before it. */
+static bool check_once(int axis, const char *text, int k) {
+    char item[DRESS_LABEL], other[DRESS_LABEL];
+    item_at(text, k, item);
+    for (int j = 0; j < k; j++) {
+        item_at(text, j, other);
+        if (strcmp(item, other) != 0) continue;
+        report(WEFT_USAGE, "%s: %s stands there twice", axes[axis].option, item);
+        return false;
+    }
+    return true;
 }
 
 static bool check_axis(int axis, Dress *dress) {
@@ -76,7 +101,7 @@ static bool check_axis(int axis, Dress *dress) {
         return false;
     }
     for (int k = 0; k < count; k++)
-        if (!check_item(axis, text, k)) return false;
+        if (!check_item(axis, text, k) || !check_once(axis, text, k)) return false;
     if (count > 1 && dress->varied) {
         report(WEFT_USAGE, "%s: has several ids, and so has %s; one option may", axes[axis].option,
                dress->varied);
@@ -107,14 +132,37 @@ static bool check_presets(const Options *options) {
     return true;
 }
 
-/* Whether every --set has the right form; what it names is for the library to judge. */
+/* Whether text has the form of a setting and names an input or a choice; the rest is for the library to
+ * judge. */
+static bool check_set(const char *text) {
+    char name[64], hint[96];
+    const char *equals = strrchr(text, '='), *point = equals;
+    while (point && point > text && *point != '.') point--;
+    if (!equals || *point != '.') {
+        report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)(equals - point - 1), point + 1);
+    const Kind *input = kind_of("input"), *choice = kind_of("choice");
+    if (kind_find(input, name) >= 0 || kind_find(choice, name) >= 0) return true;
+    if (strncmp(name, "layer=", 6) == 0) {
+        report(WEFT_USAGE, "--set: \"%.80s\": the by of a layer rule is a setting of its own, layer_by",
+               text);
+        return false;
+    }
+    Nearest nearest = {.typed = name};
+    for (int k = 0; input->name(k); k++) nearest_offer(&nearest, input->name(k));
+    for (int k = 0; choice->name(k); k++) nearest_offer(&nearest, choice->name(k));
+    report(WEFT_USAGE, "--set: \"%s\" %s%s", name, weft_message_text(WEFT_MESSAGE_PARAM_NAME),
+           nearest.name ? nearest_hint(&nearest, hint, sizeof hint)
+                        : "; `weft models` lists inputs and choices");
+    return false;
+}
+
 static bool check_sets(const Options *options) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--set", &cursor));)
-        if (!strchr(text, '.') || !strchr(text, '=')) {
-            report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
-            return false;
-        }
+        if (!check_set(text)) return false;
     return true;
 }
 
@@ -206,20 +254,29 @@ static WeftResult apply_sets(const Dress *dress, WeftScene *scene, const WeftLog
     return result;
 }
 
+/* Says what each conversion loses, how many materials stay, and where there was nothing to do. */
 static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog *log, WeftError *error) {
-    int count = weft_scene_info(scene).material_count;
+    int count = weft_scene_info(scene).material_count, converted = 0, others = 0;
+    char line[256], name[96];
     float *losses = calloc((size_t)count + 1, sizeof *losses);
     WeftResult result = weft_scene_convert(scene, workflow, losses, error);
     for (int k = 0; losses && k < count && result == WEFT_OK; k++) {
-        char line[160], name[80];
+        others += losses[k] < 0.0f && losses[k] > -2.0f;
+        if (losses[k] < 0.0f) continue;
+        converted++;
         snprintf(name, sizeof name, "%.79s", weft_scene_material_name(scene, k));
         if (!name[0]) snprintf(name, sizeof name, "%d", k);
-        if (losses[k] < 0.0f)
-            snprintf(line, sizeof line, "material %s: is of another workflow or a profile and stays", name);
-        else
-            snprintf(line, sizeof line, "material %s: conversion to %s loses %.3f", name, workflow,
-                     (double)losses[k]);
+        snprintf(line, sizeof line, "material %s: conversion to %s loses %.3f", name, workflow,
+                 (double)losses[k]);
         log->fn(log->user, WEFT_MESSAGE_NONE, line);
+    }
+    if (losses && (others || !converted)) {
+        snprintf(name, sizeof name, "%d of %d materials are of another workflow or a profile and stay",
+                 others, count);
+        snprintf(line, sizeof line, "--convert %s: %s%s%s", workflow,
+                 converted ? "" : "there is nothing to convert", others && !converted ? ": " : "",
+                 others ? name : "");
+        if (result == WEFT_OK) log->fn(log->user, WEFT_MESSAGE_NONE, line);
     }
     free(losses);
     return result;
@@ -232,9 +289,14 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
     if (variant) result = weft_scene_set_variant(scene, variant, error);
     if (result == WEFT_OK) result = apply_dressings(dress, "--preset", scene, log, error);
     if (result == WEFT_OK) result = apply_dressings(dress, "--material", scene, log, error);
-    for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
-        result = apply_axis(dress, axis, k, scene, log, error);
-    if (result == WEFT_OK) result = apply_sets(dress, scene, log, error);
+    /* What is set warns of what it finds: so all of it twice, and only the second time, with the rest as it
+     * will be, is anything heard. */
+    for (int heard = 0; heard < 2; heard++) {
+        const WeftLog *to = heard ? log : NULL;
+        for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
+            result = apply_axis(dress, axis, k, scene, to, error);
+        if (result == WEFT_OK) result = apply_sets(dress, scene, to, error);
+    }
     if (result == WEFT_OK && workflow) result = convert(workflow, scene, log, error);
     return result;
 }

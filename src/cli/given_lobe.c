@@ -6,15 +6,17 @@
 #include "names.h"
 #include "report.h"
 
+/* Says what was not said just before: the three channels of a colour have one warning. */
 static void warning(void *user, WeftMessage message, const char *text) {
-    (void)user;
+    WeftError *last = user;
     (void)message;
-    report(0, "warning: %s", text);
+    if (strcmp(last->text, text) != 0) report(0, "warning: %s", text);
+    snprintf(last->text, sizeof last->text, "%s", text);
 }
 
 static int set_param(WeftLobe *lobe, const char *text, const char *taken) {
-    WeftError error;
-    WeftLog log = {.fn = warning};
+    WeftError error, warned = {0};
+    WeftLog log = {.fn = warning, .user = &warned};
     char param[64];
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on the first SIGINT and the first SIGTERM are only noted; a second one ends the program. */
+/* From now on the first SIGINT, the first SIGTERM and the first SIGHUP are only noted; a second one of a kind
+ * ends the program. A SIGHUP that is ignored stays so. */
 void interrupt_watch(void);
 
 /* Whether one has come. */

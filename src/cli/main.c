@@ -13,7 +13,8 @@ static const Verb *const verbs[] = {&verb_render, &verb_models, &verb_eval, &ver
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());
     for (int k = 0; verbs[k]; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
-    printf("\n`weft VERB --help` tells all of a verb; `weft --version` the version.\n\nExit codes\n");
+    printf("\n`weft VERB --help` or `weft help VERB` tells all of a verb; `weft --version` the\n"
+           "version.\n\nExit codes\n");
     layout_entry(stdout, 12, "0", "done");
     layout_entry(stdout, 12, "1", "a check or a comparison did not hold");
     layout_entry(stdout, 12, "2", "a name, a number or an option makes no sense");
@@ -35,25 +36,43 @@ static int verb_run(const Verb *verb, int count, char **arguments) {
     return result;
 }
 
+/* The verb of that name, NULL after one line on standard error. */
+static const Verb *verb_find(const char *word) {
+    char hint[96];
+    Nearest nearest = {.typed = word};
+    for (int k = 0; verbs[k]; k++) {
+        if (strcmp(word, verbs[k]->name) == 0) return verbs[k];
+        nearest_offer(&nearest, verbs[k]->name);
+    }
+    report(WEFT_USAGE, "%.200s: is not a verb%s", word[0] ? word : "\"\"",
+           nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft --help");
+    return NULL;
+}
+
+/* weft help [VERB] */
+static int help_run(int count, char **arguments) {
+    if (count > 1)
+        return report(WEFT_USAGE, "%.200s: is one operand too many; weft help [VERB]", arguments[1]);
+    const Verb *verb = count ? verb_find(arguments[0]) : NULL;
+    if (count && !verb) return WEFT_USAGE;
+    if (verb)
+        options_help(verb);
+    else
+        program_help();
+    return 0;
+}
+
 static int dispatch(int count, char **arguments) {
     if (count < 2) return report(WEFT_USAGE, "a verb is needed; see weft --help");
     const char *word = arguments[1];
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
-        program_help();
-        return 0;
-    }
-    if (strcmp(word, "--version") == 0) {
+    if (strcmp(word, "help") == 0) return help_run(count - 2, arguments + 2);
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return help_run(0, NULL);
+    if (strcmp(word, "--version") == 0 || strcmp(word, "version") == 0) {
         printf("weft %s\n", weft_version());
         return 0;
     }
-    Nearest nearest = {.typed = word};
-    for (int k = 0; verbs[k]; k++) {
-        if (strcmp(word, verbs[k]->name) == 0) return verb_run(verbs[k], count - 2, arguments + 2);
-        nearest_offer(&nearest, verbs[k]->name);
-    }
-    char hint[96];
-    return report(WEFT_USAGE, "%.200s: is not a verb%s", word,
-                  nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft --help");
+    const Verb *verb = verb_find(word);
+    return verb ? verb_run(verb, count - 2, arguments + 2) : WEFT_USAGE;
 }
 
 int main(int count, char **arguments) {

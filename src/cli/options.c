@@ -56,6 +56,8 @@ static int option_take(Options *options, int count, char **arguments, int *used)
         value = arguments[1];
         *used = 2;
     }
+    if (row->value && !value[0])
+        return report(WEFT_USAGE, "%s: \"\" is no value: %s %s", row->name, row->name, row->value);
     options->given[options->given_count++] = (Given){row, value};
     return 0;
 }
@@ -77,6 +79,8 @@ int options_parse(const Verb *verb, int count, char **arguments, Options *option
         } else if (options->operand_count == verb->operands_most) {
             return report(WEFT_USAGE, "%.200s: is one operand too many; weft %s %s", argument, verb->name,
                           verb->operands);
+        } else if (!argument[0]) {
+            return report(WEFT_USAGE, "\"\": is no operand; weft %s %s", verb->name, verb->operands);
         } else {
             options->operands[options->operand_count++] = argument;
         }

@@ -7,11 +7,11 @@
 typedef struct Output {
     FILE *stream; /* write here */
     const char *path;
-    char temporary[1024];
+    char *target, *temporary; /* the file behind path's links, and the one beside it */
 } Output;
 
-/* Opens a file beside path, which must outlive the Output. Returns 0, or an exit code after one line on
- * standard error. */
+/* Opens a file beside path, which must outlive the Output, or beside the file that path links to. Returns 0,
+ * or an exit code after one line on standard error; so where path is there and is no plain file. */
 int output_begin(Output *output, const char *path);
 
 /* Gives the file its name. Returns 0, or an exit code after one line; nothing is left then. */
@@ -19,5 +19,8 @@ int output_end(Output *output);
 
 /* Removes the file. */
 void output_drop(Output *output);
+
+/* Whether path can be written, found out by making a file there and removing it. Returns as output_begin. */
+int output_probe(const char *path);
 
 #endif

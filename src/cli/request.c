@@ -1,13 +1,12 @@
 #include "request.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "names.h"
+#include "output.h"
 #include "report.h"
 
 const Option request_options[] = {
@@ -46,7 +45,7 @@ const Option request_options[] = {
 
     OPTION_HEADING("Reports"),
     OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
-    OPTION_SWITCH("--json", "print a JSON object with figures on standard output"),
+    OPTION_SWITCH("--json", "print figures on standard output: a JSON object, of a sheet an array of them"),
     OPTION_END,
 };
 
@@ -118,12 +117,30 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
     return good;
 }
 
+/* Whether what begins with "builtin:" is built in. */
+static bool check_scene(const char *scene) {
+    static const char prefix[] = "builtin:";
+    if (strncmp(scene, prefix, strlen(prefix)) != 0) return true;
+    const char *name = scene + strlen(prefix);
+    Nearest nearest = {.typed = name};
+    char list[256] = "", hint[96];
+    for (int k = 0; weft_builtin_name(k); k++) {
+        if (strcmp(weft_builtin_name(k), name) == 0) return true;
+        nearest_offer(&nearest, weft_builtin_name(k));
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "",
+                 weft_builtin_name(k));
+    }
+    report(WEFT_USAGE, "%.200s: %s: there is %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
+           nearest_hint(&nearest, hint, sizeof hint));
+    return false;
+}
+
 bool request_read(const Options *options, Request *request) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
     *request = (Request){
         .options = options, .scene = options->operands[0], .quiet = option_given(options, "--quiet")};
-    bool good = read_desc(options, &request->desc) && read_env(options, request) &&
-                option_integer(options, "--spp", &request->spp) &&
+    bool good = check_scene(request->scene) && read_desc(options, &request->desc) &&
+                read_env(options, request) && option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) &&
                 option_number(options, "--exposure", &request->exposure) &&
                 option_number(options, "--env-rotation", &request->env_rotation) &&
@@ -132,28 +149,6 @@ bool request_read(const Options *options, Request *request) {
                 dress_read(options, &request->dress);
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
-}
-
-/* Whether a file can come to be beside path, found out by making one. */
-static int output_possible(const char *path) {
-    struct stat status;
-    size_t size = strlen(path) + 16;
-    char *probe = malloc(size);
-    if (!probe) return report(WEFT_RESOURCES, "out of memory");
-    snprintf(probe, size, "%s.XXXXXX", path);
-    int handle = -1, reason = EISDIR;
-    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode)) {
-        handle = mkstemp(probe);
-        reason = errno;
-    }
-    if (handle >= 0) {
-        close(handle);
-        unlink(probe);
-    }
-    free(probe);
-    if (handle >= 0) return 0;
-    return report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE),
-                  strerror(reason));
 }
 
 int request_outputs_check(const Request *request) {
@@ -170,7 +165,7 @@ int request_outputs_check(const Request *request) {
     for (cursor = 0; result == 0;) {
         const char *path = option_next(options, "-o", &cursor);
         if (!path) break;
-        result = output_possible(path);
+        result = output_probe(path);
     }
     return result;
 }

@@ -21,6 +21,7 @@ typedef struct Layout {
     int column_width, image_height; /* of the largest panel */
     int margin, gap, caption, label;
     bool stacked; /* notes stand below titles: side by side they would not fit */
+    bool wrapped; /* a title takes two lines */
     int width, height;
 } Layout;
 
@@ -86,6 +87,29 @@ static void write_text(cairo_t *cairo, const double color[3], double x, double y
     cairo_show_text(cairo, line);
 }
 
+/* Cuts a title that is wider than room at a blank; the second line, NULL where there is none. line becomes
+ * what is to be drawn first. */
+static const char *wrap(cairo_t *cairo, double room, const char *title, char line[TEXT_MAX + ELLIPSIS + 1]) {
+    drawable(title, line);
+    if (text_width(cairo, line) <= room) return NULL;
+    for (size_t k = strlen(line); k-- > 1;) {
+        if (line[k] != ' ') continue;
+        line[k] = '\0';
+        if (text_width(cairo, line) <= room) return line + k + 1;
+        line[k] = ' ';
+    }
+    return NULL;
+}
+
+static bool titles_wrap(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+    char line[TEXT_MAX + ELLIPSIS + 1];
+    bool any = false;
+    set_font(cairo, layout->type, true);
+    for (int k = 0; k < desc->count; k++)
+        any |= desc->panels[k].title && wrap(cairo, layout->column_width, desc->panels[k].title, line);
+    return any;
+}
+
 static bool notes_fit(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
@@ -112,10 +136,12 @@ static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     if (layout.column_width < NARROWEST) layout.column_width = NARROWEST;
     layout.type = fmin(fmax(layout.column_width / 30.0, 12.0), 40.0);
     layout.stacked = !notes_fit(cairo, &layout, desc);
+    layout.wrapped = titles_wrap(cairo, &layout, desc);
     layout.margin = (int)lround(1.5 * layout.type);
     layout.gap = (int)lround(0.6 * layout.type);
     layout.caption = desc->caption ? (int)lround(2.1 * layout.type) : 0;
-    layout.label = labels ? (int)lround((layout.stacked ? 3.3 : 2.1) * layout.type) : 0;
+    double lines = 2.1 + (layout.stacked ? 1.2 : 0.0) + (layout.wrapped ? 1.2 : 0.0);
+    layout.label = labels ? (int)lround(lines * layout.type) : 0;
     double width =
         2.0 * layout.margin + (double)layout.columns * (layout.column_width + layout.gap) - layout.gap;
     double height = 2.0 * layout.margin + layout.caption +
@@ -128,8 +154,11 @@ static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
 static void draw_label(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
     double baseline = y + 1.35 * layout->type, room = layout->column_width;
     if (panel->title) {
+        char line[TEXT_MAX + ELLIPSIS + 1];
         set_font(cairo, layout->type, true);
-        write_text(cairo, bright, x, baseline, room, panel->title);
+        const char *second = wrap(cairo, room, panel->title, line);
+        write_text(cairo, bright, x, baseline, room, line);
+        if (second) write_text(cairo, bright, x, baseline += 1.2 * layout->type, room, second);
     }
     if (!panel->note) return;
     set_font(cairo, note_size(layout), false);

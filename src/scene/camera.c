@@ -42,7 +42,8 @@ static Camera frame_scene(const WeftScene *scene, float aspect) {
     return camera;
 }
 
-static bool parse_view(const char *text, Camera *camera) {
+/* Whether text is "eye;target;fov"; *wrong is what such a view cannot be, NULL: a camera was made. */
+static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     char copy[256];
     if (strlen(text) >= sizeof copy) return false;
     memcpy(copy, text, strlen(text) + 1);
@@ -53,8 +54,10 @@ static bool parse_view(const char *text, Camera *camera) {
     float e[3], t[3], degrees;
     if (!parse_numbers(copy, ',', 3, e) || !parse_numbers(target, ',', 3, t) || !parse_number(fov, &degrees))
         return false;
-    if (!(degrees > 0.01f && degrees < 179.0f) || (e[0] == t[0] && e[1] == t[1] && e[2] == t[2]))
-        return false;
+    *wrong = !(degrees > 0.01f && degrees < 179.0f) ? "its field of view is not within 0.01 and 179 degrees"
+             : e[0] == t[0] && e[1] == t[1] && e[2] == t[2] ? "its eye is where its target is"
+                                                            : NULL;
+    if (*wrong) return true;
     *camera = (Camera){.name = "", .yfov = degrees * (3.14159265f / 180.0f)};
     look_at(camera, vec3_load(e), vec3_load(t));
     return true;
@@ -75,7 +78,9 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
             return WEFT_OK;
         }
     }
-    if (parse_view(text, out)) return WEFT_OK;
+    const char *wrong;
+    if (parse_view(text, out, &wrong))
+        return wrong ? fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s", wrong) : WEFT_OK;
     char names[NAMES_SIZE];
     return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s; else write auto or \"eye;target;fov\"",
                 scene_names(scene, weft_scene_camera_name, names));

@@ -43,7 +43,7 @@ WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *los
             choices.profile <= 0 && ((target == CONVERT_METALLIC && choices.workflow <= WORKFLOW_METALLIC) ||
                                      (target == CONVERT_SPECULAR && choices.workflow == WORKFLOW_SPECULAR));
         if (losses)
-            losses[k] = already ? 0.0f : convert_wanted(choices) ? greatest_loss(scene, material) : -1.0f;
+            losses[k] = already ? -2.0f : convert_wanted(choices) ? greatest_loss(scene, material) : -1.0f;
     }
     return WEFT_OK;
 }

@@ -127,8 +127,10 @@ static int image_index(Reader *r, const char *file) {
 static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
     if (json_is_array(json) && json_array_size(json) == 2) {
         for (size_t k = 0; k < 2; k++) v[k] = number(r, json_array_get(json, k), what);
-    } else {
+    } else if (json_is_number(json)) {
         v[0] = v[1] = number(r, json, what);
+    } else {
+        refuse(r, "%s is one number or two", what);
     }
 }
 
@@ -280,9 +282,14 @@ WeftResult material_file_read(const void *data, size_t size, const char *name, c
                               MaterialFile *out, const WeftLog *log, WeftError *error) {
     *out = (MaterialFile){.material = material_default("")};
     Reader reader = {.name = name, .folder = folder, .key = "", .out = out, .log = log, .error = error};
+    const char *text = data;
+    size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, blank = mark; /* of UTF-8 */
+    while (blank < size && text[blank] && strchr(" \t\r\n", text[blank])) blank++;
     json_error_t where;
-    json_t *root = json_loadb(data, size, JSON_REJECT_DUPLICATES, &where);
-    if (!root)
+    json_t *root = json_loadb(text + mark, size - mark, JSON_REJECT_DUPLICATES, &where);
+    if (blank == size)
+        refuse(&reader, "it is empty");
+    else if (!root)
         refuse(&reader, "line %d: %s", where.line, where.text);
     else if (!json_is_object(root))
         refuse(&reader, "it is not an object");

@@ -6,8 +6,10 @@
 
 #include "base/fail.h"
 #include "base/number.h"
+#include "scene/shade.h"
 #include "scene/tangents.h"
 #include "shading/choice.h"
+#include "shading/compose.h"
 
 const char *weft_material_input_name(int index) {
     return index >= 0 && index < INPUT_COUNT ? input_infos[index].name : NULL;
@@ -46,7 +48,11 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
     *value = strcmp(id, "auto") == 0 ? CHOICE_AUTO : choice_find(choice, id);
     if (*value == CHOICE_AUTO && strcmp(id, "auto") == 0) return WEFT_OK;
     if (*value >= 0 && choice_fits(choice, *value)) return WEFT_OK;
-    const char *several = choice_several(choice, id, text), *name = choice_texts[choice][0];
+    const char *several = choice_several(choice, id, text), *name = choice_texts[choice][0],
+               *by = choice == CHOICE_layer ? strstr(id, ",by=") : NULL;
+    if (by)
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "write layer=%.*s and layer_by=%s", (int)(by - id),
+                    id, by + strlen(",by="));
     if (several) return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "several are called so: %s", several);
     return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "`weft models` lists what %s may be", name);
 }
@@ -110,6 +116,19 @@ static void material_set(Material *material, const Setting *setting) {
     if (input_infos[setting->input].kind != INPUT_NORMAL) slot->texture = 0;
 }
 
+static bool has_sheen(const Material *material) {
+    Choices choices = material_choices(material);
+    Surface surface = convert_surface(material_plain(material), choices);
+    return compose_begin(surface, convert_choices(choices), dir(0.0f, 0.0f, 1.0f)).sheen.pick > 0.0f;
+}
+
+/* Whether a setting does something to a sheen alone. Layer rule seed dims the base without one too. */
+static bool wants_sheen(const Setting *setting) {
+    return setting->value != CHOICE_AUTO &&
+           (setting->choice == CHOICE_sheen_lobe ||
+            (setting->choice == CHOICE_layer && setting->value != LAYER_SEED));
+}
+
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
                           WeftError *error) {
     const char *point = strrchr(target, '.');
@@ -121,14 +140,20 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
     Setting setting;
     WeftResult result = setting_read(point + 1, value, target, &setting, log, error);
     if (result != WEFT_OK) return result;
-    int matched = 0;
+    const Material *first = NULL;
+    bool idle = wants_sheen(&setting); /* there is none */
     for (int k = 0; k < scene->material_count; k++) {
         Material *material = &scene->materials[k];
         if (!material_matches(scene, k, name)) continue;
         material_set(material, &setting);
-        if (matched++ == 0) plausible_check(material, setting.input, setting.choice, target, log);
+        idle = idle && !has_sheen(material);
+        if (!first) first = material;
     }
-    if (matched) return tangents_complete(scene, error);
+    if (first && idle)
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "it changes nothing as long as none of these has a sheen");
+    else if (first)
+        plausible_check(first, setting.input, setting.choice, target, log);
+    if (first) return tangents_complete(scene, error);
     char names[NAMES_SIZE];
     return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s",
                 scene_names(scene, weft_scene_material_name, names));

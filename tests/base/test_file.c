@@ -114,17 +114,57 @@ static void what_cannot_be_written_is_an_error(void **state) {
     assert_int_equal(output_open(&file, inner, &error), WEFT_RESOURCES);
     assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
     assert_null(file.stream);
+    assert_int_equal(output_open(&file, "", &error), WEFT_RESOURCES);
+    assert_memory_equal(error.text, "\"\": ", 4);
     /* renaming over a folder that is not empty fails: the temporary is gone, the folder stands */
-    assert_int_equal(mkdir(in_folder(path, "d"), 0755), 0);
+    in_folder(path, "d");
+    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
+    assert_int_equal(mkdir(path, 0755), 0);
     snprintf(inner, sizeof inner, "%s/x", path);
     write_text(inner, "kept");
-    assert_int_equal(output_open(&file, path, NULL), WEFT_OK);
     assert_int_equal(output_commit(&file, &error), WEFT_RESOURCES);
     assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
     assert_int_equal(count_files(), 1);
     check_text(inner, "kept");
     unlink(inner);
     rmdir(path);
+}
+
+/* What is no plain file is left alone: a pipe, a folder, a link to nowhere. */
+static void only_plain_files_are_replaced(void **state) {
+    (void)state;
+    char pipe[128], inside[128], link[128];
+    struct stat status;
+    assert_int_equal(mkfifo(in_folder(pipe, "pipe"), 0600), 0);
+    assert_int_equal(mkdir(in_folder(inside, "folder"), 0755), 0);
+    assert_int_equal(symlink("nowhere", in_folder(link, "link")), 0);
+    const char *const paths[] = {pipe, inside, link};
+    for (int k = 0; k < 3; k++) {
+        OutputFile file;
+        WeftError error;
+        assert_int_equal(output_open(&file, paths[k], &error), WEFT_RESOURCES);
+        assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+        assert_null(file.stream);
+    }
+    assert_int_equal(count_files(), 3);
+    assert_true(lstat(pipe, &status) == 0 && S_ISFIFO(status.st_mode));
+    unlink(pipe);
+    rmdir(inside);
+    unlink(link);
+}
+
+static void links_stay(void **state) {
+    (void)state;
+    char real[128], link[128];
+    struct stat status;
+    write_text(in_folder(real, "real"), "old");
+    assert_int_equal(symlink("real", in_folder(link, "link")), 0);
+    write_text(link, "new");
+    check_text(real, "new");
+    assert_true(lstat(link, &status) == 0 && S_ISLNK(status.st_mode));
+    assert_int_equal(count_files(), 2);
+    unlink(link);
+    unlink(real);
 }
 
 static void a_full_disk_is_an_error(void **state) {
@@ -162,6 +202,10 @@ static void what_cannot_be_read_is_an_error(void **state) {
     assert_int_equal(file_read(path, 10, &bytes, &error), WEFT_OK);
     assert_int_equal(bytes.size, 10);
     free(bytes.data);
+    /* the size alone is enough: all of this in memory would not be */
+    assert_int_equal(truncate(path, (off_t)1 << 40), 0);
+    assert_int_equal(file_read(path, (size_t)1 << 39, &bytes, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_LARGE);
     write_text(path, "");
     check_text(path, "");
     unlink(path);
@@ -181,6 +225,8 @@ int main(void) {
         cmocka_unit_test(writers_of_one_path_do_not_meet),
         cmocka_unit_test(permissions_follow_the_umask),
         cmocka_unit_test(what_cannot_be_written_is_an_error),
+        cmocka_unit_test(only_plain_files_are_replaced),
+        cmocka_unit_test(links_stay),
         cmocka_unit_test(a_full_disk_is_an_error),
         cmocka_unit_test(what_cannot_be_read_is_an_error),
     };

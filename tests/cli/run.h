@@ -92,6 +92,7 @@ static inline pid_t program_start(const char *program, const char *input, const 
     sigemptyset(&usual);
     sigaddset(&usual, SIGPIPE);
     sigaddset(&usual, SIGINT);
+    sigaddset(&usual, SIGHUP);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigdefault(&attributes, &usual);

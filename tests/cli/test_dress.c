@@ -109,8 +109,13 @@ static void mistakes_are_named(void **state) {
     refused(LIST("--set=*.sheen_lobe=charlie"), 2, several);
     refused(LIST("--profile=filament"), 2, "filament-cloth, filament-sheen");
     refused(LIST("--profile=kronos"), 2, "did you mean khronos?");
-    refused(LIST("--profile=khronos,"), 2, "is not a profile");
-    refused(LIST("--profile="), 2, "is not a profile");
+    refused(LIST("--profile=khronos,"), 2, "--profile: \"\" is not a profile");
+    refused(LIST("--profile="), 2, "--profile: \"\"");
+    refused(LIST("--sheen=ggx,patry, ggx"), 2, "--sheen: ggx stands there twice");
+    refused(LIST("--set=*.layer=reciprocal,by=channel"), 2, "layer_by");
+    refused(LIST("--set=*.rougness=1"), 2, "did you mean roughness?");
+    refused(LIST("--set=*.=1"), 2, "\"\" is not a parameter");
+    refused(LIST("--set=.ior=1.5"), 2, "weft: \"\": is not a material");
     refused(LIST("--workflow=metal"), 2, "did you mean metallic?");
     refused(LIST("--diffuse=ggx"), 2, "is not a diffuse term");
     refused(LIST("--layer=seed,by=both"), 2, "by=both");
@@ -124,6 +129,46 @@ static void mistakes_are_named(void **state) {
     refused(LIST("--material=bad.json"), 3, "bad.json: is not a valid material file: line 1: duplicate");
     refused(LIST("--convert=disney"), 2, "metallic");
     assert_complaint(NULL, LIST("render", "scene.gltf", "--sheen=ggx,patry", "-o", "a.exr"), 2, ".png");
+}
+
+static void blanks_around_ids_are_none(void **state) {
+    (void)state;
+    assert_true(same(LIST("--sheen= ashikhmin-neubelt "), LIST("--sheen=ashikhmin-neubelt")));
+    assert_true(same(LIST("--layer=seed , by=channel"), LIST("--layer=seed,by=channel")));
+}
+
+/* What the options leave in the picture besides its summary: warnings of what they came to. */
+static void warns(const char *const *options, const char *part) {
+    const char *arguments[32] = {"render",  "scene.gltf", "--width=8", "--height=6",
+                                 "--spp=1", "-o",         "out.png"};
+    int count = 7;
+    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
+    Ran ran = run_with(NULL, arguments);
+    assert_int_equal(ran.code, 0);
+    if (part ? !strstr(ran.err, part) : strstr(ran.err, "warning") != NULL)
+        fail_msg("%s ...: %s", options[0], ran.err);
+    ran_free(&ran);
+}
+
+static void choices_without_effect_are_told(void **state) {
+    (void)state;
+    static const char idle[] = "weft: warning: *.sheen_lobe: is not plausible: it changes nothing";
+    warns(LIST("--sheen=ggx", "--set=*.sheen_color=0"), idle);
+    warns(LIST("--sheen=ggx", "--set=*.sheen=0"), idle);
+    warns(LIST("--sheen=ggx", "--workflow=disney"), idle);
+    warns(LIST("--layer=additive", "--set=*.sheen_color=0"), "*.layer: is not plausible: it changes nothing");
+    warns(LIST("--sheen=patry"), NULL);
+    warns(LIST("--sheen=patry", "--set=*.sheen_color=0", "--set=*.sheen_color=1"), NULL);
+    warns(LIST("--sheen=patry", "--workflow=disney", "--set=*.metallic=0", "--set=*.sheen=1"), NULL);
+    warns(LIST("--sheen=patry", "--profile=unreal4"), NULL);
+    warns(LIST("--layer=seed", "--set=*.sheen_color=0"), NULL);
+}
+
+/* A metal by three settings is none after the first. */
+static void the_whole_is_judged(void **state) {
+    (void)state;
+    warns(LIST("--workflow=specular", "--set=*.specular_color=0.9", "--set=*.base_color=0"), NULL);
+    warns(LIST("--workflow=specular", "--set=*.specular_color=0.9"), "diffuse colour of a metal");
 }
 
 static void conversion_says_what_it_loses(void **state) {
@@ -144,7 +189,20 @@ static void conversion_says_what_it_loses(void **state) {
     ran_free(&ran);
     ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
               "--workflow=disney", "--convert=metallic");
-    assert_non_null(strstr(ran.err, "material cloth: is of another workflow or a profile and stays"));
+    assert_non_null(strstr(ran.err,
+                           "--convert metallic: there is nothing to convert: 1 of 1 materials are of "
+                           "another workflow or a profile and stay\n"));
+    ran_free(&ran);
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+              "--convert=metallic");
+    assert_non_null(strstr(ran.err, "--convert metallic: there is nothing to convert\n"));
+    assert_null(strstr(ran.err, "material cloth"));
+    ran_free(&ran);
+    ran = RUN("render", "builtin:cloth", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+              "--convert=specular", "--set=1.workflow=specular", "--set=2.workflow=disney");
+    assert_non_null(strstr(ran.err, "material Cloth: conversion to specular loses 0.000\n"));
+    assert_null(strstr(ran.err, "material Plinth"));
+    assert_non_null(strstr(ran.err, "--convert specular: 1 of 4 materials are of another workflow"));
     ran_free(&ran);
 }
 
@@ -235,6 +293,8 @@ int main(void) {
         cmocka_unit_test(profiles_are_not_converted), cmocka_unit_test(aliases_are_taken),
         cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(conversion_says_what_it_loses),
         cmocka_unit_test(a_sheet_holds_the_pictures), cmocka_unit_test(every_axis_makes_a_sheet),
+        cmocka_unit_test(blanks_around_ids_are_none), cmocka_unit_test(choices_without_effect_are_told),
+        cmocka_unit_test(the_whole_is_judged),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
 }

@@ -261,6 +261,10 @@ static void implausible_parameters_are_warned_of(void **state) {
     assert_true(one_complaint(ran.err));
     assert_memory_equal(ran.err, "weft: warning: alpha", 20);
     ran_free(&ran);
+    ran = run_with("10 0 20 0\n", LIST("eval", "ggx", "-p", "color=-1"));
+    assert_int_equal(ran.code, 0);
+    assert_true(one_complaint(ran.err)); /* of three channels */
+    ran_free(&ran);
 }
 
 int main(void) {

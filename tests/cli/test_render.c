@@ -128,7 +128,7 @@ static void materials_can_be_set(void **state) {
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--set=wool.ior=1.5"), 2,
                      "wool: is not a material");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--set=cloth.iro=1.5"), 2,
-                     "iro: is not a parameter");
+                     "\"iro\" is not a parameter; did you mean ior?");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--variant=x"), 2,
                      "x: is not a material variant");
 }
@@ -185,8 +185,8 @@ static void time_limit_ends_it_well(void **state) {
 /* Interrupts a long render after some seconds; longer and longer until it had taken a sample. */
 static void interrupt_writes_what_there_is(void **state) {
     (void)state;
-    static const int signals[] = {SIGINT, SIGTERM};
-    for (int s = 0; s < 2; s++) {
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    for (int s = 0; s < 3; s++) {
         file_make("a.png", "old", 3);
         Ran ran;
         bool early = true;
@@ -206,6 +206,39 @@ static void interrupt_writes_what_there_is(void **state) {
         assert_size("a.png", 960, 720);
         ran_free(&ran);
     }
+}
+
+/* Who sent it off with nohup wants it to go on. */
+static void an_ignored_hangup_stays_ignored(void **state) {
+    (void)state;
+    Ran ran =
+        run_shell("trap '' HUP; \"$0\" render scene.gltf --width 32 --height 24 --time-limit 1 -o n.png & "
+                  "sleep 0.5; kill -HUP $!; wait $!");
+    if (ran.code != 0 || strstr(ran.err, "interrupted")) fail_msg("exit %d: %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
+/* A sheet of which only the first picture was begun: that picture, and no word on differences. */
+static void interrupted_sheets_show_what_there_is(void **state) {
+    (void)state;
+    Ran ran = {0};
+    bool early = true;
+    for (double pause = 0.5; early && pause < 20.0; pause *= 2.0) {
+        ran_free(&ran);
+        pid_t child = program_start(WEFT_PROGRAM, NULL,
+                                    LIST("render", "scene.gltf", "--width=320", "--height=240", "-o", "a.png",
+                                         "--time-limit=100", "--layer=additive,seed,reciprocal"));
+        sleep_seconds(pause);
+        kill(child, SIGINT);
+        ran = program_end(child);
+        early = strstr(ran.err, "before the first sample") != NULL;
+    }
+    assert_int_equal(ran.code, 130);
+    if (!strstr(ran.err, "interrupted at 1 of 3 pictures in ")) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftImage sheet = picture("a.png");
+    assert_true(sheet.width < 2 * 320 && sheet.height < 2 * 240);
+    weft_image_free(&sheet);
 }
 
 /* The environment is a pipe, so that the moment is known: loading has begun and cannot end. */
@@ -234,7 +267,11 @@ static void failures_keep_the_old_picture(void **state) {
     file_make("a.png", "old", 3);
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
     assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
-                     "builtin:none: is not a built-in scene");
+                     "builtin:none: is not a built-in scene: there is cloth, spheres\n");
+    assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
+                     "there is cloth, spheres; did you mean spheres?");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2,
+                     "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
                      "back: is not a camera of this scene: there is front; else write auto");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2, "there is none");
@@ -255,6 +292,25 @@ static void outputs_are_tried_first(void **state) {
                      "/proc/a.exr: cannot be written");
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "b.jpg"), 2,
                      "b.jpg: has no suffix");
+    assert_int_equal(mkfifo("pipe.png", 0600), 0);
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "pipe.png"), 4,
+                     "weft: pipe.png: is not a plain file");
+    assert_complaint(NULL, LIST("check", "lambert", "--html", "pipe.png"), 4,
+                     "pipe.png: is not a plain file");
+    assert_complaint(NULL, LIST("check", "lambert", "--html", "/"), 4, "/: is not a plain file");
+    assert_int_equal(symlink("nowhere", "link.exr"), 0);
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "link.exr"), 4,
+                     "link.exr: is a link that leads nowhere");
+}
+
+static void links_are_followed(void **state) {
+    (void)state;
+    struct stat status;
+    file_make("real.png", "old", 3);
+    assert_int_equal(symlink("real.png", "link.png"), 0);
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "link.png"));
+    assert_true(lstat("link.png", &status) == 0 && S_ISLNK(status.st_mode));
+    assert_size("real.png", 32, 24);
 }
 
 int main(void) {
@@ -267,9 +323,12 @@ int main(void) {
         cmocka_unit_test(json_holds_the_figures),
         cmocka_unit_test(time_limit_ends_it_well),
         cmocka_unit_test(interrupt_writes_what_there_is),
+        cmocka_unit_test(an_ignored_hangup_stays_ignored),
+        cmocka_unit_test(interrupted_sheets_show_what_there_is),
         cmocka_unit_test(interrupted_while_loading),
         cmocka_unit_test(failures_keep_the_old_picture),
         cmocka_unit_test(outputs_are_tried_first),
+        cmocka_unit_test(links_are_followed),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -42,6 +42,35 @@ static void help_is_complete(void **state) {
     ran_free(&ran);
 }
 
+static void words_do_as_options(void **state) {
+    (void)state;
+    static const struct {
+        const char *words[3], *options[3];
+    } pairs[] = {
+        {{"help"}, {"--help"}}, {{"version"}, {"--version"}}, {{"help", "eval"}, {"eval", "--help"}}};
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+        Ran word = run_with(NULL, pairs[k].words), option = run_with(NULL, pairs[k].options);
+        assert_int_equal(word.code, 0);
+        assert_true(word.out[0]);
+        assert_string_equal(word.out, option.out);
+        ran_free(&word), ran_free(&option);
+    }
+    assert_complaint(NULL, LIST("help", "rendr"), 2, "did you mean render?");
+    assert_complaint(NULL, LIST("help", "eval", "x"), 2, "x: is one operand too many");
+}
+
+/* What is empty has no name to begin a line with. */
+static void empty_words_are_quoted(void **state) {
+    (void)state;
+    assert_complaint(NULL, LIST(""), 2, "weft: \"\": is not a verb");
+    assert_complaint(NULL, LIST("models", ""), 2, "weft: \"\": is no operand");
+    assert_complaint(NULL, LIST("render", "", "-o", "a.png"), 2, "weft: \"\": is no operand");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", ""), 2, "weft: -o: \"\" is no value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "a.png", "--env="), 2,
+                     "weft: --env: \"\" is no value");
+    assert_complaint(NULL, LIST("check", "lambert", "--html="), 2, "weft: --html: \"\" is no value");
+}
+
 static void usage_errors_are_one_line(void **state) {
     (void)state;
     assert_complaint(NULL, (const char *const[]){NULL}, 2, "weft --help");
@@ -118,7 +147,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_is_complete),        cmocka_unit_test(usage_errors_are_one_line),
         cmocka_unit_test(numbers_are_checked),     cmocka_unit_test(pipes_end_quietly),
-        cmocka_unit_test(full_output_is_reported),
+        cmocka_unit_test(full_output_is_reported), cmocka_unit_test(words_do_as_options),
+        cmocka_unit_test(empty_words_are_quoted),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

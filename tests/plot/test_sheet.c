@@ -128,6 +128,37 @@ static void labels_stay_in_their_place(void **state) {
     }
 }
 
+/* The rows below the pictures in which there is type, as bands with nothing between. */
+static int lines_of_type(const char *title, int *below) {
+    WeftImage image = pattern(240, 20, 3);
+    WeftPanel panel = {.image = &image, .title = title};
+    WeftImage sheet = compose(&(WeftSheetDesc){.panels = &panel, .count = 1, .columns = 1});
+    int x = 0, y = 0, bands = 0;
+    assert_true(find(&sheet, &image, &x, &y));
+    *below = sheet.height - y - 20;
+    bool before = false;
+    for (int row = y + 20; row < sheet.height; row++) {
+        bool type = inked(&sheet, 0, row, sheet.width, 1) > 0;
+        bands += type && !before;
+        before = type;
+    }
+    assert_int_equal(inked(&sheet, x + 240, y + 20, sheet.width, sheet.height), 0);
+    weft_image_free(&sheet);
+    weft_image_free(&image);
+    return bands;
+}
+
+/* Two long ids with a minus between stand one below the other; one word that is too long stays one line. */
+static void long_titles_take_two_lines(void **state) {
+    (void)state;
+    int one, two;
+    assert_int_equal(lines_of_type("seed \xe2\x88\x92 additive", &one), 1);
+    assert_int_equal(lines_of_type("MMMMMMMMMMMMMMM \xe2\x88\x92 NNNNNNNNNNNNNNN", &two), 2);
+    assert_true(two > one + 8);
+    assert_int_equal(lines_of_type("MMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMM", &two), 1);
+    assert_int_equal(two, one);
+}
+
 static void wrong_sheets_are_refused(void **state) {
     (void)state;
     WeftImage image = pattern(8, 8, 3), linear = image_of(8, 8, 3, WEFT_PIXEL_F32), sheet;
@@ -237,7 +268,7 @@ int main(void) {
         cmocka_unit_test(pictures_stay_as_they_are),    cmocka_unit_test(what_is_transparent_shows_the_sheet),
         cmocka_unit_test(labels_stay_in_their_place),   cmocka_unit_test(wrong_sheets_are_refused),
         cmocka_unit_test(figures_follow_their_formula), cmocka_unit_test(colors_tell_sign_and_size),
-        cmocka_unit_test(the_scale_is_drawn),
+        cmocka_unit_test(the_scale_is_drawn),           cmocka_unit_test(long_titles_take_two_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,14 @@ static void values_have_every_form(void **state) {
     material_file_free(&file);
 }
 
+/* Editors of one large house put it there. */
+static void a_byte_order_mark_is_passed_over(void **state) {
+    (void)state;
+    MaterialFile file = file_of("\xef\xbb\xbf{\"roughness\":0.75}", 0);
+    assert_true(file.material.inputs[INPUT_roughness].value[0] == 0.75f);
+    material_file_free(&file);
+}
+
 static void choices_are_ids_and_aliases(void **state) {
     (void)state;
     MaterialFile file =
@@ -120,7 +128,11 @@ static void warnings_name_what_is_hardly_real(void **state) {
 static const struct {
     const char *text, *part;
 } wrong[] = {
-    {"", "line 1"},
+    {"", "it is empty"},
+    {" \n\t", "it is empty"},
+    {"\xef\xbb\xbf", "it is empty"},
+    {"\xef\xbb\xbf{", "line 1"},
+    {"\xef\xbb{}", "line 1"},
     {"{", "line 1"},
     {"[]", "not an object"},
     {"3", "line 1"},
@@ -137,6 +149,7 @@ static const struct {
     {"{\"roughness\":true}", "roughness"},
     {"{\"layer\":3}", "layer"},
     {"{\"layer\":\"glue\"}", "glue"},
+    {"{\"layer\":\"seed,by=max\"}", "write layer=seed and layer_by=max"},
     {"{\"sheen_lobe\":\"charlie\"}", "charlie-neubelt, charlie-conty-kulla"},
     {"{\"diffuse\":\"ggx\"}", "ggx"},
     {"{\"keep\":\"normal\"}", "keep"},
@@ -155,7 +168,8 @@ static const struct {
     {"{\"roughness\":{\"texture\":\"a.png\",\"texture\":\"b.png\"}}", "duplicate"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"texcoord\":2}}", "texcoord"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"texcoord\":0.5}}", "texcoord"},
-    {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":[1,2,3]}}", "scale"},
+    {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":[1,2,3]}}", "scale is one number or two"},
+    {"{\"roughness\":{\"texture\":\"a.png\",\"offset\":\"1\"}}", "offset is one number or two"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":1e7}}", "1e6"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"wrap\":\"none\"}}", "repeat"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"nearest\":1}}", "nearest"},
@@ -321,6 +335,7 @@ static void presets_are_clean(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_have_every_form),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(choices_are_ids_and_aliases),
         cmocka_unit_test(warnings_name_what_is_hardly_real),
         cmocka_unit_test(what_is_wrong_is_said_in_one_line),

@@ -128,6 +128,17 @@ static void sheen_and_layer_are_set_by_id(void **state) {
     assert_int_equal(weft_scene_set_environment_placement(scene, NAN, 1.0f, &error), WEFT_USAGE);
     assert_int_equal(weft_scene_set_environment_placement(scene, 30.0f, -2.0f, &error), WEFT_USAGE);
     assert_int_equal(weft_scene_set_environment_file(scene, "/nowhere/sky.hdr", NULL, &error), WEFT_INPUT);
+    /* a sheen of its own for what has none: said, where the choice stands alone */
+    Warnings warnings = {0};
+    WeftLog log = {note, &warnings};
+    assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", "patry", &log, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "floor.layer", "seed", &log, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "floor.sheen_lobe", "auto", &log, &error), WEFT_OK);
+    assert_int_equal(warnings.count, 0);
+    assert_int_equal(weft_scene_set(scene, "floor.sheen_lobe", "patry", &log, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "floor.layer", "additive", &log, &error), WEFT_OK);
+    assert_int_equal(warnings.count, 2);
+    assert_int_equal(warnings.last, WEFT_MESSAGE_PLAUSIBLE);
     weft_scene_free(scene);
 }
 
@@ -179,6 +190,11 @@ static void cameras_are_found_by_what_people_type(void **state) {
         assert_int_equal(camera_find(scene, wrong[k], 1.0f, &camera, &error), WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_CAMERA_NAME);
     }
+    /* what is a view is told what is wrong with it */
+    assert_int_equal(camera_find(scene, "0,0,0;0,0,1;180", 1.0f, &camera, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "field of view"));
+    assert_int_equal(camera_find(scene, "0,0,0;0,0,0;40", 1.0f, &camera, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "its eye is where its target is"));
     weft_scene_free(scene);
 }
 
