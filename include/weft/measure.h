@@ -51,11 +51,14 @@ typedef struct WeftPassport {
     WeftPlace reciprocity_place;
 
     /* Of a lobe: what a white Lambert base under it as a white sheen returns of uniform light, for each layer
-     * rule (weft_layer_id), roughness of the sheen and view. A profile's own E says that already. */
+     * rule (weft_layer_id), roughness of the sheen and view; and the standard error of that, which is 0 but
+     * of the rule that walks at random. A profile's own E says that already. */
     float views[WEFT_PASSPORT_VIEWS]; /* cos_o, from 1 downwards */
     int layers;                       /* 0 of a profile */
     float sheens[WEFT_PASSPORT_SHEENS];
     float furnace[WEFT_PASSPORT_LAYERS][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS];
+    float furnace_noise[WEFT_PASSPORT_LAYERS][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS];
+    float furnace_most; /* less three standard errors, under the rules that promise to conserve energy */
 
     /* Sampling. p is the least p value of the chi-square tests; in a run of several passports the tests of
      * all count: weft_passport_significance. */
@@ -64,7 +67,9 @@ typedef struct WeftPassport {
     int tests;
     double p;
     WeftPlace p_place;
-    int stray; /* samples that their own pdf calls impossible */
+    int stray;    /* samples that their own pdf calls impossible */
+    float missed; /* the most of E that comes from directions whose pdf is 0 */
+    WeftPlace missed_place;
 
     /* Variance of f cos / pdf, with the lobe's own sampling and with the cosine's; their ratio, views
      * together and 1e-3 added to both, at the default row and at the row where it is worst. */

@@ -34,7 +34,7 @@ const char *decimal_read(const char *text, double *value) {
         shift = at - point < 1000 ? (int)(at - point) : 1000;
         length += at - point;
     }
-    bool plain = length > 0 && *at != 'e' && *at != 'E' && *at != 'x' && *at != 'X';
+    bool plain = length > 0 && *at != 'e' && *at != 'E'; /* a hexadecimal number ends behind its first 0 */
     if (plain && count <= 18 && whole < (uint64_t)1 << 53 && shift <= EXACT) {
         double number = (double)whole / tens[shift];
         *value = *text == '-' ? -number : number;

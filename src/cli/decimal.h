@@ -1,10 +1,10 @@
 /* decimal.h - numbers to and from text, as strtod reads and printf prints them in the C locale, several times
- * as fast */
+ * as fast; but no hexadecimal ones */
 #ifndef WEFT_CLI_DECIMAL_H
 #define WEFT_CLI_DECIMAL_H
 
-/* Reads the number that text starts with, as strtod does. Returns what follows it; text itself where there is
- * none. */
+/* Reads the number that text starts with, as strtod does, but "0x1e" as 0. Returns what follows it; text
+ * itself where there is none. */
 const char *decimal_read(const char *text, double *value);
 
 enum { DECIMAL_SIZE = 32 };

@@ -114,21 +114,28 @@ static bool check_axis(int axis, Dress *dress) {
     return true;
 }
 
-/* "MAT=NAME": what is behind the '=', or all of it; *material is NULL where there is none. */
-static const char *split_material(const char *text, bool is_file, char material[256], bool *named) {
-    const char *equals = strchr(text, '=');
-    *named = equals && !(is_file && access(text, F_OK) == 0);
-    if (!*named) return text;
-    snprintf(material, 256, "%.*s", (int)(equals - text), text);
-    return equals + 1;
+/* Names of materials, and of what is set: */
+enum { MATERIAL_SIZE = 256, TARGET_SIZE = 512 };
+
+/* "MAT=NAME": what is behind the '=', or all of it. A material's name and a file's may hold '=' too: the
+ * longest that is a file is one, else the last '=' divides. */
+static const char *dressing_of(const char *text, bool is_file) {
+    const char *last = strrchr(text, '=');
+    for (const char *file = text; is_file && file; file = strchr(file, '=') ? strchr(file, '=') + 1 : NULL)
+        if (access(file, F_OK) == 0) return file;
+    return last ? last + 1 : text;
 }
 
-static bool check_presets(const Options *options) {
-    char material[256];
-    bool named;
+static bool check_dressings(const Options *options, const char *option, bool is_file) {
     int cursor = 0;
-    for (const char *text; (text = option_next(options, "--preset", &cursor));)
-        if (kind_named(kind_of("preset"), split_material(text, false, material, &named)) < 0) return false;
+    for (const char *text; (text = option_next(options, option, &cursor));) {
+        const char *dressing = dressing_of(text, is_file);
+        if (dressing - text > MATERIAL_SIZE) {
+            report(WEFT_USAGE, "%s: \"%.80s\" is too long for the name of a material", option, text);
+            return false;
+        }
+        if (!is_file && kind_named(kind_of("preset"), dressing) < 0) return false;
+    }
     return true;
 }
 
@@ -140,6 +147,10 @@ static bool check_set(const char *text) {
     while (point && point > text && *point != '.') point--;
     if (!equals || *point != '.') {
         report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
+        return false;
+    }
+    if (equals - text >= TARGET_SIZE) {
+        report(WEFT_USAGE, "--set: \"%.80s\" is too long for the name of a material", text);
         return false;
     }
     snprintf(name, sizeof name, "%.*s", (int)(equals - point - 1), point + 1);
@@ -176,7 +187,8 @@ bool dress_read(const Options *options, Dress *dress) {
         report(WEFT_USAGE, "--workflow: a profile stands in its place; give --workflow or --profile");
         return false;
     }
-    return check_presets(options) && check_sets(options) &&
+    return check_dressings(options, "--preset", false) && check_dressings(options, "--material", true) &&
+           check_sets(options) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
@@ -229,12 +241,14 @@ static WeftResult apply_axis(const Dress *dress, int axis, int k, WeftScene *sce
 /* Every --preset, or every --material. */
 static WeftResult apply_dressings(const Dress *dress, const char *option, WeftScene *scene,
                                   const WeftLog *log, WeftError *error) {
-    bool is_file = strcmp(option, "--material") == 0, named;
+    bool is_file = strcmp(option, "--material") == 0;
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *text; result == WEFT_OK && (text = option_next(dress->options, option, &cursor));) {
-        char material[256], preset[64];
-        const char *path = split_material(text, is_file, material, &named);
+        char material[MATERIAL_SIZE], preset[64];
+        const char *path = dressing_of(text, is_file);
+        bool named = path > text;
+        if (named) snprintf(material, sizeof material, "%.*s", (int)(path - 1 - text), text);
         snprintf(preset, sizeof preset, "preset:%s", path);
         result = weft_scene_dress(scene, named ? material : NULL, is_file ? path : preset, log, error);
     }
@@ -246,7 +260,7 @@ static WeftResult apply_sets(const Dress *dress, WeftScene *scene, const WeftLog
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *text; result == WEFT_OK && (text = option_next(dress->options, "--set", &cursor));) {
-        char target[512];
+        char target[TARGET_SIZE];
         const char *equals = strrchr(text, '=');
         snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
         result = weft_scene_set(scene, target, equals + 1, log, error);

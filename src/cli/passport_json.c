@@ -25,18 +25,25 @@ static void json_albedo(Json *json, const WeftPassport *p) {
     json_close(json, '}');
 }
 
+static void json_layers(Json *json, const char *key, int layers,
+                        const float cells[][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS]) {
+    json_open(json, key, '{');
+    for (int layer = 0; layer < layers; layer++) {
+        json_open(json, weft_layer_id(layer), '[');
+        for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++)
+            json_floats(json, NULL, cells[layer][k], WEFT_PASSPORT_VIEWS);
+        json_close(json, ']');
+    }
+    json_close(json, '}');
+}
+
 static void json_furnace(Json *json, const WeftPassport *p) {
     json_open(json, "furnace", '{');
     json_floats(json, "roughness", p->sheens, WEFT_PASSPORT_SHEENS);
     json_floats(json, "cos_o", p->views, WEFT_PASSPORT_VIEWS);
-    json_open(json, "layers", '{');
-    for (int layer = 0; layer < p->layers; layer++) {
-        json_open(json, weft_layer_id(layer), '[');
-        for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++)
-            json_floats(json, NULL, p->furnace[layer][k], WEFT_PASSPORT_VIEWS);
-        json_close(json, ']');
-    }
-    json_close(json, '}');
+    json_layers(json, "layers", p->layers, p->furnace);
+    json_layers(json, "noise", p->layers, p->furnace_noise);
+    json_float(json, "conserving_most", p->furnace_most);
     json_close(json, '}');
 }
 
@@ -49,6 +56,8 @@ static void json_sampling(Json *json, const WeftPassport *p) {
     json_place(json, "p_at", &p->p_place);
     json_number(json, "significance", weft_passport_significance(p->p, p->tests));
     json_integer(json, "stray", p->stray);
+    json_float(json, "missed", p->missed);
+    json_place(json, "missed_at", &p->missed_place);
     json_floats(json, "cos_o", p->views, WEFT_PASSPORT_VIEWS);
     json_open(json, "variance", '[');
     for (int row = 0; row < p->rows; row++) json_floats(json, NULL, p->variance[row], WEFT_PASSPORT_VIEWS);

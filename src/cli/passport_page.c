@@ -26,10 +26,10 @@ enum { LEFT = 46, TOP = 26, WIDE = 330, HIGH = 200, KEY = 150 };
 static double plot_x(double x) { return LEFT + WIDE * x; }
 static double plot_y(const Plot *plot, double y) { return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0)); }
 
-/* What is above 1 is shaded. */
+/* What is above 1 is shaded; what is no number runs along the top. */
 static Plot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
     double steps[] = {1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0};
-    Plot plot = {.stream = f, .top = most, .of = of};
+    Plot plot = {.stream = f, .top = most < 1e6 ? most : 1e6, .of = of};
     for (int k = 7; k >= 0; k--)
         if (steps[k] > most) plot.top = steps[k];
     fprintf(f, "<svg viewBox=\"0 0 %d %d\" width=\"%d\" role=\"img\"><title>%s</title>\n", LEFT + WIDE + KEY,
@@ -120,7 +120,7 @@ static void write_table(FILE *f, const WeftPassport *p) {
         fprintf(f, "\n<tr><th>%g", (double)p->cosines[c]);
         for (int row = 0; row < p->rows; row++) {
             float e = p->albedo[row][c];
-            fprintf(f, "<td%s>%.3f", e > 1.001f ? " class=\"above\"" : "", (double)e);
+            fprintf(f, "<td%s>%.3f", !(e <= 1.001f) ? " class=\"above\"" : "", (double)e);
         }
     }
     fprintf(f, "\n</table>\n");
@@ -132,8 +132,9 @@ static void write_facts(FILE *f, const WeftPassport *p) {
     fprintf(f, "<dt>Reciprocity<dd>|f(wo, wi) &minus; f(wi, wo)| at most %.2g of the larger\n",
             (double)p->reciprocity);
     fprintf(f,
-            "<dt>Sampling<dd>the pdf integrates to at most %.4f; significance of %d chi-square tests %.2g\n",
-            (double)p->pdf_most, p->tests, weft_passport_significance(p->p, p->tests));
+            "<dt>Sampling<dd>the pdf integrates to at most %.4f; significance of %d chi-square tests %.2g; "
+            "%.2g of E is missed\n",
+            (double)p->pdf_most, p->tests, weft_passport_significance(p->p, p->tests), (double)p->missed);
     fprintf(f, "<dt>Variance<dd>%.2g of the cosine's; at worst %.2g\n", (double)p->variance_ratio,
             (double)p->variance_worst);
     fprintf(f, "<dt>Sweep<dd>of %lld results %lld not finite, %lld negative, %lld from below the horizon\n",

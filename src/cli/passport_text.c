@@ -15,6 +15,11 @@ static const char *place_text(const WeftPassport *p, const WeftPlace *place, cha
     return text;
 }
 
+/* What the passport is headed. */
+static const char *title(const WeftPassport *p) {
+    return p->profile && strcmp(p->id, "none") == 0 ? "none (weft's own)" : p->id;
+}
+
 static void print_albedo(const WeftPassport *p) {
     char place[96];
     printf("\nDirectional albedo E of the white %s; * marks what is above 1 by more than 0.001\n\n",
@@ -27,7 +32,7 @@ static void print_albedo(const WeftPassport *p) {
         printf("  %-6g", (double)p->cosines[c]);
         for (int row = 0; row < p->rows; row++) {
             float e = p->albedo[row][c];
-            printf("%c%5.3f", e > 1.001f ? '*' : ' ', (double)e);
+            printf("%c%5.3f", !(e <= 1.001f) ? '*' : ' ', (double)e);
         }
         printf("\n");
     }
@@ -39,11 +44,11 @@ static void print_albedo(const WeftPassport *p) {
 static void print_reciprocity(const WeftPassport *p) {
     char place[96];
     printf("\nReciprocity\n  |f(wo, wi) - f(wi, wo)| is ");
-    if (p->reciprocity > 0.0f)
+    if (p->reciprocity <= 0.0f)
+        printf("0\n");
+    else
         printf("at most %.2g of the larger (%s)\n", (double)p->reciprocity,
                place_text(p, &p->reciprocity_place, place, sizeof place));
-    else
-        printf("0\n");
 }
 
 static void print_furnace(const WeftPassport *p) {
@@ -57,12 +62,14 @@ static void print_furnace(const WeftPassport *p) {
         printf("  %-16s", weft_layer_id(layer));
         for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++) {
             float least = p->furnace[layer][k][0], most = least;
-            for (int v = 1; v < WEFT_PASSPORT_VIEWS; v++) {
+            bool above = false; /* and not by noise */
+            for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
                 float e = p->furnace[layer][k][v];
-                least = e < least ? e : least;
-                most = e > most ? e : most;
+                if (e < least || isnan(e)) least = e;
+                if (e > most || isnan(e)) most = e;
+                above |= !(e - 3.0f * p->furnace_noise[layer][k][v] <= 1.001f);
             }
-            printf("  %5.3f ..%c%5.3f", (double)least, most > 1.001f ? '*' : ' ', (double)most);
+            printf("  %5.3f ..%c%5.3f", (double)least, above ? '*' : ' ', (double)most);
         }
         printf("\n");
     }
@@ -75,6 +82,11 @@ static void print_sampling(const WeftPassport *p) {
     printf("  chi-square: the least p of %d tests is %.2g (%s), significance %.2g\n", p->tests, p->p,
            place_text(p, &p->p_place, place, sizeof place), weft_passport_significance(p->p, p->tests));
     if (p->stray) printf("  %d samples fell where their pdf is 0\n", p->stray);
+    printf("  missed by sampling: ");
+    if (p->missed <= 0.0f)
+        printf("0\n");
+    else
+        printf("%.2g of E (%s)\n", (double)p->missed, place_text(p, &p->missed_place, place, sizeof place));
     printf("  variance of f cos / pdf: %.2g of the cosine's", (double)p->variance_ratio);
     if (p->rows > 1)
         printf(" at %s %.3g, %.2g at worst (%s %.3g)", p->parameter, (double)p->values[p->row_default],
@@ -122,7 +134,7 @@ static void print_parity(const WeftPassport *p) {
 }
 
 void passport_text(const WeftPassport *p) {
-    printf("%s\n", p->id);
+    printf("%s\n", title(p));
     if (*p->surface) printf("  %s\n", p->surface);
     print_albedo(p);
     print_reciprocity(p);
@@ -146,8 +158,8 @@ void passport_line(const WeftPassport *p) {
         snprintf(half, sizeof half, "always");
     else if (p->half_measured)
         snprintf(half, sizeof half, "2^-%d", p->half_cosine);
-    printf("%-26s %6.3g %8.1e %7.2g %7.2g %5lld %-6s ", p->id, (double)p->albedo_most, (double)p->reciprocity,
-           weft_passport_significance(p->p, p->tests), (double)p->variance_ratio,
+    printf("%-26s %6.3g %8.1e %7.2g %7.2g %5lld %-6s ", title(p), (double)p->albedo_most,
+           (double)p->reciprocity, weft_passport_significance(p->p, p->tests), (double)p->variance_ratio,
            p->sweep_infinite + p->sweep_negative + p->sweep_below, half);
     if (p->parity_measured)
         printf("%.0e\n", (double)p->parity_worst);

@@ -1,8 +1,47 @@
 #include "measure/furnace.h"
 
+#include "measure/draw.h"
 #include "measure/grid.h"
+#include "shading/warp.h"
 
-double furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells) {
+/* All but what a random layer rule walks, as a midpoint sum. */
+static double still(const Stack *stack, Dir o, int cells, bool random) {
+    Grid grid;
+    Ring ring;
+    double sum = 0.0;
+    grid_make(&grid, o, cells);
+    for (int row = 0; row < cells; row++) {
+        grid_ring(&grid, row, &ring);
+        for (int c = 0; c < cells; c++) {
+            Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
+            /* stack_eval walks by the same seed */
+            float bounces = random ? sheet_bounces(stack, o, i, 0).g : 0.0f;
+            sum += (double)(stack_eval(stack, o, i, 0).f_cos.g - bounces) * ring.area[c];
+        }
+    }
+    return sum;
+}
+
+enum { LEAST = 10000 };
+
+/* The walks, by the cosine: their mean and its standard error. */
+static Furnace walked(const Stack *stack, Dir o, int walks) {
+    Furnace f = {0};
+    Draw draw = draw_start(3, 0);
+    double squares = 0.0; /* of the distances from the mean: B. P. Welford, Technometrics 4, 1962 */
+    for (int n = 1; n <= walks && (n <= LEAST || f.noise > 5e-4); n++) {
+        float u = draw_unit(&draw), v = draw_unit(&draw);
+        Dir i = warp_cosine(u, v);
+        double e = (double)(sheet_bounces(stack, o, i, (uint32_t)n).g / warp_cosine_pdf(i)), off = e - f.e;
+        f.e += off / n;
+        squares += off * (e - f.e);
+        f.noise = (sqrt)(squares / n / n);
+    }
+    return f;
+}
+
+Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells,
+                        int walks) {
     const Rgb white = {1.0f, 1.0f, 1.0f};
     Surface surface = {.base_color = white,
                        .sheen_color = white,
@@ -20,17 +59,8 @@ double furnace_measure(const Lobe *lobe, float roughness, int layer, const Albed
     stack_make(&stack, &surface, &choices, albedo_table_ref(e), o);
     for (int k = 1; k < LOBE_PARAMS_MAX; k++) stack.sheen.lobe.params[k] = lobe->params[k];
 
-    Grid grid;
-    Ring ring;
-    double sum = 0.0;
-    grid_make(&grid, o, cells);
-    for (int row = 0; row < cells; row++) {
-        grid_ring(&grid, row, &ring);
-        for (int c = 0; c < cells; c++) {
-            uint32_t seed = (uint32_t)(row * cells + c); /* a random layer rule: another walk in each cell */
-            Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
-            sum += (double)stack_eval(&stack, o, i, seed).f_cos.g * ring.area[c];
-        }
-    }
-    return sum;
+    bool random = layer == LAYER_STOCHASTIC;
+    Furnace f = random ? walked(&stack, o, walks) : (Furnace){0};
+    f.e += still(&stack, o, cells, random);
+    return f;
 }

@@ -5,8 +5,14 @@
 
 #include "measure/subject.h"
 
+typedef struct Furnace {
+    double e, noise; /* the standard error of e: 0 but under the rule that walks at random */
+} Furnace;
+
 /* For the lobe with parameter 0 from an artist's roughness, under a layer rule, towards o. e is the table of
- * the lobe at that roughness. */
-double furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells);
+ * the lobe at that roughness. A layer rule that walks at random does so until the noise is below 5e-4, 10,000
+ * times at the least and `walks` times at the most. */
+Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells,
+                        int walks);
 
 #endif

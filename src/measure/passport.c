@@ -9,10 +9,12 @@
 #include "measure/chi_square.h"
 #include "measure/furnace.h"
 #include "measure/half_floor.h"
+#include "measure/more.h"
 #include "measure/parity.h"
 #include "measure/reciprocity.h"
 #include "measure/sweep.h"
 #include "measure/weight.h"
+#include "shading/choice.h"
 #include "weft/render.h"
 
 static const float cosines[WEFT_PASSPORT_COSINES] = {1.0f, 0.95f, 0.9f,  0.85f, 0.8f,  0.7f,   0.6f,
@@ -33,6 +35,7 @@ typedef struct Work {
 
     Reciprocity reciprocity[WEFT_PASSPORT_ROWS];
     ChiSquare chi[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
+    double missed[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
     bool drawn[WEFT_PASSPORT_ROWS];
     AlbedoTable sheens[WEFT_PASSPORT_SHEENS];
     Sweep sweeps[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES];
@@ -63,9 +66,9 @@ static void find_albedo(Work *work) {
     for (int row = 0; row < out->rows; row++)
         for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) {
             float e = out->albedo[row][c];
-            out->albedo_above += e > 1.001f;
+            out->albedo_above += !(e <= 1.001f);
             /* equal but for the last digits is not more: else rounding would choose the place */
-            if (row + c > 0 && !(e > out->albedo_most * 1.0002f)) continue;
+            if (row + c > 0 && !is_more((double)e, (double)out->albedo_most * 1.0002)) continue;
             out->albedo_most = e;
             out->albedo_place = (WeftPlace){.value = out->values[row], .cos_o = cosines[c]};
         }
@@ -84,7 +87,7 @@ static void find_reciprocity(Work *work) {
     parallel_for(work->desc->threads, work->out->rows, measure_reciprocity, work);
     for (int row = 0; row < work->out->rows; row++) {
         const Reciprocity *r = &work->reciprocity[row];
-        if (!(r->error > work->out->reciprocity)) continue;
+        if (!is_more((double)r->error, (double)work->out->reciprocity)) continue;
         work->out->reciprocity = r->error;
         work->out->reciprocity_place = r->place;
     }
@@ -106,9 +109,15 @@ static void measure_furnace(void *user, int item, int thread) {
     int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
     int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
     Dir o = grid_direction((double)views[view], 0.0);
-    work->out->furnace[layer][k][view] =
-        (float)furnace_measure(&work->subject->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS);
+    Furnace f = furnace_measure(&work->subject->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS,
+                                work->desc->quick ? 10000 : 300000);
+    work->out->furnace[layer][k][view] = (float)f.e;
+    work->out->furnace_noise[layer][k][view] = (float)f.noise;
 }
+
+/* Which layer rules promise to conserve energy. */
+#define LAYER_PROMISE(id, index, base, conserves, help) [index] = conserves,
+static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
 static void find_furnace(Work *work) {
     if (work->subject->whole) return;
@@ -119,6 +128,14 @@ static void find_furnace(Work *work) {
     parallel_for(work->desc->threads, WEFT_PASSPORT_SHEENS, fill_sheen, work);
     parallel_for(work->desc->threads, layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS, measure_furnace,
                  work);
+    for (int k = 0; k < layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS; k++) {
+        int view = k % WEFT_PASSPORT_VIEWS, sheen = k / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
+        int layer = k / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
+        float e =
+            work->out->furnace[layer][sheen][view] - 3.0f * work->out->furnace_noise[layer][sheen][view];
+        if (conserves[layer] && is_more((double)e, (double)work->out->furnace_most))
+            work->out->furnace_most = e;
+    }
 }
 
 /* Sampling. */
@@ -133,6 +150,7 @@ static void measure_sampling(void *user, int item, int thread) {
     Weight weight = weight_measure(&view, subject->whole ? WHOLE_CELLS : CELLS);
     work->out->variance[row][v] = (float)weight.own;
     work->out->variance_cosine[row][v] = (float)weight.by_cosine;
+    work->missed[row][v] = weight.missed;
     if (!work->drawn[row]) return;
     int count = work->desc->quick ? 15000 : 60000;
     if (!chi_square_measure(&view, count, subject->whole ? 10 : 20, (uint32_t)item, &work->chi[row][v]))
@@ -160,17 +178,22 @@ static void find_sampling(Work *work) {
     out->p = 1.0;
     for (int row = 0; row < out->rows; row++) {
         double ratio = row_ratio(out, row);
-        if (ratio > (double)out->variance_worst * 1.0002) {
+        if (is_more(ratio, (double)out->variance_worst * 1.0002)) {
             out->variance_worst = (float)ratio;
             out->variance_value = out->values[row];
         }
         if (row == subject->row_default) out->variance_ratio = (float)ratio;
-        for (int v = 0; v < WEFT_PASSPORT_VIEWS && work->drawn[row]; v++) {
+        for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
             WeftPlace place = {.value = out->values[row], .cos_o = views[v]};
+            if (is_more(work->missed[row][v], (double)out->missed * 1.0002)) {
+                out->missed = (float)work->missed[row][v];
+                out->missed_place = place;
+            }
+            if (!work->drawn[row]) continue;
             const ChiSquare *chi = &work->chi[row][v];
             out->tests++;
             out->stray += chi->stray;
-            if (chi->integral > (double)out->pdf_most * 1.0002) {
+            if (is_more(chi->integral, (double)out->pdf_most * 1.0002)) {
                 out->pdf_most = (float)chi->integral;
                 out->pdf_place = place;
             }
@@ -226,16 +249,10 @@ bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, Weft
     return held;
 }
 
-static int profile_named(const char *id) {
-    for (int k = 0; weft_profile_id(k); k++)
-        if (strcmp(weft_profile_id(k), id) == 0) return k;
-    return -1;
-}
-
 WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
     const WeftLobe *given = desc->lobe;
     int lobe = given ? given->lobe : desc->id ? weft_lobe_find(desc->id) : -1;
-    int profile = !given && lobe < 0 && desc->id ? profile_named(desc->id) : -1;
+    int profile = !given && lobe < 0 && desc->id ? choice_find(CHOICE_profile, desc->id) : -1;
     if (given ? !weft_lobe_info(lobe) : lobe < 0 && profile < 0)
         return fail(error, WEFT_MESSAGE_CHECK_NAME, desc->id ? desc->id : "index", NULL);
     if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)

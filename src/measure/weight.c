@@ -38,6 +38,7 @@ Weight weight_measure(const View *view, int cells) {
             sum.own += p * d * d * ring.area[c];
             sum.by_cosine += q * b * b * ring.area[c];
             found += p * ring.area[c];
+            if (!(p > 0.0)) sum.missed += f_cos * ring.area[c];
         }
     }
     sum.own += fmax(1.0 - found, 0.0) * e * e;

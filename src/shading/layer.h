@@ -25,26 +25,28 @@
 #define LAYER_BY_MAX     0
 #define LAYER_BY_CHANNEL 1
 
-/* L(id, index, what of the base is left, help), c the sheen's colour, e_o e_i e_avg its white albedo */
+/* L(id, index, what of the base is left, conserves, help), c the sheen's colour, e_o e_i e_avg its white
+ * albedo. conserves: with a sheen of E <= 1 the whole returns no more light than it received. */
 #define WEFT_LAYERS(L)                                                                                       \
-    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), "the base loses nothing; gains energy") \
-    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg),                       \
+    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false,                                  \
+      "the base loses nothing; gains energy")                                                                \
+    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false,                \
       "no sheen of its own: the base times 1 + c E(wo); gains energy")                                       \
-    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg),                                                     \
+    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), true,                                               \
       "(1 - F)(1 - c) diffuse + specular + (1 - F) c sheen")                                                 \
-    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg),                                \
+    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), true,                          \
       "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                            \
-    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg),                                   \
+    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), false,                            \
       "the base keeps 1 - c min(E(wo), E(wi)); gains energy")                                                \
-    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg),                                   \
+    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg), true,                             \
       "the base keeps 1 - c max(E(wo), E(wi)); glTF's rule, loses energy")                                   \
-    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg),                                   \
+    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true,                             \
       "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                           \
-    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg),                                   \
+    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true,                             \
       "light bounces between sheen and base; the path tracer's reference")
 
 /* What of the base is left for wo and wi. */
-#define LAYER_CASE(id, index, base, help)                                                                    \
+#define LAYER_CASE(id, index, base, conserves, help)                                                         \
     if (layer == index) return base;
 FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {
     WEFT_LAYERS(LAYER_CASE)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 /* Far more than any table needs: what passes these expands without end. */
-enum { PARAMS_MAX = 16, DEPTH_MAX = 256, STEPS_MAX = 1 << 20 };
+enum { PARAMS_MAX = 16, DEPTH_MAX = 256, STEPS_MAX = 1 << 20, BYTES_MAX = 1 << 22 };
 
 typedef struct Macro {
     struct Macro *older;
@@ -152,6 +152,11 @@ static void substitute(Macros *macros, const Macro *macro, const Token *argument
 }
 
 static void expand_body(Macros *macros, Macro *macro, const char *body, const char *end, Buffer *out) {
+    macros->bytes += (size_t)(end - body);
+    if (macros->bytes > BYTES_MAX) {
+        set_wrong(macros, macro->name, "expands without end");
+        return;
+    }
     macro->busy = true;
     macro_expand(macros, body, end, out);
     macro->busy = false;

@@ -14,6 +14,7 @@ typedef struct Macros {
     struct Macro *newest;
     bool short_of_memory;
     int depth, steps; /* calls inside each other now; expansions so far */
+    size_t bytes;     /* of what macros stood for so far */
     char wrong[96];   /* what cannot be a macro or a call; empty while all is well */
 } Macros;
 

@@ -16,7 +16,7 @@ typedef struct TextName {
     const char *name;
 } TextName;
 
-enum { CONDITIONS_MAX = 16, CONDITION_LIMIT = 1024, FILE_LIMIT = 1 << 20 };
+enum { CONDITIONS_MAX = 16, CONDITION_LIMIT = 1024, FILE_LIMIT = 1 << 20, INCLUDES_MAX = 32 };
 
 /* The #if lines around a place. */
 typedef struct Conditions {
@@ -312,16 +312,22 @@ static bool find_file(Text *text, const char *file, const char **bytes, const ch
 
 void text_include(Text *text, const char *file) {
     if (!include_first(text, file)) return;
+    if (text->depth == INCLUDES_MAX) {
+        fail_dialect(text, file, "too many files inside each other");
+        return;
+    }
     const char *bytes, *end;
     FileBytes own = {0};
     if (!find_file(text, file, &bytes, &end, &own)) return;
     Buffer stripped = {0};
     layout_strip(bytes, end, &stripped);
     free(own.data);
+    text->depth++;
     if (stripped.failed)
         fail_memory(text);
     else if (stripped.bytes)
         put_file(text, file, stripped.bytes, stripped.bytes + stripped.size);
+    text->depth--;
     buffer_free(&stripped);
 }
 

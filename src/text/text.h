@@ -53,7 +53,8 @@ typedef struct Text {
     Buffer buffer;
     Macros macros;
     struct TextName *included;
-    bool gap; /* a blank line is due */
+    int depth; /* files being included inside each other */
+    bool gap;  /* a blank line is due */
     WeftError error;
 } Text;
 

@@ -16,6 +16,7 @@ static void passport_tells_all_in_words(void **state) {
                                         "White furnace",
                                         "additive",
                                         "Sampling",
+                                        "missed by sampling: 0\n",
                                         "Adversarial sweep",
                                         "Half precision",
                                         "C and GPU\n  not compared: not asked for"};
@@ -69,6 +70,8 @@ static void json_has_the_numbers(void **state) {
     assert_true(fabs(json_number_value(json_array_get(e, 0)) - sum) < 2e-4);
     assert_true(json_at(json, "reciprocity", "worst") < 1e-5);
     assert_true(fabs(json_at(json, "sampling", "integral_most") - 1.0) < 0.02);
+    assert_true(json_at(json, "sampling", "missed") == 0.0);
+    assert_true(json_at(json, "furnace", "conserving_most") < 1.001);
     assert_true(json_at(json, "sweep", "results") > 1000.0);
     assert_true(json_at(json, "sweep", "not_finite") == 0.0);
     assert_true(json_is_false(json_object_get(json_object_get(json, "parity"), "measured")));
@@ -111,6 +114,7 @@ static void all_has_a_line_each(void **state) {
     assert_int_equal(lines, 1 + weft_lobe_count() + profiles);
     assert_non_null(strstr(ran.out, "\ncharlie-neubelt "));
     assert_non_null(strstr(ran.out, "\nfilament-sheen "));
+    assert_non_null(strstr(ran.out, "\nnone (weft's own) "));
     ran_free(&ran);
 }
 
@@ -124,6 +128,7 @@ static void page_needs_nothing_else(void **state) {
     assert_non_null(strstr(page, "<!DOCTYPE html>"));
     assert_non_null(strstr(page, "<svg"));
     assert_non_null(strstr(page, "class=\"above\">3."));
+    assert_non_null(strstr(page, "0 of E is missed"));
     assert_non_null(strstr(page, "</html>"));
     assert_null(strstr(page, "src="));
     assert_null(strstr(page, "href="));
@@ -155,8 +160,29 @@ static void broken_bounds_are_told(void **state) {
     assert_non_null(strstr(ran.err, "reciprocity"));
     assert_non_null(strstr(ran.err, "variance"));
     ran_free(&ran);
-    ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-furnace", "1.001");
+}
+
+/* A lobe of E <= 1 keeps the bound, though additive, multiplicative and albedo-min gain by their definition,
+ * and though one rule walks at random. */
+static void the_furnace_is_that_of_rules_that_conserve(void **state) {
+    (void)state;
+    static const char *const keep[] = {"ashikhmin-neubelt", "lambert", "wrap", "charlie-conty-kulla"};
+    for (size_t k = 0; k < sizeof keep / sizeof *keep; k++) {
+        Ran ran = RUN("check", keep[k], "--quick", "--no-gpu", "--max-furnace", "1.001");
+        if (ran.code != 0) fail_msg("%s: %d, %s", keep[k], ran.code, ran.err);
+        const char *additive = strstr(ran.out, "\n  additive "),
+                   *star = additive ? strchr(additive, '*') : NULL;
+        assert_true(star && star < strstr(additive + 1, "\n")); /* it does gain */
+        const char *walk = strstr(ran.out, "\n  stochastic ");
+        assert_non_null(walk);
+        assert_null(memchr(walk, '*', strcspn(walk + 1, "\n")));
+        ran_free(&ran);
+    }
+    Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-furnace", "1.001");
     assert_int_equal(ran.code, 1);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(
+        strstr(ran.err, "the furnace under a layer rule that conserves energy is 1.289, more than"));
     ran_free(&ran);
 }
 
@@ -217,6 +243,7 @@ int main(void) {
         cmocka_unit_test(all_has_a_line_each),
         cmocka_unit_test(page_needs_nothing_else),
         cmocka_unit_test(broken_bounds_are_told),
+        cmocka_unit_test(the_furnace_is_that_of_rules_that_conserve),
         cmocka_unit_test(parameters_are_those_of_the_lobe),
         cmocka_unit_test(header_lines_end_a_comment),
         cmocka_unit_test(nonsense_is_refused),

@@ -75,7 +75,6 @@ static void reads_as_strtod_does(void **state) {
                                         "1e+",
                                         "1.5e-3",
                                         "1E400",
-                                        "0x10",
                                         "0x",
                                         "inf",
                                         "-infinity",
@@ -104,10 +103,23 @@ static void reads_as_strtod_does(void **state) {
     }
 }
 
+/* A number in hexadecimal is none: it ends behind its 0. */
+static void reads_no_hexadecimal(void **state) {
+    (void)state;
+    static const char *const texts[] = {"0x1e", "-0X1.8p3", "00x2", "0x"};
+    for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+        double value = 7.0;
+        const char *end = decimal_read(texts[k], &value);
+        assert_true(*end == 'x' || *end == 'X');
+        assert_true(value >= 0.0 && value <= 0.0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(writes_as_printf_does),
         cmocka_unit_test(reads_as_strtod_does),
+        cmocka_unit_test(reads_no_hexadecimal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,6 +37,7 @@ static int begin(void **state) {
     file_make("with.json", with, sizeof with - 1);
     file_make("without.json", without, sizeof without - 1);
     file_make("a=red.json", red, sizeof red - 1);
+    file_make("red.json", red, sizeof red - 1);
     file_make("bad.json", "{\"layer\":1,\"layer\":2}", 21);
     return 0;
 }
@@ -85,6 +86,31 @@ static void files_have_any_name(void **state) {
     assert_false(same(LIST("--material=a=red.json"), LIST("--material=with.json")));
 }
 
+static void refused(const char *const *options, int code, const char *part) {
+    const char *arguments[32] = {"render", "scene.gltf", TINY, "-o", "out.png"};
+    int count = 8;
+    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
+    assert_complaint(NULL, arguments, code, part);
+}
+
+/* Names of materials may hold '='; one that is cut off would be another's. */
+static void materials_have_any_name(void **state) {
+    (void)state;
+    refused(LIST("--preset=wool=2=velvet"), 2, "wool=2");
+    refused(LIST("--material=wool=2=red.json"), 2, "wool=2");
+    refused(LIST("--material=wool=2=none.json"), 3, "none.json: ");
+    char w[600], text[700];
+    memset(w, 'w', sizeof w);
+    snprintf(text, sizeof text, "--preset=%.255s=velvet", w); /* the longest */
+    refused(LIST(text), 2, "is not a material of this scene");
+    snprintf(text, sizeof text, "--preset=%.256s=velvet", w);
+    refused(LIST(text), 2, "too long for the name of a material");
+    snprintf(text, sizeof text, "--material=%.256s=red.json", w);
+    refused(LIST(text), 2, "too long for the name of a material");
+    snprintf(text, sizeof text, "--set=%.510s.layer=seed", w);
+    refused(LIST(text), 2, "too long for the name of a material");
+}
+
 static void aliases_are_taken(void **state) {
     (void)state;
     assert_true(same(LIST("--set=*.v=charlie-v", "--workflow=free"),
@@ -92,13 +118,6 @@ static void aliases_are_taken(void **state) {
     assert_true(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"),
                      LIST("--set=*.d=ashikhmin", "--workflow=free")));
     assert_false(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"), LIST("--workflow=free")));
-}
-
-static void refused(const char *const *options, int code, const char *part) {
-    const char *arguments[32] = {"render", "scene.gltf", TINY, "-o", "out.png"};
-    int count = 8;
-    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
-    assert_complaint(NULL, arguments, code, part);
 }
 
 static void mistakes_are_named(void **state) {
@@ -289,11 +308,17 @@ static void every_axis_makes_a_sheet(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_stronger_wins),      cmocka_unit_test(files_have_any_name),
-        cmocka_unit_test(profiles_are_not_converted), cmocka_unit_test(aliases_are_taken),
-        cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(conversion_says_what_it_loses),
-        cmocka_unit_test(a_sheet_holds_the_pictures), cmocka_unit_test(every_axis_makes_a_sheet),
-        cmocka_unit_test(blanks_around_ids_are_none), cmocka_unit_test(choices_without_effect_are_told),
+        cmocka_unit_test(materials_have_any_name),
+        cmocka_unit_test(what_is_stronger_wins),
+        cmocka_unit_test(files_have_any_name),
+        cmocka_unit_test(profiles_are_not_converted),
+        cmocka_unit_test(aliases_are_taken),
+        cmocka_unit_test(mistakes_are_named),
+        cmocka_unit_test(conversion_says_what_it_loses),
+        cmocka_unit_test(a_sheet_holds_the_pictures),
+        cmocka_unit_test(every_axis_makes_a_sheet),
+        cmocka_unit_test(blanks_around_ids_are_none),
+        cmocka_unit_test(choices_without_effect_are_told),
         cmocka_unit_test(the_whole_is_judged),
     };
     return cmocka_run_group_tests(tests, begin, work_end);

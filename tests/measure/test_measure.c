@@ -12,6 +12,7 @@
 #include "measure/chi_square.h"
 #include "measure/furnace.h"
 #include "measure/grid.h"
+#include "measure/more.h"
 #include "measure/sweep.h"
 #include "measure/weight.h"
 
@@ -31,6 +32,7 @@ static void lambert_is_found_right(void **state) {
     assert_near((double)p.pdf_most, 1.0, 1e-3);
     assert_true(weft_passport_significance(p.p, p.tests) > 1e-3);
     assert_int_equal(p.stray, 0);
+    assert_near((double)p.missed, 0.0, 0.0);
     assert_int_equal(p.sweep_infinite + p.sweep_negative + p.sweep_below, 0);
     assert_near((double)p.variance_ratio, 1.0, 1e-3);
     for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) assert_near((double)p.variance[0][v], 0.0, 1e-6);
@@ -108,6 +110,54 @@ static void impossible_samples_are_found(void **state) {
     WeftPassport p = fake_passport(&subject);
     assert_true(p.stray > 0);
     assert_true(weft_passport_significance(p.p, p.tests) < 1e-9);
+}
+
+/* The cosine's samples, those of x < 0 thrown to the other side: none is impossible and the pdf integrates to
+ * 1, but half of E is never found. */
+static void halved_pdf(const View *view, Dirs i, float *pdf) {
+    fake_pdf(view, i, pdf);
+    for (size_t k = 0; k < i.n; k++) pdf[k] *= i.x[k] < 0.0f ? 0.0f : 2.0f;
+}
+static Dir halved_sample(const View *view, float u, float v) {
+    Dir i = warp_cosine(u, v);
+    return dir(fabsf(i.x), i.y, i.z);
+}
+
+static void what_samples_miss_is_found(void **state) {
+    (void)state;
+    Subject subject = fake_lambert();
+    subject.pdf = halved_pdf;
+    subject.sample = halved_sample;
+    WeftPassport p = fake_passport(&subject);
+    assert_int_equal(p.stray, 0);
+    assert_near((double)p.pdf_most, 1.0, 0.01);
+    assert_near((double)p.missed, 0.5, 0.01);
+}
+
+/* NaN towards one side, for grazing wo alone: larger than whatever comes before or after it. */
+static void broken_f(const View *view, Dirs i, float *f) {
+    fake_f(view, i, f);
+    for (size_t k = 0; k < i.n; k++)
+        if (i.x[k] > 0.5f && view->o.z < 0.06f && view->o.z > 0.04f) f[k] = NAN;
+}
+static void broken_pdf(const View *view, Dirs i, float *pdf) {
+    fake_pdf(view, i, pdf);
+    for (size_t k = 0; k < i.n; k++)
+        if (i.x[k] > 0.5f && view->o.z < 0.5f && view->o.z > 0.3f) pdf[k] = NAN;
+}
+
+static void no_nan_gets_lost(void **state) {
+    (void)state;
+    Subject subject = fake_lambert();
+    subject.f = broken_f;
+    subject.pdf = broken_pdf;
+    WeftPassport p = fake_passport(&subject);
+    assert_true(isnan(p.albedo_most) && p.albedo_place.cos_o == 0.05f && p.albedo_above == 1);
+    assert_true(isnan(p.reciprocity));
+    assert_true(isnan(p.pdf_most) && p.pdf_place.cos_o == 0.4f);
+    assert_true(isnan(p.variance_worst));
+    const double lost = (double)NAN;
+    assert_true(is_more(lost, 1.0) && !is_more(1.0, lost) && !is_more(lost, lost) && is_more(2.0, 1.0));
 }
 
 /* f with a zero under it, one below 0, and one that forgets the horizon. */
@@ -212,10 +262,29 @@ static void the_furnace_of_no_sheen_is_one(void **state) {
     Dir o = dir(0.0f, 0.0f, 1.0f); /* where the thin rim is nothing */
     for (int layer = 0; weft_layer_id(layer); layer++)
         if (strcmp(weft_layer_id(layer), "seed") != 0 && strcmp(weft_layer_id(layer), "albedo-max") != 0)
-            assert_near(furnace_measure(&sheen, 0.1f, layer, &table, o, 100), 1.0, 0.02);
+            assert_near(furnace_measure(&sheen, 0.1f, layer, &table, o, 100, 10000).e, 1.0, 0.02);
     Lobe lambert = lobe_default(weft_lobe_find("lambert"));
     albedo_table_fill(&table, &lambert, 0.0f, 0.0f, 1);
-    assert_near(furnace_measure(&lambert, 0.5f, 0, &table, o, 100), 2.0, 1e-3);
+    assert_near(furnace_measure(&lambert, 0.5f, LAYER_ADDITIVE, &table, o, 100, 10000).e, 2.0, 1e-3);
+}
+
+/* Over white Lambert all bounces sum up to what the rule reciprocal has: the noise that is told is the
+ * distance. */
+static void random_walks_know_their_noise(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    Lobe sheen = lobe_rough(weft_lobe_find("ashikhmin-neubelt"), 0.5f);
+    albedo_table_fill(&table, &sheen, sheen.params[0], sheen.params[0], 1);
+    for (int k = 1; k < 5; k++) {
+        Dir o = grid_direction(0.2 * k, 0.0);
+        Furnace exact = furnace_measure(&sheen, 0.5f, LAYER_RECIPROCAL, &table, o, 100, 10000);
+        Furnace few = furnace_measure(&sheen, 0.5f, LAYER_STOCHASTIC, &table, o, 100, 10000);
+        Furnace many = furnace_measure(&sheen, 0.5f, LAYER_STOCHASTIC, &table, o, 100, 1000000);
+        assert_near(exact.noise, 0.0, 0.0);
+        assert_near(few.e, exact.e, 4.0 * few.noise + 1e-4);
+        assert_near(many.e, exact.e, 4.0 * many.noise + 1e-4);
+        assert_true(few.noise < 1e-2 && many.noise > 0.0 && many.noise <= 5e-4 && many.noise <= few.noise);
+    }
 }
 
 int main(void) {
@@ -226,12 +295,15 @@ int main(void) {
         cmocka_unit_test(wrong_samples_are_found),
         cmocka_unit_test(a_pdf_of_more_than_one_is_found),
         cmocka_unit_test(impossible_samples_are_found),
+        cmocka_unit_test(what_samples_miss_is_found),
+        cmocka_unit_test(no_nan_gets_lost),
         cmocka_unit_test(the_sweep_counts_what_is_wild),
         cmocka_unit_test(the_sweep_is_as_hard_as_it_says),
         cmocka_unit_test(variances_are_those_of_closed_forms),
         cmocka_unit_test(the_grid_covers_the_hemisphere_once),
         cmocka_unit_test(tails_are_those_of_the_distribution),
         cmocka_unit_test(the_furnace_of_no_sheen_is_one),
+        cmocka_unit_test(random_walks_know_their_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -410,11 +410,38 @@ static void endless_text_stops(void **state) {
     sprintf(source + size, ";\n");
     assert_int_equal(flatten(source, out, &error), WEFT_INPUT);
     assert_non_null(strstr(error.text, "F expands without end"));
+    size = sprintf(source, "#define LONG ");
+    for (int k = 0; k < 32768; k++) size += sprintf(source + size, "x ");
+    size += sprintf(source + size, "\nfloat ");
+    for (int k = 0; k < 80; k++) size += sprintf(source + size, "LONG "); /* 5 MiB in 80 steps */
+    sprintf(source + size, ";\n");
+    assert_int_equal(flatten(source, out, &error), WEFT_INPUT);
+    assert_non_null(strstr(error.text, "LONG expands without end"));
     size = sprintf(source, "#if ");
     for (int k = 0; k < 100000; k++) size += sprintf(source + size, "!");
     sprintf(source + size, "1\n#endif\n");
     assert_int_equal(flatten(source, out, &error), WEFT_INPUT);
     free(source);
+}
+
+/* own.h includes own1.h, which includes own2.h, and so on: `files` in all. */
+static WeftResult flatten_chain(int files, WeftError *error) {
+    char name[32], source[64], out[4096];
+    for (int k = 1; k < files; k++) {
+        snprintf(name, sizeof name, "own%d.h", k);
+        snprintf(source, sizeof source, k + 1 < files ? "#include \"own%d.h\"\n" : "float a;\n", k + 1);
+        write_overlay(name, source);
+    }
+    return flatten("#include \"own1.h\"\n", out, error);
+}
+
+static void files_inside_files_have_an_end(void **state) {
+    (void)state;
+    WeftError error = {0};
+    assert_int_equal(flatten_chain(32, &error), WEFT_OK);
+    assert_int_equal(flatten_chain(33, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_TEXT_DIALECT);
+    assert_non_null(strstr(error.text, "own32.h"));
 }
 
 /* A file of the caller's may stand on the dispatch, as registry.h serves C; own lines may take a file's
@@ -459,6 +486,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(macros_are_expanded, make_overlay, NULL),
         cmocka_unit_test(what_is_no_shading_text_is_refused),
         cmocka_unit_test(endless_text_stops),
+        cmocka_unit_test(files_inside_files_have_an_end),
         cmocka_unit_test_setup_teardown(callers_lines_take_a_files_place, NULL, remove_overlay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
