@@ -115,7 +115,7 @@ static WeftResult find_target(const char *path, char **target, WeftError *error)
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error) {
     *file = (OutputFile){.path = path};
     WeftResult found = find_target(path, &file->target, error);
-    if (found != WEFT_OK) return found;
+    if (!file->target) return found;
     size_t size = strlen(file->target) + sizeof ".123456";
     file->temporary = alloc_array(size, 1);
     if (!file->temporary) {

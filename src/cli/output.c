@@ -11,19 +11,24 @@
 #include "report.h"
 
 static int failure(const char *path) {
-    return report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE),
-                  strerror(errno));
+    report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE), strerror(errno));
+    return WEFT_RESOURCES;
 }
 
-/* The file that writing to path would replace: behind its links, so that they stay. */
-static int find_target(const char *path, char **target) {
+/* The file that writing to path would replace: behind its links, so that they stay. NULL after one line. */
+static char *find_target(const char *path) {
     struct stat status;
     bool there = stat(path, &status) == 0;
-    if (there && !S_ISREG(status.st_mode)) return report(WEFT_RESOURCES, "%s: is not a plain file", path);
-    if (!there && lstat(path, &status) == 0)
-        return report(WEFT_RESOURCES, "%s: is a link that leads nowhere", path);
-    *target = there ? realpath(path, NULL) : strdup(path);
-    return *target ? 0 : failure(path);
+    const char *wrong = NULL;
+    if (there && !S_ISREG(status.st_mode)) wrong = "is not a plain file";
+    if (!there && lstat(path, &status) == 0) wrong = "is a link that leads nowhere";
+    if (wrong) {
+        report(WEFT_RESOURCES, "%s: %s", path, wrong);
+        return NULL;
+    }
+    char *target = there ? realpath(path, NULL) : strdup(path);
+    if (!target) failure(path);
+    return target;
 }
 
 static void forget(Output *output) {
@@ -34,12 +39,16 @@ static void forget(Output *output) {
 
 int output_begin(Output *output, const char *path) {
     *output = (Output){.path = path};
-    int result = find_target(path, &output->target);
-    if (result != 0) return result;
+    output->target = find_target(path);
+    if (!output->target) return WEFT_RESOURCES;
     size_t size = strlen(output->target) + sizeof ".XXXXXX";
     output->temporary = malloc(size);
-    if (output->temporary) snprintf(output->temporary, size, "%s.XXXXXX", output->target);
-    int handle = output->temporary ? mkstemp(output->temporary) : -1;
+    if (!output->temporary) {
+        forget(output);
+        return failure(path);
+    }
+    snprintf(output->temporary, size, "%s.XXXXXX", output->target);
+    int handle = mkstemp(output->temporary);
     if (handle >= 0) {
         mode_t mask = umask(0);
         umask(mask);
@@ -47,13 +56,13 @@ int output_begin(Output *output, const char *path) {
         output->stream = fdopen(handle, "w");
     }
     if (output->stream) return 0;
-    result = failure(path);
+    failure(path);
     if (handle >= 0) {
         close(handle);
         unlink(output->temporary);
     }
     forget(output);
-    return result;
+    return WEFT_RESOURCES;
 }
 
 int output_end(Output *output) {

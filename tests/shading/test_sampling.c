@@ -95,7 +95,8 @@ static void stacks_sample_what_their_pdf_says(void **state) {
 
 /* Lambert's pdf, 5 % too large in one half of the hemisphere and too small in the other. */
 static void leaning_pdf(const View *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++) pdf[k] = i.z[k] / PI * (i.x[k] > 0.0f ? 1.05f : 0.95f);
+    float lean = test_short() ? 0.2f : 0.05f; /* few samples see no less */
+    for (size_t k = 0; k < i.n; k++) pdf[k] = i.z[k] / PI * (i.x[k] > 0.0f ? 1.0f + lean : 1.0f - lean);
 }
 
 /* A test that cannot fail would be none. */
