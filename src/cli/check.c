@@ -19,6 +19,7 @@ typedef struct Bound {
     const char *option, *words;
     double most; /* where the option is not given; HUGE_VAL: none */
     double (*value)(const WeftPassport *passport);
+    double slack; /* what the measurement may err, as the stars of the table have it */
 } Bound;
 
 static double albedo(const WeftPassport *p) { return (double)p->albedo_most; }
@@ -35,16 +36,16 @@ static double swept(const WeftPassport *p) {
 }
 
 static const Bound bounds[] = {
-    {"--max-albedo", "the directional albedo", HUGE_VAL, albedo},
-    {"--max-reciprocity", "the error of reciprocity", HUGE_VAL, reciprocity},
-    {"--max-furnace", "the furnace under a layer rule that conserves energy", HUGE_VAL, furnace},
-    {"--max-variance", "the variance of the weight over the cosine's", HUGE_VAL, variance},
-    {NULL, "the number of results that are not finite, negative or from below", 0.0, swept},
-    {NULL, "the integral of the pdf", 1.002, integral},
-    {NULL, "the confidence that samples do not follow their pdf", 0.999, improbable},
-    {NULL, "the number of samples whose pdf is 0", 0.0, stray},
-    {NULL, "the albedo that sampling misses", 1e-4, missed},
-    {NULL, "the share of results in which C and GPU differ", 1e-3, beyond},
+    {"--max-albedo", "the directional albedo", HUGE_VAL, albedo, 1e-3},
+    {"--max-reciprocity", "the error of reciprocity", HUGE_VAL, reciprocity, 0.0},
+    {"--max-furnace", "the furnace under a layer rule that conserves energy", HUGE_VAL, furnace, 1e-3},
+    {"--max-variance", "the variance of the weight over the cosine's", HUGE_VAL, variance, 0.0},
+    {NULL, "the number of results that are not finite, negative or from below", 0.0, swept, 0.0},
+    {NULL, "the integral of the pdf", 1.002, integral, 0.0},
+    {NULL, "the confidence that samples do not follow their pdf", 0.999, improbable, 0.0},
+    {NULL, "the number of samples whose pdf is 0", 0.0, stray, 0.0},
+    {NULL, "the albedo that sampling misses", 1e-4, missed, 0.0},
+    {NULL, "the share of results in which C and GPU differ", 1e-3, beyond, 0.0},
 };
 enum { BOUNDS = sizeof bounds / sizeof bounds[0] };
 
@@ -63,7 +64,7 @@ typedef struct Check {
 static void judge(Check *check, const WeftPassport *p) {
     for (int k = 0; k < BOUNDS; k++) {
         double value = bounds[k].value(p);
-        if (value <= check->most[k]) continue;
+        if (value <= check->most[k] + bounds[k].slack) continue;
         report(WEFT_FAILED, "%s: %s is %.4g, more than %.4g", p->id, bounds[k].words, value, check->most[k]);
         check->broken = true;
     }

@@ -155,6 +155,10 @@ static void broken_bounds_are_told(void **state) {
               "1e-3");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
+    /* E = 1 to the accuracy of the measurement is not more than 1 */
+    ran = RUN("check", "charlie-neubelt-normalised", "--quick", "--no-gpu", "--max-albedo", "1");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
     ran = RUN("check", "wrap", "--quick", "--no-gpu", "--max-reciprocity", "0.1", "--max-variance", "1e-9");
     assert_int_equal(ran.code, 1);
     assert_non_null(strstr(ran.err, "reciprocity"));
