@@ -146,14 +146,6 @@ static bool check_read(const Options *options, Check *check) {
     return option_integer(options, "--threads", &check->desc.threads);
 }
 
-/* Whether the page can be written: better known before than after minutes of measuring. */
-static int page_probe(const char *path) {
-    Output output;
-    int result = output_begin(&output, path);
-    if (result == 0) output_drop(&output);
-    return result;
-}
-
 static int page_write(const char *path, const Check *check) {
     Output output;
     int result = output_begin(&output, path);
@@ -169,7 +161,7 @@ static int check_run(const Options *options) {
     if (check.header && (check.json || page))
         return report(WEFT_USAGE, "--header: does not go with --json or --html");
     if (check.lines && option_given(options, "-p")) return report(WEFT_USAGE, "-p: does not go with all");
-    int result = page ? page_probe(page) : 0;
+    int result = page ? output_probe(page) : 0; /* before minutes of measuring */
     if (result == 0) result = check.lines ? add_all(&check) : add_one(&check, options->operands[0]);
     if (result == 0 && check.json) {
         Json json = {.stream = stdout};

@@ -51,8 +51,7 @@ Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const Albe
                        .sheen_roughness = roughness,
                        .normal = {0.0f, 0.0f, 1.0f},
                        .clearcoat_normal = {0.0f, 0.0f, 1.0f}};
-#define CHOICE_UNMADE(name, help) .name = CHOICE_AUTO,
-    Choices choices = {SURFACE_CHOICES(CHOICE_UNMADE)};
+    Choices choices = choices_unmade();
     choices.sheen_lobe = lobe->id;
     choices.layer = layer;
     Stack stack;

@@ -267,8 +267,7 @@ WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, W
         snprintf(out->surface, sizeof out->surface, "%s", subject_velvet);
     } else if (held) {
         Lobe inner = lobe_default(lobe);
-        for (int k = 0; given && k < weft_lobe_info(lobe)->param_count; k++)
-            lobe_set(&inner, k, given->params[k]);
+        if (given) lobe_of(given, &inner);
         out->traits = weft_lobe_info(lobe)->traits;
         subject_of_lobe(subject, &inner, desc->quick != 0);
     }

@@ -234,8 +234,7 @@ bool subject_of_profile(Subject *subject, int profile, bool quick, int threads) 
                          .f = whole_f,
                          .pdf = whole_pdf,
                          .sample = whole_sample};
-#define CHOICE_UNMADE(name, help) .name = CHOICE_AUTO,
-    subject->choices = (Choices){SURFACE_CHOICES(CHOICE_UNMADE)};
+    subject->choices = choices_unmade();
     subject->choices.profile = profile;
     for (int k = 1; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
         Surface *s = &subject->surfaces[subject->rows];

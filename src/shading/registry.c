@@ -45,15 +45,24 @@ Lobe lobe_default(int id) {
     return defaults[id];
 }
 
-Lobe lobe_rough(int id, float roughness) {
-    Lobe lobe = lobe_default(id);
-    const WeftParamInfo *p = &infos[id].params[0];
-    if (infos[id].param_count == 0 || p->choices) return lobe;
+/* p is a constant wherever this is called, so nothing is compared when it runs: a path asks at every hit. */
+FN Lobe roughened(Lobe lobe, const WeftParamInfo *p, float roughness) {
+    if (!p->name || p->choices) return lobe;
     float value = mix(p->low, p->high, roughness);
     if (strcmp(p->name, "alpha") == 0) value = roughness * roughness;
     if (strcmp(p->name, "roughness") == 0) value = roughness;
-    lobe_set(&lobe, 0, value);
+    lobe.params[0] = clamp(value, p->hard_low, p->hard_high);
     return lobe;
+}
+
+Lobe lobe_rough(int id, float roughness) {
+    Lobe lobe = lobe_default(id);
+    switch (id) {
+#define LOBE_ROUGH(text, name, Record, NAME)                                                                 \
+    case LOBE_##NAME: return roughened(lobe, &name##_params[0], roughness);
+        WEFT_LOBES(LOBE_ROUGH)
+    default: return lobe;
+    }
 }
 
 int lobe_param(int id, const char *name) {

@@ -17,4 +17,12 @@ STRUCT(Surface){SURFACE_INPUTS(SURFACE_FIELD)};
 #define CHOICE_FIELD(name, help) int name;
 STRUCT(Choices){SURFACE_CHOICES(CHOICE_FIELD)};
 
+/* Nothing chosen. */
+#define CHOICE_UNMADE(name, help) c.name = CHOICE_AUTO;
+FN Choices choices_unmade(void) {
+    Choices c;
+    SURFACE_CHOICES(CHOICE_UNMADE)
+    return c;
+}
+
 #endif

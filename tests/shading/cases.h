@@ -197,8 +197,7 @@ static inline Surface random_surface(Random *random, bool tilt) {
 
 /* Nothing chosen but a sheen and a layer rule. */
 static inline Choices test_choices(int sheen_lobe, int layer) {
-#define CHOICE_UNMADE(name, help) .name = CHOICE_AUTO,
-    Choices c = {SURFACE_CHOICES(CHOICE_UNMADE)};
+    Choices c = choices_unmade();
     c.sheen_lobe = sheen_lobe;
     c.layer = layer;
     return c;

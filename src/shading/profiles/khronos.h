@@ -28,16 +28,10 @@ FN float khronos_albedo(TableRef lobe, float cosine, float alpha) {
 }
 
 FN Stack khronos_stack(Surface s, Dir o) {
-    Stack m = workflow_coat(stack_empty(), s, o);
-    Lobe sheen = lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness);
-    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_MAX);
+    Stack m = metallic_with(s, lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness), LAYER_ALBEDO_MAX,
+                            UNDER_HALF, o);
     m.albedo = ALBEDO_KHRONOS;
-    Rgb f0 = metallic_f0(s);
-    m.under = UNDER_HALF;
-    m.under_f0 = f0;
-    m.under_f90 = s.specular;
-    return workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic),
-                         rgb_mix(f0, s.base_color, s.metallic), mix(s.specular, 1.0f, s.metallic), o);
+    return m;
 }
 
 #endif
