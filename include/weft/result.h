@@ -69,6 +69,8 @@ typedef enum WeftResult {
     M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
     M(PLAUSIBLE, WARNING, "is not plausible")                                                                \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
+    M(LTC_LOBE, USAGE, "has no linearly transformed cosines")                                                \
+    M(CACHE_IGNORED, WARNING, "is not used as a cache")                                                      \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \

@@ -5,6 +5,7 @@
 #include "weft/arrays.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
+#include "weft/ltc.h"
 #include "weft/measure.h"
 #include "weft/render.h"
 #include "weft/result.h"

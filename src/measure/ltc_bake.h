@@ -1,0 +1,38 @@
+/* ltc_bake.h - the table of a lobe's linearly transformed cosines, over cos_o and one parameter */
+#ifndef WEFT_MEASURE_LTC_BAKE_H
+#define WEFT_MEASURE_LTC_BAKE_H
+
+#include "shading/ltc_table.h"
+#include "shading/registry.h"
+#include "weft/ltc.h"
+
+struct WeftLtc {
+    Lobe lobe;        /* its parameter 0 says nothing */
+    float f0, second; /* the colours that the matrix is fitted to */
+    int norm, rows, columns;
+    float low, high; /* of parameter 0 */
+    float *texels;   /* WEFT_LTC_CHANNELS planes, as ltc_table.h has them */
+    bool cached;
+    double seconds;
+};
+
+/* Room for rows * columns cells; false when memory is short. */
+bool ltc_create(WeftLtc *ltc);
+
+static inline int ltc_cells(const WeftLtc *ltc) { return ltc->rows * ltc->columns; }
+
+/* What a node stands for. */
+float ltc_cos_o(const WeftLtc *ltc, int column);
+Lobe ltc_lobe(const WeftLtc *ltc, int row);
+
+/* The table for ltc_table.h to read; it must outlive the reference. */
+LtcTable ltc_table_ref(const WeftLtc *ltc);
+
+/* Fits every cell; lobe, norm, rows, columns, low and high are set. The same numbers on any number of
+ * threads. Fails with WEFT_INTERRUPTED or WEFT_MESSAGE_MEMORY. */
+WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error);
+
+/* Whether f stays the same as both directions turn about the normal, from low to high. */
+bool ltc_isotropic(const WeftLtc *ltc);
+
+#endif

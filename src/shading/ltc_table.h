@@ -1,0 +1,73 @@
+/* ltc_table.h - the linearly transformed cosine of a lobe looked up
+ *
+ * Planes of rows below each other, one plane a channel. Columns run from grazing to normal incidence, uniform
+ * in the root of cos_o; rows over one shape parameter, uniform in its root, which for alpha = roughness^2 is
+ * the roughness. Mixed linearly, which keeps z > 0, q >= 0 and r >= 0; a function of cos_o is flat in o at
+ * normal incidence, so the mixing makes no edge there. */
+#ifndef WEFT_SHADING_LTC_TABLE_H
+#define WEFT_SHADING_LTC_TABLE_H
+
+#include "shading/ltc.h"
+
+/* The planes, in their order: of ltc_of, then what f0 and f90 are multiplied by. */
+#define LTC_Z             0
+#define LTC_Q             1
+#define LTC_B             2
+#define LTC_R             3
+#define LTC_AMPLITUDE     4
+#define LTC_AMPLITUDE_F90 5
+
+STRUCT(LtcTable) {
+    Table texels;
+    int rows, columns; /* of a plane; columns >= 2 */
+    float low, high;   /* roots of the parameter in the first and the last row */
+};
+
+/* Between four neighbouring nodes. */
+STRUCT(LtcSpot) {
+    int row, below, column;
+    float x, y;
+};
+
+/* f cos_i = (f0 white + f90 grazing) ltc_pdf(m, ..) */
+STRUCT(LtcLobe) {
+    Ltc m;
+    float f0, f90;
+};
+
+FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
+    float x = sqrt(clamp(cos_o, 0.0f, 1.0f)) * to_float(t.columns - 1), y = 0.0f;
+    if (t.rows > 1)
+        y = clamp((sqrt(max(p, 0.0f)) - t.low) / (t.high - t.low), 0.0f, 1.0f) * to_float(t.rows - 1);
+    float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
+    float top = clamp(floor(y), 0.0f, to_float(t.rows - 1));
+    LtcSpot s;
+    s.column = to_int(left);
+    s.row = to_int(top);
+    s.below = s.row + 1 < t.rows ? s.row + 1 : s.row;
+    s.x = x - left;
+    s.y = y - top;
+    return s;
+}
+
+FN float ltc_table_mixed(LtcTable t, LtcSpot s, int plane) {
+    int row = plane * t.rows + s.row, below = plane * t.rows + s.below;
+    float a = mix(table_texel(t.texels, t.columns, row, s.column),
+                  table_texel(t.texels, t.columns, row, s.column + 1), s.x);
+    float b = mix(table_texel(t.texels, t.columns, below, s.column),
+                  table_texel(t.texels, t.columns, below, s.column + 1), s.x);
+    return mix(a, b, s.y);
+}
+
+/* The lobe as wo of that cosine sees it, its parameter being p. */
+FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
+    LtcSpot s = ltc_table_spot(t, cos_o, p);
+    LtcLobe l;
+    l.m = ltc_of(ltc_table_mixed(t, s, LTC_Z), ltc_table_mixed(t, s, LTC_Q), ltc_table_mixed(t, s, LTC_B),
+                 ltc_table_mixed(t, s, LTC_R), cos_o);
+    l.f0 = ltc_table_mixed(t, s, LTC_AMPLITUDE);
+    l.f90 = ltc_table_mixed(t, s, LTC_AMPLITUDE_F90);
+    return l;
+}
+
+#endif
