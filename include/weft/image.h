@@ -32,11 +32,12 @@ WEFT_API WeftResult weft_image_create(int width, int height, int channels, WeftP
 /* Releases the pixels and zeroes the struct. image may be NULL or all zero. */
 WEFT_API void weft_image_free(WeftImage *image);
 
-/* Reads PNG, JPEG, TGA, Radiance HDR or OpenEXR, told apart by content (TGA, which has no signature, comes
- * last). PNG gives U8 or U16, JPEG and TGA U8, HDR F32 RGB, EXR F32 of its display window. Values of HDR and
- * EXR are finite. log (may be NULL) receives what was repaired. Fails with WEFT_MESSAGE_FILE_OPEN,
- * _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED, _IMAGE_UNSUPPORTED or _MEMORY; *out is
- * then zero. */
+/* Reads PNG, JPEG, TGA, Radiance HDR, OpenEXR or NumPy's .npy, told apart by content (TGA, which has no
+ * signature, comes last). PNG gives U8 or U16, JPEG and TGA U8, HDR F32 RGB, EXR F32 of its display window.
+ * An .npy is an array of rows by columns, by 1 to 4 channels where it has three indices: f2, f4 and f8 give
+ * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives what was repaired. Fails with
+ * WEFT_MESSAGE_FILE_OPEN, _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED,
+ * _IMAGE_UNSUPPORTED or _MEMORY; *out is then zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
 /* The same from size bytes at data; name is the subject of errors. */
@@ -44,10 +45,22 @@ WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const 
                                            const WeftLog *log, WeftError *error);
 
 /* Writes by suffix: .png (U8 or U16 as the image is; F32 is refused: tone-map first), .exr (F32, half float,
- * ZIP), .hdr (F32, RGBE, no alpha). The file appears complete or not at all. */
+ * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
 
-/* Whether weft_image_write knows this suffix, and whether what it writes is linear (EXR, HDR) or
+/* How pixels that are data rather than a picture are written. Zero-initialise: as weft_image_write does. */
+typedef struct WeftImageWriting {
+    int data;            /* plain numbers: a .png is not called sRGB, an .exr not multiplied by its alpha */
+    int single;          /* .exr of 32 bit floats in place of half */
+    const char *comment; /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
+                            the other formats have no place for it; may be NULL */
+} WeftImageWriting;
+
+/* weft_image_write, but so. */
+WEFT_API WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
+                                        WeftError *error);
+
+/* Whether weft_image_write knows this suffix, and whether what it writes is linear (EXR, HDR, NPY) or
  * display-referred. */
 WEFT_API int weft_image_suffix_known(const char *path);
 WEFT_API int weft_image_suffix_linear(const char *path);

@@ -34,8 +34,8 @@ typedef enum WeftResult {
     M(FILE_READ, INPUT, "cannot be read")                                                                    \
     M(FILE_LARGE, INPUT, "is too large")                                                                     \
     M(FILE_WRITE, RESOURCES, "cannot be written")                                                            \
-    M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr)")                     \
-    M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA HDR EXR)")                       \
+    M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr .npy)")                \
+    M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA HDR EXR NPY)")                   \
     M(IMAGE_SIZE, INPUT, "claims more pixels than can be meant")                                             \
     M(IMAGE_DAMAGED, INPUT, "is damaged")                                                                    \
     M(IMAGE_UNSUPPORTED, INPUT, "uses an image feature that is not supported")                               \
@@ -73,6 +73,8 @@ typedef enum WeftResult {
     M(CACHE_IGNORED, WARNING, "is not used as a cache")                                                      \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \
+    M(BAKE_KIND, USAGE, "is not a kind of table")                                                            \
+    M(TABLE_FORM, USAGE, "is not a form of table (gltf, filament and so on, or cos,roughness,centres)")      \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
     M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
     M(TEXT_NAME, USAGE, "is not a file of the catalogue")                                                    \

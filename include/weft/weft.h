@@ -3,6 +3,7 @@
 #define WEFT_H
 
 #include "weft/arrays.h"
+#include "weft/bake.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"

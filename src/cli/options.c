@@ -64,7 +64,7 @@ static int option_take(Options *options, int count, char **arguments, int *used)
 
 int options_parse(const Verb *verb, int count, char **arguments, Options *options) {
     size_t room = (size_t)count + 1;
-    *options = (Options){.verb = verb};
+    *options = (Options){.verb = verb, .arguments = arguments, .argument_count = count};
     options->given = calloc(room, sizeof *options->given);
     options->operands = calloc(room, sizeof *options->operands);
     if (!options->given || !options->operands) return report(WEFT_RESOURCES, "out of memory");
@@ -114,6 +114,7 @@ void options_help(const Verb *verb) {
     printf("weft %s - %s\n\nUsage: weft %s %s\n", verb->name, verb->help, verb->name, verb->operands);
     for (const Option *row = verb->options; !is_end(row); row++) help_row(row);
     layout_entry(stdout, HELP_COLUMN, "--help", "print this");
+    if (verb->lists) verb->lists();
     printf("\n%s", verb->notes);
 }
 

@@ -37,7 +37,8 @@ typedef struct Verb {
     const char *name, *operands, *help; /* operands as in a usage line */
     int operands_least, operands_most;
     const Option *options;
-    const char *notes; /* the help's end: lines as they are, examples among them */
+    void (*lists)(void); /* prints lists between options and notes; NULL: there are none */
+    const char *notes;   /* the help's end: lines as they are, examples among them */
     int (*run)(const Options *options);
 } Verb;
 
@@ -46,7 +47,8 @@ struct Options {
     const Verb *verb;
     struct Given *given;
     const char **operands;
-    int given_count, operand_count;
+    char **arguments; /* all that followed the verb */
+    int given_count, operand_count, argument_count;
 };
 
 /* Reads the arguments after the verb. Returns 0, or an exit code after one line on standard error. Release

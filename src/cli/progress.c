@@ -23,6 +23,13 @@ Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, d
     return progress;
 }
 
+Progress progress_start_count(bool quiet, const char *unit, double count) {
+    Progress progress = progress_start(quiet, "", 0, 0, 0.0, 0.0);
+    progress.unit = unit;
+    progress.count = count;
+    return progress;
+}
+
 enum { TIME_SIZE = 24 };
 
 /* Seconds as "0:07" or "2:00:07". */
@@ -43,14 +50,21 @@ void progress_draw(Progress *progress, double fraction) {
     if (progress->limit > 0.0) done = fmin(fmax(done, elapsed / progress->limit), 1.0);
     char bar[] = "....................", asked[16] = "", past[TIME_SIZE], left[TIME_SIZE] = "-", line[160];
     memset(bar, '#', (size_t)(done * (double)(sizeof bar - 1)));
-    if (progress->spp) snprintf(asked, sizeof asked, "/%d", progress->spp);
     clock_text(elapsed, past);
     if (done > 0.0) clock_text(elapsed * (1.0 - done) / done, left);
-    double samples = fraction * progress->spp_most;
-    double rate = elapsed > 0.0 ? samples * progress->pixels / elapsed : 0.0;
-    snprintf(line, sizeof line, "%s%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
-             progress->prefix, floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, asked, past, left,
-             1e-6 * rate);
+    if (progress->unit) {
+        double made = fraction * progress->count, rate = elapsed > 0.0 ? made / elapsed : 0.0;
+        snprintf(line, sizeof line, "%3.0f%% %s %.0f/%.0f %s  %s elapsed, %s left  %.3g %s/s",
+                 floor(100.0 * done), bar, made, progress->count, progress->unit, past, left, rate,
+                 progress->unit);
+    } else {
+        if (progress->spp) snprintf(asked, sizeof asked, "/%d", progress->spp);
+        double samples = fraction * progress->spp_most;
+        double rate = elapsed > 0.0 ? samples * progress->pixels / elapsed : 0.0;
+        snprintf(line, sizeof line, "%s%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
+                 progress->prefix, floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, asked, past,
+                 left, 1e-6 * rate);
+    }
     fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
     fflush(stderr);
 }

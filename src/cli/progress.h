@@ -1,4 +1,5 @@
-/* progress.h - a line on the terminal that says how far a render is; nothing where there is no terminal */
+/* progress.h - a line on the terminal that says how far a render or another long loop is; nothing where there
+ * is no terminal */
 #ifndef WEFT_CLI_PROGRESS_H
 #define WEFT_CLI_PROGRESS_H
 
@@ -11,6 +12,8 @@ typedef struct Progress {
     int spp_most;       /* what a fraction of 1 means */
     double pixels;      /* in the picture */
     double limit;       /* s; 0: none */
+    const char *unit;   /* of what is counted, "texels"; NULL: samples of a render */
+    double count;       /* of these in all */
     double started, drawn;
     int width; /* of the terminal, characters */
 } Progress;
@@ -19,7 +22,10 @@ typedef struct Progress {
  * outlive the line. */
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit);
 
-/* Redraws the line, at most ten times a second. fraction is of the samples asked for. */
+/* The same for so many things of another kind: texels, say. unit must outlive the line. */
+Progress progress_start_count(bool quiet, const char *unit, double count);
+
+/* Redraws the line, at most ten times a second. fraction is of the samples or things asked for. */
 void progress_draw(Progress *progress, double fraction);
 
 /* Erases the line. */

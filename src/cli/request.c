@@ -12,8 +12,8 @@
 const Option request_options[] = {
     OPTION_HEADING("Pictures"),
     OPTION_LIST("-o", "OUT",
-                "write OUT: .exr and .hdr linear, .png as displayed; of several pictures a sheet with their "
-                "differences, .png"),
+                "write OUT: .exr, .hdr and .npy linear, .png as displayed; of several pictures a sheet with "
+                "their differences, .png"),
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
@@ -155,7 +155,7 @@ int request_outputs_check(const Request *request) {
     const Options *options = request->options;
     int cursor = 0, result = 0;
     if (!option_given(options, "-o"))
-        return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr or .hdr file");
+        return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr, .hdr or .npy file");
     for (const char *path; (path = option_next(options, "-o", &cursor));)
         if (!weft_image_suffix_known(path))
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));

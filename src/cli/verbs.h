@@ -4,6 +4,6 @@
 
 #include "options.h"
 
-extern const Verb verb_render, verb_models, verb_eval, verb_check;
+extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake;
 
 #endif

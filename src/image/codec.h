@@ -36,10 +36,16 @@ WeftResult image_read_jpeg(const ImageSource *source, WeftImage *out, WeftError 
 WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);
+WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* The image is of a type the format takes; name is the subject of errors. */
-WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image, WeftError *error);
-WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image, WeftError *error);
-WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, WeftError *error);
+WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error);
+WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error);
+WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error);
+WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error);
 
 #endif

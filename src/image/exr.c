@@ -1,4 +1,5 @@
 /* OpenEXR through its C library. Colours of an EXR file are multiplied by alpha; ours are not. */
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdbool.h>
@@ -11,6 +12,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "image/codec.h"
+#include "image/half.h"
 
 /* What the library's callbacks see. */
 typedef struct ExrJob {
@@ -225,17 +227,6 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     return result;
 }
 
-/* The float of a half. Moved to where a float has them, its exponent and mantissa read as 2^(15 - 127) of the
- * value, also when subnormal. */
-static float half_value(unsigned half) {
-    if ((half & 0x7c00) == 0x7c00) return NAN; /* or infinite: neither is kept */
-    const uint32_t bits = (uint32_t)(half & 0x7fff) << 13;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    value *= 0x1p112f;
-    return half & 0x8000 ? -value : value;
-}
-
 /* One value of the file, which is little-endian. */
 static float value_read(const unsigned char *at, exr_pixel_type_t type) {
     if (type == EXR_PIXEL_HALF) return half_value((unsigned)at[0] | (unsigned)at[1] << 8);
@@ -379,35 +370,38 @@ static const struct {
     {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}},
 };
 
-static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image) {
+static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, const WeftImageWriting *how) {
     int part = 0;
     exr_result_t status = exr_add_part(exr, "image", EXR_STORAGE_SCANLINE, &part);
     if (status == EXR_ERR_SUCCESS)
         status =
             exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP);
     for (int c = 0; status == EXR_ERR_SUCCESS && c < image->channels; c++)
-        status = exr_add_channel(exr, part, exr_layouts[image->channels][c].name, EXR_PIXEL_HALF,
-                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+        status = exr_add_channel(exr, part, exr_layouts[image->channels][c].name,
+                                 how->single ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
+                                 how->data ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (status == EXR_ERR_SUCCESS && how->comment)
+        status = exr_attr_set_string(exr, part, "comments", how->comment);
     if (status == EXR_ERR_SUCCESS) status = exr_set_version(exr, part, 1);
     return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;
 }
 
-/* A value that half can hold; NaN becomes 0. */
-static float half_clamped(float x) {
-    const float half_max = 65504.0f;
-    return isnan(x) ? 0.0f : fminf(fmaxf(x, -half_max), half_max);
-}
+/* A value of at most `most`, which the file's values can hold; NaN becomes 0. */
+static float clamped(float x, float most) { return isnan(x) ? 0.0f : fminf(fmaxf(x, -most), most); }
 
 /* Lines y .. y + lines as the file has them: one plane a channel, colours times alpha. */
-static void planes_fill(const WeftImage *image, int y, int lines, float *planes) {
+static void planes_fill(const WeftImage *image, const WeftImageWriting *how, int y, int lines,
+                        float *planes) {
+    const float most = how->single ? FLT_MAX : 65504.0f;
     const size_t plane = (size_t)image->width * (size_t)lines;
     const int channels = image->channels, alpha = channels % 2 == 0 ? channels - 1 : -1;
     const float *pixel = (const float *)image->pixels + (size_t)y * (size_t)image->width * (size_t)channels;
     for (size_t i = 0; i < plane; i++, pixel += channels)
         for (int c = 0; c < channels; c++) {
             const int from = exr_layouts[channels][c].channel;
-            const float cover = alpha < 0 || from == alpha ? 1.0f : half_clamped(pixel[alpha]);
-            planes[(size_t)c * plane + i] = half_clamped(half_clamped(pixel[from]) * cover);
+            const bool covered = alpha >= 0 && from != alpha && !how->data;
+            const float cover = covered ? clamped(pixel[alpha], most) : 1.0f;
+            planes[(size_t)c * plane + i] = clamped(clamped(pixel[from], most) * cover, most);
         }
 }
 
@@ -423,7 +417,8 @@ static exr_result_t chunk_compress(exr_encode_pipeline_t *pipeline) {
     return status;
 }
 
-static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float *planes, int chunk_lines) {
+static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const WeftImageWriting *how,
+                               float *planes, int chunk_lines) {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t (*library)(exr_encode_pipeline_t *) = NULL;
     exr_result_t status = EXR_ERR_SUCCESS;
@@ -435,7 +430,7 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float 
             status = first ? exr_encoding_initialize(exr, 0, &chunk, &pipeline)
                            : exr_encoding_update(exr, 0, &chunk, &pipeline);
         if (status != EXR_ERR_SUCCESS) break;
-        planes_fill(image, y, chunk.height, planes);
+        planes_fill(image, how, y, chunk.height, planes);
         for (int c = 0; c < image->channels; c++) {
             exr_coding_channel_info_t *channel = pipeline.channels + c;
             channel->encode_from_ptr =
@@ -457,7 +452,8 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, float 
     return status;
 }
 
-WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, WeftError *error) {
+WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error) {
     ExrJob job = {.stream = stream};
     exr_context_initializer_t setup = exr_job_setup(&job);
     setup.write_fn = exr_job_write;
@@ -465,11 +461,11 @@ WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *imag
     exr_result_t status = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &setup);
     int32_t lines = 0;
     float *planes = NULL;
-    if (status == EXR_ERR_SUCCESS) status = exr_describe(exr, image);
+    if (status == EXR_ERR_SUCCESS) status = exr_describe(exr, image, how);
     if (status == EXR_ERR_SUCCESS) status = exr_get_scanlines_per_chunk(exr, 0, &lines);
     if (status == EXR_ERR_SUCCESS) {
         planes = alloc_array((size_t)image->width * (size_t)image->channels * (size_t)lines, sizeof(float));
-        status = planes ? exr_encode(exr, image, planes, lines) : EXR_ERR_OUT_OF_MEMORY;
+        status = planes ? exr_encode(exr, image, how, planes, lines) : EXR_ERR_OUT_OF_MEMORY;
     }
     free(planes);
     if (exr) {

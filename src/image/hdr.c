@@ -225,7 +225,9 @@ static void component_write(FILE *stream, unsigned char (*line)[4], int c, int l
     }
 }
 
-WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image, WeftError *error) {
+WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error) {
+    (void)how;
     if (image->channels < 3) return fail(error, WEFT_MESSAGE_DESC, name, ".hdr takes 3 or 4 channels");
     const int width = image->width;
     unsigned char(*line)[4] = alloc_array((size_t)width, 4);

@@ -86,6 +86,7 @@ WeftResult weft_image_read_memory(const void *data, size_t size, const char *nam
     if (starts(&source, "\xff\xd8\xff", 3)) return image_read_jpeg(&source, out, error);
     if (starts(&source, "#?", 2)) return image_read_hdr(&source, out, error);
     if (starts(&source, "\x76\x2f\x31\x01", 4)) return image_read_exr(&source, out, error);
+    if (starts(&source, "\x93NUMPY", 6)) return image_read_npy(&source, out, error);
     return image_read_tga(&source, out, error);
 }
 
@@ -103,13 +104,15 @@ WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log,
 typedef struct Writer {
     const char *suffix;
     int linear; /* F32 is what it takes; else U8 or U16 */
-    WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, WeftError *error);
+    WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                        WeftError *error);
 } Writer;
 
 static const Writer writers[] = {
     {".png", 0, image_write_png},
     {".exr", 1, image_write_exr},
     {".hdr", 1, image_write_hdr},
+    {".npy", 1, image_write_npy},
 };
 
 static const Writer *writer_find(const char *path) {
@@ -129,6 +132,11 @@ int weft_image_suffix_linear(const char *path) {
 }
 
 WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error) {
+    return weft_image_write_as(path, image, &(WeftImageWriting){0}, error);
+}
+
+WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
+                               WeftError *error) {
     const Writer *writer = writer_find(path);
     if (!writer) return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, NULL);
     if (!image->pixels) return fail(error, WEFT_MESSAGE_DESC, path, "an image without pixels");
@@ -138,7 +146,7 @@ WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError 
     OutputFile file;
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
-    result = writer->write(file.stream, path, image, error);
+    result = writer->write(file.stream, path, image, how, error);
     if (result == WEFT_OK) return output_commit(&file, error);
     output_discard(&file);
     return result;

@@ -1,5 +1,7 @@
 #include <png.h>
 #include <setjmp.h>
+#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -9,8 +11,10 @@
 typedef struct PngJob {
     jmp_buf escape;
     char reason[160];
-    const ImageSource *source;
+    const ImageSource *source; /* when reading */
     size_t position;
+    bool data; /* when writing: no picture, and what its text chunk says, or NULL */
+    char *comment;
 } PngJob;
 
 static _Noreturn void png_job_fail(png_structp png, png_const_charp reason) {
@@ -92,14 +96,26 @@ WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *
     return result;
 }
 
-static void png_encode(png_structp png, png_infop info, const WeftImage *image) {
+/* A text chunk is Latin-1: what is not ASCII is left to the reader's guess. The library copies both strings.
+ */
+static void png_comment(png_structp png, png_infop info, char *comment) {
+    static char keyword[] = "Comment";
+    const png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                           .key = keyword,
+                           .text = comment,
+                           .text_length = strlen(comment)};
+    png_set_text(png, info, &text, 1);
+}
+
+static void png_encode(png_structp png, png_infop info, const WeftImage *image, const PngJob *job) {
     static const int color_types[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                       PNG_COLOR_TYPE_RGB_ALPHA};
     const int deep = image->type == WEFT_PIXEL_U16;
     png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, deep ? 16 : 8,
                  color_types[image->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!job->data) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (job->comment) png_comment(png, info, job->comment);
     png_write_info(png, info);
     if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
     const size_t stride = (size_t)image->width * (size_t)image->channels * (deep ? 2 : 1);
@@ -112,16 +128,19 @@ static WeftResult png_write_guarded(PngJob *job, png_structp png, png_infop info
                                     const char *name, const WeftImage *image, WeftError *error) {
     if (setjmp(job->escape)) return fail(error, WEFT_MESSAGE_FILE_WRITE, name, "PNG: %s", job->reason);
     png_init_io(png, stream);
-    png_encode(png, info, image);
+    png_encode(png, info, image, job);
     return WEFT_OK;
 }
 
-WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image, WeftError *error) {
-    PngJob job = {0};
+WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image,
+                           const WeftImageWriting *how, WeftError *error) {
+    PngJob job = {.data = how->data != 0, .comment = how->comment ? strdup(how->comment) : NULL};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_job_fail, png_job_warn);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    WeftResult result = info ? png_write_guarded(&job, png, info, stream, name, image, error)
-                             : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    WeftResult result = info && !how->comment == !job.comment
+                            ? png_write_guarded(&job, png, info, stream, name, image, error)
+                            : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     png_destroy_write_struct(&png, &info);
+    free(job.comment);
     return result;
 }

@@ -88,17 +88,23 @@ static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
     return sum;
 }
 
-Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
+Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error) {
     Rule rule = rule_make(0.25);
     Sum before = hemisphere(lobe, wo, &rule), now = before;
     for (int halving = 3; halving <= 5; halving++) {
         rule = rule_make(ldexp(1.0, -halving));
         now = hemisphere(lobe, wo, &rule);
         /* halving the step about squares the error, so the last difference is a safe bound */
-        if (fabs(now.f0 - before.f0) + fabs(now.f90 - before.f90) < tolerance) break;
+        *error = fabs(now.f0 - before.f0) + fabs(now.f90 - before.f90);
+        if (*error < tolerance) break;
         before = now;
     }
     return (Albedo){(float)now.f0, (float)now.f90};
+}
+
+Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
+    double error;
+    return albedo_quadrature_error(lobe, wo, tolerance, &error);
 }
 
 static float fourth_root(float x) { return sqrt(sqrt(x)); }

@@ -17,6 +17,10 @@ typedef struct Albedo {
 /* E for wo, z > 0, to `tolerance` absolute. */
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 
+/* The same, and how far it may be off: the change that the last halving of the step made. That is above
+ * `tolerance` where the finest step was not enough. */
+Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
+
 /* E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, ALBEDO_MU nodes uniform in y, and over one
  * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends
  * about equally everywhere, though it changes fastest near grazing at low alpha, and for some diffuse lobes

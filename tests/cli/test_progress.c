@@ -59,6 +59,18 @@ static void line_is_drawn_and_erased(void **state) {
     free(text);
 }
 
+/* Other long work counts other things, in the same line. */
+static void texels_are_counted(void **state) {
+    (void)state;
+    int code;
+    char *text = on_terminal(100, LIST("bake", "albedo", "ggx", "--size=128x128", "-o", "a.npy"), &code);
+    assert_int_equal(code, 0);
+    assert_non_null(strstr(text, "/16384 texels  0:0"));
+    assert_true(strstr(text, " elapsed, ") && strstr(text, " left  ") && strstr(text, " texels/s"));
+    assert_null(strstr(text, " spp "));
+    free(text);
+}
+
 static void quiet_is_quiet(void **state) {
     (void)state;
     int code;
@@ -71,6 +83,7 @@ static void quiet_is_quiet(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(line_is_drawn_and_erased),
+                                       cmocka_unit_test(texels_are_counted),
                                        cmocka_unit_test(quiet_is_quiet)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

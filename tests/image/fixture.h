@@ -125,17 +125,22 @@ static inline void folder_make(char folder[256]) {
 }
 
 /* Writes to a file of the folder, reads that back and removes it. */
-static inline WeftImage write_and_read(const WeftImage *image, const char *suffix) {
+static inline WeftImage write_and_read_as(const WeftImage *image, const char *suffix,
+                                          const WeftImageWriting *how) {
     char folder[256], path[300];
     folder_make(folder);
     snprintf(path, sizeof path, "%s/image%s", folder, suffix);
     WeftError error = {0};
-    if (weft_image_write(path, image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_image_write_as(path, image, how, &error) != WEFT_OK) fail_msg("%s", error.text);
     WeftImage back;
     if (weft_image_read(path, &back, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(rmdir(folder), 0); /* so nothing else was left there */
     return back;
+}
+
+static inline WeftImage write_and_read(const WeftImage *image, const char *suffix) {
+    return write_and_read_as(image, suffix, &(WeftImageWriting){0});
 }
 
 #endif

@@ -478,6 +478,28 @@ static void test_clamped(void **state) {
     weft_image_free(&image);
 }
 
+/* Data: every bit of a float, and no product with alpha, by which the reader divides. */
+static void test_data(void **state) {
+    (void)state;
+    const WeftImageWriting how = {.data = 1, .single = 1, .comment = "weft bake \"this\""};
+    for (int channels = 1; channels <= 4; channels++) {
+        WeftImage image = make_image(23, 18, channels, WEFT_PIXEL_F32);
+        float *values = image.pixels;
+        for (size_t i = 0; i < value_total(&image); i++)
+            values[i] = channels % 2 == 0 && (int)i % channels == channels - 1
+                            ? 0.25f
+                            : ldexpf((float)(i * 7919 % 65521) - 3e4f, (int)(i % 60) - 40);
+        WeftImage back = write_and_read_as(&image, ".exr", &how);
+        assert_shape(&back, 23, 18, channels, WEFT_PIXEL_F32);
+        for (size_t i = 0; i < value_total(&image); i++) {
+            const int straight = channels % 2 || (int)i % channels == channels - 1;
+            assert_near(((float *)back.pixels)[i], straight ? values[i] : 4.0f * values[i], 0.0f);
+        }
+        weft_image_free(&back);
+        weft_image_free(&image);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all_forms),      cmocka_unit_test(test_windows),
@@ -486,6 +508,7 @@ int main(void) {
         cmocka_unit_test(test_damage),         cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_every_half),     cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_incompressible), cmocka_unit_test(test_clamped),
+        cmocka_unit_test(test_data),
     };
     return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

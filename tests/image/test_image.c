@@ -38,7 +38,7 @@ static void test_suffixes(void **state) {
         int known, linear;
     } cases[] = {{"a.png", 1, 0}, {"a.PNG", 1, 0},     {"a/b.c/d.exr", 1, 1}, {"x.hdr", 1, 1},
                  {"x.jpg", 0, 0}, {"x.png.txt", 0, 0}, {"png", 0, 0},         {".png", 0, 0},
-                 {"", 0, 0},      {"xhdr", 0, 0}};
+                 {"", 0, 0},      {"xhdr", 0, 0},      {"x.Npy", 1, 1}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_int_equal(weft_image_suffix_known(cases[i].path), cases[i].known);
         assert_int_equal(weft_image_suffix_linear(cases[i].path), cases[i].linear);
@@ -53,6 +53,7 @@ static void test_unknown_content(void **state) {
     refuse_bytes("\xff\xd8\xff", 3, WEFT_MESSAGE_IMAGE_DAMAGED);
     refuse_bytes("#?", 2, WEFT_MESSAGE_IMAGE_DAMAGED);
     refuse_bytes("\x76\x2f\x31\x01", 4, WEFT_MESSAGE_IMAGE_DAMAGED);
+    refuse_bytes("\x93NUMPY", 6, WEFT_MESSAGE_IMAGE_DAMAGED);
     WeftImage image;
     WeftError error = {0};
     assert_int_equal(weft_image_read("/nowhere/at all.png", &image, NULL, &error), WEFT_INPUT);
@@ -203,13 +204,15 @@ static void test_full_disk(void **state) {
         ((float *)image.pixels)[i] = (float)((i * 7919) % 65521) / 1000.0f;
         ((unsigned char *)bytes.pixels)[i] = (unsigned char)((i * i * 7919) >> 7);
     }
-    for (int i = 0; i < 3; i++) {
+    const WeftImageWriting plain = {0};
+    for (int i = 0; i < 4; i++) {
         FILE *full = fopen("/dev/full", "wb");
         if (!full) skip();
         WeftError error = {0};
-        WeftResult result = i == 0   ? image_write_exr(full, "full", &image, &error)
-                            : i == 1 ? image_write_hdr(full, "full", &image, &error)
-                                     : image_write_png(full, "full", &bytes, &error);
+        WeftResult result = i == 0   ? image_write_exr(full, "full", &image, &plain, &error)
+                            : i == 1 ? image_write_hdr(full, "full", &image, &plain, &error)
+                            : i == 2 ? image_write_npy(full, "full", &image, &plain, &error)
+                                     : image_write_png(full, "full", &bytes, &plain, &error);
         fclose(full);
         assert_int_equal(result, WEFT_RESOURCES);
         assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);

@@ -1,0 +1,176 @@
+/* bake.h - tables precomputed from lobes for engines to read, and what a table of somebody else's is worth
+ *
+ * A table of directional albedo is a WeftImage of F32. Its texels run over the cosine cos_o of the view along
+ * one axis and over the lobe's first parameter along the other; a WeftTableForm says how. docs/bake.md shows
+ * what to do with them. */
+#ifndef WEFT_BAKE_H
+#define WEFT_BAKE_H
+
+#include "weft/image.h"
+#include "weft/lobe.h"
+#include "weft/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a table's axes mean. All zero: cos_o to the right, an artist's roughness downwards, both at texel
+ * centres, which is what most engines read. */
+typedef struct WeftTableForm {
+    int transposed;     /* the parameter to the right and cos_o downwards */
+    int root;           /* uniform in sqrt(cos_o) in place of cos_o */
+    int alpha;          /* uniform in the first parameter itself in place of roughness */
+    int edges;          /* the first texel at 0 and the last at 1; else texel k of n at (k + 0.5) / n */
+    int flip_x, flip_y; /* the first texel is the last */
+    int total; /* of a lobe of two colours: the part of f90 and the sum, not the parts of f0 and f90 */
+} WeftTableForm;
+
+/* The forms that engines use, by index: a name, the same in elements, and whose it is. NULL past the end. */
+WEFT_API const char *weft_table_form_name(int index);
+WEFT_API const char *weft_table_form_help(int index);
+WEFT_API WeftTableForm weft_table_form_at(int index);
+
+/* The first of them that has the same axes, whatever its `total`; -1: none. */
+WEFT_API int weft_table_form_find(const WeftTableForm *form);
+
+/* Reads a name, or elements separated by commas: what runs along x and along y (cos or sqrt-cos, and
+ * roughness or alpha), then as wished centres or edges, flip-x, flip-y, total. Fails with
+ * WEFT_MESSAGE_TABLE_FORM. */
+WEFT_API WeftResult weft_table_form_parse(const char *text, WeftTableForm *out, WeftError *error);
+
+/* The elements of a form, as they are read. Returns text. */
+enum { WEFT_TABLE_FORM_TEXT = 80 };
+WEFT_API char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TABLE_FORM_TEXT]);
+
+/* Where texel (x, y) of a table of that size is: cos_o in [0, 1], and the lobe's first parameter, which may
+ * be beyond its hard range. Roughness r means r^2 where the parameter is called alpha, r where it is called
+ * roughness, and else its plausible range from low to high. A lobe without parameters has 0. */
+WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y,
+                                    float *cos_o, float *value);
+
+/* What can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. NULL past the end. */
+typedef struct WeftBakeKind {
+    const char *id, *help;
+    int lobe;
+    int width, height; /* where none are given */
+} WeftBakeKind;
+WEFT_API const WeftBakeKind *weft_bake_kind(int index);
+
+/* Sides are 1 to 65536, and a table has at most this many texels. */
+enum { WEFT_BAKE_TEXELS_MAX = 1 << 24 };
+
+/* Zero means default, in every member but kind. */
+typedef struct WeftBakeDesc {
+    const char *kind;     /* the id of a WeftBakeKind */
+    const WeftLobe *lobe; /* counts as white */
+    int width, height;    /* texels */
+    WeftTableForm form;
+    double tolerance;      /* absolute, of each value's quadrature; 0: 1e-4. Floats end near 1e-6 */
+    int threads;           /* 0: all */
+    WeftProgress progress; /* may be NULL; a result other than 0 stops */
+    void *user;            /* of progress */
+} WeftBakeDesc;
+
+typedef struct WeftBakeInfo {
+    char words[160];   /* what the table holds */
+    char channels[80]; /* what each channel is, comma between */
+    double error;      /* the quadrature's largest estimate of its own error */
+    long long unmet;   /* values whose estimate is above the tolerance */
+    long long beyond;  /* texels whose parameter is beyond the lobe's hard range, and counts as its end */
+    float low, high;   /* the least and the largest value */
+} WeftBakeInfo;
+
+/* Makes a table: F32, released with weft_image_free. At cos_o below 1e-6 it holds what is there at 1e-6. The
+ * numbers do not depend on the threads. WEFT_INTERRUPTED (without an error's text, and without a table) where
+ * progress says so; fails with WEFT_MESSAGE_BAKE_KIND, _DESC or _MEMORY. info may be NULL. */
+WEFT_API WeftResult weft_bake(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
+
+/* Auditing a table of E. */
+
+/* F(id, name in JSON): what can be wrong with a table. */
+#define WEFT_TABLE_FAULTS(F)                                                                                 \
+    F(NONE, "none")         /* as right as its numbers can be */                                             \
+    F(CONSTANT, "constant") /* one value everywhere, black among them, where E is not constant */            \
+    F(FORM, "axes")         /* right, but its axes are others than were said */                              \
+    F(LATE, "shifted")      /* right, but one texel late along the parameter */                              \
+    F(CLIPPED, "clipped")   /* right, but cut off where E goes on */                                         \
+    F(SCALED, "scaled")     /* right, but for one factor */                                                  \
+    F(ENCODED, "encoded")   /* right, but sRGB-encoded */                                                    \
+    F(OTHER_LOBE, "lobe")   /* much nearer to the E of another lobe */                                       \
+    F(BIASED, "biased")     /* off by what neighbouring texels share */                                      \
+    F(NOISY, "noisy")       /* off by what they do not share */                                              \
+    F(CORNER, "corner")     /* off in a few texels only */
+
+typedef enum WeftTableFault {
+#define WEFT_TABLE_FAULT_ENUM(id, name) WEFT_TABLE_##id,
+    WEFT_TABLE_FAULTS(WEFT_TABLE_FAULT_ENUM)
+#undef WEFT_TABLE_FAULT_ENUM
+        WEFT_TABLE_FAULT_COUNT
+} WeftTableFault;
+
+/* The name of a fault, "biased". */
+WEFT_API const char *weft_table_fault_name(WeftTableFault fault);
+
+/* What of the albedo of a lobe of two colours a channel holds; of one colour all is the sum. */
+typedef enum WeftTablePart {
+    WEFT_TABLE_SUM = 0,
+    WEFT_TABLE_F0,
+    WEFT_TABLE_F90,
+    WEFT_TABLE_PARTS
+} WeftTablePart;
+
+/* Zero means default, in every member but image and lobe. */
+typedef struct WeftAuditDesc {
+    const WeftImage *image;    /* of any type; integers are plain numbers, value / 255 or / 65535 */
+    int channel;               /* of image */
+    const WeftLobe *lobe;      /* counts as white */
+    const WeftTableForm *form; /* NULL: the best of those that engines use, or of all there are */
+    double scale;              /* multiplies the image's values; 0: 1 */
+    double most;               /* an error above this is one too many; 0: 0.01 */
+    double tolerance;          /* of the quadrature; 0: 1e-4 */
+    int threads;               /* 0: all */
+    WeftProgress progress;     /* may be NULL; a result other than 0 stops */
+    void *user;                /* of progress */
+} WeftAuditDesc;
+
+/* A texel, and what is there. */
+typedef struct WeftTablePlace {
+    int x, y;
+    float cos_o, value; /* value: of the lobe's first parameter */
+    float table, albedo;
+} WeftTablePlace;
+
+enum { WEFT_AUDIT_FINDINGS = 6, WEFT_AUDIT_TEXT = 320 };
+
+typedef struct WeftAudit {
+    WeftTableForm form;   /* the axes it was judged by: those said, else those found */
+    int fits;             /* 0: E in that form, or a multiple of it, is not what the table is near to */
+    WeftTablePart part;   /* what the channel holds */
+    long long texels;     /* judged: all but those at cos_o = 0 and beyond the lobe's hard range */
+    long long left_out;   /* the rest */
+    double largest;       /* |error|, error = table - E */
+    WeftTablePlace place; /* there */
+    double rms, mean;     /* of the error; the mean with its sign */
+    double beyond;        /* the share of texels whose |error| is above `most` */
+    double together;      /* correlation of the errors of neighbouring texels, in [-1, 1]: 0 noise, 1 bias */
+    double step;          /* between two values that the image's type can hold; 0: float */
+    double error;         /* the quadrature's largest estimate of its own error */
+    int faults;           /* found, at least 1: NONE is one */
+    struct {
+        WeftTableFault fault;
+        char text[WEFT_AUDIT_TEXT]; /* one plain sentence */
+    } found[WEFT_AUDIT_FINDINGS];
+    int other; /* OTHER_LOBE: the lobe; else -1 */
+} WeftAudit;
+
+/* Compares a table with the quadrature of a lobe at the table's own texels. errors (may be NULL) becomes F32
+ * of the table's size and three channels: error, table, E; all 0 where a texel is left out. WEFT_INTERRUPTED
+ * and failures as weft_bake. */
+WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors,
+                               WeftError *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

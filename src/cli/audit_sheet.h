@@ -1,0 +1,17 @@
+/* audit_sheet.h - a table, E and the error between them side by side, as a picture */
+#ifndef WEFT_CLI_AUDIT_SHEET_H
+#define WEFT_CLI_AUDIT_SHEET_H
+
+#include "weft/bake.h"
+
+typedef struct AuditSheet {
+    const WeftAudit *audit;
+    const WeftImage *errors; /* of weft_audit */
+    const char *name;        /* of the table */
+    const char *lobe;
+} AuditSheet;
+
+/* U8 RGB; fails as weft_sheet_compose. */
+WeftResult audit_sheet(const AuditSheet *sheet, WeftImage *out, WeftError *error);
+
+#endif

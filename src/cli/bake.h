@@ -1,0 +1,31 @@
+/* bake.h - what making tables and auditing them share */
+#ifndef WEFT_CLI_BAKE_H
+#define WEFT_CLI_BAKE_H
+
+#include "options.h"
+#include "progress.h"
+#include "weft/weft.h"
+
+/* The options that both take. */
+typedef struct BakeCommon {
+    WeftTableForm form;
+    bool formed; /* it was given */
+    double tolerance, scale;
+    int threads;
+    bool quiet;
+} BakeCommon;
+
+/* False after one line on standard error. */
+bool bake_common(const Options *options, BakeCommon *common);
+
+/* The lobe `id` with every -p; it must be white and its first parameter left alone. Returns 0, or an exit
+ * code after one line. */
+int bake_lobe(const Options *options, const char *id, WeftLobe *lobe);
+
+/* A WeftProgress whose user is a Progress; it stops at an interruption. */
+int bake_progress(void *progress, double fraction);
+
+/* weft bake audit FILE */
+int audit_run(const Options *options);
+
+#endif

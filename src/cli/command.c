@@ -1,0 +1,33 @@
+#include "command.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+@%";
+
+static char *append(char *to, const char *text) {
+    while (*text) *to++ = *text++;
+    return to;
+}
+
+/* An argument after a blank, in single quotes unless all of it is safe. Returns where it ends. */
+static char *argument_write(char *to, const char *argument) {
+    const char *quote = argument[strspn(argument, safe)] || !argument[0] ? "'" : "";
+    to = append(append(to, " "), quote);
+    for (; *argument; argument++) {
+        if (*argument == '\'') to = append(to, "'\\'");
+        *to++ = (unsigned char)*argument < 0x20 || *argument == 0x7f ? '?' : *argument;
+    }
+    return append(to, quote);
+}
+
+char *command_text(const Options *options) {
+    size_t room = sizeof "weft " + strlen(options->verb->name);
+    for (int k = 0; k < options->argument_count; k++) room += 3 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(room), *to = text;
+    if (!text) return NULL;
+    to = argument_write(append(to, "weft"), options->verb->name);
+    for (int k = 0; k < options->argument_count; k++) to = argument_write(to, options->arguments[k]);
+    *to = '\0';
+    return text;
+}

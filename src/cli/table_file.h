@@ -1,0 +1,25 @@
+/* table_file.h - a baked table as a file: a C array, numbers as text, or an image, by suffix */
+#ifndef WEFT_CLI_TABLE_FILE_H
+#define WEFT_CLI_TABLE_FILE_H
+
+#include <stdbool.h>
+
+#include "weft/bake.h"
+
+typedef struct TableFile {
+    const WeftImage *table; /* F32 */
+    const char *command;    /* the one that made it, in one line: each format that can keep it does */
+    const char *about;      /* another line on what it is */
+    float low, high;        /* the least and the largest value */
+    double scale;           /* a .png holds the table / scale; 0: the least power of two that all fit in */
+    bool half;              /* an .exr of 16 bit floats, not 32 */
+} TableFile;
+
+/* Whether path ends in a suffix of those: .h .png .exr .npy .csv .txt; else one line on standard error. */
+bool table_suffix_check(const char *path);
+
+/* Writes the file, complete or not at all. A .png whose values have a scale is told of in one line. Nothing
+ * is cut off: what a format cannot hold is refused. Returns 0, or an exit code after one line. */
+int table_write(const TableFile *file, const char *path);
+
+#endif

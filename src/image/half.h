@@ -1,0 +1,20 @@
+/* half.h - floats of 16 bits, as files have them (IEEE 754, binary16) */
+#ifndef WEFT_IMAGE_HALF_H
+#define WEFT_IMAGE_HALF_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* The float of a half. Moved to where a float has them, its exponent and mantissa read as 2^(15 - 127) of the
+ * value, also when subnormal. */
+static inline float half_value(unsigned half) {
+    if ((half & 0x7c00) == 0x7c00) return NAN; /* or infinite: no reader keeps either */
+    const uint32_t bits = (uint32_t)(half & 0x7fff) << 13;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    value *= 0x1p112f;
+    return half & 0x8000 ? -value : value;
+}
+
+#endif

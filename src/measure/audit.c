@@ -1,0 +1,357 @@
+/* audit.c - somebody else's table of E against quadrature: the errors, and what would explain them */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "measure/audit_probe.h"
+#include "measure/audit_words.h"
+#include "measure/more.h"
+
+/* An explanation must leave less than this share of the error. */
+static const double explained = 0.25;
+
+typedef struct Work {
+    const WeftAuditDesc *desc;
+    double most, tolerance;
+    int width, height;
+    float *values; /* of the channel, times scale */
+    Lobe lobe;
+    Probe probe;
+    Reading reading; /* what the table is judged by */
+    BakePlane plane;
+    WeftImage *errors;            /* error, table, E; E below 0 while a texel is not judged */
+    double met[WEFT_THREADS_MAX]; /* the largest estimate of the quadrature's error, by thread */
+} Work;
+
+/* ---- reading ---- */
+
+static WeftResult check(const WeftAuditDesc *desc, Work *work, WeftError *error) {
+    const WeftImage *image = desc->image;
+    if (!image || !image->pixels || desc->channel < 0 || desc->channel >= image->channels)
+        return fail(error, WEFT_MESSAGE_DESC, "table", "it has %d channels, and no channel %d",
+                    image ? image->channels : 0, desc->channel);
+    if ((int64_t)image->width * image->height > WEFT_BAKE_TEXELS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "table", "%d x %d; at most %d texels are audited", image->width,
+                    image->height, WEFT_BAKE_TEXELS_MAX);
+    if (!desc->lobe || !lobe_of(desc->lobe, &work->lobe))
+        return fail(error, WEFT_MESSAGE_DESC, "table", "it needs a lobe to be compared with");
+    if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
+    return WEFT_OK;
+}
+
+static WeftResult values_take(Work *work, WeftError *error) {
+    const WeftImage *image = work->desc->image;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    WeftImage floats;
+    WeftResult result = weft_image_convert_f32(image, 0, &floats, error);
+    if (result != WEFT_OK) return result;
+    work->values = alloc_array(count, sizeof(float));
+    for (size_t n = 0; work->values && n < count; n++)
+        work->values[n] =
+            (float)(work->desc->scale *
+                    (double)((float *)
+                                 floats.pixels)[n * (size_t)image->channels + (size_t)work->desc->channel]);
+    weft_image_free(&floats);
+    return work->values ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
+}
+
+/* ---- the map ---- */
+
+static float *map_at(const Work *work, int x, int y) {
+    return (float *)work->errors->pixels + 3 * ((size_t)y * (size_t)work->width + (size_t)x);
+}
+
+static void map_texel(void *user, int x, int y, int thread) {
+    Work *work = user;
+    const BakeTexel texel = bake_texel(&work->plane, x, y);
+    const float value = work->values[(size_t)y * (size_t)work->width + (size_t)x];
+    float *to = map_at(work, x, y);
+    const bool judged = !texel.beyond && texel.cos_o > 0.0f;
+    to[2] = judged ? texel.part[work->reading.part] : -1.0f;
+    to[0] = judged ? value - to[2] : 0.0f;
+    to[1] = judged ? value : 0.0f;
+    if (judged && is_more(texel.error, work->met[thread])) work->met[thread] = texel.error;
+}
+
+static void measure(const Work *work, WeftAudit *out) {
+    double sum = 0.0, squares = 0.0, products = 0.0, sizes = 0.0;
+    long long beyond = 0;
+    out->largest = -1.0;
+    for (int y = 0; y < work->height; y++)
+        for (int x = 0; x < work->width; x++) {
+            const float *here = map_at(work, x, y);
+            const double e = (double)here[0];
+            if (here[2] < 0.0f) {
+                out->left_out++;
+                continue;
+            }
+            out->texels++;
+            sum += e;
+            squares += e * e;
+            beyond += !(fabs(e) <= work->most);
+            if (is_more(fabs(e), out->largest)) {
+                out->largest = fabs(e);
+                out->place = (WeftTablePlace){.x = x, .y = y, .table = here[1], .albedo = here[2]};
+            }
+            for (int side = 0; side < 2; side++) { /* the neighbours to the right and below */
+                if (side ? y + 1 == work->height : x + 1 == work->width) continue;
+                const float *other = map_at(work, x + !side, y + side);
+                if (other[2] < 0.0f) continue;
+                products += e * (double)other[0];
+                sizes += 0.5 * (e * e + (double)other[0] * (double)other[0]);
+            }
+        }
+    for (int k = 0; k < WEFT_THREADS_MAX; k++)
+        if (is_more(work->met[k], out->error)) out->error = work->met[k];
+    if (out->texels == 0) return;
+    weft_table_form_texel(&out->form, work->lobe.id, work->width, work->height, out->place.x, out->place.y,
+                          &out->place.cos_o, &out->place.value);
+    out->mean = sum / (double)out->texels;
+    out->rms = (sqrt)(squares / (double)out->texels);
+    out->beyond = (double)beyond / (double)out->texels;
+    out->together = sizes > 0.0 ? products / sizes : 0.0;
+}
+
+/* ---- what is wrong ---- */
+
+static void find(WeftAudit *out, WeftTableFault fault) {
+    if (out->faults < WEFT_AUDIT_FINDINGS) out->found[out->faults++].fault = fault;
+}
+
+static char *last_text(WeftAudit *out) { return out->found[out->faults - 1].text; }
+
+static double mean_value(const Work *work) {
+    const size_t count = (size_t)work->width * (size_t)work->height;
+    double sum = 0.0;
+    for (size_t n = 0; n < count; n++) sum += (double)work->values[n];
+    return sum / (double)count;
+}
+
+/* The table is one value. */
+static bool find_constant(const Work *work, WeftAudit *out) {
+    const size_t count = (size_t)work->width * (size_t)work->height;
+    float low = work->values[0], high = low;
+    for (size_t n = 1; n < count; n++) {
+        low = fminf(low, work->values[n]);
+        high = fmaxf(high, work->values[n]);
+    }
+    if (high > low || probe_flat(&work->lobe, work->desc->threads)) return false;
+    find(out, WEFT_TABLE_CONSTANT);
+    words_constant(last_text(out), (double)low, count);
+    return true;
+}
+
+/* The form of an engine that fits best; where none fits, the commonest unless another is much nearer. */
+static Reading guess_form(const Work *work, double enough) {
+    Reading common = work->reading;
+    probe_read(&work->probe, &common);
+    if (common.distance <= 1e-5) return common;
+    const Reading best = probe_best_form(&work->probe, &common, true, false);
+    return best.distance <= enough || best.distance < 0.5 * common.distance ? best : common;
+}
+
+/* Decides how the table is read: as said, or as it fits best. */
+static void choose_form(Work *work, WeftAudit *out) {
+    const double enough = 1e-3 + work->probe.step;
+    const bool said = work->desc->form;
+    Reading *reading = &work->reading;
+    if (said) {
+        reading->form = *work->desc->form;
+        probe_read(&work->probe, reading);
+    } else {
+        *reading = guess_form(work, enough);
+    }
+    out->fits = reading->distance <= enough;
+    if (out->fits) return;
+    Reading best = probe_best_form(&work->probe, reading, false, false);
+    if (!said && best.distance >= explained * reading->distance) /* a factor may hide the axes */
+        best = probe_best_form(&work->probe, reading, true, true);
+    if (best.distance >= explained * reading->distance) return;
+    if (said) {
+        find(out, WEFT_TABLE_FORM);
+        words_form(last_text(out), reading, &best, enough);
+    } else {
+        out->fits = best.distance <= enough;
+        reading->form = best.form;
+        probe_read(&work->probe, reading);
+    }
+}
+
+/* Values cut off at the largest that the table has: all but few of those that are wrong. */
+static bool find_clipped(const Work *work, WeftAudit *out) {
+    const size_t count = (size_t)work->width * (size_t)work->height;
+    float top = work->values[0], highest = 0.0f;
+    size_t wrong = 0, cut = 0;
+    for (size_t n = 1; n < count; n++) top = fmaxf(top, work->values[n]);
+    for (size_t n = 0; n < count; n++) {
+        const float *texel = (const float *)work->errors->pixels + 3 * n;
+        highest = fmaxf(highest, texel[2]);
+        if (fabs((double)texel[0]) <= work->most) continue;
+        wrong++;
+        if (texel[0] < 0.0f && texel[1] >= top) cut++;
+    }
+    if (cut < 2 || (double)cut < 0.9 * (double)wrong) return false;
+    find(out, WEFT_TABLE_CLIPPED);
+    words_clipped(last_text(out), (double)top, (double)highest, cut);
+    return true;
+}
+
+/* Tries one reading after another, for one that explains most of the error. */
+static void find_cause(Work *work, WeftAudit *out) {
+    const Reading *reading = &work->reading;
+    const double enough = explained * reading->distance;
+    if (find_clipped(work, out) || !(reading->distance > 2e-4 + work->probe.step)) return;
+    for (int late = 1; late >= -1; late -= 2) {
+        Reading other = *reading;
+        other.late = late;
+        probe_read(&work->probe, &other);
+        if (other.distance >= enough) continue;
+        find(out, WEFT_TABLE_LATE);
+        words_late(last_text(out), reading, &other);
+        return;
+    }
+    Reading decoded = *reading;
+    decoded.decoded = true;
+    probe_read(&work->probe, &decoded);
+    if (decoded.distance < enough) {
+        find(out, WEFT_TABLE_ENCODED);
+        words_encoded(last_text(out), reading, &decoded);
+        return;
+    }
+    const Reading scaled = probe_scaled(&work->probe, reading);
+    if (scaled.distance < enough) {
+        find(out, WEFT_TABLE_SCALED);
+        words_scaled(last_text(out), reading, &scaled);
+        return;
+    }
+    const Reading other = probe_best_lobe(&work->probe, reading, !work->desc->form);
+    if (other.distance >= enough || other.distance > 0.1 * mean_value(work)) return;
+    find(out, WEFT_TABLE_OTHER_LOBE);
+    out->other = other.lobe.id;
+    words_lobe(last_text(out), reading, &other);
+}
+
+static int compare_floats(const void *a, const void *b) {
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* table / E at a tenth, half and nine tenths of the texels where E is not small. False where memory is short.
+ */
+static bool ratios_find(const Work *work, double ratios[3]) {
+    const size_t count = (size_t)work->width * (size_t)work->height;
+    float *all = alloc_array(count, sizeof *all);
+    if (!all) return false;
+    size_t used = 0;
+    for (size_t n = 0; n < count; n++) {
+        const float *texel = (const float *)work->errors->pixels + 3 * n;
+        if (texel[2] > 0.01f) all[used++] = texel[1] / texel[2];
+    }
+    qsort(all, used, sizeof *all, compare_floats);
+    for (size_t k = 0; k < 3; k++) ratios[k] = used ? (double)all[(used - 1) * (1 + 4 * k) / 10] : 1.0;
+    free(all);
+    return true;
+}
+
+/* What the errors themselves look like, where nothing else explains them. */
+static bool find_kind(const Work *work, WeftAudit *out) {
+    const double few = 0.02, both = 0.3;
+    double ratios[3];
+    if (out->largest <= work->most) return true;
+    if (out->beyond < few) {
+        find(out, WEFT_TABLE_CORNER);
+        words_corner(last_text(out), out, work->most, work->lobe.id);
+        return true;
+    }
+    if (out->together > both) {
+        if (!ratios_find(work, ratios)) return false;
+        find(out, WEFT_TABLE_BIASED);
+        words_biased(last_text(out), out, ratios);
+    }
+    if (out->together < 1.0 - both) {
+        find(out, WEFT_TABLE_NOISY);
+        words_noisy(last_text(out), out);
+    }
+    return true;
+}
+
+static WeftResult map_make(Work *work, WeftError *error) {
+    const WeftAuditDesc *desc = work->desc;
+    WeftResult result = weft_image_create(work->width, work->height, 3, WEFT_PIXEL_F32, work->errors, error);
+    if (result != WEFT_OK) return result;
+    work->plane = (BakePlane){.form = &work->reading.form,
+                              .width = work->width,
+                              .height = work->height,
+                              .lobe = work->lobe,
+                              .tolerance = work->tolerance};
+    return bake_texels(work->width, work->height, desc->threads, desc->progress, desc->user, map_texel, work);
+}
+
+static WeftResult audit(Work *work, WeftAudit *out, WeftError *error) {
+    out->step = work->probe.step;
+    work->reading = (Reading){.lobe = work->lobe, .factor = 1.0};
+    probe_take(&work->probe, work->values, work->width, work->height);
+    if (!find_constant(work, out)) {
+        choose_form(work, out);
+    } else {
+        if (work->desc->form) work->reading.form = *work->desc->form;
+        probe_read(&work->probe, &work->reading);
+    }
+    out->form = work->reading.form;
+    out->part = work->reading.part;
+    WeftResult result = map_make(work, error);
+    if (result != WEFT_OK) return result;
+    measure(work, out);
+    if (out->texels == 0)
+        return fail(error, WEFT_MESSAGE_DESC, "table", "no texel is within the range of %s",
+                    weft_lobe_info(work->lobe.id)->id);
+    if (out->faults == 0) find_cause(work, out);
+    if (out->faults == 0 && !find_kind(work, out)) return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
+    if (out->faults == 0) {
+        find(out, WEFT_TABLE_NONE);
+        words_none(last_text(out), out);
+    }
+    return WEFT_OK;
+}
+
+/* Texels that were not judged become 0 in all channels. */
+static void map_finish(WeftImage *errors) {
+    float *texel = errors->pixels;
+    for (size_t n = (size_t)errors->width * (size_t)errors->height; n > 0; n--, texel += 3)
+        texel[2] = fmaxf(texel[2], 0.0f);
+}
+
+WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors, WeftError *error) {
+    WeftImage own = {0};
+    WeftAuditDesc full = *desc;
+    Work work = {.desc = &full, .errors = errors ? errors : &own};
+    *out = (WeftAudit){.other = -1};
+    *work.errors = (WeftImage){0};
+    WeftResult result = check(desc, &work, error);
+    if (result != WEFT_OK) return result;
+    if (!(full.scale > 0.0)) full.scale = 1.0;
+    work.most = full.most > 0.0 ? full.most : 0.01;
+    work.tolerance = full.tolerance > 0.0 ? full.tolerance : 1e-4;
+    work.width = full.image->width;
+    work.height = full.image->height;
+    work.probe.threads = full.threads;
+    if (full.image->type != WEFT_PIXEL_F32)
+        work.probe.step = full.scale / (full.image->type == WEFT_PIXEL_U8 ? 255.0 : 65535.0);
+    result = values_take(&work, error);
+    if (result == WEFT_OK) result = audit(&work, out, error);
+    free(work.values);
+    if (result == WEFT_OK && errors)
+        map_finish(errors);
+    else
+        weft_image_free(work.errors);
+    return result;
+}
+
+#define FAULT_NAME(id, name) name,
+static const char *const fault_names[WEFT_TABLE_FAULT_COUNT] = {WEFT_TABLE_FAULTS(FAULT_NAME)};
+
+const char *weft_table_fault_name(WeftTableFault fault) {
+    return (unsigned)fault < WEFT_TABLE_FAULT_COUNT ? fault_names[fault] : "";
+}

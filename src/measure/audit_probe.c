@@ -1,0 +1,187 @@
+#include "measure/audit_probe.h"
+
+#include "base/thread.h"
+#include "image/srgb.h"
+
+/* Index k of `count` evenly spread over [0, size), the same from either end. */
+static int spread(int k, int count, int size) {
+    if (k >= count - k) return size - 1 - spread(count - 1 - k, count, size);
+    return count > 1 ? (int)((double)k * (size - 1) / (count - 1) + 0.5) : 0;
+}
+
+void probe_take(Probe *probe, const float *values, int width, int height) {
+    probe->width = width;
+    probe->height = height;
+    probe->columns = width < PROBE_SIDE ? width : PROBE_SIDE;
+    probe->rows = height < PROBE_SIDE ? height : PROBE_SIDE;
+    for (int i = 0; i < probe->columns; i++) probe->x[i] = spread(i, probe->columns, width);
+    for (int j = 0; j < probe->rows; j++) probe->y[j] = spread(j, probe->rows, height);
+    for (int j = 0; j < probe->rows; j++)
+        for (int i = 0; i < probe->columns; i++)
+            probe->table[j * probe->columns + i] =
+                values[(size_t)probe->y[j] * (size_t)width + (size_t)probe->x[i]];
+}
+
+/* E at the probed texels of a form, which has no flips: those only change places. */
+typedef struct Albedos {
+    const Probe *probe;
+    BakePlane plane;
+    BakeTexel at[PROBE_TEXELS];
+} Albedos;
+
+static void albedo_find(void *user, int item, int thread) {
+    (void)thread;
+    Albedos *e = user;
+    const int i = item % e->probe->columns, j = item / e->probe->columns;
+    e->at[item] = bake_texel(&e->plane, e->probe->x[i], e->probe->y[j]);
+}
+
+/* Uses form and late of the reading; its form must outlive the result. */
+static void albedos_find(const Probe *probe, const Reading *reading, WeftTableForm *form, Albedos *e) {
+    *form = reading->form;
+    form->flip_x = form->flip_y = 0;
+    e->probe = probe;
+    e->plane = (BakePlane){.form = form,
+                           .width = probe->width,
+                           .height = probe->height,
+                           .lobe = reading->lobe,
+                           .tolerance = 3e-3, /* the distances of wrong readings are above that */
+                           .late = reading->late};
+    parallel_for(probe->threads, probe->columns * probe->rows, albedo_find, e);
+}
+
+/* Where the E of probed texel n is, under the flips of a form. */
+static int flipped(const Probe *probe, const WeftTableForm *form, int n) {
+    const int i = n % probe->columns, j = n / probe->columns;
+    return (form->flip_y ? probe->rows - 1 - j : j) * probe->columns +
+           (form->flip_x ? probe->columns - 1 - i : i);
+}
+
+static bool judged(const BakeTexel *texel) { return !texel->beyond && texel->cos_o > 0.0f; }
+
+static double value_read(const Reading *reading, float value) {
+    return reading->factor * (double)(reading->decoded ? srgb_decode(value) : value);
+}
+
+static double distance(const Probe *probe, const Albedos *e, const Reading *reading) {
+    double sum = 0.0;
+    int count = 0;
+    for (int n = 0; n < probe->columns * probe->rows; n++) {
+        const BakeTexel *texel = &e->at[flipped(probe, &reading->form, n)];
+        if (!judged(texel)) continue;
+        sum += fabs(value_read(reading, probe->table[n]) - (double)texel->part[reading->part]);
+        count++;
+    }
+    return count ? sum / count : HUGE_VAL;
+}
+
+/* Where the mean square of factor value - E has its minimum. */
+static double factor_find(const Probe *probe, const Albedos *e, const Reading *reading) {
+    double across = 0.0, along = 0.0;
+    for (int n = 0; n < probe->columns * probe->rows; n++) {
+        const BakeTexel *texel = &e->at[flipped(probe, &reading->form, n)];
+        if (!judged(texel)) continue;
+        across += (double)probe->table[n] * (double)texel->part[reading->part];
+        along += (double)probe->table[n] * (double)probe->table[n];
+    }
+    return along > 0.0 ? across / along : 1.0;
+}
+
+/* The nearest part, with the best factor where `scaled`. */
+static void part_find(const Probe *probe, const Albedos *e, Reading *reading, bool scaled) {
+    const bool two = weft_lobe_info(reading->lobe.id)->traits & TRAIT_TWO_COLORS;
+    Reading best = *reading;
+    for (int part = 0; part < (two ? WEFT_TABLE_PARTS : 1); part++) {
+        Reading now = *reading;
+        now.part = (WeftTablePart)part;
+        if (scaled) now.factor = factor_find(probe, e, &now);
+        now.distance = distance(probe, e, &now);
+        if (part == 0 || now.distance < best.distance) best = now;
+    }
+    *reading = best;
+}
+
+void probe_read(const Probe *probe, Reading *reading) {
+    Albedos e;
+    WeftTableForm form;
+    albedos_find(probe, reading, &form, &e);
+    part_find(probe, &e, reading, false);
+}
+
+Reading probe_scaled(const Probe *probe, const Reading *reading) {
+    Albedos e;
+    WeftTableForm form;
+    Reading scaled = *reading;
+    albedos_find(probe, reading, &form, &e);
+    part_find(probe, &e, &scaled, true);
+    return scaled;
+}
+
+/* Whether an engine uses these axes but for flips. */
+static bool is_base(WeftTableForm form) {
+    for (int k = 0; weft_table_form_name(k); k++) {
+        WeftTableForm known = weft_table_form_at(k);
+        known.flip_x = known.flip_y = 0;
+        if (form_same(&form, &known)) return true;
+    }
+    return false;
+}
+
+/* What is nearer by less than this is not nearer. */
+static double nothing(const Probe *probe) { return 1e-5 + 0.02 * probe->step; }
+
+Reading probe_best_form(const Probe *probe, const Reading *reading, bool engines, bool scaled) {
+    Reading best = *reading;
+    best.distance = HUGE_VAL;
+    for (int base = 0; base < 16 && best.distance > nothing(probe); base++) {
+        Albedos e;
+        WeftTableForm form;
+        Reading now = *reading;
+        now.form = (WeftTableForm){
+            .transposed = base & 1, .alpha = base >> 1 & 1, .edges = base >> 2 & 1, .root = base >> 3 & 1};
+        if (engines && !is_base(now.form)) continue;
+        albedos_find(probe, &now, &form, &e);
+        for (int flips = 0; flips < 4; flips++) {
+            now.form.flip_x = flips & 1;
+            now.form.flip_y = flips >> 1;
+            if (engines && weft_table_form_find(&now.form) < 0) continue;
+            part_find(probe, &e, &now, scaled);
+            if (now.distance < 0.95 * best.distance - nothing(probe)) best = now;
+        }
+    }
+    return best;
+}
+
+Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms) {
+    Reading best = *reading;
+    best.distance = HUGE_VAL;
+    for (int id = 0; id < weft_lobe_count() && best.distance > nothing(probe); id++) {
+        const WeftLobeInfo *info = weft_lobe_info(id);
+        if (id == reading->lobe.id || info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
+        Reading now = *reading;
+        now.lobe = lobe_default(id);
+        probe_read(probe, &now);
+        if (forms) {
+            const Reading other = probe_best_form(probe, &now, true, false);
+            if (other.distance < now.distance) now = other;
+        }
+        if (now.distance < best.distance) best = now;
+    }
+    return best;
+}
+
+bool probe_flat(const Lobe *lobe, int threads) {
+    Probe probe = {.threads = threads};
+    const float none[64] = {0};
+    const Reading reading = {.lobe = *lobe, .factor = 1.0};
+    Albedos e;
+    WeftTableForm form;
+    probe_take(&probe, none, 8, 8);
+    albedos_find(&probe, &reading, &form, &e);
+    float low = e.at[0].part[WEFT_TABLE_SUM], high = low;
+    for (int n = 1; n < probe.columns * probe.rows; n++) {
+        low = fminf(low, e.at[n].part[WEFT_TABLE_SUM]);
+        high = fmaxf(high, e.at[n].part[WEFT_TABLE_SUM]);
+    }
+    return high - low < 1e-3f;
+}

@@ -1,0 +1,64 @@
+/* bake.h - what the kinds of baked tables share: one file a kind, and the loop over texels
+ *
+ * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
+#ifndef WEFT_MEASURE_BAKE_H
+#define WEFT_MEASURE_BAKE_H
+
+#include "shading/albedo.h"
+#include "weft/bake.h"
+
+/* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
+ * leaves *out zeroed. */
+typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
+BakeMaker bake_albedo, bake_dfg;
+
+/* K(id, maker, lobe, width, height, help): the columns of a WeftBakeKind. */
+#define BAKE_KINDS(K)                                                                                        \
+    K("albedo", bake_albedo, 2, 64, 64, "E of LOBE; the parts of f0 and f90 where it mixes two colours")     \
+    K("dfg", bake_dfg, 1, 128, 128, "split sum: scale of f0 and bias of f90 of ggx, and E of LOBE")
+
+/* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and
+ * progress on the caller's. What texel finds it puts into places of its own or of its thread.
+ * WEFT_INTERRUPTED where progress says so. */
+WeftResult bake_texels(int width, int height, int threads, WeftProgress progress, void *progress_user,
+                       void (*texel)(void *user, int x, int y, int thread), void *user);
+
+/* A lobe over the axes of a table. */
+typedef struct BakePlane {
+    const WeftTableForm *form;
+    int width, height;
+    Lobe lobe;
+    double tolerance; /* of the quadrature */
+    int late;         /* texels by which the parameter runs ahead of the axis */
+} BakePlane;
+
+/* What the quadrature finds at a texel. */
+typedef struct BakeTexel {
+    float part[WEFT_TABLE_PARTS]; /* by WeftTablePart: E of the white lobe, and the two it is made of */
+    double error;                 /* the quadrature's own estimate */
+    float cos_o, value;           /* of the texel; value: the lobe's first parameter */
+    bool beyond;                  /* value is beyond its hard range: the parts are for the range's end */
+} BakeTexel;
+BakeTexel bake_texel(const BakePlane *plane, int x, int y);
+
+/* Some channels of a table, and the lobe whose parts they hold. */
+typedef struct BakeLayer {
+    Lobe lobe;
+    int channels;
+    WeftTablePart parts[2]; /* of the channels */
+} BakeLayer;
+
+/* The parts of a lobe: E, or two where it mixes two colours, as the form has them. */
+BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form);
+
+/* Fills a new table with layers, one after another, and info but for its words. */
+WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
+                       WeftImage *out, WeftError *error);
+
+/* Whether two forms have the same axes; what `total` says is left aside. */
+bool form_same(const WeftTableForm *a, const WeftTableForm *b);
+
+/* The lobe's first parameter at t in [0, 1] of its axis, see weft_table_form_texel. */
+float form_parameter(const WeftTableForm *form, int lobe, double t);
+
+#endif

@@ -1,0 +1,390 @@
+/* `weft bake`: the files of a table agree, the audit finds what is wrong, and nonsense is refused */
+#include "run.h"
+
+#include <math.h>
+
+#include <jansson.h>
+
+#include "weft/bake.h"
+
+static void assert_near(double got, double expected, double tolerance) {
+    if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);
+}
+
+static json_t *json_of(const char *text) {
+    json_error_t error;
+    json_t *json = json_loads(text, JSON_REJECT_DUPLICATES, &error);
+    if (!json) fail_msg("line %d: %s", error.line, error.text);
+    return json;
+}
+
+static double number_at(json_t *json, const char *key) {
+    json_t *value = json_object_get(json, key);
+    if (!json_is_number(value)) fail_msg("no number \"%s\"", key);
+    return json_number_value(value);
+}
+
+/* A run that must end well. */
+static Ran done(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
+    return ran;
+}
+
+/* The same where only its files matter. */
+static void finish(Ran ran) { ran_free(&ran); }
+
+static WeftImage image_of(const char *path) {
+    WeftImage image;
+    WeftError error = {0};
+    if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+static void assert_shape(const WeftImage *image, int width, int height, int channels, WeftPixelType type) {
+    assert_int_equal(image->width, width);
+    assert_int_equal(image->height, height);
+    assert_int_equal(image->channels, channels);
+    assert_int_equal(image->type, type);
+}
+
+static bool is_there(const char *path) { return access(path, F_OK) == 0; }
+
+static void help_is_complete(void **state) {
+    (void)state;
+    Ran ran = done(LIST("bake", "--help"));
+    for (int k = 0; weft_bake_kind(k); k++) {
+        char row[64];
+        snprintf(row, sizeof row, "\n  %s ", weft_bake_kind(k)->id);
+        if (!strstr(ran.out, row)) fail_msg("weft bake --help lacks %s", weft_bake_kind(k)->id);
+    }
+    for (int k = 0; weft_table_form_name(k); k++) assert_non_null(strstr(ran.out, weft_table_form_name(k)));
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") > 80) fail_msg("over 80 columns: %.100s", line);
+    ran_free(&ran);
+}
+
+/* The first `count` numbers behind the first line with `mark`. */
+static void numbers_behind(const char *text, const char *mark, int count, double *numbers) {
+    const char *at = strstr(text, mark);
+    assert_non_null(at);
+    at += strcspn(at, "\n");
+    for (int k = 0; k < count; k++) {
+        char *end;
+        at += strspn(at, "\n ,f");
+        numbers[k] = strtod(at, &end);
+        assert_true(end > at);
+        at = end;
+    }
+}
+
+/* One table in all formats: the same numbers, and the command where it can be. */
+static void all_files_hold_the_table(void **state) {
+    (void)state;
+    enum { W = 5, H = 3, N = W * H * 2 };
+    const char command[] =
+        "weft bake albedo ggx --size 5x3 -p anisotropy=0.5 -o t.h -o t.npy -o t.exr -o t.png -o "
+        "t.csv -o t.txt --quiet";
+    Ran ran = done(LIST("bake", "albedo", "ggx", "--size", "5x3", "-p", "anisotropy=0.5", "-o", "t.h", "-o",
+                        "t.npy", "-o", "t.exr", "-o", "t.png", "-o", "t.csv", "-o", "t.txt", "--quiet"));
+    assert_string_equal(ran.out, "");
+    assert_string_equal(ran.err, "");
+    ran_free(&ran);
+
+    WeftImage npy = image_of("t.npy"), exr = image_of("t.exr"), png = image_of("t.png");
+    assert_shape(&npy, W, H, 2, WEFT_PIXEL_F32);
+    assert_shape(&exr, W, H, 3, WEFT_PIXEL_F32);
+    assert_shape(&png, W, H, 3, WEFT_PIXEL_U16);
+    const float *values = npy.pixels;
+    for (int n = 0; n < N; n++) {
+        const int wide = n / 2 * 3 + n % 2;
+        assert_near((double)((float *)exr.pixels)[wide], (double)values[n], 0.0);
+        assert_near((double)((uint16_t *)png.pixels)[wide] / 65535.0, (double)values[n], 0.5001 / 65535.0);
+        assert_near((double)((float *)exr.pixels)[n / 2 * 3 + 2], 0.0, 0.0);
+        assert_true(values[n] > 0.0f && values[n] < 1.0f);
+    }
+
+    static const char *const texts[] = {"t.h", "t.csv", "t.txt"};
+    for (int k = 0; k < 3; k++) {
+        size_t size;
+        double numbers[N];
+        char *text = file_bytes(texts[k], &size);
+        assert_non_null(text);
+        assert_int_equal(strncmp(text + (k ? 2 : 3), command, sizeof command - 1), 0);
+        assert_int_equal(strncmp(text, k ? "# " : "// ", k ? 2 : 3), 0);
+        numbers_behind(text, k ? "# directional" : "static const float table_t[3 * 5 * 2]", N, numbers);
+        for (int n = 0; n < N; n++) assert_near(numbers[n], (double)values[n], 1e-8);
+        free(text);
+    }
+    size_t size;
+    char *bytes = file_bytes("t.png", &size);
+    bool found = false;
+    for (size_t n = 0; n + sizeof command < size; n++)
+        found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
+    assert_true(found);
+    for (size_t n = 0; n + 4 < size; n++) assert_true(memcmp(bytes + n, "sRGB", 4) != 0);
+    free(bytes);
+    bytes = file_bytes("t.exr", &size);
+    found = false;
+    for (size_t n = 0; n + sizeof command < size; n++)
+        found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
+    assert_true(found);
+    free(bytes);
+    weft_image_free(&npy);
+    weft_image_free(&exr);
+    weft_image_free(&png);
+}
+
+/* What a C compiler makes of the array. */
+static void the_array_compiles(void **state) {
+    (void)state;
+    static const char source[] =
+        "#include <stdio.h>\n#include \"a b*;.h\"\nint main(void) {\n"
+        "    printf(\"%d %d %d %zu %.6f\\n\", table_a_b___width, table_a_b___height, table_a_b___channels,\n"
+        "           sizeof table_a_b__ / sizeof table_a_b__[0], (double)table_a_b__[0]);\n    return 0;\n}\n";
+    finish(done(LIST("bake", "albedo", "lambert", "--size=2x2", "-o", "a b*;.h", "--quiet")));
+    file_make("main.c", source, sizeof source - 1);
+    Ran ran = run_shell("command -v cc >/dev/null || exit 77; "
+                        "cc -std=c99 -Wall -Wextra -Werror -pedantic -o main main.c && ./main");
+    if (ran.code == 77) {
+        ran_free(&ran);
+        skip();
+    }
+    assert_string_equal(ran.out, "2 2 1 4 1.000000\n");
+    size_t size;
+    char *text = file_bytes("a b*;.h", &size);
+    const char first[] = "// weft bake albedo lambert --size=2x2 -o 'a b*;.h' --quiet\n";
+    assert_memory_equal(text, first, sizeof first - 1);
+    free(text);
+    ran_free(&ran);
+}
+
+/* A .png has a scale where values pass 1, said in one line; nothing is cut off. */
+static void a_png_is_never_cut(void **state) {
+    (void)state;
+    Ran ran =
+        done(LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "s.png", "-o", "s.npy"));
+    assert_non_null(strstr(ran.err, "weft: s.png: holds the table / 4, whose values go up to 2."));
+    ran_free(&ran);
+    WeftImage png = image_of("s.png"), npy = image_of("s.npy");
+    for (int n = 0; n < 256; n++)
+        assert_near((double)((uint16_t *)png.pixels)[n] * 4.0 / 65535.0, (double)((float *)npy.pixels)[n],
+                    2.001 / 65535.0);
+    weft_image_free(&png);
+    weft_image_free(&npy);
+    assert_complaint(NULL,
+                     LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "no.png", "--scale",
+                          "1", "--quiet"),
+                     2, "another --scale");
+    assert_false(is_there("no.png"));
+}
+
+static void half_is_asked_for(void **state) {
+    (void)state;
+    finish(done(LIST("bake", "albedo", "wrap", "--size=9x4", "-o", "w.exr", "--half", "--quiet")));
+    finish(done(LIST("bake", "albedo", "wrap", "--size=9x4", "-o", "w.npy", "--quiet")));
+    WeftImage half = image_of("w.exr"), full = image_of("w.npy");
+    double off = 0.0;
+    for (int n = 0; n < 36; n++)
+        off = fmax(off, fabs((double)((float *)half.pixels)[n] - (double)((float *)full.pixels)[n]));
+    assert_true(off > 1e-6 && off < 6e-4);
+    weft_image_free(&half);
+    weft_image_free(&full);
+}
+
+static void json_tells_of_the_table(void **state) {
+    (void)state;
+    Ran ran = done(LIST("bake", "dfg", "charlie-neubelt", "--axes", "filament", "--size", "6x4", "-o",
+                        "d.npy", "--json", "--tolerance", "1e-3"));
+    json_t *json = json_of(ran.out);
+    assert_string_equal(json_string_value(json_object_get(json, "kind")), "dfg");
+    assert_string_equal(json_string_value(json_object_get(json, "axes")),
+                        "cos,roughness,centres,flip-y,total");
+    assert_near(number_at(json, "width"), 6.0, 0.0);
+    assert_near(number_at(json, "height"), 4.0, 0.0);
+    assert_true(number_at(json, "error") < 1e-3);
+    assert_true(number_at(json, "high") > 1.0);
+    json_decref(json);
+    ran_free(&ran);
+}
+
+/* Auditing. */
+
+static void an_audit_measures(void **state) {
+    (void)state;
+    finish(done(LIST("bake", "dfg", "ashikhmin-neubelt", "--axes", "three", "--size", "12x10", "-o",
+                     "three.exr", "--quiet")));
+    Ran ran = done(LIST("bake", "audit", "three.exr", "--channel", "b", "--lobe", "ashikhmin-neubelt"));
+    assert_non_null(strstr(ran.out, "roughness,cos,centres (three; they fit best)"));
+    assert_non_null(strstr(ran.out, "\n  none "));
+    assert_string_equal(ran.err, "");
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 80);
+    ran_free(&ran);
+
+    /* as if it were Filament's: wrong, with exit 1, and the errors as numbers and as a sheet */
+    ran = RUN("bake", "audit", "three.exr", "--channel", "2", "--lobe", "ashikhmin-neubelt", "--axes",
+              "filament", "-o", "e.npy", "-o", "e.exr", "-o", "e.png", "--json", "--max", "0.02");
+    assert_int_equal(ran.code, 1);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(strstr(ran.err, "more than 0.02"));
+    json_t *json = json_of(ran.out);
+    WeftImage npy = image_of("e.npy"), exr = image_of("e.exr"), png = image_of("e.png");
+    assert_shape(&npy, 12, 10, 1, WEFT_PIXEL_F32);
+    assert_true(png.width > 900 && png.height > 250);
+    double largest = 0.0, squares = 0.0, sum = 0.0, beyond = 0.0;
+    int x = 0, y = 0;
+    for (int n = 0; n < 120; n++) {
+        const double e = (double)((float *)npy.pixels)[n];
+        assert_near((double)((float *)exr.pixels)[n], e, 0.0);
+        squares += e * e;
+        sum += e;
+        beyond += fabs(e) > 0.02;
+        if (fabs(e) <= largest) continue;
+        largest = fabs(e);
+        x = n % 12, y = n / 12;
+    }
+    const double texels = number_at(json, "texels");
+    json_t *place = json_object_get(json, "largest");
+    assert_near(texels + number_at(json, "left_out"), 120.0, 0.0);
+    assert_near(number_at(place, "error"), largest, 1e-6);
+    assert_near(number_at(place, "x"), x, 0.0);
+    assert_near(number_at(place, "y"), y, 0.0);
+    assert_near(number_at(place, "table") - number_at(place, "albedo"),
+                (double)((float *)npy.pixels)[y * 12 + x], 1e-6);
+    assert_near(number_at(json, "rms"), sqrt(squares / texels), 1e-6);
+    assert_near(number_at(json, "mean"), sum / texels, 1e-6);
+    assert_near(number_at(json, "beyond"), beyond / texels, 1e-9);
+    json_t *finding = json_array_get(json_object_get(json, "findings"), 0);
+    assert_string_equal(json_string_value(json_object_get(finding, "id")), "axes");
+    json_decref(json);
+    weft_image_free(&npy);
+    weft_image_free(&exr);
+    weft_image_free(&png);
+    ran_free(&ran);
+}
+
+/* 8 bits in a file of three equal channels, and what the viewer of glTF once shipped. */
+static void pictures_are_tables_too(void **state) {
+    (void)state;
+    enum { SIDE = 8 };
+    const WeftTableForm form = {0};
+    WeftImage grey;
+    WeftLobe lobe;
+    WeftImage table;
+    assert_int_equal(weft_lobe_create("ashikhmin-conty-kulla", &lobe, NULL), WEFT_OK);
+    const WeftBakeDesc desc = {
+        .kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form, .tolerance = 1e-4};
+    assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);
+    assert_int_equal(weft_image_create(SIDE, SIDE, 3, WEFT_PIXEL_U8, &grey, NULL), WEFT_OK);
+    for (int n = 0; n < SIDE * SIDE * 3; n++)
+        ((uint8_t *)grey.pixels)[n] =
+            (uint8_t)(255.0 * fmin((double)((float *)table.pixels)[n / 3], 1.0) + 0.5);
+    assert_int_equal(weft_image_write("grey.png", &grey, NULL), WEFT_OK);
+    Ran ran = done(LIST("bake", "audit", "grey.png", "--lobe", "ashikhmin-conty-kulla"));
+    assert_non_null(strstr(ran.out, "its bits can hold"));
+    ran_free(&ran);
+    ((uint8_t *)grey.pixels)[1] ^= 128; /* now it has colours */
+    assert_int_equal(weft_image_write("rgb.png", &grey, NULL), WEFT_OK);
+    assert_complaint(NULL, LIST("bake", "audit", "rgb.png", "--lobe", "ashikhmin-conty-kulla"), 2,
+                     "rgb.png: has 3 channels; say which with --channel");
+    finish(done(LIST("bake", "audit", "rgb.png", "--lobe", "ashikhmin-conty-kulla", "--channel", "B")));
+    memset(grey.pixels, 0, 3);
+    grey.width = grey.height = 1;
+    assert_int_equal(weft_image_write("black.png", &grey, NULL), WEFT_OK);
+    ran = RUN("bake", "audit", "black.png", "--lobe", "charlie-khronos");
+    assert_int_equal(ran.code, 1);
+    assert_non_null(strstr(ran.out, "it is a single texel of 0"));
+    ran_free(&ran);
+    weft_image_free(&grey);
+    weft_image_free(&table);
+}
+
+/* Ctrl-C leaves nothing, an old file included. */
+static void an_interruption_writes_nothing(void **state) {
+    (void)state;
+    file_make("old.npy", "old", 3);
+    pid_t child =
+        program_start(WEFT_PROGRAM, NULL,
+                      LIST("bake", "albedo", "ggx", "--size", "4096x4096", "-o", "old.npy", "-o", "new.h"));
+    sleep_seconds(0.6);
+    kill(child, SIGINT);
+    Ran ran = program_end(child);
+    assert_int_equal(ran.code, 130);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(strstr(ran.err, "interrupted; nothing was written"));
+    assert_true(same_bytes("old.npy", "old", 3));
+    assert_false(is_there("new.h"));
+    ran_free(&ran);
+}
+
+static void nonsense_is_refused(void **state) {
+    (void)state;
+    file_make("not.png", "\x89PNG\r\n", 6);
+    file_make("hello.npy", "\x93NUMPY\1\0\xff\xff", 10);
+    static const struct {
+        const char *arguments[10];
+        int code;
+        const char *part;
+    } cases[] = {
+        {{"bake"}, 2, "lacks an operand"},
+        {{"bake", "albdo", "ggx", "-o", "x.h"}, 2, "did you mean albedo?"},
+        {{"bake", "audits", "x.png"}, 2, "did you mean audit?"},
+        {{"bake", "albedo", "-o", "x.h"}, 2, "needs a lobe"},
+        {{"bake", "albedo", "charly-neubelt", "-o", "x.h"}, 2, "did you mean charlie-neubelt?"},
+        {{"bake", "albedo", "ggx"}, 2, "needs -o OUT"},
+        {{"bake", "albedo", "ggx", "-o", "x.jpg"}, 2, "x.jpg: has no suffix"},
+        {{"bake", "albedo", "ggx", "-o", "x.hdr"}, 2, "x.hdr: has no suffix"},
+        {{"bake", "albedo", "ggx", "-o", "png"}, 2, "png: has no suffix"},
+        {{"bake", "albedo", "ggx", "-o", "nowhere/x.h"}, 4, "nowhere/x.h"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "64"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "0x64"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "64x64x1"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "x64"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "64x +8"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "99999999999x9"}, 2, "is not WIDTHxHEIGHT"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "65536x65536"},
+         2,
+         "a table has 1 to 16777216 texels"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--axes", "cos,cos"}, 2, "cos,cos: is not a form"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--tolerance", "0"}, 2, "--tolerance"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "-p", "alpha=1"}, 2, "alpha"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "-p", "beta=1"}, 2, "beta: is not a parameter"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "-p", "color=1,0,0"}, 2, "white lobe"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--max", "1"}, 2, "--max: does not go with bake albedo"},
+        {{"bake", "dfg", "-o", "x.h", "-p", "alpha=1"}, 2, "-p: is for a lobe"},
+        {{"bake", "audit", "--lobe", "ggx"}, 2, "needs a file"},
+        {{"bake", "audit", "x.png"}, 2, "needs --lobe"},
+        {{"bake", "audit", "x.png", "--lobe", "gx"}, 2, "did you mean ggx?"},
+        {{"bake", "audit", "x.png", "--lobe", "ggx", "--size", "4x4"}, 2, "does not go with bake audit"},
+        {{"bake", "audit", "x.png", "--lobe", "ggx", "-o", "e.h"}, 2, "are a .png, .exr or .npy"},
+        {{"bake", "audit", "none.png", "--lobe", "ggx"}, 3, "none.png: cannot be opened"},
+        {{"bake", "audit", "not.png", "--lobe", "ggx"}, 3, "not.png: is damaged"},
+        {{"bake", "audit", "hello.npy", "--lobe", "ggx"}, 3, "hello.npy: is damaged"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        assert_complaint(NULL, cases[k].arguments, cases[k].code, cases[k].part);
+    assert_false(is_there("x.h"));
+    finish(done(LIST("bake", "albedo", "ggx", "--size=4x4", "-o", "two.npy", "--quiet")));
+    assert_complaint(NULL, LIST("bake", "audit", "two.npy", "--lobe", "ggx"), 2, "has 2 channels; say which");
+    assert_complaint(NULL, LIST("bake", "audit", "two.npy", "--lobe", "ggx", "--channel", "b"), 2,
+                     "two.npy has 2 channels, and no b");
+    assert_complaint(NULL, LIST("bake", "audit", "two.npy", "--lobe", "ggx", "--channel", "red"), 2,
+                     "is not one of r, g, b, a");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_is_complete),
+        cmocka_unit_test(all_files_hold_the_table),
+        cmocka_unit_test(the_array_compiles),
+        cmocka_unit_test(a_png_is_never_cut),
+        cmocka_unit_test(half_is_asked_for),
+        cmocka_unit_test(json_tells_of_the_table),
+        cmocka_unit_test(an_audit_measures),
+        cmocka_unit_test(pictures_are_tables_too),
+        cmocka_unit_test(an_interruption_writes_nothing),
+        cmocka_unit_test(nonsense_is_refused),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}
