@@ -268,6 +268,7 @@ int main(int argc, char **argv) {
     for (int c = SSE2; c < COLUMNS; c++) printf(" %8s", columns[c].name);
     printf("\n");
     for (int id = 0; id < LOBE_COUNT; id++) {
+        if (weft_lobe_info(id)->traits & TRAIT_REFERENCE) continue;
         Lobe lobe = lobe_default(id);
         double best[COLUMNS];
         measure(&lobe, rounds, best);

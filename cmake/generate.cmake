@@ -88,8 +88,8 @@ ${rows}    {0, 0, 0},
 list(TRANSFORM files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/)
 weft_embedded(catalogue ${files})
 
-# generated/half/shading holds the lobes and what they include with every literal a half float (1.0f16), for
-# src/measure/half.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
+# generated/half/shading holds the lobes that are shading text and what they include, with every literal a half float
+# (1.0f16), for src/measure/half.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
 include(CheckCSourceCompiles)
 set(CMAKE_REQUIRED_FLAGS "-fexcess-precision=16")
 check_c_source_compiles("int main(void) { _Float16 x = 1.0f16; return (int)(x * x) - 1; }" WEFT_HAS_HALF)
@@ -97,13 +97,16 @@ unset(CMAKE_REQUIRED_FLAGS)
 if(WEFT_HAS_HALF)
   file(GLOB WEFT_HALF_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src
     src/shading/lobes/*.h src/shading/terms/*.h)
-  foreach(name angles lobe_tables registry rgb table terms warp)
+  foreach(name angles fibre_medium lobe_tables registry rgb table terms warp)
     list(APPEND WEFT_HALF_FILES shading/${name}.h)
   endforeach()
   set(lobes "")
   foreach(file ${WEFT_HALF_FILES})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${file})
     file(READ src/${file} text)
+    if(text MATCHES "_TRAITS [^\n]*TRAIT_REFERENCE") # C with loops, which half.c leaves out
+      continue()
+    endif()
     foreach(pass 1 2) # a match takes the mark before and after a literal, so neighbours need a second look
       string(REGEX REPLACE "([^0-9A-Za-z_][0-9]+\\.?[0-9]*(e[-+]?[0-9]+)?)f([^0-9A-Za-z_])" "\\1f16\\3" text "${text}")
     endforeach()

@@ -21,7 +21,7 @@ enum {
     WEFT_LOBE_LOSSLESS = 4,     /* E = 1 when white */
     WEFT_LOBE_TWO_COLORS = 8,   /* it mixes f0 and f90: from normal to grazing, or from yarn to yarn */
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
-    WEFT_LOBE_REFERENCE = 32,   /* for the path tracer only */
+    WEFT_LOBE_REFERENCE = 32,   /* f is an estimate, and its mean over near directions is meant */
     WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
     WEFT_LOBE_TABLE = 128       /* reads a table that is made at the first use of the lobe */
 };
@@ -101,7 +101,8 @@ WEFT_API float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const floa
 WEFT_API float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]);
 
 /* Directional albedo E per colour channel for wo = (sin, 0, cos_o), cos_o in (0, 1]: adaptive quadrature to
- * 1e-4 absolute. A smaller cos_o is taken for 1e-6, a larger one for 1. */
+ * 1e-4 absolute; with WEFT_LOBE_REFERENCE a mean whose standard error is 0.0011 at most. A smaller cos_o is
+ * taken for 1e-6, a larger one for 1. */
 WEFT_API void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]);
 
 #ifdef __cplusplus

@@ -104,8 +104,10 @@ static void print_half(const WeftPassport *p) {
     char place[96];
     printf("\nHalf precision\n");
     if (!p->half_measured) {
-        printf("  not measured: %s\n",
-               p->profile ? "it is a lobe's affair" : "the compiler of this program has no 16-bit floats");
+        const char *why = "the compiler of this program has no 16-bit floats";
+        if (p->profile) why = "it is a lobe's affair";
+        if (p->traits & WEFT_LOBE_REFERENCE) why = "for the path tracer only";
+        printf("  not measured: %s\n", why);
         return;
     }
     printf("  of %lld results %lld not finite or negative; the least floor on both cosines:\n", p->half_count,
@@ -184,6 +186,7 @@ static void header_half(const WeftPassport *p) {
  * well; how small a variance that is almost nothing. */
 void passport_header(const WeftPassport *p) {
     char place[96];
+    bool reference = (p->traits & WEFT_LOBE_REFERENCE) != 0;
     printf(" *   measured by weft check %s: E at most %.2f (%s);\n", p->id, (double)p->albedo_most,
            place_text(p, &p->albedo_place, place, sizeof place));
     if (p->reciprocity < 1e-3f)
@@ -191,6 +194,9 @@ void passport_header(const WeftPassport *p) {
     else
         printf(" *     f(wo, wi) and f(wi, wo) up to %.2f of the larger apart; ", (double)p->reciprocity);
     printf("weight variance %s%.2f of the cosine's%s\n", p->variance_ratio < 0.01f ? "under " : "",
-           fmax((double)p->variance_ratio, 0.01), p->half_measured ? ";" : ".");
-    if (p->half_measured) header_half(p);
+           fmax((double)p->variance_ratio, 0.01), p->half_measured || reference ? ";" : ".");
+    if (reference)
+        printf(" *     half precision: not asked, since it is for the path tracer only.\n");
+    else if (p->half_measured)
+        header_half(p);
 }

@@ -24,15 +24,22 @@ static double still(const Stack *stack, Dir o, int cells, bool random) {
 
 enum { LEAST = 10000 };
 
-/* The walks, by the cosine: their mean and its standard error. */
-static Furnace walked(const Stack *stack, Dir o, int walks) {
+/* f cos / pdf: by the cosine of what a random layer rule walks; by the stack's own samples of all. */
+static double weighed(const Stack *stack, Dir o, bool all, float u, float v, uint32_t seed) {
+    Dir i = all ? stack_sample(stack, o, u, v) : warp_cosine(u, v);
+    if (!all) return (double)(sheet_bounces(stack, o, i, seed).g / warp_cosine_pdf(i));
+    StackValue value = stack_eval(stack, o, i, seed);
+    return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
+}
+
+/* Its mean and the standard error of that. */
+static Furnace walked(const Stack *stack, Dir o, bool all, int walks) {
     Furnace f = {0};
     Draw draw = draw_start(3, 0);
     double squares = 0.0; /* of the distances from the mean: B. P. Welford, Technometrics 4, 1962 */
     for (int n = 1; n <= walks && (n <= LEAST || f.noise > 5e-4); n++) {
         float u = draw_unit(&draw), v = draw_unit(&draw);
-        Dir i = warp_cosine(u, v);
-        double e = (double)(sheet_bounces(stack, o, i, (uint32_t)n).g / warp_cosine_pdf(i)), off = e - f.e;
+        double e = weighed(stack, o, all, u, v, (uint32_t)n), off = e - f.e;
         f.e += off / n;
         squares += off * (e - f.e);
         f.noise = (sqrt)(squares / n / n);
@@ -58,8 +65,9 @@ Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const Albe
     stack_make(&stack, &surface, &choices, albedo_table_ref(e), o);
     for (int k = 1; k < LOBE_PARAMS_MAX; k++) stack.sheen.lobe.params[k] = lobe->params[k];
 
+    if (weft_lobe_info(lobe->id)->traits & TRAIT_REFERENCE) return walked(&stack, o, true, walks / 4);
     bool random = layer == LAYER_STOCHASTIC;
-    Furnace f = random ? walked(&stack, o, walks) : (Furnace){0};
+    Furnace f = random ? walked(&stack, o, false, walks) : (Furnace){0};
     f.e += still(&stack, o, cells, random);
     return f;
 }

@@ -45,7 +45,7 @@ WEFT_ONE_COLOR_LOBES(HALF_ONE)
 WEFT_TWO_COLOR_LOBES(HALF_TWO)
 
 #define HALF_CALL(id, name, Record, NAME) [LOBE_##NAME] = name##_half,
-static Half (*const evals[LOBE_COUNT])(const Single *, Angles) = {WEFT_LOBES(HALF_CALL)};
+static Half (*const evals[LOBE_COUNT])(const Single *, Angles) = {WEFT_TEXT_LOBES(HALF_CALL)};
 
 void half_eval(int lobe, const Single *params, size_t n, const Single *ox, const Single *oy, const Single *oz,
                const Single *ix, const Single *iy, const Single *iz, Single *f) {

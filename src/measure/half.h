@@ -19,8 +19,8 @@ typedef struct HalfTable {
  * WEFT_LOBE_TABLE, and not while one runs. */
 void half_tables(const HalfTable *tables, int count);
 
-/* f of a white lobe, 1/sr, for n pairs of directions; all is rounded to half first. Nothing is asked about
- * the horizon: a cosine of 0 reaches the lobe. */
+/* f of a white lobe without WEFT_LOBE_REFERENCE, 1/sr, for n pairs of directions; all is rounded to half
+ * first. Nothing is asked about the horizon: a cosine of 0 reaches the lobe. */
 void half_eval(int lobe, const float *params, size_t n, const float *ox, const float *oy, const float *oz,
                const float *ix, const float *iy, const float *iz, float *f);
 

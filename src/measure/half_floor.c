@@ -99,9 +99,10 @@ static void find_pair(const Lobe *given, const WeftParamInfo *p, WeftPassport *o
 
 void half_floor_measure(const Subject *subject, WeftPassport *out, int threads) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    out->half_measured = half_here() && !subject->whole;
+    unsigned traits = subject->whole ? 0u : weft_lobe_info(subject->lobe.id)->traits;
+    out->half_measured = half_here() && !subject->whole && !(traits & TRAIT_REFERENCE);
     if (!out->half_measured) return;
-    if (weft_lobe_info(subject->lobe.id)->traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
+    if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
     Rows rows = {.subject = subject, .out = out};
     parallel_for(threads, subject->rows, measure_row, &rows);
     out->half_count = (long long)subject->rows * SWEEP_DIRS * (SWEEP_DIRS + 16);

@@ -48,7 +48,7 @@ FN bool pair_counts(Dir o, Dir i) {
 #define EVAL_N(id, name, Record, NAME)  ASK_N(eval, name, Record, NAME)
 #define PDF_N(id, name, Record, NAME)   ASK_N(pdf, name, Record, NAME)
 #define SHARE_N(id, name, Record, NAME) ASK_N(share, name, Record, NAME)
-WEFT_LOBES(EVAL_N)
+WEFT_TEXT_LOBES(EVAL_N)
 WEFT_LOBES(PDF_N)
 WEFT_TWO_COLOR_LOBES(SHARE_N)
 
@@ -126,7 +126,11 @@ void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, c
         return;
         WEFT_ONE_COLOR_LOBES(ONE_COLOR_EVAL_N)
         WEFT_TWO_COLOR_LOBES(TWO_COLOR_EVAL_N)
-    case LOBE_COUNT: return;
+    default: break; /* a walk is no loop of vectors */
+    }
+    for (size_t k = 0; k < n; k++) {
+        TAKE_PAIR(o, i, counts);
+        f[k] = counts ? lobe_eval(lobe, angles_between(o, i)) : 0.0f;
     }
 }
 

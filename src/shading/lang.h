@@ -26,7 +26,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#define FN static inline __attribute__((always_inline, unused))
+#define FN       static inline __attribute__((always_inline, unused))
+/* One whose loops are to stay out of its callers. C only: of lobes with TRAIT_REFERENCE. */
+#define FN_APART static __attribute__((noinline, unused))
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \
     struct Name

@@ -23,8 +23,16 @@ WEFT_LOBES(LOBE_PARAM_INFOS)
     {id, traits, (int)(sizeof name##_params / sizeof name##_params[0]) - 1, name##_params},
 #define ONE_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS, id, name, NAME)
 #define TWO_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS | TRAIT_TWO_COLORS, id, name, NAME)
-static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_ONE_COLOR_LOBES(ONE_COLOR_INFO)
-                                                   WEFT_TWO_COLOR_LOBES(TWO_COLOR_INFO)};
+static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_ONE_COLOR_LOBES(ONE_COLOR_INFO) WEFT_TWO_COLOR_LOBES(
+    TWO_COLOR_INFO) WEFT_REFERENCE_LOBES(ONE_COLOR_INFO)};
+
+/* The list and the trait say the same. */
+#define IS_TEXT(id, name, Record, NAME)                                                                      \
+    _Static_assert(!((NAME##_TRAITS) & TRAIT_REFERENCE), id " is in the wrong list");
+#define IS_REFERENCE(id, name, Record, NAME)                                                                 \
+    _Static_assert((NAME##_TRAITS) & TRAIT_REFERENCE, id " lacks the trait of its list");
+WEFT_TEXT_LOBES(IS_TEXT)
+WEFT_REFERENCE_LOBES(IS_REFERENCE)
 
 int weft_lobe_count(void) { return LOBE_COUNT; }
 
@@ -100,6 +108,7 @@ LobeValue lobe_value(const Lobe *lobe, Angles a) {
     }
         WEFT_ONE_COLOR_LOBES(ONE_COLOR_VALUE)
         WEFT_TWO_COLOR_LOBES(TWO_COLOR_VALUE)
+        WEFT_REFERENCE_LOBES(ONE_COLOR_VALUE)
     case LOBE_COUNT: break;
     }
     return (LobeValue){0.0f, 0.0f, 0.0f};
@@ -122,4 +131,13 @@ Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v) {
     case LOBE_COUNT: break;
     }
     return dir(0.0f, 0.0f, -1.0f);
+}
+
+float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks) {
+    switch (lobe->id) {
+#define LOBE_WALKED(id, name, Record, NAME)                                                                  \
+    case LOBE_##NAME: return name##_albedo(name##_record(lobe->params), o, walks);
+        WEFT_REFERENCE_LOBES(LOBE_WALKED)
+    default: return 0.0f;
+    }
 }

@@ -26,6 +26,12 @@
  *   float NAME_share(Record m, Angles a)             s in [0, 1]
  *   float NAME_second(Record m, float f0, float f90) the second colour: f90 where the user is free to choose
  * it
+ *
+ * One of TRAIT_REFERENCE, which is of one colour, takes a random walk: its f is an estimate, a function of
+ * its inputs whose mean over a neighbourhood is meant. Its text is C, with loops: it is kept from GPU, arrays
+ * and 16-bit floats. It has one function more, for no quadrature integrates chance:
+ *
+ *   float NAME_albedo(Record m, Dir o, int walks)    E of the white lobe
  */
 #define WEFT_ONE_COLOR_LOBES(L)                                                                              \
     L("lambert", lambert, Lambert, LAMBERT)                                                                  \
@@ -54,7 +60,10 @@
     L("burley-coat", burley_coat, BurleyCoat, BURLEY_COAT)                                                   \
     L("cook-torrance", cook_torrance, CookTorrance, COOK_TORRANCE)
 
-#define WEFT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
+#define WEFT_REFERENCE_LOBES(L) L("fibre-walk", fibre_walk, FibreWalk, FIBRE_WALK)
+
+#define WEFT_TEXT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
+#define WEFT_LOBES(L)      WEFT_TEXT_LOBES(L) WEFT_REFERENCE_LOBES(L)
 
 enum {
 #define LOBE_ENUM(id, name, Record, NAME) LOBE_##NAME,
@@ -70,7 +79,7 @@ enum {
     TRAIT_LOSSLESS = WEFT_LOBE_LOSSLESS,
     TRAIT_TWO_COLORS = WEFT_LOBE_TWO_COLORS, /* set by being in WEFT_TWO_COLOR_LOBES */
     TRAIT_ANISOTROPIC = WEFT_LOBE_ANISOTROPIC,
-    TRAIT_REFERENCE = WEFT_LOBE_REFERENCE,
+    TRAIT_REFERENCE = WEFT_LOBE_REFERENCE, /* of those in WEFT_REFERENCE_LOBES */
     TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE,
     TRAIT_TABLE = WEFT_LOBE_TABLE
 };
@@ -121,6 +130,9 @@ __attribute__((noinline)) float lobe_second(Lobe lobe, float f0, float f90);
 
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
 __attribute__((noinline)) Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
+
+/* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
+__attribute__((noinline)) float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
 
 /* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
  * of arrays; 0 where a direction is not above the horizon or a component is infinite or NaN. */

@@ -110,6 +110,10 @@ static inline Lobe case_lobe(int id, int k) {
     return lobe;
 }
 
+/* Whether f of a lobe is an estimate: who asks for exact numbers passes it over, and
+ * tests/fibre/test_walk_lobe.c asks for its means. */
+static inline bool case_walks(int id) { return (weft_lobe_info(id)->traits & TRAIT_REFERENCE) != 0; }
+
 typedef struct CaseName {
     char text[160];
 } CaseName;

@@ -62,7 +62,12 @@ static WeftLobe rough_lobe(int lobe, float alpha) {
     return l;
 }
 
+/* Whether f of the lobe, and so E, is a mean of walks; and the standard errors that E has then (albedo.h). */
+static bool walks(int lobe) { return lobe >= 0 && (weft_lobe_info(lobe)->traits & WEFT_LOBE_REFERENCE) != 0; }
+static const double table_error = 0.0025, call_error = 0.0011;
+
 static bool conserves_at(int lobe, float alpha) {
+    if (walks(lobe)) return true;
     WeftLobe l = rough_lobe(lobe, alpha);
     float e[3];
     for (float mu = 0.005f; mu <= 1.0f; mu *= 1.3f) {
@@ -104,7 +109,7 @@ static void closed_furnace_is_one(void **state) {
                 (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,1.95;0,0,0;60", .max_depth = 400},
                 100);
             Estimate e = estimate(&image);
-            z[cases] = (e.mean - 1.0) / e.error;
+            z[cases] = (e.mean - 1.0) / (walks(lobe) ? hypot(e.error, table_error) : e.error);
             printf("  closed furnace %-22s alpha %.2f: %.5f +- %.5f\n",
                    lobe < 0 ? "(no sheen)" : weft_lobe_info(lobe)->id, (double)alphas[a], e.mean, e.error);
             cases++;
@@ -157,7 +162,8 @@ static void plane_shows_albedo(void **state) {
             weft_lobe_albedo(&l, mu, e);
             printf("  plane %-22s cos %.1f: %.5f +- %.5f, E %.5f\n", info->id, (double)mu, found.mean,
                    found.error, (double)e[0]);
-            assert_true(fabs(found.mean - (double)e[0]) < 0.005 * (double)e[0]);
+            double noise = walks(lobe) ? 4.0 * hypot(found.error, call_error) : 0.0;
+            assert_true(fabs(found.mean - (double)e[0]) < 0.005 * (double)e[0] + noise);
             weft_image_free(&image);
             weft_scene_free(scene);
         }
@@ -169,7 +175,7 @@ static void sphere_shows_albedo(void **state) {
     (void)state;
     for (int lobe = 0; lobe < weft_lobe_count(); lobe += lobe_step()) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
-        if (info->traits & WEFT_LOBE_TWO_COLORS) continue;
+        if (info->traits & WEFT_LOBE_TWO_COLORS || walks(lobe)) continue;
         WeftScene *scene = test_scene();
         test_environment(scene, 1.0f);
         set_sheen(test_material(scene, 0.0f), info->id, 0.36f);
