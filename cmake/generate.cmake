@@ -96,8 +96,8 @@ check_c_source_compiles("int main(void) { _Float16 x = 1.0f16; return (int)(x * 
 unset(CMAKE_REQUIRED_FLAGS)
 if(WEFT_HAS_HALF)
   file(GLOB WEFT_HALF_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src
-    src/shading/lobes/*.h src/shading/terms/*.h)
-  foreach(name angles fibre_medium lobe_tables registry rgb table terms warp)
+    src/shading/lobes/*.h src/shading/terms/*.h src/shading/tables/*.h)
+  foreach(name angles fibre_medium fibre_model lobe_tables lobe_value ltc registry rgb table terms tint warp)
     list(APPEND WEFT_HALF_FILES shading/${name}.h)
   endforeach()
   set(lobes "")

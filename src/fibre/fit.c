@@ -1,0 +1,209 @@
+#include "fibre/fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/thread.h"
+#include "fibre/matrix.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
+ * places are summed in order, so that threads change nothing. */
+typedef struct Pass {
+    const FitForm *form;
+    const TruthSet *set;
+    FitEffort effort;
+    const double *coefficients;
+    double softness; /* errors below this part of f count by their square */
+    bool logs;       /* compare logarithms: for a start far away */
+    bool slopes;
+    double *cost, *gradient, *curvature; /* [slab], [slab][locals], [slab][locals^2] */
+    bool failed;
+} Pass;
+
+static void theta_of(const FitForm *form, int slab, const double *coefficients, double *theta) {
+    memcpy(theta, form->fixed[slab], (size_t)form->locals * sizeof *theta);
+    for (int k = 0; k < form->term_counts[slab]; k++) {
+        const FitTerm *term = &form->terms[slab][k];
+        theta[form->moving[term->at]] += coefficients[term->coefficient] * term->basis;
+    }
+}
+
+/* The weight of a pair in the sum of both its directions' errors over R. */
+static double pair_weight(const Truth *t, int p, double grazing) {
+    int i = t->i[p], j = t->j[p];
+    double at_i = (t->w[i] + grazing / t->sides) * t->w[j] * t->mu[j] / fmax(t->reflected[i], 1e-3);
+    double at_j = (t->w[j] + grazing / t->sides) * t->w[i] * t->mu[i] / fmax(t->reflected[j], 1e-3);
+    return pi * t->share[p] * (i == j ? at_i : at_i + at_j);
+}
+
+/* curvature += S^T S and gradient += S^T r, for rows of slopes that are weighed already. */
+static bool add_rows(int rows, int n, const double *slope, const double *residual, double *gradient,
+                     double *curvature) {
+    Matrix rows_of = {slope, n, 1}, columns_of = {slope, 1, n};
+    return matrix_product(n, n, rows, 1.0, columns_of, rows_of, 1.0, curvature, n) &&
+           matrix_product(n, 1, rows, 1.0, columns_of, (Matrix){residual, 1, rows}, 1.0, gradient, n);
+}
+
+/* cost = sum W sqrt(r^2 + e^2) + sum over directions of V sqrt(dR^2 + 1e-8). */
+static void slab_pass(void *user, int item, int thread) {
+    (void)thread;
+    Pass *pass = user;
+    const FitForm *form = pass->form;
+    const Truth *t = &pass->set->slabs[item];
+    int n = form->movings;
+    size_t pairs = (size_t)t->pairs, sides = (size_t)t->sides, slopes = pass->slopes ? (size_t)n : 0;
+    size_t locals = (size_t)form->locals, wide = pass->slopes ? pairs * locals : 0;
+    double *block = alloc_array(2 * pairs + wide + sides + sides * slopes + locals, sizeof(double));
+    if (!block) {
+        pass->failed = true;
+        return;
+    }
+    double *log_f = block, *r = log_f + pairs, *slope = r + pairs, *dr = slope + wide;
+    double *row = dr + sides, *theta = row + sides * slopes, cost = 0.0;
+    theta_of(form, item, pass->coefficients, theta);
+    form->value(form->user, item, t, theta, log_f, pass->slopes ? slope : NULL);
+    for (int p = 0; p < t->pairs; p++) {
+        double truth = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0), f = exp(l);
+        double scale = pass->logs ? truth : f, e = pass->softness * truth;
+        r[p] = pass->logs ? truth * (l - log(truth)) : f - truth;
+        dr[t->i[p]] += truth_row_i(t, p) * r[p];
+        dr[t->j[p]] += truth_row_j(t, p) * r[p];
+        double q = sqrt(r[p] * r[p] + e * e), w = pair_weight(t, p, pass->effort.grazing);
+        cost += w * q;
+        const double *from = slope + (size_t)p * locals; /* what moves is gathered at the front */
+        double *s = slope + (size_t)p * slopes, root = sqrt(w / q);
+        for (size_t k = 0; k < slopes; k++) {
+            s[k] = scale * from[form->moving[k]];
+            row[(size_t)t->i[p] * slopes + k] += truth_row_i(t, p) * s[k];
+            row[(size_t)t->j[p] * slopes + k] += truth_row_j(t, p) * s[k];
+            s[k] *= root;
+        }
+        r[p] *= root;
+    }
+    for (int k = 0; k < t->sides; k++) {
+        double q = sqrt(dr[k] * dr[k] + 1e-8),
+               v = pass->effort.albedo * (t->w[k] + 2.0 * pass->effort.grazing / t->sides);
+        if (dr[k] > 0.0 && t->reflected[k] + dr[k] > 0.997) v *= 100.0;
+        cost += v * q;
+        double root = sqrt(v / q);
+        dr[k] *= root;
+        for (size_t c = 0; c < slopes; c++) row[(size_t)k * slopes + c] *= root;
+    }
+    pass->cost[item] = cost;
+    if (pass->slopes) {
+        double *g = pass->gradient + item * n, *h = pass->curvature + (size_t)item * (size_t)n * (size_t)n;
+        memset(g, 0, (size_t)n * sizeof *g);
+        memset(h, 0, (size_t)n * (size_t)n * sizeof *h);
+        if (!add_rows(t->pairs, n, slope, r, g, h) || !add_rows(t->sides, n, row, dr, g, h))
+            pass->failed = true;
+    }
+    free(block);
+}
+
+static double pass_run(Pass *pass, int threads) {
+    double cost = 0.0;
+    parallel_for(threads, pass->set->count, slab_pass, pass);
+    for (int k = 0; k < pass->set->count; k++) cost += pass->cost[k];
+    return cost;
+}
+
+/* From theta to coefficients: H = sum B^T H_slab B, g = sum B^T g_slab. */
+static void assemble(const Pass *pass, double *h, double *g) {
+    const FitForm *form = pass->form;
+    size_t n = (size_t)form->coefficients, m = (size_t)form->movings;
+    memset(h, 0, n * n * sizeof *h);
+    memset(g, 0, n * sizeof *g);
+    for (int slab = 0; slab < pass->set->count; slab++) {
+        const FitTerm *terms = form->terms[slab];
+        const double *gs = pass->gradient + (size_t)slab * m, *hs = pass->curvature + (size_t)slab * m * m;
+        for (int a = 0; a < form->term_counts[slab]; a++) {
+            const FitTerm *s = &terms[a];
+            g[s->coefficient] += s->basis * gs[s->at];
+            for (int b = 0; b < form->term_counts[slab]; b++) {
+                const FitTerm *t = &terms[b];
+                if (t->coefficient > s->coefficient) continue;
+                size_t high = (size_t)(s->at > t->at ? s->at : t->at);
+                size_t low = (size_t)(s->at > t->at ? t->at : s->at);
+                h[(size_t)t->coefficient * n + (size_t)s->coefficient] +=
+                    s->basis * t->basis * hs[high * m + low];
+            }
+        }
+    }
+}
+
+/* (H + damping diag H) step = -g. */
+static bool solve(int n, const double *h, const double *g, double damping, double *work, double *step) {
+    double most = 0.0;
+    memcpy(work, h, (size_t)n * (size_t)n * sizeof *work);
+    for (int k = 0; k < n; k++) most = fmax(most, h[k * n + k]);
+    for (int k = 0; k < n; k++) {
+        work[k * n + k] += damping * h[k * n + k] + 1e-12 * most;
+        step[k] = -g[k];
+    }
+    return matrix_factor(n, work, n) && matrix_solve(n, work, n, 1, step, n);
+}
+
+/* Kenneth Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares", 1944, on
+ * weights that make least squares of least absolute error. The softness sinks as the fit settles. */
+static bool descend(Pass *pass, int threads, TruthProgress progress, void *user, double *at, double *h,
+                    double *g, double *work, double *step) {
+    int n = pass->form->coefficients, rounds = pass->effort.rounds;
+    double damping = 1e-2, *next = step + n;
+    for (int round = 0; round < rounds; round++) {
+        pass->logs = round < 10;
+        pass->softness = round < 10 ? 0.3 : fmax(2e-3, 0.3 * pow(0.85, round - 10));
+        if (round == 10) damping = fmax(damping, 1e-2);
+        pass->coefficients = at;
+        pass->slopes = true;
+        double cost = pass_run(pass, threads);
+        if (pass->failed) return false;
+        assemble(pass, h, g);
+        pass->slopes = false;
+        bool better = false;
+        for (int attempt = 0; attempt < 8 && !better; attempt++, damping = fmin(damping * 4.0, 1e6)) {
+            if (!solve(n, h, g, damping, work, step)) continue;
+            for (int k = 0; k < n; k++) next[k] = at[k] + step[k];
+            pass->coefficients = next;
+            better = pass_run(pass, threads) < cost;
+            if (pass->failed) return false;
+            if (better) break;
+        }
+        if (better) {
+            memcpy(at, next, (size_t)n * sizeof *at);
+            damping = fmax(damping * 0.3, 1e-10);
+        }
+        if (progress && !progress(user, round + 1, rounds)) return false;
+    }
+    return true;
+}
+
+bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int threads, TruthProgress progress,
+             void *user, double *coefficients) {
+    size_t n = (size_t)form->coefficients, m = (size_t)form->movings, slabs = (size_t)set->count;
+    double *block = alloc_array(slabs * (1 + m + m * m) + 2 * n * n + 3 * n, sizeof(double));
+    if (!block) return false;
+    Pass pass = {.form = form, .set = set, .effort = effort, .cost = block};
+    pass.gradient = pass.cost + slabs;
+    pass.curvature = pass.gradient + slabs * m;
+    double *h = pass.curvature + slabs * m * m, *work = h + n * n, *g = work + n * n;
+    bool done = descend(&pass, threads, progress, user, coefficients, h, g, work, g + n);
+    free(block);
+    return done;
+}
+
+bool fit_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
+               TruthError *out) {
+    const Truth *t = &set->slabs[slab];
+    double *f = alloc_array((size_t)t->pairs + (size_t)form->locals, sizeof(double));
+    if (!f) return false;
+    theta_of(form, slab, coefficients, f + t->pairs);
+    form->value(form->user, slab, t, f + t->pairs, f, NULL);
+    for (int p = 0; p < t->pairs; p++) f[p] = exp(fmin(f[p], 25.0));
+    bool done = truth_error(t, f, out);
+    free(f);
+    return done;
+}

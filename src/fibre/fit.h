@@ -1,0 +1,47 @@
+/* fit.h - a closed form made to agree with slabs: least absolute error by reweighted Gauss-Newton
+ *
+ * A form has local numbers theta, which hold for one slab, and these are linear in the coefficients that are
+ * sought: theta[q] = fixed[q] + sum of coefficients[column] * basis. The error of a slab is what is printed
+ * everywhere, integral of |f - f_true| mu over R, for each direction; the albedo's own error is weighed in,
+ * and heavily where the form would reflect more than it receives. */
+#ifndef WEFT_FIBRE_FIT_H
+#define WEFT_FIBRE_FIT_H
+
+#include "fibre/truth.h"
+
+/* theta[moving[at]] depends on `coefficient` by factor `basis`. */
+typedef struct FitTerm {
+    int at, coefficient;
+    double basis;
+} FitTerm;
+
+typedef struct FitForm {
+    int locals, coefficients;
+    int movings; /* local numbers that have free coefficients */
+    const int *moving;
+    void *user;
+    /* log f of every pair of slab number `slab`, and where slope is not NULL its derivatives by theta,
+     * slope[pair * locals + q]. Called from several threads at once. */
+    void (*value)(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+                  double *slope);
+    const FitTerm *const *terms; /* for each slab, those of free coefficients */
+    const int *term_counts;
+    const double *const *fixed; /* for each slab, [locals] */
+} FitForm;
+
+typedef struct FitEffort {
+    int rounds;
+    double albedo;  /* how much the error of R counts */
+    double grazing; /* added to the weight of every direction, so that the few at the horizon count */
+} FitEffort;
+
+/* coefficients come as the start and leave as the best found. False where memory is short or progress says
+ * so. */
+bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int threads, TruthProgress progress,
+             void *user, double *coefficients);
+
+/* The same form's error over one slab of the set. */
+bool fit_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
+               TruthError *out);
+
+#endif

@@ -1,0 +1,574 @@
+#include "fibre/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* A local number: a feature's factor in one of the parts, or an exponent p. */
+typedef enum Part { PART_A, PART_H, PART_G, PART_K, PART_P, PART_Q, PART_V, PART_U, PART_C, PARTS } Part;
+
+/* Numbers of one part and kind of feature, which depend on the material by polynomials: `degree[b][c]` is how
+ * many powers of t go with the power b of the tilt's measure and the power c of l. */
+enum { POWERS = 3 };
+typedef struct Group {
+    Part part;
+    bool nap; /* features that vanish where fibres stand upright */
+    int count;
+    int degree[POWERS][POWERS];
+} Group;
+
+static const Group groups[] = {
+    {PART_A, false, 12, {{8, 6, 4}}},         {PART_H, false, 7, {{6, 5, 3}}},
+    {PART_G, false, 7, {{6, 5, 3}}},          {PART_K, false, 5, {{5, 3, 2}}},
+    {PART_P, false, 3, {{6, 5, 3}}},          {PART_A, true, 25, {{5, 2, 1}, {4, 1}, {3}}},
+    {PART_H, true, 9, {{4, 2}, {3, 1}, {2}}}, {PART_G, true, 9, {{4, 2}, {3, 1}, {2}}},
+    {PART_K, true, 3, {{4, 2}, {3}, {2}}},    {PART_P, true, 4, {{4, 2}, {3, 1}, {2}}},
+    {PART_Q, false, 5, {{4, 3, 1}}},          {PART_V, false, 4, {{3, 2, 1}}},
+    {PART_U, false, 4, {{3, 2, 1}}},          {PART_C, false, 3, {{3, 2}}},
+};
+enum {
+    GROUPS = sizeof groups / sizeof groups[0],
+    SCATTER_GROUPS = 10,
+    FEATURES = 12,
+    NAPS = 25,
+    LOCALS_MAX = 96
+};
+
+static FibreStage stage_of(const Group *g, int b, int c) {
+    (void)b;
+    if (g->part >= PART_Q) return FIBRE_COLOR;
+    if (g->nap) return FIBRE_NAP;
+    return c ? FIBRE_DENSITY : FIBRE_WHITE;
+}
+
+/* ---- features: the same as shading/fibre_model.h, in double precision ---- */
+
+static const double alpha_low = 0.045;
+static double t_of(double alpha) { return 1.0 - 2.0 * log(alpha) / log(alpha_low); }
+static double l_of(double depth) { return log(depth) / log(4.0); }
+static double tilt_of(double tilt) { return 2.0 * sin(tilt) * sin(tilt); }
+
+/* u in [-1, 1] of mu: a power between a logarithm at low alpha and a root at high alpha, straight at the
+ * horizon. */
+static double u_of(double mu, double t) {
+    const double c = 1e-3;
+    double q = 0.02 + 0.24 * (t + 1.0);
+    return 2.0 * (pow(mu + c, q) - pow(c, q)) / (pow(1.0 + c, q) - pow(c, q)) - 1.0;
+}
+
+typedef struct Side {
+    double upright[FEATURES], nap[NAPS];
+} Side;
+
+static void features(const Truth *truth, int k, Side *side) {
+    double mu = truth->mu[k], u = u_of(mu, t_of(truth->slab.alpha)), d = truth->nu[k] - mu,
+           s = tilt_of(truth->tilt);
+    double *f = side->upright, *n = side->nap, g = 0.03 / (mu + 0.03);
+    f[0] = 1.0;
+    f[1] = u;
+    for (int j = 2; j < FEATURES; j++) f[j] = 2.0 * u * f[j - 1] - f[j - 2];
+    double list[NAPS] = {d,
+                         s,
+                         d * u,
+                         d * d,
+                         s * u,
+                         d * d * u,
+                         d * d * d,
+                         d * u * u,
+                         s * u * u,
+                         d * d * d * d,
+                         d * d * d * u,
+                         d * d * u * u,
+                         d * u * u * u,
+                         s * u * u * u,
+                         d * d * d * d * d,
+                         d * d * d * d * u,
+                         d * d * d * u * u,
+                         d * d * u * u * u,
+                         d * u * u * u * u,
+                         g * d,
+                         g * d * d,
+                         g * d * d * d,
+                         g * d * d * d * d,
+                         g * d * d * d * d * d,
+                         g * s};
+    memcpy(n, list, sizeof list);
+}
+
+/* The logarithms that the exponents p multiply; the last four vanish where fibres stand upright. */
+enum { UPRIGHT_LOGS = 3, LOGS = 7 };
+static void logarithms(const Truth *truth, int pair, double *l) {
+    double a = truth->mu[truth->i[pair]], b = truth->mu[truth->j[pair]];
+    double x = truth->nu[truth->i[pair]], y = truth->nu[truth->j[pair]],
+           s = truth->slab.alpha * truth->slab.alpha;
+    double ridge = 0.3 * s + 0.01, narrow = 0.3 * s * s + 1e-3, m = (a + b) * (a + b), n = (x + y) * (x + y);
+    l[0] = log(a + b + 0.04);
+    l[1] = log(a * a - a * b + b * b + ridge * ridge);
+    l[2] = log(a + b + 0.002);
+    l[3] = 0.5 * log((n + 0.09) / (m + 0.09));
+    l[4] = 0.5 * log((n + 0.5) / (m + 0.5));
+    l[5] = 0.5 * log((n + narrow) / (m + narrow));
+    l[6] = log((x * x - x * y + y * y + 0.01) / (a * a - a * b + b * b + 0.01));
+}
+
+/* ---- values ---- */
+
+/* Where each group's numbers begin in theta; the forms of scattering and of colour are apart. */
+static int first_local(int group) {
+    int first = 0;
+    for (int k = group >= SCATTER_GROUPS ? SCATTER_GROUPS : 0; k < group; k++) first += groups[k].count;
+    return first;
+}
+static int locals_of(bool color) {
+    int last = (color ? GROUPS : SCATTER_GROUPS) - 1;
+    return first_local(last) + groups[last].count;
+}
+
+/* The sums of features that make the parts of one direction. */
+static double part_value(const Side *side, Part part, const double *theta) {
+    double sum = 0.0;
+    for (int k = 0; k < GROUPS; k++) {
+        if (groups[k].part != part) continue;
+        const double *f = groups[k].nap ? side->nap : side->upright, *at = theta + first_local(k);
+        for (int q = 0; q < groups[k].count; q++) sum += f[q] * at[q];
+    }
+    return sum;
+}
+
+/* The derivatives by a part's numbers of sign (value_i value_j): sign (f_i value_j + f_j value_i). */
+static void part_slope(Part part, double sign, const Side *i, const Side *j, double value_i, double value_j,
+                       double *slope) {
+    for (int k = 0; k < GROUPS; k++) {
+        if (groups[k].part != part) continue;
+        const double *fi = groups[k].nap ? i->nap : i->upright, *fj = groups[k].nap ? j->nap : j->upright;
+        double *at = slope + first_local(k);
+        for (int q = 0; q < groups[k].count; q++) at[q] = sign * (fi[q] * value_j + fj[q] * value_i);
+    }
+}
+
+/* Every direction's features and parts. */
+typedef struct Sides {
+    Side *side;
+    double *part[PARTS];
+} Sides;
+
+static bool sides_make(const Truth *truth, const double *theta, Part first, Part last, Sides *out) {
+    size_t n = (size_t)truth->sides;
+    out->side = alloc_array(n, sizeof(Side));
+    out->part[0] = alloc_array(n * PARTS, sizeof(double));
+    if (!out->side || !out->part[0]) return false;
+    for (int part = 1; part < PARTS; part++) out->part[part] = out->part[0] + n * (size_t)part;
+    for (int k = 0; k < truth->sides; k++) {
+        features(truth, k, &out->side[k]);
+        for (int part = (int)first; part <= (int)last; part++)
+            out->part[part][k] = part_value(&out->side[k], (Part)part, theta);
+    }
+    return true;
+}
+static void sides_free(Sides *sides) {
+    free(sides->side);
+    free(sides->part[0]);
+}
+
+static void scatter(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+                    double *slope) {
+    (void)user;
+    (void)slab;
+    Sides s;
+    int n = locals_of(false);
+    if (sides_make(truth, theta, PART_A, PART_K, &s))
+        for (int p = 0; p < truth->pairs; p++) {
+            int i = truth->i[p], j = truth->j[p];
+            double l[LOGS], h = s.part[PART_H][i], g = s.part[PART_G][i], k = s.part[PART_K][i];
+            double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j], x = truth->x[p];
+            logarithms(truth, p, l);
+            double sum = s.part[PART_A][i] + s.part[PART_A][j] + h * h2 - g * g2 - k * k2 * x;
+            for (int b = 0; b < LOGS; b++)
+                sum -=
+                    l[b] * theta[b < UPRIGHT_LOGS ? first_local(4) + b : first_local(9) + b - UPRIGHT_LOGS];
+            log_f[p] = sum;
+            if (!slope) continue;
+            double *row = slope + (size_t)p * (size_t)n;
+            const Side *a = &s.side[i], *b = &s.side[j];
+            part_slope(PART_A, 1.0, a, b, 1.0, 1.0, row);
+            part_slope(PART_H, 1.0, a, b, h, h2, row);
+            part_slope(PART_G, -1.0, a, b, g, g2, row);
+            part_slope(PART_K, -x, a, b, k, k2, row);
+            for (int c = 0; c < LOGS; c++)
+                row[c < UPRIGHT_LOGS ? first_local(4) + c : first_local(9) + c - UPRIGHT_LOGS] = -l[c];
+        }
+    sides_free(&s);
+}
+
+static void tint(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+                 double *slope) {
+    (void)user;
+    (void)slab;
+    Sides s;
+    int n = locals_of(true);
+    double w = truth->slab.albedo;
+    if (sides_make(truth, theta, PART_Q, PART_C, &s)) {
+        double *r = s.part[PART_A], *r_slope = s.part[PART_H]; /* these parts are idle here */
+        for (int k = 0; k < truth->sides; k++) {
+            double q = 1.0 / (1.0 + exp(-fmin(fmax(s.part[PART_Q][k], -30.0), 12.0)));
+            r[k] = log1p(-q) - log1p(-w * q);
+            r_slope[k] = -q * (1.0 - w) / (1.0 - w * q);
+        }
+        for (int p = 0; p < truth->pairs; p++) {
+            int i = truth->i[p], j = truth->j[p];
+            double v = s.part[PART_V][i], u = s.part[PART_U][i], c = s.part[PART_C][i], x = truth->x[p];
+            double v2 = s.part[PART_V][j], u2 = s.part[PART_U][j], c2 = s.part[PART_C][j];
+            log_f[p] = log(fmax(w * w * truth->white[p], 1e-14)) + r[i] + r[j] +
+                       (1.0 - w) * (v * v2 - u * u2 - c * c2 * x);
+            if (!slope) continue;
+            double *row = slope + (size_t)p * (size_t)n;
+            const Side *a = &s.side[i], *b = &s.side[j];
+            part_slope(PART_Q, 1.0, a, b, r_slope[j], r_slope[i], row);
+            part_slope(PART_V, 1.0 - w, a, b, v, v2, row);
+            part_slope(PART_U, w - 1.0, a, b, u, u2, row);
+            part_slope(PART_C, (w - 1.0) * x, a, b, c, c2, row);
+        }
+    }
+    sides_free(&s);
+}
+
+/* ---- coefficients ---- */
+
+/* A coefficient: local number q of a group times T_a(t) tilt^b l^c. */
+typedef struct Coefficient {
+    int group, number, a, b, c;
+} Coefficient;
+
+static int coefficients_list(Coefficient *list) {
+    int n = 0;
+    for (int g = 0; g < GROUPS; g++)
+        for (int q = 0; q < groups[g].count; q++)
+            for (int b = 0; b < POWERS; b++)
+                for (int c = 0; c < POWERS; c++)
+                    for (int a = 0; a < groups[g].degree[b][c]; a++, n++)
+                        if (list) list[n] = (Coefficient){g, q, a, b, c};
+    return n;
+}
+
+int fibre_model_count(FibreStage stage) {
+    int n = 0;
+    for (int g = 0; g < GROUPS; g++)
+        for (int b = 0; b < POWERS; b++)
+            for (int c = 0; c < POWERS; c++)
+                if (stage_of(&groups[g], b, c) == stage) n += groups[g].count * groups[g].degree[b][c];
+    return n;
+}
+
+static double basis_of(const Coefficient *k, const Truth *truth) {
+    double t = t_of(truth->slab.alpha), l = l_of(truth->slab.depth), s = tilt_of(truth->tilt);
+    double chebyshev = cos(k->a * acos(fmin(fmax(t, -1.0), 1.0)));
+    return chebyshev * pow(s, k->b) * pow(l, k->c);
+}
+
+/* One stage's free coefficients are terms; those of earlier stages make what is fixed. */
+typedef struct Staged {
+    FitForm form;
+    FitTerm **terms;
+    int *counts;
+    double **fixed;
+    int *columns; /* coefficient of each free column */
+    int *moving;
+    Arena arena;
+} Staged;
+
+static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient *list, int n,
+                        const double *values, Staged *out) {
+    size_t slabs = (size_t)set->count;
+    bool color = stage == FIBRE_COLOR;
+    int locals = locals_of(color);
+    *out = (Staged){0};
+    out->terms = arena_array(&out->arena, slabs, sizeof *out->terms);
+    out->counts = arena_array(&out->arena, slabs, sizeof *out->counts);
+    out->fixed = arena_array(&out->arena, slabs, sizeof *out->fixed);
+    out->columns = arena_array(&out->arena, (size_t)n, sizeof *out->columns);
+    out->moving = arena_array(&out->arena, (size_t)locals, sizeof *out->moving);
+    if (!out->terms || !out->counts || !out->fixed || !out->columns || !out->moving) return false;
+    int free_count = fibre_model_count(stage), movings = 0, place[LOCALS_MAX];
+    for (int k = 0; k < locals; k++) place[k] = -1;
+    for (int c = 0; c < n; c++) {
+        const Group *g = &groups[list[c].group];
+        int local = first_local(list[c].group) + list[c].number;
+        if (stage_of(g, list[c].b, list[c].c) != stage || place[local] >= 0) continue;
+        place[local] = movings;
+        out->moving[movings++] = local;
+    }
+    for (size_t k = 0; k < slabs; k++) {
+        out->terms[k] = arena_array(&out->arena, (size_t)free_count, sizeof(FitTerm));
+        out->fixed[k] = arena_array(&out->arena, (size_t)locals, sizeof(double));
+        if (!out->terms[k] || !out->fixed[k]) return false;
+        int column = 0;
+        for (int c = 0; c < n; c++) {
+            const Coefficient *at = &list[c];
+            const Group *g = &groups[at->group];
+            if ((g->part >= PART_Q) != color) continue;
+            int local = first_local(at->group) + at->number;
+            double basis = basis_of(at, &set->slabs[k]);
+            if (stage_of(g, at->b, at->c) == stage) {
+                out->columns[column] = c;
+                out->terms[k][column] = (FitTerm){place[local], column, basis};
+                column++;
+            } else {
+                out->fixed[k][local] += values[c] * basis;
+            }
+        }
+        out->counts[k] = column;
+    }
+    out->form = (FitForm){locals,
+                          free_count,
+                          movings,
+                          out->moving,
+                          NULL,
+                          color ? tint : scatter,
+                          (const FitTerm *const *)out->terms,
+                          out->counts,
+                          (const double *const *)out->fixed};
+    return true;
+}
+
+/* Where the search starts: a form that is roughly right, with no part at zero, since a product of two zeros
+ * has no slope. */
+static double start_of(const Coefficient *k) {
+    static const double exponent[] = {2.6, -2.1, 0.0, -0.2};
+    if (k->b || k->c || groups[k->group].nap) return 0.0;
+    bool constant = k->a == 0;
+    switch (groups[k->group].part) {
+    case PART_A: return constant && k->number == 0 ? -1.5 : 0.0;
+    case PART_H: return constant && k->number < 2 ? (k->number ? -0.3 : 0.3) : 0.0;
+    case PART_G: return constant && k->number == 0 ? 0.2 : 0.0;
+    case PART_K: return constant && k->number == 0 ? 0.3 : 0.0;
+    case PART_P: return k->number == 0 && k->a < 4 ? exponent[k->a] : constant && k->number == 1 ? 0.1 : 0.0;
+    case PART_Q: return constant && k->number < 2 ? (k->number ? 0.6 : -0.28) : 0.0;
+    case PART_V: return constant && k->number < 2 ? (k->number ? 0.1 : 0.3) : 0.0;
+    case PART_U: return constant && k->number < 2 ? (k->number ? -0.1 : 0.3) : 0.0;
+    case PART_C: return constant && k->number == 0 ? 0.3 : 0.0;
+    case PARTS: break;
+    }
+    return 0.0;
+}
+
+/* alphas from low to 1, even in their logarithms. */
+static void alphas_fill(double low, int n, double *alpha) {
+    for (int k = 0; k < n; k++) alpha[k] = exp(log(low) * (1.0 - k / (n - 1.0)));
+}
+
+static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, void *user, TruthSet *out) {
+    static const double white[] = {1.0}, colors[] = {0.05, 0.2, 0.4, 0.6, 0.8, 0.92, 0.98, 1.0};
+    static const double radians = 3.14159265358979323846 / 180.0;
+    double alpha[26], tilts[] = {9 * radians, 18 * radians, 27 * radians, 36 * radians, 45 * radians};
+    TruthGrid grid = {26, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
+    switch (stage) {
+    case FIBRE_WHITE: alphas_fill(alpha_low, 26, alpha); break;
+    case FIBRE_DENSITY:
+        alphas_fill(alpha_low, 14, alpha);
+        grid.alphas = 14, grid.kept = 5, grid.depth = 4.0;
+        break;
+    case FIBRE_NAP:
+        alphas_fill(0.38, 8, alpha);
+        grid.alphas = 8, grid.tilts = 5, grid.kept = 5, grid.depth = 4.0, grid.rings = 10, grid.spokes = 8;
+        break;
+    case FIBRE_COLOR:
+        alphas_fill(0.19, 10, alpha);
+        grid.alphas = 10, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0,
+        grid.rings = 24;
+        break;
+    case FIBRE_STAGES: break;
+    }
+    return truth_make(&grid, threads, progress, user, out);
+}
+
+static TruthError total_error(const FitForm *form, const TruthSet *set, const double *coefficients) {
+    TruthError all = {0}, one;
+    for (int k = 0; k < set->count; k++) {
+        if (!fit_error(form, set, k, coefficients, &one)) continue;
+        all.mean += one.mean / set->count;
+        all.worst = fmax(all.worst, one.worst);
+        all.albedo = fmax(all.albedo, one.albedo);
+        all.most = fmax(all.most, one.most);
+    }
+    return all;
+}
+
+static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int rounds, int threads,
+                      TruthProgress progress, void *user, FibreModelFit *model) {
+    TruthSet set;
+    Staged staged = {0};
+    double *found = NULL;
+    if (!stage_truth(stage, threads, progress, user, &set)) return false;
+    bool done = staged_make(stage, &set, list, n, model->coefficients, &staged);
+    if (done) found = alloc_array((size_t)staged.form.coefficients, sizeof *found);
+    done = done && found;
+    if (done) {
+        for (int k = 0; k < staged.form.coefficients; k++) found[k] = start_of(&list[staged.columns[k]]);
+        done = fit_run(&staged.form, &set, (FitEffort){rounds, 10.0, 0.4}, threads, progress, user, found);
+    }
+    if (done) {
+        for (int k = 0; k < staged.form.coefficients; k++) model->coefficients[staged.columns[k]] = found[k];
+        model->errors[stage] = total_error(&staged.form, &set, found);
+    }
+    free(found);
+    arena_free(&staged.arena);
+    truth_free(&set);
+    return done;
+}
+
+bool fibre_model_fit(FibreStage last, int rounds, int threads, TruthProgress progress, void *user,
+                     FibreModelFit *out) {
+    int n = coefficients_list(NULL);
+    Coefficient *list = alloc_array((size_t)n, sizeof *list);
+    *out = (FibreModelFit){.count = n, .coefficients = alloc_array((size_t)n, sizeof(double))};
+    bool done = list && out->coefficients;
+    if (done) coefficients_list(list);
+    for (int stage = 0; done && stage <= (int)last; stage++)
+        done = stage_fit((FibreStage)stage, list, n, rounds, threads, progress, user, out);
+    free(list);
+    if (!done) fibre_model_free(out);
+    return done;
+}
+
+void fibre_model_free(FibreModelFit *model) {
+    free(model->coefficients);
+    *model = (FibreModelFit){0};
+}
+
+/* ---- the generated text ---- */
+
+static const char *const part_letters[PARTS] = {"a", "h", "g", "k", "p", "q", "v", "u", "c"};
+
+/* The name of a group's number: nap numbers go on after the upright ones. */
+static void name_of(int group, int number, char name[16]) {
+    int first = 0;
+    for (int k = 0; k < group; k++)
+        if (groups[k].part == groups[group].part) first += groups[k].count;
+    snprintf(name, 16, "%s%d", part_letters[groups[group].part], first + number);
+}
+
+/* exp and log of the form become exp2 and log2: exponents are scaled by log2 e, and factors of products by
+ * its root. The p, which multiply logarithms, stay, and q belongs to a logistic of its own. */
+static double scale_of(Part part) {
+    const double log2_e = 1.44269504088896340736;
+    if (part == PART_P) return 1.0;
+    return part == PART_A || part == PART_Q ? log2_e : sqrt(log2_e);
+}
+
+/* sum_a k_a T_a(t) as sum_a m_a t^a: T_0 = 1, T_1 = t, T_{a+1} = 2 t T_a - T_{a-1}. */
+static void monomials(int n, const double *chebyshev, double *power) {
+    double before[10] = {1.0}, now[10] = {0.0, 1.0};
+    memset(power, 0, 10 * sizeof *power);
+    for (int a = 0; a < n; a++) {
+        double next[10] = {0.0};
+        for (int k = 0; k < 10; k++) {
+            power[k] += chebyshev[a] * before[k];
+            next[k] = (k ? 2.0 * now[k - 1] : 0.0) - before[k];
+        }
+        memcpy(before, now, sizeof before);
+        memcpy(now, next, sizeof now);
+    }
+}
+
+/* Horner's rule in t. */
+static void write_polynomial(FILE *file, int n, const double *chebyshev, double scale) {
+    double power[10];
+    monomials(n, chebyshev, power);
+    for (int k = 0; k < n - 2; k++) fputc('(', file);
+    fprintf(file, "%.8e", scale * power[n - 1]);
+    fputc('f', file);
+    for (int k = n - 2; k >= 0; k--)
+        fprintf(file, " * t %c %.8ef%s", power[k] < 0.0 ? '-' : '+', fabs(scale * power[k]), k ? ")" : "");
+}
+
+/* Where a number's coefficients of the powers b and c begin. */
+static int block_of(int group, int number, int b, int c) {
+    int n = 0, last = group * 10000 + number * 100 + b * 10 + c;
+    for (int g = 0; g < GROUPS; g++)
+        for (int q = 0; q < groups[g].count; q++)
+            for (int i = 0; i < POWERS; i++)
+                for (int j = 0; j < POWERS; j++) {
+                    if (g * 10000 + q * 100 + i * 10 + j >= last) return n;
+                    n += groups[g].degree[i][j];
+                }
+    return n;
+}
+
+/* One number as a polynomial in t, l and s, from the power `first` of l on: a sum of products. */
+static bool write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
+    static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ",
+                                                                                       "l * l * "};
+    bool any = false;
+    for (int b = 0; b < POWERS; b++)
+        for (int c = first; c <= last; c++) {
+            int n = groups[group].degree[b][c];
+            if (!n) continue;
+            fprintf(file, "%s%s%s(", any ? " + " : "", s[b], l[c]);
+            write_polynomial(file, n, model->coefficients + block_of(group, number, b, c),
+                             scale_of(groups[group].part));
+            fputc(')', file);
+            any = true;
+        }
+    return any;
+}
+
+static void write_group(FILE *file, const FibreModelFit *model, int group, int first, int last, bool more) {
+    char name[16];
+    for (int q = 0; q < groups[group].count; q++) {
+        bool there = false;
+        for (int b = 0; b < POWERS; b++)
+            for (int c = first; c <= last; c++) there = there || groups[group].degree[b][c] > 0;
+        if (!there) continue;
+        name_of(group, q, name);
+        fprintf(file, more ? "        m.%s = m.%s + " : "    m.%s = ", name, name);
+        write_number(file, model, group, q, first, last);
+        fputs(";\n", file);
+    }
+}
+
+void fibre_model_write(const FibreModelFit *model, const char *command, FILE *file) {
+    char name[16];
+    fprintf(file, "/* %s\n", command);
+    fputs(" *\n * Numbers of shading/fibre_model.h for a material, fitted to the solved slab: polynomials in "
+          "t, which runs\n"
+          " * over the logarithm of alpha, in l, the logarithm to base 4 of density, and in s, twice the "
+          "square of the\n"
+          " * tilt's sine. Errors over what they were fitted to:\n *\n",
+          file);
+    static const char *const names[FIBRE_STAGES] = {"white", "density", "nap", "colour"};
+    for (int k = 0; k < FIBRE_STAGES; k++)
+        fprintf(file, " *   %-8s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n",
+                names[k], fibre_model_count((FibreStage)k), 100.0 * model->errors[k].mean,
+                100.0 * model->errors[k].worst, model->errors[k].albedo);
+    fputs(" */\n/* clang-format off */\n#ifndef WEFT_TABLES_FIBRE_MODEL_H\n#define "
+          "WEFT_TABLES_FIBRE_MODEL_H\n\n"
+          "#include \"shading/lang.h\"\n\nSTRUCT(FibreNumbers) {\n",
+          file);
+    for (int g = 0; g < GROUPS; g++) {
+        fputs("    float ", file);
+        for (int q = 0; q < groups[g].count; q++) {
+            name_of(g, q, name);
+            fprintf(file, "%s%s", q ? ", " : "", name);
+        }
+        fputs(";\n", file);
+    }
+    fputs("};\n\nFN_APART FibreNumbers fibre_numbers(float t, float l, float s) {\n    FibreNumbers m;\n",
+          file);
+    for (int g = 0; g < GROUPS; g++)
+        if (!groups[g].nap) write_group(file, model, g, 0, 0, false);
+    fputs("    if (l != 0.0f) {\n", file);
+    for (int g = 0; g < GROUPS; g++)
+        if (!groups[g].nap) write_group(file, model, g, 1, POWERS - 1, true);
+    fputs("    }\n", file);
+    for (int g = 0; g < GROUPS; g++)
+        for (int q = 0; groups[g].nap && q < groups[g].count; q++) {
+            name_of(g, q, name);
+            fprintf(file, "    m.%s = 0.0f;\n", name);
+        }
+    fputs("    if (s > 0.0f) {\n", file);
+    for (int g = 0; g < GROUPS; g++)
+        if (groups[g].nap) write_group(file, model, g, 0, POWERS - 1, true);
+    fputs("    }\n    return m;\n}\n\n#endif\n", file);
+}

@@ -1,0 +1,38 @@
+/* model.h - the closed forms of light scattered more than once that shading/fibre_model.h evaluates, and
+ * their fit
+ *
+ *   M = exp(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - nu_o nu_i) - sum_b p_b L_b(o, i))       [1/sr]
+ *   M(w) = w^2 M(1) r_o r_i exp((1 - w) (v_o v_i - u_o u_i - k'_o k'_i (wo . wi - nu_o nu_i))),
+ *   r = (1 - q) / (1 - w q)
+ *
+ * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/fibre_model.h) times numbers that
+ * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
+ * are found in stages, each on top of the last and without touching it: white, density, nap, colour. */
+#ifndef WEFT_FIBRE_MODEL_H
+#define WEFT_FIBRE_MODEL_H
+
+#include <stdio.h>
+
+#include "fibre/fit.h"
+
+typedef enum FibreStage { FIBRE_WHITE, FIBRE_DENSITY, FIBRE_NAP, FIBRE_COLOR, FIBRE_STAGES } FibreStage;
+
+/* Coefficients of all stages, as one list; release with fibre_model_free. */
+typedef struct FibreModelFit {
+    int count;
+    double *coefficients;
+    TruthError errors[FIBRE_STAGES]; /* over what each was fitted to: mean of means, largest of the rest */
+} FibreModelFit;
+
+/* Makes the truth and fits stage by stage; minutes. False where memory is short or progress says so. */
+bool fibre_model_fit(FibreStage last, int rounds, int threads, TruthProgress progress, void *user,
+                     FibreModelFit *out);
+void fibre_model_free(FibreModelFit *model);
+
+/* The generated part of the catalogue: shading/tables/fibre_model.h, in the dialect. */
+void fibre_model_write(const FibreModelFit *model, const char *command, FILE *file);
+
+/* How many coefficients each stage adds. */
+int fibre_model_count(FibreStage stage);
+
+#endif

@@ -1,0 +1,49 @@
+/* slab.h - what a slab of fibres reflects: fibres along the normal, solved without noise
+ *
+ * A medium of SGGX flakes around fibres that stand upright (Eric Heitz, Jonathan Dupuy, Cyril Crassin,
+ * Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM Transactions on Graphics 34(4), 2015), as
+ * Tizian Zeltner, Brent Burley, Matt Jen-Yuan Chiang take it for sheen ("Practical Multiple-Scattering Sheen
+ * Using Linearly Transformed Cosines", SIGGRAPH Talks, 2022). With s = alpha^2, mu the cosine of a direction
+ * to the normal:
+ *
+ *   sigma = sqrt(1 - mu^2 + s^2 mu^2),  lambda = sigma / mu,
+ *   D(h) = s^3 / (pi (s^2 (1 - h_z^2) + h_z^2)^2),  phase p = D(h) / (4 sigma),
+ *   f = (1 / 2 pi) sum_m (2 - [m = 0]) r_m(mu_i, mu_o) cos(m phi).
+ *
+ * Each r_m is a problem in mu alone, solved by doubling.h. Angles phi are between the azimuths of wo and wi.
+ */
+#ifndef WEFT_FIBRE_SLAB_H
+#define WEFT_FIBRE_SLAB_H
+
+#include <stdbool.h>
+
+#include "fibre/doubling.h"
+
+typedef struct Slab {
+    double alpha;  /* square root of the flakes' cross-section along the fibre, (0, 1] */
+    double albedo; /* of a flake, [0, 1] */
+    double depth;  /* density times thickness, > 0 */
+} Slab;
+
+/* How finely: nodes of the quadrature over mu and thickness of the first layer, depth / 2^halvings. */
+typedef struct SlabEffort {
+    int nodes, halvings;
+} SlabEffort;
+
+/* What serves an albedo to 1e-4 for that alpha. */
+SlabEffort slab_effort(double alpha);
+
+/* Mode m of the BRDF between `count` cosines in (0, 1], single scattering included, at depths depth / 2^(kept
+ * - 1)
+ * .. depth, kept >= 1; for m = 0 the integrals are R and T. defect (may be NULL): the largest relative error
+ * with which the quadrature conserves light before that is repaired. False where memory is short. */
+bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu,
+               const Layered *out, double *defect);
+
+/* Light scattered once, exact: f in 1/sr. */
+double slab_single(const Slab *slab, double mu_i, double mu_o, double cos_phi);
+
+/* Its mode m, exact too. */
+double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o);
+
+#endif

@@ -1,0 +1,233 @@
+#include "fibre/truth.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/thread.h"
+#include "fibre/gauss.h"
+#include "fibre/tilted.h"
+
+static const double pi = 3.14159265358979323846;
+enum { MODES = 5 };
+
+typedef struct Work {
+    const TruthGrid *grid;
+    TruthSet *set;
+    int runs; /* of the solver: one for each alpha, albedo and tilt */
+    TruthProgress progress;
+    void *user;
+    int done;
+    bool failed;
+} Work;
+
+/* The sides of all slabs of one tilt, and all pairs. */
+typedef struct Layout {
+    int sides, pairs;
+    double *mu, *w, *phi;
+    int *i, *j;
+    double *share, *turn;
+} Layout;
+
+static int runs_of(const TruthGrid *g) { return g->alphas * g->albedos * (g->tilts ? g->tilts : 1); }
+
+static bool upright(const Work *work, const Layout *at, const Slab *slab, Truth *slabs) {
+    int kept = work->grid->kept, n = at->sides;
+    size_t cells = (size_t)n * (size_t)n;
+    double *r = alloc_array((size_t)kept * (cells + (size_t)n), sizeof(double));
+    if (!r) return false;
+    double *up = r + (size_t)kept * cells;
+    SlabEffort effort = slab_effort(slab->alpha);
+    bool done = true;
+    for (int m = 0; m < MODES && done; m++) {
+        done = slab_mode(slab, effort, m, kept, n, at->mu, &(Layered){.r = r, .up = m ? NULL : up}, NULL);
+        for (int k = 0; k < kept && done; k++) {
+            if (m == 0) memcpy(slabs[k].reflected, up + (size_t)k * (size_t)n, (size_t)n * sizeof *up);
+            for (int p = 0; p < at->pairs; p++) {
+                size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
+                double once = slab_single_mode(&slabs[k].slab, m, at->mu[at->i[p]], at->mu[at->j[p]]);
+                slabs[k].f[p] += (m ? 2.0 : 1.0) * (r[cell] - once) * cos(m * at->turn[p]) / (2.0 * pi);
+            }
+        }
+    }
+    free(r);
+    return done;
+}
+
+static bool leaning(const Work *work, const Layout *at, const Slab *slab, double tilt, Truth *slabs) {
+    int kept = work->grid->kept, n = at->sides;
+    size_t cells = (size_t)n * (size_t)n;
+    double *same = alloc_array((size_t)kept * (2 * cells + (size_t)n), sizeof(double));
+    Heading *headings = alloc_array((size_t)n, sizeof *headings);
+    bool done = same && headings;
+    if (done) {
+        double *across = same + (size_t)kept * cells, *up = across + (size_t)kept * cells;
+        for (int k = 0; k < n; k++) headings[k] = (Heading){at->mu[k], at->phi[k]};
+        done = tilted_f(slab, tilt, tilt_effort(slab->alpha), kept, n, headings, same, across, up);
+        for (int k = 0; k < kept && done; k++) {
+            memcpy(slabs[k].reflected, up + (size_t)k * (size_t)n, (size_t)n * sizeof *up);
+            for (int p = 0; p < at->pairs; p++) {
+                size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
+                Heading o = headings[at->j[p]];
+                o.phi += at->turn[p];
+                slabs[k].f[p] = (at->turn[p] < 0.0 ? across : same)[cell] -
+                                tilted_single(&slabs[k].slab, tilt, headings[at->i[p]], o);
+            }
+        }
+    }
+    free(same);
+    free(headings);
+    return done;
+}
+
+typedef struct Job {
+    Work *work;
+    const Layout *at;
+} Job;
+
+static void run(void *user, int item, int thread) {
+    (void)thread;
+    Job *job = user;
+    Work *work = job->work;
+    const TruthGrid *g = work->grid;
+    if (work->failed) return;
+    Truth *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
+    Slab slab = slabs[g->kept - 1].slab;
+    bool done =
+        g->tilts ? leaning(work, job->at, &slab, slabs->tilt, slabs) : upright(work, job->at, &slab, slabs);
+    int count = __atomic_add_fetch(&work->done, 1, __ATOMIC_RELAXED);
+    if (!done || (work->progress && !work->progress(work->user, count, work->runs)))
+        __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
+}
+
+/* Directions and pairs, in memory that the set owns. */
+static bool layout_make(const TruthGrid *g, TruthSet *set, Layout *at, double **rest) {
+    bool lean = g->tilts > 0;
+    int sides = lean ? g->rings * g->spokes : g->rings, turns = lean ? 2 : g->spokes;
+    int pairs = sides * (sides + 1) / 2 * turns;
+    size_t slabs = (size_t)set->count, tilts = lean ? (size_t)g->tilts : 1;
+    size_t size = 5 * (size_t)sides + 2 * (size_t)pairs + tilts * (size_t)(sides + pairs) +
+                  slabs * (size_t)(pairs + sides);
+    set->block = alloc_array(size, sizeof(double));
+    set->numbers = alloc_array(2 * (size_t)pairs, sizeof(int));
+    set->slabs = alloc_array(slabs, sizeof(Truth));
+    if (!set->block || !set->numbers || !set->slabs) return false;
+    double *mu = set->block, *w = mu + sides, *phi = w + sides, *x = phi + sides, *v = x + sides;
+    *at =
+        (Layout){sides, pairs, mu, w, phi, set->numbers, set->numbers + pairs, v + sides, v + sides + pairs};
+    *rest = v + sides + 2 * (size_t)pairs;
+    gauss_legendre(g->rings, x, v);
+    for (int k = 0; k < sides; k++) {
+        int ring = lean ? k / g->spokes : k, spoke = lean ? k % g->spokes : 0;
+        mu[k] = x[ring] * x[ring];
+        w[k] = 2.0 * x[ring] * v[ring] / (lean ? g->spokes : 1);
+        phi[k] = lean ? pi * (spoke + 0.5) / g->spokes : 0.0;
+    }
+    int p = 0;
+    for (int i = 0; i < sides; i++)
+        for (int j = i; j < sides; j++)
+            for (int k = 0; k < turns; k++, p++) {
+                at->i[p] = i;
+                at->j[p] = j;
+                at->share[p] = 1.0 / turns;
+                at->turn[p] = !lean ? pi * (k + 0.5) / turns : k ? -2.0 * phi[j] : 0.0;
+            }
+    return true;
+}
+
+/* Each slab's own place in the set, and what it is. */
+static void slabs_fill(const TruthGrid *g, TruthSet *set, const Layout *at, double *rest) {
+    int tilts = g->tilts ? g->tilts : 1, n = 0;
+    for (int q = 0; q < tilts; q++) {
+        double tilt = g->tilts ? g->tilt[q] : 0.0, *nu = rest, *x = nu + at->sides;
+        rest = x + at->pairs;
+        for (int k = 0; k < at->sides; k++)
+            nu[k] = g->tilts ? sqrt(1.0 - at->mu[k] * at->mu[k]) * cos(at->phi[k]) * sin(tilt) +
+                                   at->mu[k] * cos(tilt)
+                             : at->mu[k];
+        for (int k = 0; k < at->pairs; k++) {
+            int i = at->i[k], j = at->j[k];
+            double r = sqrt((1.0 - at->mu[i] * at->mu[i]) * (1.0 - at->mu[j] * at->mu[j]));
+            x[k] = r * cos(at->phi[j] + at->turn[k] - at->phi[i]) + at->mu[i] * at->mu[j] - nu[i] * nu[j];
+        }
+        for (int a = 0; a < g->alphas; a++)
+            for (int b = 0; b < g->albedos; b++)
+                for (int k = 0; k < g->kept; k++, n++) {
+                    Slab slab = {g->alpha[a], g->albedo[b], ldexp(g->depth, k + 1 - g->kept)};
+                    set->slabs[n] = (Truth){slab,      tilt, at->sides, at->pairs,       at->mu,   at->phi,
+                                            at->w,     nu,   at->i,     at->j,           at->turn, x,
+                                            at->share, rest, NULL,      rest + at->pairs};
+                    rest += at->pairs + at->sides;
+                }
+    }
+    for (int k = 0; k < n; k++) { /* the same slab of the last albedo */
+        int run = k / g->kept, last = run - run % g->albedos + g->albedos - 1;
+        set->slabs[k].white = set->slabs[last * g->kept + k % g->kept].f;
+    }
+}
+
+bool truth_make(const TruthGrid *grid, int threads, TruthProgress progress, void *user, TruthSet *out) {
+    *out = (TruthSet){.count = runs_of(grid) * grid->kept};
+    Layout at;
+    double *rest;
+    Work work = {grid, out, runs_of(grid), progress, user, 0, false};
+    if (layout_make(grid, out, &at, &rest)) {
+        slabs_fill(grid, out, &at, rest);
+        parallel_for(threads, work.runs, run, &(Job){&work, &at});
+        if (!work.failed) return true;
+    }
+    truth_free(out);
+    return false;
+}
+
+void truth_free(TruthSet *set) {
+    free(set->block);
+    free(set->numbers);
+    free(set->slabs);
+    *set = (TruthSet){0};
+}
+
+void truth_pair(const Truth *truth, int pair, double wi[3], double wo[3]) {
+    int i = truth->i[pair], j = truth->j[pair];
+    double ri = sqrt(1.0 - truth->mu[i] * truth->mu[i]), ro = sqrt(1.0 - truth->mu[j] * truth->mu[j]);
+    double phi = truth->phi[j] + truth->turn[pair];
+    wi[0] = ri * cos(truth->phi[i]), wi[1] = ri * sin(truth->phi[i]), wi[2] = truth->mu[i];
+    wo[0] = ro * cos(phi), wo[1] = ro * sin(phi), wo[2] = truth->mu[j];
+}
+
+double truth_row_i(const Truth *t, int p) { return 2.0 * pi * t->share[p] * t->w[t->j[p]] * t->mu[t->j[p]]; }
+double truth_row_j(const Truth *t, int p) {
+    return t->i[p] == t->j[p] ? 0.0 : 2.0 * pi * t->share[p] * t->w[t->i[p]] * t->mu[t->i[p]];
+}
+
+bool truth_error(const Truth *t, const double *f, TruthError *out) {
+    size_t sides = (size_t)t->sides;
+    double *error = alloc_array(2 * sides, sizeof(double)), *dr = error + sides, all = 0.0;
+    if (!error) return false;
+    for (int p = 0; p < t->pairs; p++) {
+        double d = f[p] - t->f[p];
+        dr[t->i[p]] += truth_row_i(t, p) * d;
+        dr[t->j[p]] += truth_row_j(t, p) * d;
+        error[t->i[p]] += truth_row_i(t, p) * fabs(d);
+        error[t->j[p]] += truth_row_j(t, p) * fabs(d);
+    }
+    *out = (TruthError){0.0, 0.0, 0.0, 0.0};
+    for (size_t k = 0; k < sides; k++) {
+        double r = t->reflected[k];
+        out->albedo = fmax(out->albedo, fabs(dr[k]));
+        out->most = fmax(out->most, r + dr[k]);
+        if (r <= 1e-3) continue;
+        out->mean += error[k] / r * t->w[k];
+        out->worst = fmax(out->worst, error[k] / r);
+        all += t->w[k];
+    }
+    out->mean /= fmax(all, 1e-30);
+    free(error);
+    return true;
+}
+
+double truth_once(const Truth *t, int p) {
+    Heading i = {t->mu[t->i[p]], t->phi[t->i[p]]}, o = {t->mu[t->j[p]], t->phi[t->j[p]] + t->turn[p]};
+    return tilted_single(&t->slab, t->tilt, i, o);
+}
