@@ -9,8 +9,9 @@
 #define ALONE(clone)    __attribute__((noinline, section(SECTION(clone))))
 #define CLONES          ALONE(CLONE)
 
-#define lobe_eval_n NAMED(lobe_eval_n, CLONE)
-#define lobe_pdf_n  NAMED(lobe_pdf_n, CLONE)
+#define lobe_eval_n   NAMED(lobe_eval_n, CLONE)
+#define lobe_pdf_n    NAMED(lobe_pdf_n, CLONE)
+#define lobe_tinted_n NAMED(lobe_tinted_n, CLONE)
 #include "shading/arrays.c"
 
 #ifdef __FMA__

@@ -85,6 +85,20 @@ typedef struct WeftBakeInfo {
  * progress says so; fails with WEFT_MESSAGE_BAKE_KIND, _DESC or _MEMORY. info may be NULL. */
 WEFT_API WeftResult weft_bake(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
 
+/* The fit behind the lobe `fibre`. Zero means default, in every member. */
+typedef struct WeftFibreModelDesc {
+    int rounds;            /* of the search, each stage; 0: 120, at most 1000 */
+    int threads;           /* 0: all; no influence on the numbers */
+    WeftProgress progress; /* may be NULL; a result other than 0 stops */
+    void *user;            /* of progress */
+} WeftFibreModelDesc;
+
+/* Solves slabs of fibres, fits the closed form to them, and writes its numbers as the header
+ * shading/tables/fibre_model.h, which begins with `command`. Minutes. *text is released with free().
+ * WEFT_INTERRUPTED where progress says so; fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
+                                          WeftError *error);
+
 /* Auditing a table of E. */
 
 /* F(id, name in JSON): what can be wrong with a table. */

@@ -23,7 +23,8 @@ enum {
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
     WEFT_LOBE_REFERENCE = 32,   /* f is an estimate, and its mean over near directions is meant */
     WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
-    WEFT_LOBE_TABLE = 128       /* reads a table that is made at the first use of the lobe */
+    WEFT_LOBE_TABLE = 128,      /* reads a table that is made at the first use of the lobe */
+    WEFT_LOBE_TINTED = 256      /* its colour is no factor on f but the albedo of its fibres, in [0, 1] */
 };
 
 typedef struct WeftParamInfo {
@@ -78,7 +79,9 @@ WEFT_API const char *weft_catalogue_text(const char *path);
 typedef struct WeftLobe {
     int lobe;
     float params[WEFT_LOBE_PARAMS_MAX];
-    float f0[3], f90[3]; /* colour; f90 counts only for WEFT_LOBE_TWO_COLORS */
+    /* Colour; f90 counts only for WEFT_LOBE_TWO_COLORS. With WEFT_LOBE_TINTED f0 is the albedo of the fibres:
+     * light scattered n times has its n-th power, so f and E fall faster than f0, and more saturated. */
+    float f0[3], f90[3];
 } WeftLobe;
 
 /* The lobe with its default parameters, white. Fails with WEFT_MESSAGE_LOBE_NAME. */

@@ -45,8 +45,11 @@ typedef struct WeftPassport {
     float albedo_most;
     WeftPlace albedo_place;
     int albedo_above; /* cells above 1.001 */
+    /* With WEFT_LOBE_TINTED: the same of fibres that keep half of the light. */
+    float albedo_half[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_COSINES];
 
-    /* The largest |f(wo, wi) - f(wi, wo)| over the larger of the two (of 1e-3 / sr at the least). */
+    /* The largest |f(wo, wi) - f(wi, wo)| over the larger of the two (of 1e-3 / sr at the least); with
+     * WEFT_LOBE_TINTED in white and at albedo 0.5, as the sweep is. */
     float reciprocity;
     WeftPlace reciprocity_place;
 
@@ -83,7 +86,8 @@ typedef struct WeftPassport {
     long long sweep_infinite, sweep_negative; /* f, pdf or a sample that is not finite; f or pdf below 0 */
     long long sweep_below;                    /* f or pdf that is not 0 below the horizon */
 
-    /* f over the sweep in half precision, every value and operation rounded to 16 bits. A floor is on both
+    /* f over the sweep in half precision (with WEFT_LOBE_TINTED at albedo 0.5), every value and operation
+     * rounded to 16 bits. A floor is on both
      * cosines. half_floor: of a row, the exponent e of the smallest power of two, 2^-e, with which all is
      * finite and not negative; WEFT_HALF_FREE where it takes no floor, 0 where none up to 2^-7 helps. */
     int half_measured;              /* 0: the compiler that built this has no _Float16; or a profile */

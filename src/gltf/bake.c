@@ -214,11 +214,13 @@ static void bake_colors(Bake *bake) {
 
 /* The input whose map tangents of this material are for, or NULL where it needs none. */
 static const Input *tangent_input(const Material *material) {
-    static const int maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction};
+    static const int maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction,
+                               INPUT_nap_direction};
     const Input *inputs = material->inputs;
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (inputs[maps[i]].texture) return &inputs[maps[i]];
-    return inputs[INPUT_anisotropy].value[0] > 0.0f ? &inputs[INPUT_anisotropy] : NULL;
+    if (inputs[INPUT_anisotropy].value[0] > 0.0f) return &inputs[INPUT_anisotropy];
+    return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
 }
 
 static void complete_tangents(Bake *bake) {

@@ -132,6 +132,29 @@ static void sheen_read(const Field *material, Input *inputs) {
                 "sheenRoughnessTexture", A);
 }
 
+/* extras.weft: what no extension of glTF says. Other extras are for others. */
+static void extras_read(const Field *material, Input *inputs) {
+    static const char *const keys[] = {"sheenDensity", "nap", "napRotation", "napTexture"};
+    Field extras = field_member(material, "extras");
+    if (!json_is_object(extras.json)) return;
+    Field weft = field_member(&extras, "weft"), rotation = field_member(&weft, "napRotation"),
+          texture = field_member(&weft, "napTexture");
+    const InputInfo *density = &input_infos[INPUT_sheen_density];
+    Field density_field = field_member(&weft, keys[0]);
+    inputs[INPUT_sheen_density].value[0] = (float)field_number(
+        &density_field, (double)density->def, (double)density->hard_low, (double)density->hard_high);
+    scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 1.57079633f, "napTexture", B);
+    inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
+    texture_read(&texture, &inputs[INPUT_nap_direction], 0);
+    const char *key;
+    json_t *value;
+    json_object_foreach(weft.json, key, value) {
+        bool known = false;
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) known |= strcmp(key, keys[k]) == 0;
+        if (!known) field_warn(&weft, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", key);
+    }
+}
+
 static AlphaMode alpha_mode_read(const Field *field) {
     static const char *const names[] = {"OPAQUE", "MASK", "BLEND"};
     const char *text = field_text(field, "OPAQUE");
@@ -161,6 +184,7 @@ static Material material_read(const Field *field) {
     anisotropy_read(field, inputs);
     clearcoat_read(field, inputs);
     sheen_read(field, inputs);
+    extras_read(field, inputs);
     return material;
 }
 

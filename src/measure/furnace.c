@@ -56,6 +56,7 @@ Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const Albe
                        .sheen = 1.0f,
                        .ior = 1.0f,
                        .sheen_roughness = roughness,
+                       .sheen_density = 1.0f,
                        .normal = {0.0f, 0.0f, 1.0f},
                        .clearcoat_normal = {0.0f, 0.0f, 1.0f}};
     Choices choices = choices_unmade();

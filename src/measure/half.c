@@ -41,8 +41,16 @@ void half_tables(const HalfTable *tables, int count) {
         HALF_RECORD(Record, NAME)                                                                            \
         return name##_eval(m, a) * half_mix(1.0f16, name##_second(m, 1.0f16, 1.0f16), name##_share(m, a));   \
     }
+/* In a middle colour: white would not ask for the tint. */
+#define HALF_TINTED(id, name, Record, NAME)                                                                  \
+    static Half name##_half(const Single *p, Angles a) {                                                     \
+        HALF_RECORD(Record, NAME)                                                                            \
+        Record##Ready ready = name##_ready(m);                                                               \
+        return name##_eval(ready, a) * tint_color(name##_tint(ready, a), 0.5f16);                            \
+    }
 WEFT_ONE_COLOR_LOBES(HALF_ONE)
 WEFT_TWO_COLOR_LOBES(HALF_TWO)
+WEFT_TINTED_LOBES(HALF_TINTED)
 
 #define HALF_CALL(id, name, Record, NAME) [LOBE_##NAME] = name##_half,
 static Half (*const evals[LOBE_COUNT])(const Single *, Angles) = {WEFT_TEXT_LOBES(HALF_CALL)};

@@ -62,11 +62,17 @@ static void ours_fill(Ours *ours, Dir o) {
 
 static void lobe_f(const View *view, Dirs i, float *f) {
     Ours o;
-    float share[BLOCK];
+    float share[BLOCK], same[2][BLOCK], w = view->subject->albedo;
     ours_fill(&o, view->o);
-    bool mixes = (weft_lobe_info(view->lobe.id)->traits & TRAIT_TWO_COLORS) != 0;
+    unsigned traits = weft_lobe_info(view->lobe.id)->traits;
+    bool mixes = (traits & TRAIT_TWO_COLORS) != 0, tinted = traits & TRAIT_TINTED && w < 1.0f;
     for (size_t at = 0; at < i.n; at += BLOCK) {
         size_t n = i.n - at < BLOCK ? i.n - at : BLOCK;
+        if (tinted) {
+            lobe_tinted_n(&view->lobe, (const float[3]){w, w, w}, n, o.x, o.y, o.z, i.x + at, i.y + at,
+                          i.z + at, (float *const[3]){f + at, same[0], same[1]});
+            continue;
+        }
         lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at,
                     mixes ? share : NULL);
         for (size_t k = 0; mixes && k < n; k++) f[at + k] *= 1.0f - share[k] + share[k] * view->second;
@@ -93,6 +99,7 @@ static int nearest_row(const Subject *subject, float value) {
 void subject_of_lobe(Subject *subject, const Lobe *lobe, bool quick) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     *subject = (Subject){.lobe = *lobe,
+                         .albedo = 1.0f,
                          .parameter = "",
                          .look = lobe_look,
                          .f = lobe_f,
@@ -140,7 +147,8 @@ static const Surface velvet = {.base_color = {1.0f, 1.0f, 1.0f},
                                .sheen = 1.0f,
                                .sheen_tint = 0.5f,
                                .sheen_second = {1.0f, 1.0f, 1.0f},
-                               .sheen_color = {1.0f, 1.0f, 1.0f}};
+                               .sheen_color = {1.0f, 1.0f, 1.0f},
+                               .sheen_density = 1.0f};
 
 /* Roughnesses at their ends, metal or not, a coat or not, a sheen or not. */
 static Surface extreme_velvet(int k) {

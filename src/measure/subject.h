@@ -1,7 +1,7 @@
 /* subject.h - what a passport is made of: a lobe, or a whole material under a profile, behind one signature
  *
- * A subject is white. It has settings: the rows of the passport, then extremes for the sweep. The calls are
- * pointers so that a test can put a wrong one in. */
+ * A subject is white, unless it is tinted and `albedo` says otherwise. It has settings: the rows of the
+ * passport, then extremes for the sweep. The calls are pointers so that a test can put a wrong one in. */
 #ifndef WEFT_MEASURE_SUBJECT_H
 #define WEFT_MEASURE_SUBJECT_H
 
@@ -34,7 +34,8 @@ struct Subject {
     int settings;                     /* rows and extremes */
 
     Lobe lobe;
-    bool whole; /* a material: */
+    float albedo; /* what a tinted lobe is made of; 1: it is white */
+    bool whole;   /* a material: */
     Surface surfaces[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES];
     Choices choices;
     AlbedoTable *tables; /* of E, released by subject_free; that of a setting: */

@@ -11,7 +11,7 @@
 
 typedef struct Compute Compute;
 
-enum { COMPUTE_INPUTS_MAX = 16, COMPUTE_OUTPUTS_MAX = 16 };
+enum { COMPUTE_INPUTS_MAX = 32, COMPUTE_OUTPUTS_MAX = 16 };
 
 typedef struct ComputeDesc {
     const char *name; /* what it is for, in errors */

@@ -102,6 +102,7 @@ static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *s
 }
 
 static float plain_SCALAR(const Input *input) { return input->value[0]; }
+static float plain_ANGLE(const Input *input) { return input->value[0]; }
 static Rgb plain_COLOR(const Input *input) {
     return (Rgb){input->value[0], input->value[1], input->value[2]};
 }
@@ -115,6 +116,8 @@ static float read_SCALAR(Lookup *lookup, const Input *input) {
     const SrgbTable *srgb = input->channel == 3 ? lookup->last_srgb : NULL;
     return input->value[0] * fetch(lookup, input, srgb)->c[input->channel];
 }
+
+static float read_ANGLE(Lookup *lookup, const Input *input) { return read_SCALAR(lookup, input); }
 
 static Rgb read_COLOR(Lookup *lookup, const Input *input) {
     const float *c = fetch(lookup, input, &lookup->scene->srgb)->c;

@@ -10,17 +10,17 @@
 #include "shading/input_ids.h"
 
 /* How an input's value and texture make the number or direction at a point.
- * SCALAR: value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
+ * SCALAR, ANGLE (radians): value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
  * NORMAL: value[0] scales x and y of 2 t - 1; without a texture the surface is smooth.
  * DIRECTION: value[0] is an angle (radians, from the tangent towards the bitangent) added to that of 2 t.rg
  * - 1. */
-typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION } InputKind;
+typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION, INPUT_ANGLE } InputKind;
 
 typedef struct InputInfo {
     const char *name, *help;
     InputKind kind;
     float def;
-    float low, high;           /* plausible */
+    float low, high;           /* plausible; angles in degrees */
     float hard_low, hard_high; /* values are clamped to this */
 } InputInfo;
 
@@ -30,7 +30,7 @@ typedef struct Input {
     float value[3];
     int texture;      /* index into the scene's textures + 1; 0 is none */
     uint8_t texcoord; /* UV set, 0 or 1 */
-    uint8_t channel;  /* of the texture, for SCALAR: 0 r, 1 g, 2 b, 3 a */
+    uint8_t channel;  /* of the texture, for SCALAR and ANGLE: 0 r, 1 g, 2 b, 3 a */
     bool given;       /* by the user: no workflow has a default of its own for it */
     /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
     float transform[6];

@@ -76,7 +76,6 @@ static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
         for (size_t c = 0; c < 3; c++) v[c] = number(r, json_array_get(json, c), "an element");
     } else if (json_is_number(json)) {
         v[0] = v[1] = v[2] = number(r, json, "it");
-        if (info->kind == INPUT_DIRECTION) v[0] *= 3.14159265f / 180.0f;
     } else {
         refuse(r, color ? "expected a number, [r, g, b], \"#rrggbb\" or an object with a texture"
                         : "expected a number or an object with a texture");
@@ -157,7 +156,8 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
             if (!file || !file[0] || strlen(file) > 4096) refuse(r, "texture is not the name of a file");
         } else if (strcmp(key, "factor") == 0) {
             read_value(r, value, id, input->value);
-        } else if (strcmp(key, "channel") == 0 && input_infos[id].kind == INPUT_SCALAR) {
+        } else if (strcmp(key, "channel") == 0 &&
+                   (input_infos[id].kind == INPUT_SCALAR || input_infos[id].kind == INPUT_ANGLE)) {
             input->channel = (uint8_t)one_of(r, value, key, channels);
         } else if (strcmp(key, "texcoord") == 0) {
             float set = number(r, value, key);
@@ -195,9 +195,12 @@ static void read_input(Reader *r, json_t *json, InputId id) {
         read_value(r, json, id, input->value);
         return;
     }
-    /* the texture alone counts, unless there is a factor; an angle is added */
-    bool angle = input_infos[id].kind == INPUT_DIRECTION;
-    for (int c = 0; c < 3; c++) input->value[c] = angle ? 0.0f : 1.0f;
+    /* the texture alone counts, unless there is a factor; a direction is added, an angle is the greatest */
+    const InputInfo *info = &input_infos[id];
+    float factor = info->kind == INPUT_DIRECTION ? 0.0f
+                   : info->kind == INPUT_ANGLE   ? info->high * (3.14159265f / 180.0f)
+                                                 : 1.0f;
+    for (int c = 0; c < 3; c++) input->value[c] = factor;
     read_texture(r, json, id, input);
 }
 

@@ -65,9 +65,7 @@ bool material_matches(const WeftScene *scene, int k, const char *name) {
 
 static bool parse_input(const InputInfo *info, const char *text, float value[3]) {
     if (info->kind == INPUT_COLOR) return parse_color(text, value);
-    if (!parse_number(text, value)) return false;
-    if (info->kind == INPUT_DIRECTION) value[0] *= 3.14159265f / 180.0f;
-    return true;
+    return parse_number(text, value);
 }
 
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log) {
@@ -78,7 +76,8 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
     else if (info->kind != INPUT_DIRECTION && (value < info->low || value > info->high))
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is not in %g .. %g", (double)value, (double)info->low,
              (double)info->high);
-    return taken;
+    bool angle = info->kind == INPUT_DIRECTION || info->kind == INPUT_ANGLE;
+    return angle ? taken * (3.14159265f / 180.0f) : taken;
 }
 
 /* What a setting asks for: an input, or a choice. The other is -1. */

@@ -13,8 +13,10 @@ int material_choice(const char *name);
 /* The value of a choice from an id, an alias or "auto". Fails with PARAM_VALUE. */
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 
-/* value, clamped to the hard range of an input; a warning about target where it is beyond the plausible one.
- * Angles are in radians, and any of them is plausible. */
+/* What a number given for an input becomes: clamped to the hard range, with a warning about target where it
+ * is beyond the plausible one, and of angles, which are given in degrees, in radians. Any DIRECTION is
+ * plausible.
+ */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
 
 /* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */

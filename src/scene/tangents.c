@@ -3,11 +3,13 @@
 #include "base/fail.h"
 
 const Input *tangents_input(const Material *material) {
-    static const InputId maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction};
+    static const InputId maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction,
+                                   INPUT_nap_direction};
     const Input *inputs = material->inputs;
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         if (inputs[maps[k]].texture) return &inputs[maps[k]];
-    return inputs[INPUT_anisotropy].value[0] > 0.0f ? &inputs[INPUT_anisotropy] : NULL;
+    if (inputs[INPUT_anisotropy].value[0] > 0.0f) return &inputs[INPUT_anisotropy];
+    return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
 }
 
 typedef struct Vec2 {

@@ -34,16 +34,31 @@ static Rule rule_make(double step) {
     return rule;
 }
 
+/* What is integrated of a lobe: f times 1 - share and times share; of a tinted one, given the albedos w, f in
+ * these three colours. */
+typedef struct Asked {
+    const Lobe *lobe;
+    const float *w; /* NULL: two parts */
+} Asked;
+
 typedef struct Sum {
-    double f0, f90;
+    double part[3];
 } Sum;
 
+static void add(Sum *sum, double weight, const Sum *more) {
+    for (int p = 0; p < 3; p++) sum->part[p] += weight * more->part[p];
+}
+
+static double distance(const Sum *a, const Sum *b) {
+    return fabs(a->part[0] - b->part[0]) + fabs(a->part[1] - b->part[1]) + fabs(a->part[2] - b->part[2]);
+}
+
 /* Sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
-static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double cos_i) {
+static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, double cos_i) {
     float ox[2 * NODES_MAX], oy[2 * NODES_MAX], oz[2 * NODES_MAX];
-    float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[2 * NODES_MAX], share[2 * NODES_MAX];
+    float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[3][2 * NODES_MAX];
     double w[2 * NODES_MAX];
-    unsigned traits = weft_lobe_info((int)lobe->id)->traits;
+    unsigned traits = weft_lobe_info((int)asked->lobe->id)->traits;
     bool diffuse = (traits & TRAIT_DIFFUSE) != 0;                 /* some have a kink at phi = pi / 2 */
     int mirrored = diffuse || traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
     double s = hypot((double)wo.x, (double)wo.y);
@@ -60,16 +75,23 @@ static Sum ring(const Lobe *lobe, Dir wo, const Rule *rule, double sin_i, double
             ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
             w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
         }
-    lobe_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f, share);
     Sum sum = {0};
+    if (asked->w) {
+        lobe_tinted_n(asked->lobe, asked->w, n, ox, oy, oz, ix, iy, iz, (float *const[3]){f[0], f[1], f[2]});
+        for (int p = 0; p < 3; p++)
+            for (size_t k = 0; k < n; k++) sum.part[p] += w[k] * (double)f[p][k];
+        return sum;
+    }
+    float *share = f[1];
+    lobe_eval_n(asked->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
     for (size_t k = 0; k < n; k++) {
-        sum.f0 += w[k] * (double)f[k] * (1.0 - (double)share[k]);
-        sum.f90 += w[k] * (double)f[k] * (double)share[k];
+        sum.part[0] += w[k] * (double)f[0][k] * (1.0 - (double)share[k]);
+        sum.part[1] += w[k] * (double)f[0][k] * (double)share[k];
     }
     return sum;
 }
 
-static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
+static Sum hemisphere(const Asked *asked, Dir wo, const Rule *rule) {
     double theta_o = atan2(hypot((double)wo.x, (double)wo.y), (double)wo.z), half_pi = 1.57079632679490;
     Sum sum = {0};
     for (int piece = 0; piece < 2; piece++) {
@@ -79,13 +101,25 @@ static Sum hemisphere(const Lobe *lobe, Dir wo, const Rule *rule) {
             /* the second piece measures from the horizon, where the cosine needs its digits */
             double a = piece ? width * rule->rest[k] : width * rule->x[k];
             double sin_i = piece ? (cos)(a) : (sin)(a), cos_i = piece ? (sin)(a) : (cos)(a);
-            Sum part = ring(lobe, wo, rule, sin_i, cos_i);
-            double w = rule->w[k] * width * sin_i * cos_i;
-            sum.f0 += w * part.f0;
-            sum.f90 += w * part.f90;
+            Sum part = ring(asked, wo, rule, sin_i, cos_i);
+            add(&sum, rule->w[k] * width * sin_i * cos_i, &part);
         }
     }
     return sum;
+}
+
+static Sum quadrature(const Asked *asked, Dir wo, double tolerance, double *error) {
+    Rule rule = rule_make(0.25);
+    Sum before = hemisphere(asked, wo, &rule), now = before;
+    for (int halving = 3; halving <= 5; halving++) {
+        rule = rule_make(ldexp(1.0, -halving));
+        now = hemisphere(asked, wo, &rule);
+        /* halving the step about squares the error, so the last difference is a safe bound */
+        *error = distance(&now, &before);
+        if (*error < tolerance) break;
+        before = now;
+    }
+    return now;
 }
 
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error) {
@@ -93,22 +127,19 @@ Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, doubl
         *error = tolerance; /* of walks: a standard error */
         return (Albedo){lobe_walked_albedo(lobe, wo, (int)(4.0 / tolerance)), 0.0f};
     }
-    Rule rule = rule_make(0.25);
-    Sum before = hemisphere(lobe, wo, &rule), now = before;
-    for (int halving = 3; halving <= 5; halving++) {
-        rule = rule_make(ldexp(1.0, -halving));
-        now = hemisphere(lobe, wo, &rule);
-        /* halving the step about squares the error, so the last difference is a safe bound */
-        *error = fabs(now.f0 - before.f0) + fabs(now.f90 - before.f90);
-        if (*error < tolerance) break;
-        before = now;
-    }
-    return (Albedo){(float)now.f0, (float)now.f90};
+    Sum e = quadrature(&(Asked){lobe, NULL}, wo, tolerance, error);
+    return (Albedo){(float)e.part[0], (float)e.part[1]};
 }
 
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
     double error;
     return albedo_quadrature_error(lobe, wo, tolerance, &error);
+}
+
+void albedo_tinted(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {
+    double error;
+    Sum sum = quadrature(&(Asked){lobe, w}, wo, tolerance, &error);
+    for (int c = 0; c < 3; c++) e[c] = (float)sum.part[c];
 }
 
 static float fourth_root(float x) { return sqrt(sqrt(x)); }
@@ -118,6 +149,9 @@ typedef struct Fill {
     AlbedoTable *table;
     const Lobe *lobe;
 } Fill;
+
+/* The colours, beside white, that the maps of a tinted lobe are made from: the last is 0 in the limit. */
+static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
 static void fill_column(void *user, int column, int thread) {
     (void)thread;
@@ -132,6 +166,10 @@ static void fill_column(void *user, int column, int thread) {
         if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, r4 * r4);
         Albedo e = albedo_quadrature(&lobe, wo, 1e-4);
         table->e[row][column] = e.f0 + e.f90;
+        if (table->maps == 1) continue;
+        float colors[3];
+        albedo_tinted(&lobe, wo, map_colors, 1e-4, colors);
+        for (int c = 0; c < 3; c++) table->e[(1 + c) * table->rows + row][column] = colors[c];
     }
 }
 
@@ -147,6 +185,31 @@ static double row_average(const AlbedoTable *table, int row) {
     return sum;
 }
 
+/* log of r^2 = ((1 - q) / (1 - w q))^2 at w_1 = 7/8, less a quarter of that at w_2 = 1/2: what is left of the
+ * two when e is eliminated, since (1 - w_1) / (1 - w_2) = 1/4. It falls as q grows. */
+static double without_e(double q) {
+    return 1.5 * log1p(-q) - 2.0 * log1p(-0.875 * q) + 0.5 * log1p(-0.5 * q);
+}
+
+/* E of white and of the three colours w becomes E, s, q and e:
+ *
+ *   E(w) / w -> (1 - s) E(1) for w -> 0,   (E(w) / E(1) - (1 - s) w) / (s w^2) = r^2 exp((1 - w) e) */
+static void solve_maps(float *map[ALBEDO_MAPS]) {
+    double white = fmax((double)*map[0], 1e-30), low = 0.0, high = 0.999;
+    double s = fmin(fmax(1.0 - (double)*map[3] / ((double)map_colors[2] * white), 1e-6), 1.0), y[2];
+    for (int c = 0; c < 2; c++) {
+        double w = (double)map_colors[c], more = (double)*map[1 + c] / white - (1.0 - s) * w;
+        y[c] = log1p(fmax(more / (s * w * w), 1e-9) - 1.0);
+    }
+    for (int halving = 0; halving < 40; halving++) {
+        double q = 0.5 * (low + high);
+        *(without_e(q) > y[0] - 0.25 * y[1] ? &low : &high) = q;
+    }
+    *map[1] = (float)s;
+    *map[2] = (float)low;
+    *map[3] = (float)fmin(fmax(2.0 * (y[1] - 2.0 * (log1p(-low) - log1p(-0.5 * low))), -20.0), 20.0);
+}
+
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
     const WeftLobeInfo *info = weft_lobe_info((int)lobe->id);
     table->lobe = *lobe;
@@ -159,8 +222,17 @@ void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
     table->root_low = eighth_root(low);
     table->root_high = eighth_root(high);
     table->rows = info->param_count > 0 && low < high ? ALBEDO_ROWS : 1;
+    table->maps = info->traits & TRAIT_TINTED ? ALBEDO_MAPS : 1;
     parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, lobe});
-    for (int row = 0; row < table->rows; row++) table->e[row][ALBEDO_MU] = (float)row_average(table, row);
+    for (int row = 0; row < table->maps * table->rows; row++)
+        table->e[row][ALBEDO_MU] = (float)row_average(table, row);
+    if (table->maps == 1) return;
+    for (int row = 0; row < table->rows; row++)
+        for (int column = 0; column <= ALBEDO_MU; column++) {
+            float *map[ALBEDO_MAPS];
+            for (int k = 0; k < ALBEDO_MAPS; k++) map[k] = &table->e[k * table->rows + row][column];
+            solve_maps(map);
+        }
 }
 
 static bool same(float a, float b) { return !(a < b) && !(a > b); }
@@ -174,7 +246,7 @@ bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, 
 
 TableRef albedo_table_ref(const AlbedoTable *table) {
     return (TableRef){.texels = table->e[0],
-                      .kind = TABLE_ROOTS,
+                      .kind = table->maps > 1 ? TABLE_TINTED : TABLE_ROOTS,
                       .rows = table->rows,
                       .columns = ALBEDO_MU,
                       .low = table->root_low,

@@ -22,18 +22,29 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
  * `tolerance` where the finest step was not enough. */
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
+/* E of a tinted lobe made of what has albedo w[c]: of each by itself, for it is no factor. */
+void albedo_tinted(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
+
 /* E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, ALBEDO_MU nodes uniform in y, and over one
  * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends
  * about equally everywhere, though it changes fastest near grazing at low alpha, and for some diffuse lobes
- * as sin(theta_o) near the normal. */
-enum { ALBEDO_MU = 40, ALBEDO_ROWS = 32 };
+ * as sin(theta_o) near the normal.
+ *
+ * For a tinted lobe there are three maps more, from which E(w) of any colour follows by the law of its f:
+ *
+ *   E(w) = E(1) c(w),  c: tint_color with s, q_o = q_i = q and e of these maps
+ *
+ * which is right at w = 1, at 7/8, at 1/2 and, as a slope, at 0. */
+enum { ALBEDO_MU = 40, ALBEDO_ROWS = 32, ALBEDO_MAPS = 4 };
 
 typedef struct AlbedoTable {
     Lobe lobe; /* its parameter 0 says nothing */
     int rows;
     float low, high;           /* the range asked for */
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */
-    float e[ALBEDO_ROWS][ALBEDO_MU + 1]; /* the last column: E on cosine average, 2 integral of E mu dmu */
+    /* E, then s, q and e. The last column: on cosine average, 2 integral of E mu dmu, and s, q, e of that. */
+    float e[ALBEDO_MAPS * ALBEDO_ROWS][ALBEDO_MU + 1];
+    int maps; /* of `rows` rows each */
 } AlbedoTable;
 
 /* Fills the table for a lobe as its parameter 0 runs over low .. high (equal: one row), the others as given.

@@ -32,25 +32,52 @@ FN bool pair_counts(Dir o, Dir i) {
     i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
 
 /* name_QUESTION_n asks the lobe for one float per pair of directions. */
-#define ASK_N(question, name, Record, NAME)                                                                  \
+#define ASK_N(question, name, Record, NAME) ASK_OF_N(question, name, Record, NAME, Record, m)
+#define ASK_OF_N(question, name, Record, NAME, Asked, asked)                                                 \
     CLONES static void name##_##question##_n(const float *p, size_t n, const float *restrict ox,             \
                                              const float *restrict oy, const float *restrict oz,             \
                                              const float *restrict ix, const float *restrict iy,             \
                                              const float *restrict iz, float *restrict f) {                  \
         Record m = {0};                                                                                      \
         NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
+        Asked of = asked;                                                                                    \
         _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
             TAKE_PAIR(o, i, counts);                                                                         \
-            float e = name##_##question(m, angles_between(o, i));                                            \
+            float e = name##_##question(of, angles_between(o, i));                                           \
             f[k] = counts ? e : 0.0f;                                                                        \
         }                                                                                                    \
     }
 #define EVAL_N(id, name, Record, NAME)  ASK_N(eval, name, Record, NAME)
+#define READY_N(id, name, Record, NAME) ASK_OF_N(eval, name, Record, NAME, Record##Ready, name##_ready(m))
 #define PDF_N(id, name, Record, NAME)   ASK_N(pdf, name, Record, NAME)
 #define SHARE_N(id, name, Record, NAME) ASK_N(share, name, Record, NAME)
-WEFT_TEXT_LOBES(EVAL_N)
+WEFT_ONE_COLOR_LOBES(EVAL_N)
+WEFT_TWO_COLOR_LOBES(EVAL_N)
+WEFT_TINTED_LOBES(READY_N)
 WEFT_LOBES(PDF_N)
 WEFT_TWO_COLOR_LOBES(SHARE_N)
+
+/* f in three colours, which share all but what a colour does. */
+#define TINTED_N(id, name, Record, NAME)                                                                     \
+    CLONES static void name##_tinted_n(                                                                      \
+        const float *p, const float w[3], size_t n, const float *restrict ox, const float *restrict oy,      \
+        const float *restrict oz, const float *restrict ix, const float *restrict iy,                        \
+        const float *restrict iz, float *restrict r, float *restrict g, float *restrict b) {                 \
+        Record m = {0};                                                                                      \
+        NAME##_PARAMS(FROM_ARRAY)(void) p;                                                                   \
+        Record##Ready of = name##_ready(m);                                                                  \
+        float w_r = w[0], w_g = w[1], w_b = w[2];                                                            \
+        _Pragma("omp simd") for (size_t k = 0; k < n; k++) {                                                 \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            Angles a = angles_between(o, i);                                                                 \
+            float e = name##_eval(of, a), f = counts ? e : 0.0f;                                             \
+            Tint t = name##_tint(of, a);                                                                     \
+            r[k] = f * tint_color(t, w_r);                                                                   \
+            g[k] = f * tint_color(t, w_g);                                                                   \
+            b[k] = f * tint_color(t, w_b);                                                                   \
+        }                                                                                                    \
+    }
+WEFT_TINTED_LOBES(TINTED_N)
 
 /* The composed lobe, one term at a time with its number a constant: a loop with a chain of terms in it stays
  * scalar, which is ten times slower. */
@@ -126,6 +153,7 @@ void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, c
         return;
         WEFT_ONE_COLOR_LOBES(ONE_COLOR_EVAL_N)
         WEFT_TWO_COLOR_LOBES(TWO_COLOR_EVAL_N)
+        WEFT_TINTED_LOBES(ONE_COLOR_EVAL_N)
     default: break; /* a walk is no loop of vectors */
     }
     for (size_t k = 0; k < n; k++) {
@@ -145,5 +173,22 @@ void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, co
     case LOBE_##NAME: name##_pdf_n(lobe->params, n, ox, oy, oz, ix, iy, iz, pdf); return;
         WEFT_LOBES(LOBE_PDF_N)
     case LOBE_COUNT: return;
+    }
+}
+
+void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy,
+                   const float *oz, const float *ix, const float *iy, const float *iz, float *const f[3]) {
+    if (w[0] >= 1.0f && w[1] >= 1.0f && w[2] >= 1.0f) { /* white is quicker by itself */
+        lobe_eval_n(lobe, n, ox, oy, oz, ix, iy, iz, f[0], NULL);
+        memcpy(f[1], f[0], n * sizeof *f[1]);
+        memcpy(f[2], f[0], n * sizeof *f[2]);
+        return;
+    }
+    switch (lobe->id) {
+#define LOBE_TINTED_N(id, name, Record, NAME)                                                                \
+    case LOBE_##NAME: name##_tinted_n(lobe->params, w, n, ox, oy, oz, ix, iy, iz, f[0], f[1], f[2]); return;
+        WEFT_TINTED_LOBES(LOBE_TINTED_N)
+    default:
+        for (int c = 0; c < 3; c++) memset(f[c], 0, n * sizeof *f[c]);
     }
 }

@@ -5,6 +5,7 @@
 #ifndef WEFT_SHADING_COMPOSE_H
 #define WEFT_SHADING_COMPOSE_H
 
+#include "shading/azimuth.h"
 #include "shading/convert.h"
 #include "shading/lobes/cook_torrance.h"
 #include "shading/lobes/ggx.h"
@@ -56,6 +57,7 @@ FN float compose_ior(Surface s) {
 FN Stack compose_choices(Stack m, Surface s, Choices c) {
     if (c.sheen_lobe >= 0) {
         Lobe lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
+        lobe = lobe_fibres(lobe, s.sheen_density, s.nap, azimuth_of(s.nap_direction));
         m.sheen = slot_make(lobe, m.color, s.sheen_second, m.left, m.sheen.pick);
         m.albedo = ALBEDO_TABLE;
         m.at = lobe.params[0];
@@ -81,10 +83,10 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
 
 /* E of the white sheen towards a direction of that cosine. */
 #define COMPOSE_ALBEDO(name, index, formula)                                                                 \
-    if (m.albedo == index) return formula;
-FN float stack_albedo(Stack m, float cosine) {
+    if (m.albedo == index) return sheen_e_of(formula);
+FN SheenE stack_albedo(Stack m, float cosine) {
     WEFT_ALBEDO_FORMULAS(COMPOSE_ALBEDO)
-    return table_albedo(m.table, cosine, m.at);
+    return table_sheen(m.table, cosine, m.at);
 }
 
 /* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
@@ -92,9 +94,9 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
     m.table = e;
     if (m.sheen.pick > 0.0f) {
         m.e_o = stack_albedo(m, o.z);
-        m.e_avg = table_average(e, m.at);
+        m.e_avg = table_sheen_average(e, m.at);
         float keep = rgb_mean(stack_keep(m, m.e_o));
-        m.sheen.pick = m.layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m.sheen.pick * m.e_o, 1e-3f);
+        m.sheen.pick = m.layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m.sheen.pick * m.e_o.e, 1e-3f);
         m.diffuse.pick = m.diffuse.pick * keep;
         if (m.layer != LAYER_SEED) m.specular.pick = m.specular.pick * keep;
     }
@@ -124,7 +126,8 @@ FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
 
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
 FN StackValue stack_value(Stack m, Angles a, Angles coat) {
-    float e_i = m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f ? stack_albedo(m, a.i.z) : 0.0f;
+    SheenE e_i = sheen_e_of(0.0f);
+    if (m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f) e_i = stack_albedo(m, a.i.z);
     bool worn = m.color.r + m.color.g + m.color.b > 0.0f;
     Rgb keep = worn ? stack_keep(m, e_i) : rgb_grey(1.0f);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;

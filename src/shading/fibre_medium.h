@@ -52,7 +52,8 @@ FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
     float nu_o = dir_dot(o, t), nu_i = dir_dot(i, t);
     float lambda = flake_sigma(s, nu_i) * o.z + flake_sigma(s, nu_o) * i.z;
     Dir sum = dir(o.x + i.x, o.y + i.y, o.z + i.z);
-    return 0.25f * flake_d(s, dir_dot(sum, sum), nu_o + nu_i) * flake_seen(thickness, lambda, o.z * i.z);
+    /* nu_o + nu_i by the sum of the directions, which is exact where they are nearly opposite */
+    return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) * flake_seen(thickness, lambda, o.z * i.z);
 }
 
 /* S^(1/2) w; sigma is its length. */

@@ -8,7 +8,7 @@
 /* P(kind, name, default, low, high, hard_low, hard_high, help): low .. high is the plausible range, beyond
  * which a value is taken with a warning up to the hard range; colours use one number for all three channels.
  * SCALAR is a float, COLOR an Rgb, NORMAL a unit Dir in the tangent frame, DIRECTION an angle in the tangent
- * plane given as the Dir (cos, sin, 0). */
+ * plane given as the Dir (cos, sin, 0), ANGLE a float in radians. The ranges of angles are in degrees. */
 #define SURFACE_INPUTS(P)                                                                                    \
     P(COLOR, base_color, 0.8f, 0.0f, 1.0f, 0.0f, 1.0f,                                                       \
       "diffuse colour of a dielectric, reflectance of a metal")                                              \
@@ -45,7 +45,11 @@
       "second colour of a sheen that has two: at grazing, or of the weft yarns")                             \
     P(COLOR, sheen_color, 0.0f, 0.0f, 1.0f, 0.0f, 1000.0f, "colour of the sheen; black is none")             \
     P(SCALAR, sheen_roughness, 0.0f, 0.0f, 1.0f, 0.0f, 2.0f,                                                 \
-      "of the sheen; each lobe says what alpha it becomes")
+      "of the sheen; each lobe says what alpha it becomes")                                                  \
+    P(SCALAR, sheen_density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of the fibres of a sheen that has a density")  \
+    P(ANGLE, nap, 0.0f, 0.0f, 45.0f, 0.0f, 90.0f, "how far the fibres of a sheen lean over, degrees")        \
+    P(DIRECTION, nap_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f,                                             \
+      "where they lean to: angle from the tangent, degrees")
 
 /* C(name, help). The value is an index into a list of the catalogue, or CHOICE_AUTO: what the workflow, or
  * the profile, says. So a choice that is made wins over a profile. */

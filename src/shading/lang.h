@@ -9,6 +9,7 @@
 #if defined(GL_ES) || defined(GL_core_profile) /* predefined by every GLSL compiler */
 
 #define FN
+#define FN_APART
 #define STRUCT(Name) struct Name
 
 #define to_float(x) float(x)
@@ -27,7 +28,8 @@
 #include <string.h>
 
 #define FN       static inline __attribute__((always_inline, unused))
-/* One whose loops are to stay out of its callers. C only: of lobes with TRAIT_REFERENCE. */
+/* One that is to stay out of its callers: long text that runs once for many pairs, or has loops, which only
+ * lobes with TRAIT_REFERENCE may. */
 #define FN_APART static __attribute__((noinline, unused))
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \

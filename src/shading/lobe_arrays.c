@@ -44,6 +44,10 @@ static void channel(size_t n, const float *f, const float *s, float first, float
         for (size_t k = 0; k < n; k++) out[k] = f[k] * mix(first, second, s[k]);
 }
 
+static void copy(float *to, const float *from, size_t n) {
+    if (to) memcpy(to, from, n * sizeof *to);
+}
+
 static void clear(float *array, size_t n) {
     if (array) memset(array, 0, n * sizeof *array);
 }
@@ -68,12 +72,21 @@ WeftResult weft_eval_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDi
         clear(f.r, n), clear(f.g, n), clear(f.b, n);
         return no_lobe(error, lobe->lobe);
     }
-    bool two = (weft_lobe_info(lobe->lobe)->traits & TRAIT_TWO_COLORS) != 0;
-    float second[3], value[BLOCK], share[BLOCK];
+    unsigned traits = weft_lobe_info(lobe->lobe)->traits;
+    bool two = (traits & TRAIT_TWO_COLORS) != 0;
+    float second[3], value[BLOCK], share[BLOCK], red[BLOCK], green[BLOCK], blue[BLOCK];
     for (int c = 0; c < 3; c++) second[c] = lobe_second(inner, lobe->f0[c], lobe->f90[c]);
     Pairs p;
     for (size_t k = 0; k < n; k += p.used) {
         pairs_take(&p, k, n, wo, wi);
+        if (traits & TRAIT_TINTED) {
+            lobe_tinted_n(&inner, lobe->f0, p.n, p.ox, p.oy, p.oz, p.ix, p.iy, p.iz,
+                          (float *const[3]){red, green, blue});
+            copy(f.r ? f.r + k : NULL, red, p.used);
+            copy(f.g ? f.g + k : NULL, green, p.used);
+            copy(f.b ? f.b + k : NULL, blue, p.used);
+            continue;
+        }
         lobe_eval_n(&inner, p.n, p.ox, p.oy, p.oz, p.ix, p.iy, p.iz, value, two ? share : NULL);
         const float *s = two ? share : NULL;
         channel(p.used, value, s, lobe->f0[0], second[0], f.r ? f.r + k : NULL);

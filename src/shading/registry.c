@@ -23,8 +23,9 @@ WEFT_LOBES(LOBE_PARAM_INFOS)
     {id, traits, (int)(sizeof name##_params / sizeof name##_params[0]) - 1, name##_params},
 #define ONE_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS, id, name, NAME)
 #define TWO_COLOR_INFO(id, name, Record, NAME) LOBE_INFO(NAME##_TRAITS | TRAIT_TWO_COLORS, id, name, NAME)
+#define TINTED_INFO(id, name, Record, NAME)    LOBE_INFO(NAME##_TRAITS | TRAIT_TINTED, id, name, NAME)
 static const WeftLobeInfo infos[LOBE_COUNT] = {WEFT_ONE_COLOR_LOBES(ONE_COLOR_INFO) WEFT_TWO_COLOR_LOBES(
-    TWO_COLOR_INFO) WEFT_REFERENCE_LOBES(ONE_COLOR_INFO)};
+    TWO_COLOR_INFO) WEFT_TINTED_LOBES(TINTED_INFO) WEFT_REFERENCE_LOBES(ONE_COLOR_INFO)};
 
 /* The list and the trait say the same. */
 #define IS_TEXT(id, name, Record, NAME)                                                                      \
@@ -73,6 +74,26 @@ Lobe lobe_rough(int id, float roughness) {
     }
 }
 
+/* The names are constants here too. */
+#define PARAM_FIBRES(type, name, def, low, high, hard_low, hard_high, help)                                  \
+    if (strcmp(#name, "density") == 0) lobe.params[k] = clamp(density, hard_low, hard_high);                 \
+    if (strcmp(#name, "tilt") == 0) lobe.params[k] = clamp(tilt, hard_low, hard_high);                       \
+    if (strcmp(#name, "azimuth") == 0) lobe.params[k] = clamp(azimuth, hard_low, hard_high);                 \
+    k++;
+
+Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth) {
+    float first = lobe.params[0];
+    int k = 0;
+    switch (lobe.id) {
+#define LOBE_FIBRES(text, name, Record, NAME)                                                                \
+    case LOBE_##NAME: NAME##_PARAMS(PARAM_FIBRES) break;
+        WEFT_LOBES(LOBE_FIBRES)
+    default: break;
+    }
+    lobe.params[0] = first;
+    return lobe;
+}
+
 int lobe_param(int id, const char *name) {
     for (int k = 0; k < infos[id].param_count; k++)
         if (strcmp(infos[id].params[k].name, name) == 0) return k;
@@ -99,26 +120,37 @@ LobeValue lobe_value(const Lobe *lobe, Angles a) {
 #define ONE_COLOR_VALUE(id, name, Record, NAME)                                                              \
     case LOBE_##NAME: {                                                                                      \
         Record m = name##_record(lobe->params);                                                              \
-        return (LobeValue){name##_eval(m, a), 0.0f, name##_pdf(m, a)};                                       \
+        return (LobeValue){name##_eval(m, a), 0.0f, name##_pdf(m, a), tint_none()};                          \
     }
 #define TWO_COLOR_VALUE(id, name, Record, NAME)                                                              \
     case LOBE_##NAME: {                                                                                      \
         Record m = name##_record(lobe->params);                                                              \
-        return (LobeValue){name##_eval(m, a), name##_share(m, a), name##_pdf(m, a)};                         \
+        return (LobeValue){name##_eval(m, a), name##_share(m, a), name##_pdf(m, a), tint_none()};            \
+    }
+#define TINTED_VALUE(id, name, Record, NAME)                                                                 \
+    case LOBE_##NAME: {                                                                                      \
+        Record m = name##_record(lobe->params);                                                              \
+        Record##Ready ready = name##_ready(m);                                                               \
+        return (LobeValue){name##_eval(ready, a), 0.0f, name##_pdf(m, a), name##_tint(ready, a)};            \
     }
         WEFT_ONE_COLOR_LOBES(ONE_COLOR_VALUE)
         WEFT_TWO_COLOR_LOBES(TWO_COLOR_VALUE)
+        WEFT_TINTED_LOBES(TINTED_VALUE)
         WEFT_REFERENCE_LOBES(ONE_COLOR_VALUE)
     case LOBE_COUNT: break;
     }
-    return (LobeValue){0.0f, 0.0f, 0.0f};
+    return (LobeValue){0.0f, 0.0f, 0.0f, tint_none()};
 }
 
 float lobe_second(Lobe lobe, float f0, float f90) {
     switch (lobe.id) {
 #define LOBE_SECOND(id, name, Record, NAME)                                                                  \
-    case LOBE_##NAME: return name##_second(name##_record(lobe.params), f0, f90);
+    case LOBE_##NAME:                                                                                        \
+        return name##_second(name##_record(lobe.params), f0, f90);
+#define LOBE_WEIGHT(id, name, Record, NAME)                                                                  \
+    case LOBE_##NAME: return 1.0f;
         WEFT_TWO_COLOR_LOBES(LOBE_SECOND)
+        WEFT_TINTED_LOBES(LOBE_WEIGHT)
     default: return f0;
     }
 }

@@ -2,7 +2,7 @@
  *
  * Dialect texts include this file too: in GLSL the flattener (text/) puts in its place what is here made by
  * macros, for the lobes that a program needs: LOBE_ constants, Lobe, LobeValue, lobe_at, lobe_second,
- * lobe_default and lobe_rough.
+ * lobe_default, lobe_rough and lobe_fibres.
  *
  * Adding a lobe: one file in lobes/, one line in WEFT_LOBES. Command line, docs, tests and renderers follow.
  */
@@ -12,6 +12,7 @@
 #include <stddef.h>
 
 #include "shading/angles.h"
+#include "shading/lobe_value.h"
 #include "weft/lobe.h"
 
 /* L(id, functions' prefix, record, macros' prefix).  A lobe of one colour has the functions
@@ -32,6 +33,13 @@
  * and 16-bit floats. It has one function more, for no quadrature integrates chance:
  *
  *   float NAME_albedo(Record m, Dir o, int walks)    E of the white lobe
+ * A tinted one has a colour that is no factor, the albedo of what it is made of (tint.h), and one more:
+ *
+ *   Tint NAME_tint(RecordReady r, Angles a)          how f depends on it
+ *
+ * and a record of what the parameters make once for all directions, which its NAME_eval takes too:
+ *
+ *   RecordReady NAME_ready(Record m)
  */
 #define WEFT_ONE_COLOR_LOBES(L)                                                                              \
     L("lambert", lambert, Lambert, LAMBERT)                                                                  \
@@ -60,9 +68,10 @@
     L("burley-coat", burley_coat, BurleyCoat, BURLEY_COAT)                                                   \
     L("cook-torrance", cook_torrance, CookTorrance, COOK_TORRANCE)
 
+#define WEFT_TINTED_LOBES(L)    L("fibre", fibre, Fibre, FIBRE)
 #define WEFT_REFERENCE_LOBES(L) L("fibre-walk", fibre_walk, FibreWalk, FIBRE_WALK)
 
-#define WEFT_TEXT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L)
+#define WEFT_TEXT_LOBES(L) WEFT_ONE_COLOR_LOBES(L) WEFT_TWO_COLOR_LOBES(L) WEFT_TINTED_LOBES(L)
 #define WEFT_LOBES(L)      WEFT_TEXT_LOBES(L) WEFT_REFERENCE_LOBES(L)
 
 enum {
@@ -81,7 +90,8 @@ enum {
     TRAIT_ANISOTROPIC = WEFT_LOBE_ANISOTROPIC,
     TRAIT_REFERENCE = WEFT_LOBE_REFERENCE, /* of those in WEFT_REFERENCE_LOBES */
     TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE,
-    TRAIT_TABLE = WEFT_LOBE_TABLE
+    TRAIT_TABLE = WEFT_LOBE_TABLE,
+    TRAIT_TINTED = WEFT_LOBE_TINTED /* set by being in WEFT_TINTED_LOBES */
 };
 
 enum { LOBE_PARAMS_MAX = WEFT_LOBE_PARAMS_MAX };
@@ -99,6 +109,10 @@ Lobe lobe_default(int id);
  * roughness, and else over its plausible range. */
 Lobe lobe_rough(int id, float roughness);
 
+/* The same with density, tilt and azimuth, radians, in the parameters of these names, clamped to their hard
+ * range; nothing changes where a lobe has none. Parameter 0 belongs to the roughness. */
+Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth);
+
 /* Index of a parameter by name, or -1. */
 int lobe_param(int id, const char *name);
 
@@ -107,13 +121,6 @@ void lobe_set(Lobe *lobe, int k, float value);
 
 /* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
 bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
-
-/* What a pair of directions gets from a lobe. */
-typedef struct LobeValue {
-    float f;   /* 1/sr, without colour */
-    float s;   /* share of the second colour; 0 without TRAIT_TWO_COLORS */
-    float pdf; /* density of lobe_sample at a.i, 1/sr */
-} LobeValue;
 
 /* Both directions must be above the horizon (z > 0), unit length. Together they cost less than apart: the
  * distribution is in both. */
@@ -125,7 +132,8 @@ static inline LobeValue lobe_at(Lobe lobe, Angles a) { return lobe_value(&lobe, 
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
-/* The second colour, per channel, given both as the user sets them. f0 without TRAIT_TWO_COLORS. */
+/* The second colour, per channel, given both as the user sets them. Of a tinted lobe it is 1, the weight of
+ * which the first is a part; of others f0. */
 __attribute__((noinline)) float lobe_second(Lobe lobe, float f0, float f90);
 
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
@@ -142,5 +150,9 @@ void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, c
 /* pdf[k] likewise. */
 void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                 const float *ix, const float *iy, const float *iz, float *pdf);
+
+/* f[c][k] of a tinted lobe made of what has albedo w[c], likewise. Not for other lobes. */
+void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy,
+                   const float *oz, const float *ix, const float *iy, const float *iz, float *const f[3]);
 
 #endif

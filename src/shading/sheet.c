@@ -29,9 +29,10 @@ static bool walk_on(uint32_t *walk, const Stack *layer, Dir *o, Rgb *weight) {
 }
 
 static Rgb let_through(const Stack *stack, float cosine) {
-    float e = stack_albedo(*stack, cosine);
+    SheenE e = stack_albedo(*stack, cosine);
     Rgb c = stack->by == LAYER_BY_CHANNEL ? stack->color : rgb_grey(rgb_max3(stack->color));
-    return rgb(max(1.0f - c.r * e, 0.0f), max(1.0f - c.g * e, 0.0f), max(1.0f - c.b * e, 0.0f));
+    return rgb(max(1.0f - c.r * sheen_e_in(e, c.r), 0.0f), max(1.0f - c.g * sheen_e_in(e, c.g), 0.0f),
+               max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));
 }
 
 /* One of the two layers by itself, the picks of what is left scaled to 1. */

@@ -18,7 +18,7 @@
 
 STRUCT(Slot) {
     Lobe lobe;
-    Rgb f0, f90; /* the lobe's colours times its weight */
+    Rgb f0, f90; /* the lobe's colours times its weight; of a tinted one the second is the weight alone */
     Rgb sag;     /* of F = f0 (1 - s) + f90 s - sag s (1 - s): 0 but where F enters squared */
     float pick;  /* probability that sampling chooses it; 0: there is no lobe */
 };
@@ -50,7 +50,7 @@ STRUCT(Stack) {
     int albedo; /* source of E */
     TableRef table;
     float at;                   /* the parameter with which E is asked for */
-    float e_o, e_avg;           /* E of the white sheen towards wo, and on cosine average */
+    SheenE e_o, e_avg;          /* E of the white sheen towards wo, and on cosine average */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
 };
 
@@ -103,8 +103,8 @@ FN Stack stack_empty(void) {
     m.table.low = 0.0f;
     m.table.high = 0.0f;
     m.at = 0.0f;
-    m.e_o = 0.0f;
-    m.e_avg = 0.0f;
+    m.e_o = sheen_e_of(0.0f);
+    m.e_avg = m.e_o;
     m.coat_x = dir(1.0f, 0.0f, 0.0f);
     m.coat_y = dir(0.0f, 1.0f, 0.0f);
     m.coat_z = dir(0.0f, 0.0f, 1.0f);
@@ -127,7 +127,9 @@ FN Dir stack_to_coat(Stack m, Dir w) {
 FN float slot_pdf(Slot s, LobeValue v) { return s.pick * v.pdf; }
 
 FN Rgb slot_f(Slot s, LobeValue v) {
-    Rgb f = rgb_mix(s.f0, s.f90, v.s), sag = rgb_scale(s.sag, -v.s * (1.0f - v.s));
+    Rgb f = rgb(lobe_color(v, s.f0.r, s.f90.r), lobe_color(v, s.f0.g, s.f90.g),
+                lobe_color(v, s.f0.b, s.f90.b)),
+        sag = rgb_scale(s.sag, -v.s * (1.0f - v.s));
     return rgb_scale(rgb_add(f, sag), v.f);
 }
 
@@ -152,13 +154,15 @@ FN float stack_interface(Stack m, Angles a) {
     return m.specular.pick > 0.0f ? min(f, 1.0f) : 0.0f;
 }
 
-/* What the sheen leaves of the base. */
-FN Rgb stack_keep(Stack m, float e_i) {
+/* What the sheen leaves of the base, by one channel of its colour. */
+FN float stack_keep_by(Stack m, float c, SheenE e_i) {
+    return layer_base(m.layer, c, sheen_e_in(m.e_o, c), sheen_e_in(e_i, c), sheen_e_in(m.e_avg, c));
+}
+FN Rgb stack_keep(Stack m, SheenE e_i) {
     if (m.by == LAYER_BY_CHANNEL)
-        return rgb(layer_base(m.layer, m.color.r, m.e_o, e_i, m.e_avg),
-                   layer_base(m.layer, m.color.g, m.e_o, e_i, m.e_avg),
-                   layer_base(m.layer, m.color.b, m.e_o, e_i, m.e_avg));
-    return rgb_grey(layer_base(m.layer, rgb_max3(m.color), m.e_o, e_i, m.e_avg));
+        return rgb(stack_keep_by(m, m.color.r, e_i), stack_keep_by(m, m.color.g, e_i),
+                   stack_keep_by(m, m.color.b, e_i));
+    return rgb_grey(stack_keep_by(m, rgb_max3(m.color), e_i));
 }
 
 #endif

@@ -10,6 +10,7 @@
 #define COLOR     Rgb
 #define NORMAL    Dir
 #define DIRECTION Dir
+#define ANGLE     float
 
 #define SURFACE_FIELD(kind, name, def, low, high, hard_low, hard_high, help) kind name;
 STRUCT(Surface){SURFACE_INPUTS(SURFACE_FIELD)};

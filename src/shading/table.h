@@ -5,18 +5,19 @@
 #ifndef WEFT_TABLE_H
 #define WEFT_TABLE_H
 
-#include "shading/lang.h"
+#include "shading/tint.h"
 
 #define TABLE_NONE 0 /* E is 0 */
 #define TABLE_ROOTS                                                                                          \
     1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
 #define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
+#define TABLE_TINTED 3 /* TABLE_ROOTS of a tinted lobe, with three maps more below: s, q and e (albedo.h) */
 
 STRUCT(TableRef) {
     Table texels;
     int kind;
-    int rows, columns; /* of the map; TABLE_ROOTS has one column more, E on cosine average */
-    float low, high;   /* TABLE_ROOTS: eighth roots of the parameter in the first and the last row */
+    int rows, columns; /* of a map; weft's have one column more, E on cosine average */
+    float low, high;   /* weft's: eighth roots of the parameter in the first and the last row */
 };
 
 /* The cubic through four neighbouring nodes whose slope at a node is that between its neighbours; beyond its
@@ -67,14 +68,38 @@ FN float table_height(TableRef m, float p) {
     return m.rows > 1 ? (root - m.low) / (m.high - m.low) * to_float(m.rows - 1) : 0.0f;
 }
 
-FN float table_roots(TableRef m, float cos_o, float p) {
+/* Where a cosine and a parameter fall in weft's maps. */
+STRUCT(TablePlace) { Taps x, y; };
+
+FN TablePlace table_place(TableRef m, float cos_o, float p) {
     float y_o = 1.0f - sqrt(max(1.0f - sqrt(sqrt(max(cos_o, 0.0f))), 0.0f));
-    Taps x = table_taps(y_o * to_float(m.columns - 1), m.columns);
-    if (m.rows < 2) return max(table_row(m, 0, x), 0.0f);
+    TablePlace at;
+    at.x = table_taps(y_o * to_float(m.columns - 1), m.columns);
+    at.y = at.x;
+    if (m.rows > 1) at.y = table_taps(table_height(m, p), m.rows);
+    return at;
+}
+
+FN float table_map(TableRef m, int map, TablePlace at) {
+    if (m.rows < 2) return table_row(m, map, at.x);
+    int row = map * m.rows + at.y.first;
+    return at.y.a * table_row(m, row, at.x) + at.y.b * table_row(m, row + 1, at.x) +
+           at.y.c * table_row(m, row + 2, at.x) + at.y.d * table_row(m, row + 3, at.x);
+}
+
+FN float table_roots(TableRef m, float cos_o, float p) {
+    return max(table_map(m, 0, table_place(m, cos_o, p)), 0.0f);
+}
+
+/* E on cosine average, or what another map has of it. */
+FN float table_map_average(TableRef m, int map, float p) {
+    if (m.rows < 2) return table_texel(m.texels, m.columns + 1, map, m.columns);
     Taps y = table_taps(table_height(m, p), m.rows);
-    return max(y.a * table_row(m, y.first, x) + y.b * table_row(m, y.first + 1, x) +
-                   y.c * table_row(m, y.first + 2, x) + y.d * table_row(m, y.first + 3, x),
-               0.0f);
+    int row = map * m.rows + y.first;
+    return y.a * table_texel(m.texels, m.columns + 1, row, m.columns) +
+           y.b * table_texel(m.texels, m.columns + 1, row + 1, m.columns) +
+           y.c * table_texel(m.texels, m.columns + 1, row + 2, m.columns) +
+           y.d * table_texel(m.texels, m.columns + 1, row + 3, m.columns);
 }
 
 FN float table_linear(TableRef m, float cos_o, float p) {
@@ -89,27 +114,55 @@ FN float table_linear(TableRef m, float cos_o, float p) {
     return mix(low, high, y - y0);
 }
 
-/* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts
- * there). */
-FN float table_albedo(TableRef m, float cos_o, float p) {
-    float e = 0.0f;
-    if (m.kind == TABLE_ROOTS)
-        e = table_roots(m, cos_o, p);
-    else if (m.kind == TABLE_LINEAR)
-        e = table_linear(m, cos_o, p);
-    return e;
+/* E of a white sheen, and how a colour changes it; tint_none where colour is a factor. */
+STRUCT(SheenE) {
+    float e;
+    Tint tint;
+};
+
+FN SheenE sheen_e_of(float e) {
+    SheenE x;
+    x.e = e;
+    x.tint = tint_none();
+    return x;
 }
 
-/* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
-FN float table_average(TableRef m, float p) {
-    if (m.kind != TABLE_ROOTS) return 0.0f;
-    if (m.rows < 2) return table_texel(m.texels, m.columns + 1, 0, m.columns);
-    Taps y = table_taps(table_height(m, p), m.rows);
-    return max(y.a * table_texel(m.texels, m.columns + 1, y.first, m.columns) +
-                   y.b * table_texel(m.texels, m.columns + 1, y.first + 1, m.columns) +
-                   y.c * table_texel(m.texels, m.columns + 1, y.first + 2, m.columns) +
-                   y.d * table_texel(m.texels, m.columns + 1, y.first + 3, m.columns),
-               0.0f);
+/* The same with what a table's maps say of colour. */
+FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
+    SheenE x;
+    x.e = e;
+    x.tint.s = clamp(s, 0.0f, 1.0f);
+    x.tint.q_o = clamp(q, 0.0f, 1.0f);
+    x.tint.q_i = x.tint.q_o;
+    x.tint.e = rest;
+    return x;
 }
+
+/* E of a sheen of that colour, over the colour. */
+FN float sheen_e_in(SheenE x, float color) {
+    return x.tint.s > 0.0f ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
+}
+
+/* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts
+ * there). */
+FN SheenE table_sheen(TableRef m, float cos_o, float p) {
+    if (m.kind == TABLE_LINEAR) return sheen_e_of(table_linear(m, cos_o, p));
+    if (m.kind == TABLE_NONE) return sheen_e_of(0.0f);
+    TablePlace at = table_place(m, cos_o, p);
+    float e = max(table_map(m, 0, at), 0.0f);
+    if (m.kind != TABLE_TINTED) return sheen_e_of(e);
+    return sheen_e_tinted(e, table_map(m, 1, at), table_map(m, 2, at), table_map(m, 3, at));
+}
+FN float table_albedo(TableRef m, float cos_o, float p) { return table_sheen(m, cos_o, p).e; }
+
+/* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
+FN SheenE table_sheen_average(TableRef m, float p) {
+    if (m.kind == TABLE_LINEAR || m.kind == TABLE_NONE) return sheen_e_of(0.0f);
+    float e = max(table_map_average(m, 0, p), 0.0f);
+    if (m.kind != TABLE_TINTED) return sheen_e_of(e);
+    return sheen_e_tinted(e, table_map_average(m, 1, p), table_map_average(m, 2, p),
+                          table_map_average(m, 3, p));
+}
+FN float table_average(TableRef m, float p) { return table_sheen_average(m, p).e; }
 
 #endif

@@ -20,7 +20,7 @@ void text_lobe(Text *text, int id) {
     text_include(text, file);
 }
 
-static bool has_two_colors(int id) { return weft_lobe_info(id)->traits & TRAIT_TWO_COLORS; }
+static bool has(int id, unsigned trait) { return weft_lobe_info(id)->traits & trait; }
 
 /* The lobe's record from the array of parameters, in the order of its table: the table itself says the types.
  */
@@ -80,16 +80,38 @@ static void put_rough(Text *text, const int *ids, int count) {
     text_line(text, "    return m;\n}");
 }
 
+/* What lobe_fibres of registry.c does. */
+static void put_fibres(Text *text, const int *ids, int count) {
+    static const char *const names_of[] = {"density", "tilt", "azimuth"};
+    text_line(text, "\nLobe lobe_fibres(Lobe m, float density, float tilt, float azimuth) {");
+    for (int k = 0; k < count; k++)
+        for (int n = 0; n < 3; n++) {
+            int p = lobe_param(ids[k], names_of[n]);
+            if (p < 1) continue; /* the first belongs to the roughness */
+            const WeftParamInfo *info = &weft_lobe_info(ids[k])->params[p];
+            text_line(text, "    if (m.id == LOBE_%s) m.params[%d] = clamp(%s, %s, %s);",
+                      names[ids[k]].macros, p, names_of[n], number(info->hard_low).text,
+                      number(info->hard_high).text);
+        }
+    text_line(text, "    return m;\n}");
+}
+
 static void put_at(Text *text, const int *ids, int count) {
     text_line(text,
               "\nLobeValue lobe_at(Lobe m, Angles a) {\n    LobeValue v;\n    v.f = 0.0;\n    v.s = 0.0;\n"
-              "    v.pdf = 0.0;");
+              "    v.pdf = 0.0;\n    v.tint = tint_none();");
     for (int k = 0; k < count; k++) {
         const LobeNames *lobe = &names[ids[k]];
-        text_line(text,
-                  "    if (m.id == LOBE_%s) {\n        %s r = %s_record(m);\n        v.f = %s_eval(r, a);",
-                  lobe->macros, lobe->record, lobe->prefix, lobe->prefix);
-        if (has_two_colors(ids[k])) text_line(text, "        v.s = %s_share(r, a);", lobe->prefix);
+        text_line(text, "    if (m.id == LOBE_%s) {\n        %s r = %s_record(m);", lobe->macros,
+                  lobe->record, lobe->prefix);
+        if (has(ids[k], TRAIT_TINTED))
+            text_line(text,
+                      "        %sReady ready = %s_ready(r);\n        v.f = %s_eval(ready, a);\n"
+                      "        v.tint = %s_tint(ready, a);",
+                      lobe->record, lobe->prefix, lobe->prefix, lobe->prefix);
+        else
+            text_line(text, "        v.f = %s_eval(r, a);", lobe->prefix);
+        if (has(ids[k], TRAIT_TWO_COLORS)) text_line(text, "        v.s = %s_share(r, a);", lobe->prefix);
         text_line(text, "        v.pdf = %s_pdf(r, a);\n    }", lobe->prefix);
     }
     text_line(text, "    return v;\n}\n\nfloat lobe_f(Lobe m, Angles a) { return lobe_at(m, a).f; }\n"
@@ -101,9 +123,10 @@ static void put_second(Text *text, const int *ids, int count) {
     text_line(text, "\nfloat lobe_second(Lobe m, float f0, float f90) {");
     for (int k = 0; k < count; k++) {
         const LobeNames *lobe = &names[ids[k]];
-        if (has_two_colors(ids[k]))
+        if (has(ids[k], TRAIT_TWO_COLORS))
             text_line(text, "    if (m.id == LOBE_%s) return %s_second(%s_record(m), f0, f90);", lobe->macros,
                       lobe->prefix, lobe->prefix);
+        if (has(ids[k], TRAIT_TINTED)) text_line(text, "    if (m.id == LOBE_%s) return 1.0;", lobe->macros);
     }
     text_line(text, "    return f0;\n}");
 }
@@ -141,17 +164,18 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
         there[lobes[k]] = true;
     }
     text_include(text, "shading/angles.h");
+    text_include(text, "shading/lobe_value.h");
     for (int k = 0; k < count; k++) text_lobe(text, ids[k]);
     text_provide(text, "shading/registry.h");
     char most[16];
     snprintf(most, sizeof most, "%d", LOBE_PARAMS_MAX);
     text_define(text, "LOBE_PARAMS_MAX", most);
-    text_line(text, "\nstruct Lobe {\n    int id;\n    float params[%s];\n};\n", most);
-    text_line(text, "struct LobeValue {\n    float f;\n    float s;\n    float pdf;\n};");
+    text_line(text, "\nstruct Lobe {\n    int id;\n    float params[%s];\n};", most);
     put_ids(text, there);
     for (int k = 0; k < count; k++) put_record(text, ids[k]);
     put_default(text, ids, count);
     put_rough(text, ids, count);
+    put_fibres(text, ids, count);
     put_at(text, ids, count);
     put_second(text, ids, count);
     put_sample(text, ids, count);

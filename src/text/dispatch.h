@@ -13,9 +13,10 @@ void text_lobe(Text *text, int id);
  *
  *   struct Lobe { int id; float params[8]; };
  *   const int LOBE_GGX = ...;                          as in C
- *   struct LobeValue { float f, s, pdf; };
+ *   struct LobeValue { float f, s, pdf; Tint tint; };  lobe_value.h
  *   Lobe lobe_default(int id)                          as in C; likewise
  *   Lobe lobe_rough(int id, float roughness)
+ *   Lobe lobe_fibres(Lobe m, float density, float tilt, float azimuth)
  *   LobeValue lobe_at(Lobe m, Angles a)
  *   float lobe_second(Lobe m, float f0, float f90)
  *   Dir lobe_sample(Lobe m, Dir o, float u, float v)

@@ -86,7 +86,11 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
         set_frame(p, bend_normal(to_world(p, n), p->geometric, wo), p->x, handedness);
     else if (vec3_dot(normal, wo) <= 1e-4f)
         set_frame(p, bend_normal(normal, p->geometric, wo), p->x, handedness);
-    if (surface.anisotropy > 0.0f) set_frame(p, p->z, to_world(p, surface.anisotropy_direction), handedness);
+    if (surface.anisotropy > 0.0f) {
+        Dir a = surface.anisotropy_direction, b = surface.nap_direction;
+        set_frame(p, p->z, to_world(p, a), handedness);
+        surface.nap_direction = dir(a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, 0.0f); /* as seen there */
+    }
     p->wo = to_local(p, wo);
     stack_make(&p->stack, &surface, &known->choices, known->sheen_e, p->wo);
     p->lit = true;

@@ -130,6 +130,42 @@ static void reads_everything(void **state) {
     done(reading);
 }
 
+/* extras belong to whoever wrote them; ours are in extras.weft. */
+static void reads_the_nap(void **state) {
+    (void)state;
+    enum { R, G, B };
+    Reading *reading = read_material(textures(), "'extras':{'weft':{'sheenDensity':2.5,'nap':0.7,"
+                                                 "'napRotation':-1,'napTexture':{'index':1}},'other':[1]}");
+    assert_read(reading);
+    assert_input(reading, INPUT_sheen_density, 2.5f, 0, 0, -1);
+    assert_input(reading, INPUT_nap, 0.7f, 0, 0, B);
+    assert_input(reading, INPUT_nap_direction, -1, 0, 0, R);
+    assert_int_equal(reading->scene->image_count, 1);
+    assert_string_equal(reading->warning, "");
+    done(reading);
+    static const char *const foreign[] = {"", "'extras':{}", "'extras':'weft'", "'extras':[{'weft':1}]"};
+    for (size_t k = 0; k < sizeof foreign / sizeof *foreign; k++) {
+        reading = read_material("", foreign[k]);
+        assert_read(reading);
+        assert_input(reading, INPUT_sheen_density, 1, 0, 0, -1);
+        assert_input(reading, INPUT_nap, 0, 0, 0, -1);
+        assert_input(reading, INPUT_nap_direction, 0, 0, 0, -1);
+        assert_string_equal(reading->warning, "");
+        done(reading);
+    }
+    reading = read_material("", "'extras':{'weft':{'nap':4,'napp':1}}");
+    assert_read(reading);
+    assert_input(reading, INPUT_nap, 1.57079633f, 0, 0, -1);
+    assert_non_null(strstr(reading->warning, "napp"));
+    done(reading);
+    assert_refused(read_material("", "'extras':{'weft':{'nap':'steep'}}"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "materials[0].extras.weft.nap: expected a number");
+    assert_refused(read_material("", "'extras':{'weft':7}"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "materials[0].extras.weft: expected an object");
+    assert_refused(read_material("", "'extras':{'weft':{'napTexture':{'index':0}}}"),
+                   WEFT_MESSAGE_GLTF_REFERENCE, "napTexture.index: 0 of 0");
+}
+
 static void transforms_textures(void **state) {
     (void)state;
     Reading *reading = read_material(
@@ -334,7 +370,7 @@ int main(void) {
         cmocka_unit_test(transforms_textures), cmocka_unit_test(repairs_ranges),
         cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
         cmocka_unit_test(limits_images),       cmocka_unit_test(falls_back),
-        cmocka_unit_test(reads_variants),
+        cmocka_unit_test(reads_variants),      cmocka_unit_test(reads_the_nap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

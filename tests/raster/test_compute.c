@@ -152,7 +152,8 @@ static void errors_are_one_line(void **state) {
                                 &compute, &error),
                          WEFT_INPUT);
         assert_int_equal(error.message, WEFT_MESSAGE_GL_COMPILE);
-        static const int wrong[][2] = {{0, 1}, {1, 0}, {17, 1}, {1, 17}};
+        static const int wrong[][2] = {
+            {0, 1}, {1, 0}, {COMPUTE_INPUTS_MAX + 1, 1}, {1, COMPUTE_OUTPUTS_MAX + 1}};
         for (int k = 0; k < 4; k++) {
             assert_int_equal(create(context, "", "", wrong[k][0], wrong[k][1], &compute, &error), WEFT_USAGE);
             assert_int_equal(error.message, WEFT_MESSAGE_DESC);

@@ -14,9 +14,10 @@
 #include "shading/engine_tables.h"
 #include "shading/lobe_tables.h"
 #include "text/dispatch.h"
+#include "text/number.h"
 #include "text/tables.h"
 
-enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = 16, OUTPUTS = 2, ANSWERS = 4 * OUTPUTS };
+enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS = 2, ANSWERS = 4 * OUTPUTS };
 
 /* |gpu - c| is to be at most RELATIVE |c| + ABSOLUTE.
  * Directions have a tolerance of their own: the steep ends of a sampler's maps, where a number that is off by
@@ -248,7 +249,8 @@ static void answer_lobe(int which, const float *row, float *answers) {
     memcpy(lobe.params, row + 8, sizeof lobe.params);
     LobeValue v = lobe_value(&lobe, row_angles(row));
     Dir s = lobe_sample(&lobe, row_o(row), row[3], row[7]);
-    const float all[] = {v.f, v.s, v.pdf, lobe_second(lobe, 0.25f, 0.75f), s.x, s.y, s.z};
+    const float second = lobe_second(lobe, 0.25f, 0.75f);
+    const float all[] = {v.f, v.s, v.pdf, second, s.x, s.y, s.z, v.f * lobe_color(v, 0.25f, second)};
     memcpy(answers, all, sizeof all);
 }
 
@@ -258,9 +260,9 @@ static const Subject lobes = {
                    "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
                    "    LobeValue v = lobe_at(m, a);\n    Dir s = lobe_sample(m, o, in0.w, in1.w);\n"
                    "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
-                   "    out1 = vec4(s.x, s.y, s.z, 0.0);\n",
+                   "    out1 = vec4(s.x, s.y, s.z, v.f * lobe_color(v, 0.25, out0.w));\n",
     .inputs = 4,
-    .answers = "nnnnddd",
+    .answers = "nnnndddn",
     .put = put_lobe,
     .fill = fill_lobe,
     .answer = answer_lobe,
@@ -299,8 +301,8 @@ static void fill_any_lobe(Random *random, int which, float *row) {
 static void answer_any_lobe(int which, const float *row, float *answers) {
     Angles a = row_angles(row);
     LobeValue v = lobe_at(lobe_default((int)row[8]), a), w = lobe_at(lobe_rough((int)row[8], row[7]), a);
-    const float all[] = {v.f, v.s, v.pdf, lobe_second(lobe_default((int)row[8]), 0.25f, 0.75f),
-                         w.f, w.s, w.pdf};
+    const float second = lobe_second(lobe_default((int)row[8]), 0.25f, 0.75f);
+    const float all[] = {v.f, v.s, v.pdf, second, w.f, w.s, w.pdf, w.f * lobe_color(w, 0.25f, second)};
     memcpy(answers, all, sizeof all);
 }
 
@@ -311,9 +313,9 @@ static void lobes_are_told_apart(void **state) {
         .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
                        "    LobeValue v = lobe_at(m, a), w = lobe_at(lobe_rough(m.id, in1.w), a);\n"
                        "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
-                       "    out1 = vec4(w.f, w.s, w.pdf, 0.0);\n",
+                       "    out1 = vec4(w.f, w.s, w.pdf, w.f * lobe_color(w, 0.25, out0.w));\n",
         .inputs = 3,
-        .answers = "nnnnnnn",
+        .answers = "nnnnnnnn",
         .put = put_all_lobes,
         .fill = fill_any_lobe,
         .answer = answer_any_lobe,
@@ -426,7 +428,7 @@ static void layers_agree(void **state) {
 /* A surface and its choices are numbers in a row behind the pair of directions. */
 enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
 enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
-_Static_assert((int)STACK_INPUTS == 15, "the body of stacks_agree reads as many");
+_Static_assert((int)STACK_INPUTS == 17, "the body of stacks_agree reads as many");
 
 /* Functions that make a Surface and Choices of the row. */
 static void put_readers(Text *text) {
@@ -436,6 +438,7 @@ static void put_readers(Text *text) {
 #define READ_THREE(name, make)                                                                               \
     text_line(text, "    s.%s = %s(row[%d], row[%d], row[%d]);", name, make, at, at + 1, at + 2), at += 3
 #define READ_COLOR(name)                                                  READ_THREE(name, "rgb")
+#define READ_ANGLE(name)                                                  READ_SCALAR(name)
 #define READ_NORMAL(name)                                                 READ_THREE(name, "dir")
 #define READ_DIRECTION(name)                                              READ_THREE(name, "dir")
 #define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help) READ_##kind(#name);
@@ -473,6 +476,11 @@ static float *fill_scalar(Random *random, const float range[4], float *at) {
     *at = any_value(random, range[0], range[1], range[2], range[3]);
     return at + 1;
 }
+static float *fill_angle(Random *random, const float degrees[4], float *at) {
+    at = fill_scalar(random, degrees, at);
+    at[-1] *= (float)TEST_PI / 180.0f;
+    return at;
+}
 static float *fill_color(Random *random, const float range[4], float *at) {
     for (int c = 0; c < 3; c++) at = fill_scalar(random, range, at);
     return at;
@@ -500,6 +508,7 @@ static void fill_stack(Random *random, int which, float *row) {
     fill_pair(random, row);
     float *at = row + SURFACE_AT;
 #define fill_SCALAR    fill_scalar
+#define fill_ANGLE     fill_angle
 #define fill_COLOR     fill_color
 #define fill_NORMAL    fill_normal
 #define fill_DIRECTION fill_direction
@@ -540,8 +549,8 @@ static void stacks_agree(void **state) {
     (void)state;
     static const Subject subject = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
-            ROW(10) ROW(11) ROW(12) ROW(13)
-                ROW(14) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
+            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15)
+                ROW(16) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
                         "lobe_table_charlie_neubelt(), o);\n"
                         "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
                         "    StackValue v = stack_value(m, a, coat);\n"
@@ -563,21 +572,40 @@ static void stacks_agree(void **state) {
     assert_true(good);
 }
 
+/* E of a tinted lobe, with s, q and e. */
+static AlbedoTable tinted;
+
+static void put_tinted(Text *text) {
+    TableRef e = albedo_table_ref(&tinted);
+    int layer = text_table(text, (TextTable){e.texels, e.rows * ALBEDO_MAPS, e.columns + 1});
+    text_line(text, "\nTableRef tinted() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", layer,
+              e.kind);
+    text_line(text, "    t.rows = %d;\n    t.columns = %d;\n    t.low = %s;\n    t.high = %s;", e.rows,
+              e.columns, number(e.low).text, number(e.high).text);
+    text_line(text, "    return t;\n}");
+}
+
 static void put_tables(Text *text, int which) {
     text_lobe_tables(text);
     text_engine_tables(text, (const int[]){ENGINE_THREE_GGX, ENGINE_FILAMENT_GGX}, 2);
+    put_tinted(text);
 }
 
 static void fill_cosine(Random *random, int which, float *row) {
     row[0] = any_direction(random).z;
     row[1] = any_value(random, 0.0f, 1.0f, 0.0f, 4.0f);
+    row[2] = any_value(random, 0.0f, 1.0f, 0.0f, 1.0f);
 }
 
 static void answer_tables(int which, const float *row, float *answers) {
     TableRef e = lobe_table_charlie_neubelt();
-    const float all[] = {table_albedo(e, row[0], row[1]), table_average(e, row[1]),
+    const float all[] = {table_albedo(e, row[0], row[1]),
+                         table_average(e, row[1]),
                          table_albedo(engine_table(ENGINE_THREE_GGX), row[0], row[1]),
-                         table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]), 0.0f};
+                         table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]),
+                         0.0f,
+                         sheen_e_in(table_sheen(albedo_table_ref(&tinted), row[0], row[1]), row[2]),
+                         sheen_e_in(table_sheen_average(albedo_table_ref(&tinted), row[1]), row[2])};
     memcpy(answers, all, sizeof all);
 }
 
@@ -589,9 +617,11 @@ static void tables_agree(void **state) {
                 "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_average(e, in0.y),\n"
                 "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
                 "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
-                "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n",
+                "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n"
+                "    out1.y = sheen_e_in(table_sheen(tinted(), in0.x, in0.y), in0.z);\n"
+                "    out1.z = sheen_e_in(table_sheen_average(tinted(), in0.y), in0.z);\n",
         .inputs = 1,
-        .answers = "nnnnn",
+        .answers = "nnnnnnn",
         .put = put_tables,
         .fill = fill_cosine,
         .answer = answer_tables,
@@ -643,6 +673,8 @@ static int begin(void **state) {
     for (int k = 0; k < LANGUAGES * OUTPUTS; k++)
         out[k / OUTPUTS][k % OUTPUTS] = calloc(samples, 4 * sizeof(float));
     lobe_tables_make();
+    Lobe lobe = lobe_default(LOBE_FIBRE);
+    albedo_table_fill(&tinted, &lobe, 0.05f, 1.0f, 0);
     expected = calloc(samples, ANSWERS * sizeof(float));
     return 0;
 }

@@ -52,6 +52,12 @@ static void values_have_every_form(void **state) {
     assert_true(inputs[INPUT_roughness].value[0] == 0.75f);
     assert_true(fabsf(inputs[INPUT_anisotropy_direction].value[0] - 1.57079633f) < 1e-6f);
     assert_true(file.named[INPUT_roughness] && !file.named[INPUT_ior]);
+    material_file_free(&file);
+    file = file_of("{\"nap\":30,\"nap_direction\":-45,\"sheen_density\":2}", 0);
+    inputs = file.material.inputs;
+    assert_true(fabsf(inputs[INPUT_nap].value[0] - 0.523598776f) < 1e-6f);
+    assert_true(fabsf(inputs[INPUT_nap_direction].value[0] + 0.785398163f) < 1e-6f);
+    assert_true(inputs[INPUT_sheen_density].value[0] == 2.0f);
     /* what the file is silent on has its default */
     const Material plain = material_default("");
     assert_memory_equal(&inputs[INPUT_ior], &plain.inputs[INPUT_ior], sizeof *inputs);
@@ -99,6 +105,10 @@ static void warnings_name_what_is_hardly_real(void **state) {
         {"{\"roughness\":1.5}", 1},
         {"{\"roughness\":5}", 1},
         {"{\"base_color\":[2,0,0]}", 1},
+        {"{\"nap\":60}", 1},
+        {"{\"nap\":120}", 1},
+        {"{\"nap\":45,\"nap_direction\":900,\"sheen_density\":4}", 0},
+        {"{\"sheen_density\":0.1}", 1},
         {"{\"ior\":1.5}", 0},
         {"{\"ior\":2.2}", 1},
         {"{\"metallic\":0.5}", 1},
@@ -147,6 +157,10 @@ static const struct {
     {"{\"roughness\":[1,1,1]}", "roughness"},
     {"{\"roughness\":\"#ffffff\"}", "roughness"},
     {"{\"roughness\":true}", "roughness"},
+    {"{\"nap\":\"steep\"}", "nap"},
+    {"{\"nap\":[1,0]}", "nap"},
+    {"{\"nap_direction\":{\"texture\":\"a.png\",\"channel\":\"b\"}}", "channel"},
+    {"{\"nap_rotation\":90}", "nap_rotation"},
     {"{\"layer\":3}", "layer"},
     {"{\"layer\":\"glue\"}", "glue"},
     {"{\"layer\":\"seed,by=max\"}", "write layer=seed and layer_by=max"},
@@ -273,18 +287,25 @@ static void textures_lie_beside_the_file(void **state) {
     write_text(json,
                "{\"roughness\":{\"texture\":\"orm.png\",\"channel\":\"g\",\"factor\":0.5,\"scale\":[2,3],"
                "\"rotation\":90,\"offset\":0.25,\"wrap\":\"mirror\",\"nearest\":true},"
-               "\"base_color\":{\"texture\":\"orm.png\",\"texcoord\":1}}");
+               "\"base_color\":{\"texture\":\"orm.png\",\"texcoord\":1},"
+               "\"nap\":{\"texture\":\"orm.png\",\"channel\":\"b\"},"
+               "\"nap_direction\":{\"texture\":\"orm.png\"}}");
     WeftScene *scene = load("builtin:cloth");
     int images = scene->image_count, textures = scene->texture_count;
     if (weft_scene_dress(scene, "Cloth", json, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(scene->image_count, images + 1);
-    assert_int_equal(scene->texture_count, textures + 2);
+    assert_int_equal(scene->texture_count, textures + 4);
     const Input *roughness = &scene->materials[0].inputs[INPUT_roughness],
                 *color = &scene->materials[0].inputs[INPUT_base_color];
     const Texture *texture = &scene->textures[roughness->texture - 1];
     assert_true(roughness->value[0] == 0.5f && roughness->channel == 1);
     assert_true(texture->nearest && texture->wrap_u == texture->wrap_v && texture->wrap_u == WRAP_MIRROR);
     assert_int_equal(texture->image, images);
+    const Input *nap = &scene->materials[0].inputs[INPUT_nap];
+    assert_true(nap->channel == 2 && fabsf(nap->value[0] - 0.785398163f) < 1e-6f); /* 45 degrees at most */
+    assert_true(scene->materials[0].inputs[INPUT_nap_direction].value[0] == 0.0f);
+    assert_true(scene->materials[0].inputs[INPUT_nap_direction].texture > 0);
+    assert_non_null(scene->meshes[0].tangent);
     assert_true(color->texcoord == 1 && color->value[2] == 1.0f && color->texture != roughness->texture);
     /* KHR_texture_transform: offset + rotation (scale uv), here (u, v) -> (3 v + .25, -2 u + .25) */
     const float expected[6] = {0.0f, 3.0f, 0.25f, -2.0f, 0.0f, 0.25f};

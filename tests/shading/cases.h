@@ -196,6 +196,7 @@ static inline Surface random_surface(Random *random, bool tilt) {
     if (random_unit(random) < 0.5f)
         s.sheen_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
     s.sheen_roughness = random_unit(random);
+    s.sheen_density = 1.0f;
     return s;
 }
 

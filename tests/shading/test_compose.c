@@ -7,6 +7,7 @@ static Surface plain(void) {
                      .specular = 1.0f,
                      .reflectance = 0.26f,
                      .sheen = 1.0f,
+                     .sheen_density = 1.0f,
                      .sheen_second = {1.0f, 1.0f, 1.0f},
                      .normal = {0.0f, 0.0f, 1.0f},
                      .clearcoat_normal = {0.0f, 0.0f, 1.0f},
@@ -106,8 +107,54 @@ static void reciprocal_asks_the_table(void **state) {
             Choices choices = test_choices(CHOICE_AUTO, layer ? LAYER_STOCHASTIC : LAYER_RECIPROCAL);
             choices.profile = profile;
             Stack stack = made(&surface, choices, direction_cos(0.5, 0.0));
-            if (stack.sheen.pick > 0.0f) assert_true(stack.albedo <= ALBEDO_KHRONOS && stack.e_avg > 0.0f);
+            if (stack.sheen.pick > 0.0f) assert_true(stack.albedo <= ALBEDO_KHRONOS && stack.e_avg.e > 0.0f);
         }
+}
+
+/* The azimuth of shading text is the C library's. */
+static void azimuth_is_atan2(void **state) {
+    (void)state;
+    Random random = {17};
+    for (int k = 0; k < 20000; k++) {
+        double phi = 2.0 * TEST_PI * (double)random_unit(&random), r = k & 1 ? 1.0 : 1e-3;
+        if (k < 16) phi = 0.125 * TEST_PI * k;
+        Dir w = dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), 0.0f);
+        double expected = atan2((double)w.y, (double)w.x);
+        if (expected < 0.0) expected += 2.0 * TEST_PI;
+        float found = azimuth_of(w);
+        if (!(fabs((double)found - expected) < 1e-6 && found >= 0.0f && found <= 2.0f * PI))
+            fail_msg("%.9g is not %.9g", (double)found, expected);
+    }
+    assert_true(azimuth_of(dir(0.0f, 0.0f, 1.0f)) <= 0.0f);
+}
+
+/* Density and nap go where a lobe has them, clamped; all else is as roughness makes it. */
+static void fibres_find_their_parameters(void **state) {
+    (void)state;
+    static const char *const names[] = {"density", "tilt", "azimuth"};
+    const float values[] = {3.0f, 0.5f, 2.0f}, far[] = {1e3f, 1e3f, 1e3f};
+    for (int id = 0; id < LOBE_COUNT; id++)
+        for (int beyond = 0; beyond < 2; beyond++) {
+            const float *given = beyond ? far : values;
+            Lobe plainly = lobe_rough(id, 0.6f), lobe = lobe_fibres(plainly, given[0], given[1], given[2]);
+            for (int k = 0; k < weft_lobe_info(id)->param_count; k++) {
+                const WeftParamInfo *info = &weft_lobe_info(id)->params[k];
+                float expected = plainly.params[k];
+                for (int n = 0; n < 3 && k > 0; n++)
+                    if (strcmp(info->name, names[n]) == 0) expected = min(given[n], info->hard_high);
+                assert_true(lobe.params[k] >= expected && lobe.params[k] <= expected);
+            }
+        }
+    Surface surface = plain();
+    surface.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
+    surface.sheen_density = 2.0f;
+    surface.nap = 0.6f;
+    surface.nap_direction = dir(0.0f, -1.0f, 0.0f);
+    Stack stack = made(&surface, test_choices(LOBE_FIBRE_WALK, LAYER_ADDITIVE), direction_cos(0.5, 0.0));
+    const float *params = stack.sheen.lobe.params;
+    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "density")], 2.0f, 0.0f);
+    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "tilt")], 0.6f, 0.0f);
+    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "azimuth")], 1.5f * PI, 1e-6f);
 }
 
 int main(void) {
@@ -116,6 +163,8 @@ int main(void) {
         cmocka_unit_test(fresnel_follows_the_reflectance),
         cmocka_unit_test(brushed_metal_stays_brushed),
         cmocka_unit_test(reciprocal_asks_the_table),
+        cmocka_unit_test(azimuth_is_atan2),
+        cmocka_unit_test(fibres_find_their_parameters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,6 +44,7 @@ static Surface white_cloth(float roughness) {
                      .sheen = 1.0f,
                      .ior = 1.0f,
                      .sheen_roughness = roughness,
+                     .sheen_density = 1.0f,
                      .normal = {0.0f, 0.0f, 1.0f}};
 }
 
@@ -72,7 +73,7 @@ static void albedo_view_returns_what_it_receives(void **state) {
                 Dir o = direction_cos(c / 10.0 - 0.05, 0.0); /* the azimuth of the table */
                 Stack stack = test_stack(&cloth, view, &table, o),
                       base = test_stack(&cloth, additive, &table, o);
-                float e = stack.e_o;
+                float e = stack.e_o.e;
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;

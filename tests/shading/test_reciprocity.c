@@ -18,7 +18,12 @@ static void reciprocal_lobes_are(void **state) {
         for (int n = 0; n < PAIRS; n++) {
             Lobe lobe = case_lobe(id, n % case_count(id));
             Dir o = random_direction(&random), i = random_direction(&random);
-            float f = lobe_eval(&lobe, angles_between(o, i)), g = lobe_eval(&lobe, angles_between(i, o));
+            LobeValue v = lobe_value(&lobe, angles_between(o, i)),
+                      w = lobe_value(&lobe, angles_between(i, o));
+            float f = v.f, g = w.f;
+            if (n % 2) /* in a colour */
+                f *= lobe_color(v, 0.4f, lobe_second(lobe, 0.4f, 0.9f)),
+                    g *= lobe_color(w, 0.4f, lobe_second(lobe, 0.4f, 0.9f));
             if (!close_to(f, g))
                 fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f,
                          (double)g);
@@ -61,9 +66,11 @@ static void anisotropic_lobes_see_azimuth(void **state) {
         bool seen = false;
         for (int k = 0; k < case_count(id); k++) { /* by some of its choices */
             Lobe lobe = case_lobe(id, k);
-            int how = lobe_param(id, "anisotropy"), stretch = lobe_param(id, "stretch");
+            int how = lobe_param(id, "anisotropy"), stretch = lobe_param(id, "stretch"),
+                tilt = lobe_param(id, "tilt");
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
+            if (tilt >= 0) lobe_set(&lobe, tilt, 0.7f);
             /* an eighth of a turn: a quarter may lay one yarn of threads over the other */
             Dir o = direction(0.02, 0.0), i = direction(0.8, 0.3);
             float f = lobe_eval(&lobe, angles_between(o, i));

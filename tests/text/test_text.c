@@ -100,7 +100,8 @@ static const char all_calls[] =
     "Lobe m;\n    m.id = int(u[0].x);\n    for (int k = 0; k < 8; k++) m.params[k] = u[1][k & 3];\n"
     "    Angles a = angles_between(dir(u[2].x, u[2].y, u[2].z), dir(u[3].x, u[3].y, u[3].z));\n"
     "    Dir s = lobe_sample(m, a.o, u[0].y, u[0].z);\n"
-    "    color = vec4(lobe_f(m, a), lobe_pdf(m, a), lobe_share(m, a), lobe_second(m, s.x, s.y));";
+    "    color = vec4(lobe_f(m, a), lobe_pdf(m, a), lobe_share(m, a), lobe_second(m, s.x, s.y)) *\n"
+    "            lobe_color(lobe_at(m, a), s.x, s.y);";
 
 /* The lobes that the GPU has. */
 static int gpu_lobes(int ids[LOBE_COUNT]) {

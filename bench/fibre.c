@@ -1,0 +1,227 @@
+/* Prints how near the closed forms of fibres are to the solved slab, how long the solver takes, and how well
+ * it holds. Directions and alphas are none that anything was fitted to.
+ *
+ *   build/release/bench/bench_fibre [solver|models|sampling] */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "fibre/slab.h"
+#include "fibre/tilted.h"
+#include "fibre/truth.h"
+#include "shading/registry.h"
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- the solver ---- */
+
+enum { GRID = 32 };
+
+/* R over the grid of (alpha, mu) that published tables have, alpha = k / 31 from 0.01. */
+static double grid_albedo(int finer, double albedo[GRID][GRID], double *defect, double *balance) {
+    double start = now(), mu[GRID];
+    for (int k = 0; k < GRID; k++) mu[k] = k ? k / 31.0 : 0.01;
+    for (int a = 0; a < GRID; a++) {
+        double through[GRID], lost;
+        Slab slab = {a ? a / 31.0 : 0.01, 1.0, 1.0};
+        SlabEffort effort = slab_effort(slab.alpha);
+        effort.nodes *= finer;
+        effort.halvings += finer > 1 ? 4 : 0;
+        slab_mode(&slab, effort, 0, 1, GRID, mu, &(Layered){.up = albedo[a], .down = through}, &lost);
+        for (int k = 0; k < GRID && slab.alpha >= 0.1; k++) {
+            *balance = fmax(*balance, fabs(albedo[a][k] + through[k] - 1.0));
+            *defect = fmax(*defect, lost);
+        }
+    }
+    return now() - start;
+}
+
+/* The whole BRDF: modes 0 .. 5 at 31 alphas, 32 mu_i, 32 theta_o. */
+static double brdf_time(void) {
+    double start = now(), mu[2 * GRID], *r = alloc_array(4 * GRID * GRID, sizeof *r);
+    for (int k = 0; k < GRID; k++) {
+        mu[k] = k ? k / 31.0 : 0.01;
+        mu[GRID + k] = (cos)((k + 0.5) * 1.57079632679 / GRID);
+    }
+    for (int a = 1; a < GRID; a++)
+        for (int m = 0; m < 6; m++)
+            slab_mode(&(Slab){a / 31.0, 1.0, 1.0}, (SlabEffort){a < 6 ? 96 : 48, 26}, m, 1, 2 * GRID, mu,
+                      &(Layered){.r = r}, NULL);
+    free(r);
+    return now() - start;
+}
+
+static void print_solver(void) {
+    static double coarse[GRID][GRID], fine[GRID][GRID];
+    double defect = 0.0, balance = 0.0, unused[2] = {0.0, 0.0}, worst = 0.0, square = 0.0;
+    double seconds = grid_albedo(1, coarse, &defect, &balance);
+    grid_albedo(2, fine, &unused[0], &unused[1]);
+    for (int a = 2; a < GRID; a++)
+        for (int k = 0; k < GRID; k++) {
+            double d = fabs(coarse[a][k] - fine[a][k]);
+            worst = fmax(worst, d);
+            square += d * d / (30.0 * GRID);
+        }
+    printf("solver, one core\n");
+    printf("  R, 32 alphas x 32 mu          %.2f s; against twice the nodes, alpha >= 0.065: %.1e at most, "
+           "%.1e rms\n",
+           seconds, worst, (sqrt)(square));
+    printf("  BRDF, 31 x 32 x 32, any phi   %.2f s\n", brdf_time());
+    printf("  R + T - 1, alpha >= 0.1       %.1e at most; %.1e of sigma before the quadrature is repaired\n",
+           balance, defect);
+}
+
+/* ---- the models ---- */
+
+static const char *const models[] = {"fibre", "fibre-table", "ltc-fibre"};
+
+static void set(Lobe *lobe, const char *name, double value) {
+    int k = lobe_param(lobe->id, name);
+    if (k >= 0) lobe_set(lobe, k, (float)value);
+}
+
+/* The mean over slabs of the mean error, the largest of the rest. */
+static TruthError set_error(int id, const TruthSet *slabs, double low, double high) {
+    TruthError all = {0}, one;
+    int count = 0;
+    for (int s = 0; s < slabs->count; s++) {
+        const Truth *t = &slabs->slabs[s];
+        if (t->slab.alpha < low || t->slab.alpha > high) continue;
+        Lobe lobe = lobe_default(id);
+        set(&lobe, "alpha", t->slab.alpha);
+        set(&lobe, "density", t->slab.depth);
+        set(&lobe, "tilt", t->tilt);
+        double *f = alloc_array((size_t)t->pairs, sizeof *f);
+        for (int p = 0; p < t->pairs; p++) {
+            double wi[3], wo[3];
+            truth_pair(t, p, wi, wo);
+            Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]),
+                o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
+            LobeValue v = lobe_value(&lobe, angles_between(o, i));
+            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - truth_once(t, p);
+        }
+        truth_error(t, f, &one);
+        free(f);
+        all.mean += one.mean;
+        all.worst = fmax(all.worst, one.worst);
+        all.albedo = fmax(all.albedo, one.albedo);
+        all.most = fmax(all.most, one.most);
+        count++;
+    }
+    all.mean /= fmax(count, 1);
+    return all;
+}
+
+static void print_row(const char *id, const char *what, const TruthSet *slabs, double low, double high) {
+    TruthError e = set_error(weft_lobe_find(id), slabs, low, high);
+    printf("  %-12s %-34s %6.2f %7.1f   %.1e   %.4f\n", id, what, 100.0 * e.mean, 100.0 * e.worst, e.albedo,
+           e.most);
+    fflush(stdout);
+}
+
+/* Alphas between those of the fits, which are even in the logarithm. */
+static void between(double low, int n, double *alpha) {
+    for (int k = 0; k < n; k++) alpha[k] = (exp)(log(low) * (1.0 - (k + 0.5) / n));
+}
+
+static void print_models(void) {
+    static const double white[] = {1.0}, colors[] = {0.2, 0.35, 0.5, 0.7, 0.9, 0.96, 1.0};
+    static const double radians = 3.14159265358979323846 / 180.0;
+    double alpha[21], tilts[] = {7.5 * radians, 22.5 * radians, 40.0 * radians};
+    TruthSet slabs;
+    TruthGrid grid = {21, 1, 0, 1, 33, 7, alpha, white, tilts, 1.0};
+    printf("\nmodels: error of f in %% of R, of directions with R > 1e-3, and of R at any; largest R\n");
+    printf("  lobe         over                                 mean   worst   R         most\n");
+    between(0.05, 21, alpha);
+    if (truth_make(&grid, 0, NULL, NULL, &slabs))
+        for (size_t m = 0; m < sizeof models / sizeof models[0]; m++) {
+            if (weft_lobe_find(models[m]) < 0) continue;
+            print_row(models[m], "white, alpha 0.19 .. 1", &slabs, 0.19, 1.0);
+            print_row(models[m], "white, alpha 0.05 .. 0.19", &slabs, 0.0, 0.19);
+        }
+    truth_free(&slabs);
+    between(0.19, 9, alpha);
+    grid.alphas = 9, grid.kept = 4, grid.depth = 2.8;
+    if (truth_make(&grid, 0, NULL, NULL, &slabs)) print_row("fibre", "density .35 .. 2.8", &slabs, 0.0, 1.0);
+    truth_free(&slabs);
+    grid.albedos = 7, grid.albedo = colors, grid.kept = 1, grid.depth = 1.0, grid.rings = 25, grid.spokes = 5;
+    if (truth_make(&grid, 0, NULL, NULL, &slabs)) print_row("fibre", "colour .2 .. 1", &slabs, 0.0, 1.0);
+    truth_free(&slabs);
+    grid.kept = 4, grid.depth = 2.8;
+    if (truth_make(&grid, 0, NULL, NULL, &slabs)) print_row("fibre", "colour and density", &slabs, 0.0, 1.0);
+    truth_free(&slabs);
+    between(0.3, 6, alpha);
+    grid = (TruthGrid){6, 1, 3, 1, 9, 9, alpha, white, tilts, 1.0};
+    if (truth_make(&grid, 0, NULL, NULL, &slabs)) {
+        print_row("fibre", "tilt 7.5 .. 40, alpha 0.45 .. 1", &slabs, 0.45, 1.0);
+        print_row("fibre", "tilt 7.5 .. 40, alpha 0.3 .. 0.45", &slabs, 0.0, 0.45);
+    }
+    truth_free(&slabs);
+    grid.kept = 4, grid.depth = 2.8;
+    if (truth_make(&grid, 0, NULL, NULL, &slabs))
+        print_row("fibre", "tilt and density, alpha 0.45 .. 1", &slabs, 0.45, 1.0);
+    truth_free(&slabs);
+    grid.albedos = 7, grid.albedo = colors, grid.kept = 1, grid.depth = 1.0;
+    if (truth_make(&grid, 0, NULL, NULL, &slabs))
+        print_row("fibre", "tilt and colour, alpha 0.45 .. 1", &slabs, 0.45, 1.0);
+    truth_free(&slabs);
+}
+
+/* ---- sampling ---- */
+
+/* The weight f cos / pdf of stratified samples: its variance in parts of its mean's square, and its largest.
+ */
+static void weights(Lobe lobe, double mu, double *variance, double *most) {
+    enum { SIDE = 96 };
+    Dir o = dir((float)(sqrt)(1.0 - mu * mu), 0.0f, (float)mu);
+    double sum = 0.0, squares = 0.0, top = 0.0;
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        Dir i = lobe_sample(&lobe, o, ((float)(k % SIDE) + 0.5f) / SIDE, ((float)(k / SIDE) + 0.5f) / SIDE);
+        if (!(i.z > 0.0f)) continue;
+        LobeValue v = lobe_value(&lobe, angles_between(o, i));
+        double w = v.pdf > 0.0f ? (double)(v.f * i.z / v.pdf) : 0.0;
+        sum += w;
+        squares += w * w;
+        top = fmax(top, w);
+    }
+    double n = SIDE * SIDE, mean = sum / n;
+    *variance = squares / n / (mean * mean) - 1.0;
+    *most = top / mean;
+}
+
+static void print_sampling(void) {
+    printf("\nsampling, white: variance of the weight in parts of its mean's square, and the largest weight "
+           "over its mean\n");
+    for (size_t m = 0; m < sizeof models / sizeof models[0]; m++) {
+        int id = weft_lobe_find(models[m]), count = 0;
+        double mean = 0.0, worst = 0.0, largest = 0.0, variance, top;
+        if (id < 0) continue;
+        for (int a = 6; a < GRID; a += 2)
+            for (int k = 0; k < GRID; k++) {
+                Lobe lobe = lobe_default(id);
+                set(&lobe, "alpha", a / 31.0);
+                weights(lobe, k ? k / 31.0 : 0.01, &variance, &top);
+                mean += variance;
+                worst = fmax(worst, variance);
+                largest = fmax(largest, top);
+                count++;
+            }
+        printf("  %-12s alpha 0.19 .. 1: variance %.4f in the mean, %.3f at worst; largest weight %.1f\n",
+               models[m], mean / count, worst, largest);
+    }
+}
+
+int main(int count, char **arguments) {
+    const char *only = count > 1 ? arguments[1] : "";
+    if (!only[0] || strcmp(only, "solver") == 0) print_solver();
+    if (!only[0] || strcmp(only, "models") == 0) print_models();
+    if (!only[0] || strcmp(only, "sampling") == 0) print_sampling();
+    return 0;
+}

@@ -1,0 +1,172 @@
+/* The closed form of the lobe fibre against solved slabs that it was not fitted to, and its promises */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "fibre/matrix.h"
+#include "fibre/truth.h"
+#include "shading/albedo.h"
+#include "shading/registry.h"
+
+static void set(Lobe *lobe, const char *name, double value) {
+    lobe_set(lobe, lobe_param(lobe->id, name), (float)value);
+}
+
+static Dir dir_of(const double w[3]) { return dir((float)w[0], (float)w[1], (float)w[2]); }
+
+/* The mean over slabs of the mean error, the largest of the rest, of the lobe as it is compiled. */
+static TruthError error_of(const TruthGrid *grid) {
+    TruthSet set_;
+    TruthError all = {0}, one;
+    assert_true(truth_make(grid, 0, NULL, NULL, &set_));
+    for (int s = 0; s < set_.count; s++) {
+        const Truth *t = &set_.slabs[s];
+        Lobe lobe = lobe_default(LOBE_FIBRE);
+        set(&lobe, "alpha", t->slab.alpha);
+        set(&lobe, "density", t->slab.depth);
+        set(&lobe, "tilt", t->tilt);
+        double *f = calloc((size_t)t->pairs, sizeof *f);
+        assert_non_null(f);
+        for (int p = 0; p < t->pairs; p++) {
+            double wi[3], wo[3];
+            truth_pair(t, p, wi, wo);
+            LobeValue v = lobe_value(&lobe, angles_between(dir_of(wo), dir_of(wi)));
+            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - truth_once(t, p);
+        }
+        assert_true(truth_error(t, f, &one));
+        free(f);
+        all.mean += one.mean / set_.count;
+        all.worst = fmax(all.worst, one.worst);
+        all.albedo = fmax(all.albedo, one.albedo);
+        all.most = fmax(all.most, one.most);
+    }
+    truth_free(&set_);
+    return all;
+}
+
+static void expect(const char *what, TruthError e, double mean, double worst, double albedo) {
+    printf("%s: %.2f %% in the mean, %.1f %% at worst, R %.1e\n", what, 100.0 * e.mean, 100.0 * e.worst,
+           e.albedo);
+    assert_true(e.mean <= mean && e.worst <= worst && e.albedo <= albedo && e.most <= 1.0);
+}
+
+static const double white = 1.0, degree = 3.14159265358979 / 180.0;
+
+static void white_fibres_are_the_slab(void **state) {
+    (void)state;
+    const double alpha[] = {0.23, 0.41, 0.83}, low[] = {0.06, 0.12};
+    expect("white", error_of(&(TruthGrid){3, 1, 0, 1, 21, 5, alpha, &white, NULL, 1.0}), 0.004, 0.03, 2e-3);
+    expect("white, low alpha", error_of(&(TruthGrid){2, 1, 0, 1, 21, 5, low, &white, NULL, 1.0}), 0.03, 0.15,
+           1e-2);
+}
+
+static void density_is_the_slabs(void **state) {
+    (void)state;
+    const double alpha[] = {0.3, 0.7};
+    expect("density", error_of(&(TruthGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08, 1e-2);
+}
+
+static void colour_saturates(void **state) {
+    (void)state;
+    const double alpha[] = {0.35, 0.8}, albedo[] = {0.3, 0.75, 1.0};
+    expect("colour", error_of(&(TruthGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.022, 0.16, 2e-2);
+}
+
+static void nap_leans(void **state) {
+    (void)state;
+    const double alpha[] = {0.5, 0.8}, tilt[] = {12.0 * degree, 33.0 * degree};
+    expect("nap", error_of(&(TruthGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.25, 4e-2);
+}
+
+/* What the text and the fit must share: where fibres stand upright, the azimuth says nothing. */
+static float unit(uint32_t seed, uint32_t k) { return unit_float(hash_combine(seed, k)); }
+
+static Dir random_dir(uint32_t seed, uint32_t k) {
+    float z = unit(seed, k), r = (sqrtf)((1.0f - z) * (1.0f + z)), phi = 6.2831853f * unit(seed, k + 1);
+    z = unit(seed, k + 2) < 0.3f ? z * z * z * z : z;
+    r = (sqrtf)((1.0f - z) * (1.0f + z));
+    return dir(r * (cosf)(phi), r * (sinf)(phi), z + 1e-7f);
+}
+
+/* Any alpha, density and lean: nothing infinite or negative, the same both ways round to a few roundings. */
+static void the_lobe_is_reciprocal(void **state) {
+    (void)state;
+    double worst = 0.0;
+    for (uint32_t k = 0; k < 20000; k++) {
+        Lobe lobe = lobe_default(LOBE_FIBRE);
+        set(&lobe, "alpha", 0.05 + 0.95 * (double)unit(k, 0));
+        set(&lobe, "density", 0.25 * (pow)(16.0, (double)unit(k, 1)));
+        set(&lobe, "tilt", k % 2 ? 0.785 * (double)unit(k, 2) : 0.0);
+        set(&lobe, "azimuth", 6.28 * (double)unit(k, 3));
+        Dir o = random_dir(k, 4), i = random_dir(k, 8);
+        LobeValue a = lobe_value(&lobe, angles_between(o, i)), b = lobe_value(&lobe, angles_between(i, o));
+        assert_true(isfinite(a.f) && a.f >= 0.0f && isfinite(a.pdf));
+        worst = fmax(worst, fabs((double)a.f - (double)b.f) / fmax((double)a.f, 1e-30));
+    }
+    printf("reciprocal to %.1e\n", worst);
+    assert_true(worst < 1e-6);
+}
+
+/* E of the lobe by quadrature, over its whole range of parameters: against the nap too, where the slab sends
+ * nearly all back. */
+static void nothing_is_made_of_nothing(void **state) {
+    (void)state;
+    int cases = getenv("WEFT_TEST_LONG") ? 4000 : getenv("WEFT_TEST_SHORT") ? 20 : 120;
+    double most = 0.0;
+    for (uint32_t k = 0; k < (uint32_t)cases; k++) {
+        Lobe lobe = lobe_default(LOBE_FIBRE);
+        float mu = unit(k, 4), phi = k % 3 ? 3.14159265f * unit(k, 5) : 3.14159265f;
+        mu = k % 2 ? mu * mu * mu * mu + 1e-5f : mu;
+        set(&lobe, "alpha", (exp)((log)(0.05) * (double)unit(k, 0)));
+        set(&lobe, "density", 0.25 * (pow)(16.0, (double)unit(k, 1)));
+        set(&lobe, "tilt", k % 4 ? 0.7853 * (double)(sqrtf)(unit(k, 2)) : 0.0);
+        float r = (sqrtf)((1.0f - mu) * (1.0f + mu));
+        Albedo e = albedo_quadrature(&lobe, dir(r * (cosf)(phi), r * (sinf)(phi), mu), 1e-3);
+        if ((double)e.f0 > most) most = (double)e.f0;
+        if (e.f0 > 1.0f)
+            printf("alpha %g density %g tilt %g mu %g phi %g: E %g\n", (double)lobe.params[0],
+                   (double)lobe.params[1], (double)lobe.params[2], (double)mu, (double)phi, (double)e.f0);
+    }
+    printf("largest E of %d: %.4f\n", cases, most);
+    assert_true(most <= 1.0);
+}
+
+/* (A^T A + 1) x = b, solved, gives b again. */
+static void matrices_are_solved(void **state) {
+    (void)state;
+    enum { N = 101, M = 7 };
+    static double a[N * N], s[N * N], l[N * N], x[N * M], b[N * M], back[N * M];
+    for (int k = 0; k < N * N; k++) a[k] = (double)unit(5, (uint32_t)k) - 0.5;
+    for (int k = 0; k < N * M; k++) x[k] = b[k] = (double)unit(6, (uint32_t)k);
+    assert_true(matrix_product(N, N, N, 1.0, (Matrix){a, N, 1}, (Matrix){a, 1, N}, 0.0, s, N));
+    for (int k = 0; k < N; k++) s[k * N + k] += 1.0;
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++) assert_true(fabs(s[j * N + i] - s[i * N + j]) < 1e-12);
+    memcpy(l, s, sizeof l);
+    assert_true(matrix_factor(N, l, N) && matrix_solve(N, l, N, M, x, N));
+    assert_true(matrix_product(N, M, N, 1.0, (Matrix){s, 1, N}, (Matrix){x, 1, N}, 0.0, back, N));
+    for (int k = 0; k < N * M; k++) assert_true(fabs(back[k] - b[k]) < 1e-10);
+    l[0] = -1.0;
+    assert_false(matrix_factor(1, l, N));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(matrices_are_solved),
+        cmocka_unit_test(the_lobe_is_reciprocal),
+        cmocka_unit_test(nothing_is_made_of_nothing),
+        cmocka_unit_test(white_fibres_are_the_slab),
+        cmocka_unit_test(density_is_the_slabs),
+        cmocka_unit_test(colour_saturates),
+        cmocka_unit_test(nap_leans),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
