@@ -60,6 +60,7 @@ static const WeftBakeKind *kind_of_table(const char *id) {
     char hint[96];
     Nearest nearest = {.typed = id};
     nearest_offer(&nearest, "audit");
+    nearest_offer(&nearest, "fibre-model");
     for (int k = 0; weft_bake_kind(k); k++) {
         if (strcmp(weft_bake_kind(k)->id, id) == 0) return weft_bake_kind(k);
         nearest_offer(&nearest, weft_bake_kind(k)->id);
@@ -100,7 +101,7 @@ static bool none_given(const Options *options, const char *const *names, const c
 }
 
 static int bake_read(const Options *options, Bake *bake) {
-    static const char *const others[] = {"--lobe", "--channel", "--max", NULL};
+    static const char *const others[] = {"--lobe", "--channel", "--max", "--rounds", NULL};
     const WeftBakeKind *kind = kind_of_table(options->operands[0]);
     const char *lobe = options->operand_count > 1 ? options->operands[1] : NULL;
     int cursor = 0, result = 0;
@@ -217,9 +218,14 @@ static int table_run(const Options *options) {
 }
 
 static int bake_run(const Options *options) {
-    static const char *const others[] = {"--size", "--half", NULL};
-    if (strcmp(options->operands[0], "audit") != 0) return table_run(options);
-    return none_given(options, others, "audit") ? audit_run(options) : WEFT_USAGE;
+    static const char *const others[] = {"--size", "--half", "--rounds", NULL};
+    static const char *const tables[] = {"--size", "--half", "--axes", "--scale",
+                                         "-p",     "--lobe", "--json", NULL};
+    const char *kind = options->operands[0];
+    if (strcmp(kind, "fibre-model") == 0)
+        return none_given(options, tables, kind) ? fibre_model_run(options) : WEFT_USAGE;
+    if (strcmp(kind, "audit") != 0) return table_run(options);
+    return none_given(options, others, kind) ? audit_run(options) : WEFT_USAGE;
 }
 
 static void lists(void) {
@@ -234,6 +240,7 @@ static void lists(void) {
         snprintf(help, sizeof help, "%s [%dx%d]", kind->help, kind->width, kind->height);
         layout_entry(stdout, 26, name, help);
     }
+    layout_entry(stdout, 26, "fibre-model", "the numbers of the lobe fibre, fitted to solved slabs: minutes");
     layout_entry(stdout, 26, "audit FILE --lobe LOBE", "how far a table of E in FILE is off, and why");
     printf("\nAxes\n");
     for (int k = 0; weft_table_form_name(k); k++) {
@@ -264,6 +271,7 @@ static const Option bake_options[] = {
         "-p", "NAME=VALUE",
         "a parameter of the lobe, as `weft eval` has it; but neither the first, which is an axis, nor "
         "a color"),
+    OPTION_NUMBER("--rounds", "COUNT", "120", 1, 1000, "of the search that makes a fibre-model"),
     OPTION_HEADING("Audit"),
     OPTION_TEXT("--lobe", "LOBE", NULL, "whose E the table should hold"),
     OPTION_TEXT("--channel", "CHANNEL", NULL, "r, g, b, a or its number from 0 [the only one]"),

@@ -25,6 +25,9 @@ int bake_lobe(const Options *options, const char *id, WeftLobe *lobe);
 /* A WeftProgress whose user is a Progress; it stops at an interruption. */
 int bake_progress(void *progress, double fraction);
 
+/* weft bake fibre-model */
+int fibre_model_run(const Options *options);
+
 /* weft bake audit FILE */
 int audit_run(const Options *options);
 

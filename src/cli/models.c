@@ -23,6 +23,7 @@ static const struct {
     {WEFT_LOBE_REFERENCE, "reference", "for the path tracer only"},
     {WEFT_LOBE_DIFFUSE, "diffuse", "a diffuse term"},
     {WEFT_LOBE_TABLE, "table", "reads a table made at its first use"},
+    {WEFT_LOBE_TINTED, "tinted", "its colour is the albedo of fibres, no factor"},
 };
 enum { TRAIT_COUNT = sizeof traits / sizeof *traits, COLUMN = 32 };
 
@@ -96,7 +97,9 @@ static void print_lobe(const WeftLobeInfo *info) {
     printf("\n");
     print_row("parameter", "default", "range", "clamped to", "meaning");
     for (int k = 0; k < info->param_count; k++) print_param(&info->params[k]);
-    print_row("color", "1", "0 .. 1", "", "r,g,b or one number; also called f0");
+    print_row("color", "1", "0 .. 1", "",
+              info->traits & WEFT_LOBE_TINTED ? "albedo of the fibres, r,g,b or one number; also called f0"
+                                              : "r,g,b or one number; also called f0");
     if (info->traits & WEFT_LOBE_TWO_COLORS)
         print_row("f90", "1", "0 .. 1", "", "the second colour; at grazing, of a Fresnel term");
 }

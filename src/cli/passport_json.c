@@ -19,6 +19,11 @@ static void json_albedo(Json *json, const WeftPassport *p) {
     json_open(json, "e", '[');
     for (int row = 0; row < p->rows; row++) json_floats(json, NULL, p->albedo[row], WEFT_PASSPORT_COSINES);
     json_close(json, ']');
+    bool tinted = (p->traits & WEFT_LOBE_TINTED) != 0;
+    if (tinted) json_open(json, "e_half", '[');
+    for (int row = 0; tinted && row < p->rows; row++)
+        json_floats(json, NULL, p->albedo_half[row], WEFT_PASSPORT_COSINES);
+    if (tinted) json_close(json, ']');
     json_float(json, "most", p->albedo_most);
     json_place(json, "at", &p->albedo_place);
     json_integer(json, "above_one", p->albedo_above);

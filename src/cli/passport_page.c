@@ -72,12 +72,13 @@ static void row_name(const WeftPassport *p, int row, char *name, size_t size) {
         snprintf(name, size, "%s", p->id);
 }
 
-static void draw_albedo(FILE *f, const WeftPassport *p) {
-    Plot plot = plot_open(f, "Directional albedo E", "cos_o", (double)p->albedo_most, p->rows);
+static void draw_albedo(FILE *f, const WeftPassport *p, const char *title,
+                        const float cells[][WEFT_PASSPORT_COSINES]) {
+    Plot plot = plot_open(f, title, "cos_o", (double)p->albedo_most, p->rows);
     for (int row = 0; row < p->rows; row++) {
         char name[96];
         row_name(p, row, name, sizeof name);
-        plot_curve(&plot, p->cosines, p->albedo[row], WEFT_PASSPORT_COSINES, name);
+        plot_curve(&plot, p->cosines, cells[row], WEFT_PASSPORT_COSINES, name);
     }
     plot_close(&plot);
 }
@@ -181,7 +182,9 @@ void passports_page(FILE *f, const WeftPassport *passports, int count) {
         escaped(f, p->surface);
         fprintf(f, "</p>\n");
         write_facts(f, p);
-        draw_albedo(f, p);
+        draw_albedo(f, p, "Directional albedo E", p->albedo);
+        if (p->traits & WEFT_LOBE_TINTED)
+            draw_albedo(f, p, "E of fibres that keep half of the light", p->albedo_half);
         if (p->layers) draw_furnace(f, p);
         draw_variance(f, p);
         write_table(f, p);

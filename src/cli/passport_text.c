@@ -20,10 +20,7 @@ static const char *title(const WeftPassport *p) {
     return p->profile && strcmp(p->id, "none") == 0 ? "none (weft's own)" : p->id;
 }
 
-static void print_albedo(const WeftPassport *p) {
-    char place[96];
-    printf("\nDirectional albedo E of the white %s; * marks what is above 1 by more than 0.001\n\n",
-           p->profile ? "material" : "lobe");
+static void print_cells(const WeftPassport *p, const float cells[][WEFT_PASSPORT_COSINES]) {
     if (*p->parameter) printf("  %s\n", p->parameter);
     printf("  cos_o ");
     for (int row = 0; row < p->rows && *p->parameter; row++) printf(" %5.3g", (double)p->values[row]);
@@ -31,14 +28,24 @@ static void print_albedo(const WeftPassport *p) {
     for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) {
         printf("  %-6g", (double)p->cosines[c]);
         for (int row = 0; row < p->rows; row++) {
-            float e = p->albedo[row][c];
+            float e = cells[row][c];
             printf("%c%5.3f", !(e <= 1.001f) ? '*' : ' ', (double)e);
         }
         printf("\n");
     }
+}
+
+static void print_albedo(const WeftPassport *p) {
+    char place[96];
+    printf("\nDirectional albedo E of the white %s; * marks what is above 1 by more than 0.001\n\n",
+           p->profile ? "material" : "lobe");
+    print_cells(p, p->albedo);
     printf("  at most %.3g (%s); %d of %d cells above 1\n", (double)p->albedo_most,
            place_text(p, &p->albedo_place, place, sizeof place), p->albedo_above,
            p->rows * WEFT_PASSPORT_COSINES);
+    if (!(p->traits & WEFT_LOBE_TINTED)) return;
+    printf("\nDirectional albedo E of fibres that keep half of the light\n\n");
+    print_cells(p, p->albedo_half);
 }
 
 static void print_reciprocity(const WeftPassport *p) {

@@ -9,15 +9,16 @@
 #include "raster/compute.h"
 #include "text/dispatch.h"
 
-enum { PAIRS = 16384, INPUTS = 4 };
+enum { PAIRS = 16384, INPUTS = 4, ANSWERS = 3 };
 
-/* in0: o.  in1: i.  in2, in3: parameters.  out0: f of the white lobe. */
+/* in0: o.  in1: i.  in2, in3: parameters.  out0: f of the white lobe, pdf, f in a colour. */
 static const char body[] =
     "    Lobe m;\n    m.id = in0.w < 2.0 ? FIRST : -1;\n" /* no constant to the compiler */
     "    for (int k = 0; k < 4; k++) {\n"
     "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
     "    LobeValue v = lobe_at(m, angles_between(dir(in0.x, in0.y, in0.z), dir(in1.x, in1.y, in1.z)));\n"
-    "    out0 = vec4(v.f * mix(1.0, lobe_second(m, 1.0, 1.0), v.s), v.pdf, 0.0, 0.0);\n";
+    "    out0 = vec4(v.f * lobe_color(v, 1.0, lobe_second(m, 1.0, 1.0)), v.pdf,\n"
+    "                v.f * lobe_color(v, 0.5, lobe_second(m, 0.5, 1.0)), 0.0);\n";
 
 /* Any direction; one in four grazes, down to a cosine of 1e-4. */
 static Dir any_direction(Draw *draw) {
@@ -52,9 +53,10 @@ static void compare(const Subject *subject, const Arrays *arrays, WeftPassport *
         const float *o = arrays->in[0] + 4 * k, *i = arrays->in[1] + 4 * k, *gpu = arrays->out + 4 * k;
         Lobe lobe = subject_lobe(subject, (int)(k % (size_t)subject->rows));
         LobeValue v = lobe_value(&lobe, angles_between(dir(o[0], o[1], o[2]), dir(i[0], i[1], i[2])));
-        const double c[2] = {(double)(v.f * (1.0f - v.s + v.s * lobe_second(lobe, 1.0f, 1.0f))),
-                             (double)v.pdf};
-        for (int q = 0; q < 2; q++) {
+        const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(lobe, 1.0f, 1.0f))),
+                                   (double)v.pdf,
+                                   (double)(v.f * lobe_color(v, 0.5f, lobe_second(lobe, 0.5f, 1.0f)))};
+        for (int q = 0; q < ANSWERS; q++) {
             double error = fabs((double)gpu[q] - c[q]) / (fabs(c[q]) + least / tolerance);
             if (!(error <= tolerance))
                 beyond++;
@@ -63,7 +65,7 @@ static void compare(const Subject *subject, const Arrays *arrays, WeftPassport *
         }
     }
     out->parity_worst = (float)worst;
-    out->parity_beyond = (float)beyond / (2 * PAIRS);
+    out->parity_beyond = (float)beyond / (ANSWERS * PAIRS);
 }
 
 static WeftResult run(GlContext *context, const Subject *subject, Arrays *arrays, WeftError *error) {

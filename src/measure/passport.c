@@ -31,6 +31,7 @@ typedef struct Work {
     const Subject *subject;
     const WeftPassportDesc *desc;
     WeftPassport *out;
+    Subject *colored; /* the subject in a middle colour, where it is tinted; else NULL */
     atomic_bool short_of_memory;
 
     Reciprocity reciprocity[WEFT_PASSPORT_ROWS];
@@ -55,6 +56,13 @@ static void measure_albedo(void *user, int item, int thread) {
         return;
     }
     Lobe lobe = subject_lobe(work->subject, row);
+    if (work->colored) {
+        float tinted[3];
+        albedo_tinted(&lobe, o, (const float[3]){1.0f, work->colored->albedo, 0.0f}, 1e-4, tinted);
+        work->out->albedo[row][c] = tinted[0];
+        work->out->albedo_half[row][c] = tinted[1];
+        return;
+    }
     Albedo e = albedo_quadrature(&lobe, o, 1e-4);
     work->out->albedo[row][c] = e.f0 + e.f90 * lobe_second(lobe, 1.0f, 1.0f);
 }
@@ -80,7 +88,11 @@ static void measure_reciprocity(void *user, int row, int thread) {
     (void)thread;
     Work *work = user;
     int pairs = (work->subject->whole ? 4000 : 20000) / (work->desc->quick ? 4 : 1);
-    work->reciprocity[row] = reciprocity_measure(work->subject, row, pairs);
+    Reciprocity *worst = &work->reciprocity[row];
+    *worst = reciprocity_measure(work->subject, row, pairs);
+    if (!work->colored) return;
+    Reciprocity colored = reciprocity_measure(work->colored, row, pairs);
+    if (is_more((double)colored.error, (double)worst->error)) *worst = colored;
 }
 
 static void find_reciprocity(Work *work) {
@@ -210,7 +222,14 @@ static void find_sampling(Work *work) {
 static void measure_sweep(void *user, int setting, int thread) {
     (void)thread;
     Work *work = user;
-    work->sweeps[setting] = sweep_setting(work->subject, setting);
+    Sweep *sweep = &work->sweeps[setting];
+    *sweep = sweep_setting(work->subject, setting);
+    if (!work->colored) return;
+    Sweep colored = sweep_setting(work->colored, setting);
+    sweep->count += colored.count;
+    sweep->infinite += colored.infinite;
+    sweep->negative += colored.negative;
+    sweep->below += colored.below;
 }
 
 static void find_sweep(Work *work) {
@@ -224,12 +243,27 @@ static void find_sweep(Work *work) {
     }
 }
 
+/* The subject again, of what keeps half of the light. False when memory is short. */
+static bool color_tinted(Work *work) {
+    const Subject *subject = work->subject;
+    if (subject->whole || !(weft_lobe_info(subject->lobe.id)->traits & TRAIT_TINTED)) return true;
+    work->colored = malloc(sizeof *work->colored);
+    if (!work->colored) return false;
+    *work->colored = *subject;
+    work->colored->albedo = 0.5f;
+    return true;
+}
+
 bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, WeftPassport *out) {
     Work *work = calloc(1, sizeof *work);
     if (!work) return false;
     work->subject = subject;
     work->desc = desc;
     work->out = out;
+    if (!color_tinted(work)) {
+        free(work);
+        return false;
+    }
     out->rows = subject->rows;
     out->row_default = subject->row_default;
     memcpy(out->values, subject->values, sizeof out->values);
@@ -245,6 +279,7 @@ bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, Weft
     else
         parity_measure(subject, out);
     bool held = !work->short_of_memory;
+    free(work->colored);
     free(work);
     return held;
 }

@@ -328,6 +328,10 @@ static void nonsense_is_refused(void **state) {
         const char *part;
     } cases[] = {
         {{"bake"}, 2, "lacks an operand"},
+        {{"bake", "fibre-model"}, 2, "needs -o"},
+        {{"bake", "fibre-model", "--size", "4x4", "-o", "x.h"}, 2, "--size"},
+        {{"bake", "fibre-truth", "charlie-neubelt", "-o", "x.npy"}, 2, "fibre"},
+        {{"bake", "ltc", "silk", "-o", "x.npy"}, 2, "silk"},
         {{"bake", "albdo", "ggx", "-o", "x.h"}, 2, "did you mean albedo?"},
         {{"bake", "audits", "x.png"}, 2, "did you mean audit?"},
         {{"bake", "albedo", "-o", "x.h"}, 2, "needs a lobe"},
@@ -373,6 +377,39 @@ static void nonsense_is_refused(void **state) {
                      "is not one of r, g, b, a");
 }
 
+/* What fibres reflect and what goes through them is all there is, in either orientation of the axes. */
+static void solved_slabs_are_baked(void **state) {
+    (void)state;
+    finish(done(LIST("bake", "fibre-truth", "--size", "5x3", "--quiet", "-o", "truth.npy")));
+    finish(done(LIST("bake", "fibre-truth", "fibre-walk", "-p", "density=1", "--size", "3x5", "--quiet",
+                     "--axes", "roughness,cos", "-o", "turned.npy")));
+    WeftImage truth = image_of("truth.npy"), turned = image_of("turned.npy");
+    assert_shape(&truth, 5, 3, 2, WEFT_PIXEL_F32);
+    assert_shape(&turned, 3, 5, 2, WEFT_PIXEL_F32);
+    const float *a = truth.pixels, *b = turned.pixels;
+    for (int y = 0; y < 3; y++)
+        for (int x = 0; x < 5; x++) {
+            const float *p = a + 2 * (5 * y + x), *q = b + 2 * (3 * x + y);
+            assert_near((double)(p[0] + p[1]), 1.0, 1e-4);
+            assert_near((double)p[0], (double)q[0], 1e-6);
+        }
+    weft_image_free(&truth);
+    weft_image_free(&turned);
+}
+
+/* Tables of the tree begin with what made them, and a kind that is text takes no options of tables. */
+static void fibres_have_their_kinds(void **state) {
+    (void)state;
+    const char *text = weft_catalogue_text("tables/fibre_model.h");
+    assert_non_null(text);
+    assert_true(strncmp(text, "/* weft bake fibre-model ", 25) == 0);
+    finish(done(LIST("bake", "ltc", "charlie-neubelt", "--size", "4x3", "--quiet", "-o", "ltc.npy")));
+    WeftImage ltc = image_of("ltc.npy");
+    assert_shape(&ltc, 4, 3, 4, WEFT_PIXEL_F32);
+    for (int k = 0; k < 12; k++) assert_true(((float *)ltc.pixels)[4 * k] > 0.0f);
+    weft_image_free(&ltc);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_is_complete),
@@ -385,6 +422,8 @@ int main(void) {
         cmocka_unit_test(pictures_are_tables_too),
         cmocka_unit_test(an_interruption_writes_nothing),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(solved_slabs_are_baked),
+        cmocka_unit_test(fibres_have_their_kinds),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -1,0 +1,39 @@
+#include <stdio.h>
+
+#include "base/fail.h"
+#include "fibre/model.h"
+#include "weft/bake.h"
+
+/* Truths and rounds of all stages, by about what they cost. */
+typedef struct Counter {
+    const WeftFibreModelDesc *desc;
+    int phases; /* truth and fit of each stage: a phase ends where its count is full */
+} Counter;
+
+static bool count(void *user, int done, int all) {
+    Counter *counter = user;
+    const double total = 2.0 * FIBRE_STAGES;
+    double fraction = (counter->phases + (double)done / all) / total;
+    if (done == all) counter->phases++;
+    return !counter->desc->progress || counter->desc->progress(counter->desc->user, fraction) == 0;
+}
+
+WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
+                                 WeftError *error) {
+    FibreModelFit model;
+    Counter counter = {desc, 0};
+    size_t size;
+    *text = NULL;
+    if (desc->rounds < 0 || desc->rounds > 1000 || desc->threads < 0)
+        return fail(error, WEFT_MESSAGE_DESC, "rounds", "%d", desc->rounds);
+    if (!fibre_model_fit(FIBRE_COLOR, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter,
+                         &model))
+        return WEFT_INTERRUPTED;
+    FILE *stream = open_memstream(text, &size);
+    if (stream) {
+        fibre_model_write(&model, command, stream);
+        if (fclose(stream) != 0) *text = NULL;
+    }
+    fibre_model_free(&model);
+    return *text ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "fibre-model", NULL);
+}
