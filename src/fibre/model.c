@@ -284,9 +284,9 @@ static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient
     bool color = stage == FIBRE_COLOR;
     int locals = locals_of(color);
     *out = (Staged){0};
-    out->terms = arena_array(&out->arena, slabs, sizeof *out->terms);
+    out->terms = arena_array(&out->arena, slabs, sizeof(FitTerm *));
     out->counts = arena_array(&out->arena, slabs, sizeof *out->counts);
-    out->fixed = arena_array(&out->arena, slabs, sizeof *out->fixed);
+    out->fixed = arena_array(&out->arena, slabs, sizeof(double *));
     out->columns = arena_array(&out->arena, (size_t)n, sizeof *out->columns);
     out->moving = arena_array(&out->arena, (size_t)locals, sizeof *out->moving);
     if (!out->terms || !out->counts || !out->fixed || !out->columns || !out->moving) return false;

@@ -84,12 +84,11 @@ Lobe lobe_rough(int id, float roughness) {
 Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth) {
     float first = lobe.params[0];
     int k = 0;
-    switch (lobe.id) {
 #define LOBE_FIBRES(text, name, Record, NAME)                                                                \
-    case LOBE_##NAME: NAME##_PARAMS(PARAM_FIBRES) break;
-        WEFT_LOBES(LOBE_FIBRES)
-    default: break;
+    if (lobe.id == LOBE_##NAME) {                                                                            \
+        NAME##_PARAMS(PARAM_FIBRES)                                                                          \
     }
+    WEFT_LOBES(LOBE_FIBRES)
     lobe.params[0] = first;
     return lobe;
 }
