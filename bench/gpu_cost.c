@@ -16,6 +16,7 @@
 #include "shading/terms.h"
 #include "text/dispatch.h"
 #include "text/number.h"
+#include "text/tables.h"
 
 /* The cycles are those of the busiest unit: so many multiplications beside the lines in question make sure
  * that it is the one that computes, not the one that reads. */
@@ -31,8 +32,9 @@ typedef struct Gpu {
     VkPipelineLayout layout;
     VkPhysicalDeviceProperties2 properties;
     VkPhysicalDeviceDriverProperties driver;
-    char folder[32];             /* for the compiler's files */
-    Cost empty[INPUTS_MOST + 1]; /* of a shader that reads so many numbers, once it is known */
+    char folder[32]; /* for the compiler's files */
+    Cost empty[2][INPUTS_MOST +
+                  1]; /* of a shader that reads so many numbers, once it is known; [0]: no ballast */
 } Gpu;
 
 static void stop(const char *why) {
@@ -61,11 +63,11 @@ static VkPhysicalDevice find_device(Gpu *gpu) {
 }
 
 static void make_layout(Gpu *gpu) {
-    static const VkDescriptorType types[] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    VkDescriptorSetLayoutBinding bindings[3] = {0};
-    for (uint32_t k = 0; k < 3; k++) {
+    static const VkDescriptorType types[] = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+    VkDescriptorSetLayoutBinding bindings[4] = {0};
+    for (uint32_t k = 0; k < 4; k++) {
         bindings[k].binding = k;
         bindings[k].descriptorType = types[k];
         bindings[k].descriptorCount = 1;
@@ -73,7 +75,7 @@ static void make_layout(Gpu *gpu) {
     }
     VkDescriptorSetLayout set;
     VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                .bindingCount = 3,
+                                                .bindingCount = 4,
                                                 .pBindings = bindings};
     check(vkCreateDescriptorSetLayout(gpu->device, &set_info, NULL, &set), "no descriptor set layout");
     VkPipelineLayoutCreateInfo info = {
@@ -184,7 +186,7 @@ static Cost cost_of(const Gpu *gpu, const char *bytes) {
 
 /* main: thread k reads `inputs` floats of its own into u, and writes their sum, so that all of them are read
  * in any case, and the two numbers f and s. */
-static void put_main(Text *text, int inputs, const char *lines) {
+static void put_main(Text *text, int inputs, bool loaded, const char *lines) {
     text_line(text, "\nlayout(local_size_x = 64) in;\n"
                     "layout(std430, set = 0, binding = 1) readonly buffer Inputs { float values[]; };\n"
                     "layout(std430, set = 0, binding = 2) writeonly buffer Outputs { vec4 answers[]; };\n");
@@ -192,30 +194,36 @@ static void put_main(Text *text, int inputs, const char *lines) {
               inputs);
     for (int k = 0; k < inputs; k++)
         text_line(text, "    u[%d] = values[%du * k + %du];\n    sum += u[%d];", k, inputs, k, k);
-    for (int k = 0; k < BALLAST; k++) text_line(text, "    sum = fma(sum, sum, u[0]);");
+    for (int k = 0; loaded && k < BALLAST; k++) text_line(text, "    sum = fma(sum, sum, u[0]);");
     text_line(text, "    float f = 0.0, s = 0.0;\n%s    answers[k] = vec4(sum, f, s, 0.0);\n}", lines);
 }
 
 /* The text with that main. */
-static Cost cost_with(const Gpu *gpu, Text *text, int inputs, const char *lines) {
+static Cost cost_with(const Gpu *gpu, Text *text, int inputs, bool loaded, const char *lines) {
     WeftError error = {0};
-    put_main(text, inputs, lines);
+    put_main(text, inputs, loaded, lines);
     if (text_end(text, &error) != WEFT_OK) stop(error.text);
     Cost cost = cost_of(gpu, text->bytes);
     text_free(text);
     return cost;
 }
 
-/* Prints what the lines add to a shader that reads as many numbers; registers are those of the whole. */
-static void put_row(Gpu *gpu, const char *name, Text *text, int inputs, const char *lines) {
-    Cost *empty = &gpu->empty[inputs], cost = cost_with(gpu, text, inputs, lines);
+/* What the lines add to a shader that reads as many numbers; registers are those of the whole. */
+static Cost cost_added(Gpu *gpu, Text *text, int inputs, bool loaded, const char *lines) {
+    Cost *empty = &gpu->empty[loaded][inputs], cost = cost_with(gpu, text, inputs, loaded, lines);
     if (!(empty->instructions > 0.0)) {
         Text nothing;
         text_begin(&nothing, &(TextDesc){.language = TEXT_GLSL_450});
-        *empty = cost_with(gpu, &nothing, inputs, "");
+        *empty = cost_with(gpu, &nothing, inputs, loaded, "");
     }
-    printf("| %s | %.0f | %.0f | %.0f |\n", name, cost.instructions - empty->instructions,
-           cost.cycles - empty->cycles, cost.registers);
+    cost.instructions -= empty->instructions;
+    cost.cycles -= empty->cycles;
+    return cost;
+}
+
+static void put_row(Gpu *gpu, const char *name, Text *text, int inputs, const char *lines) {
+    Cost cost = cost_added(gpu, text, inputs, true, lines);
+    printf("| %s | %.0f | %.0f | %.0f |\n", name, cost.instructions, cost.cycles, cost.registers);
 }
 
 #define ANGLES "    Angles a = angles_between(dir(u[0], u[1], u[2]), dir(u[3], u[4], u[5]));\n"
@@ -259,6 +267,65 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
     put_row(gpu, name, &text, 8, lines);
 }
 
+/* Fibres as an engine has them, beside the tightest transformed cosine: tables are filtered by the GPU, four
+ * numbers a texel, and what belongs to the material alone lies in a uniform buffer. Fibres stand upright.
+ * u[6] is the row of a table that is read by pixel, u[6 .. 9] what was kept of wo. */
+#define UPRIGHT "    FibreModel m = model;\n    m.s = 0.0;\n    m.n.thin = 0.0;\n"
+#define SINGLE  "    f = flake_single_upright(flakes, a.o, a.i);\n"
+#define MULTIPLE(o)                                                                                          \
+    "    f += fibre_multiple(m, " o ", fibre_side(m, a.i.z, a.i.z), a.o.x * a.i.x + a.o.y * a.i.y);\n"
+static const struct {
+    const char *name;
+    int inputs;
+    const char *lines;
+} fibre_rows[] = {
+    {"ltc, tight", 7,
+     "    vec4 t = textureLod(weft_tables, vec3(sqrt(u[2]), u[6], 0.0), 0.0);\n"
+     "    vec2 v = t.x * vec2(u[3], u[4]) + (t.y * u[5]) * vec2(u[0], u[1]);\n"
+     "    float r2 = dot(v, v) + u[5] * u[5], r = t.x / r2;\n"
+     "    f = t.z * r * r;\n"},
+    {"fibre-table, fixed material", 6,
+     ANGLES SINGLE "    f += fibre_table_multiple(read_side(a.o.z, row), read_side(a.i.z, row), a.o, a.i,\n"
+                   "                              alpha, power);\n"},
+    {"fibre-table, alpha of the pixel", 7,
+     ANGLES "    float l = log2(u[6]), y = 0.391289 * l + 0.96875;\n"
+            "    f = flake_single_upright(flake_upright(u[6] * u[6], 1.0), a.o, a.i);\n"
+            "    f += fibre_table_multiple(read_side(a.o.z, y), read_side(a.i.z, y), a.o, a.i,\n"
+            "                              u[6], 1.4 - 2.2 * l);\n"},
+    {"fibre, fixed material", 6, ANGLES UPRIGHT SINGLE MULTIPLE("fibre_side(m, a.o.z, a.o.z)")},
+    {"fibre, fixed material, view side kept", 10,
+     ANGLES UPRIGHT SINGLE
+     "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
+};
+
+static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
+    Text text;
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
+    text_include(&text, "shading/fibre_medium.h");
+    text_lobe_tables(&text);
+    text_include(&text, "shading/lobes/fibre_table.h");
+    text_line(&text, "\nlayout(std140, set = 0, binding = 3) uniform Material {\n    FibreModel model;\n"
+                     "    FlakeUpright flakes;\n    float row, alpha, power;\n};\n\n"
+                     "FibreSide side_of(float mu, vec4 t) {\n"
+                     "    return FibreSide(mu, mu, t.x, t.y, t.z, t.w, 0.0, 0.0, 0.0, 0.0);\n}\n\n"
+                     "FibreTableSide read_side(float mu, float y) {\n"
+                     "    float x = sqrt(mu + 1e-3) * 0.967615 + 6.51327e-4;\n"
+                     "    vec4 t = textureLod(weft_tables, vec3(x, y, 0.0), 0.0);\n"
+                     "    return FibreTableSide(t.x, t.y, t.z, t.w);\n}");
+    return cost_added(gpu, &text, fibre_rows[row].inputs, loaded, fibre_rows[row].lines);
+}
+
+static void fibre_costs(Gpu *gpu) {
+    Cost first = {0}, first_alone = {0};
+    for (size_t k = 0; k < sizeof fibre_rows / sizeof fibre_rows[0]; k++) {
+        Cost cost = fibre_cost(gpu, k, true), alone = fibre_cost(gpu, k, false);
+        if (k == 0) first = cost, first_alone = alone;
+        printf("| %s | %.0f | %.0f | %.1f | %.0f | %.1f | %.0f |\n", fibre_rows[k].name, cost.instructions,
+               cost.cycles, cost.cycles / first.cycles, alone.cycles, alone.cycles / first_alone.cycles,
+               cost.registers);
+    }
+}
+
 int main(void) {
     Gpu gpu = {0};
     gpu_begin(&gpu);
@@ -284,6 +351,14 @@ int main(void) {
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
         for (int term = 0; weft_term_id((WeftTermKind)kind, term); term++)
             term_row(&gpu, (WeftTermKind)kind, term);
+    printf(
+        "\n"
+        "Fibres as engines would have them: tables filtered by the GPU, four numbers a texel; what belongs\n"
+        "to the material alone in a uniform buffer. Beside the cycles those over a shader that does nothing\n"
+        "else, where whatever is busiest counts, reading too.\n\n"
+        "| fibres | instructions | cycles | over ltc | alone | over ltc | registers |\n"
+        "|---|---|---|---|---|---|---|\n");
+    fibre_costs(&gpu);
     gpu_end(&gpu);
     return 0;
 }

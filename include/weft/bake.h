@@ -52,6 +52,7 @@ WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int wid
 typedef struct WeftBakeKind {
     const char *id, *help;
     int lobe;
+    int formed;        /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words tell */
     int width, height; /* where none are given */
 } WeftBakeKind;
 WEFT_API const WeftBakeKind *weft_bake_kind(int index);

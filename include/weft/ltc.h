@@ -39,6 +39,7 @@ typedef struct WeftLtcDesc {
     float low, high;   /* of the first parameter, clamped to its hard range; both 0: its plausible range */
     float f0, f90;     /* the colours that the transform is fitted to; both 0: white */
     int norm;          /* what is made least: 1, 2 or 3, the power of |f cos_i - amplitude D|; 0: 1 */
+    int level;         /* not 0: r is 0, so that D ends at the horizon and f is finite there */
     int threads;       /* 0: one a processor */
     int no_cache;      /* not 0: neither read nor written */
     /* May be NULL. Called now and then from the calling thread with the finished share in [0, 1]; a result

@@ -48,6 +48,7 @@ int bake_progress(void *progress, double fraction) {
 /* What a command line asks for. */
 typedef struct Bake {
     const Options *options;
+    const WeftBakeKind *kind;
     BakeCommon common;
     WeftBakeDesc desc;
     WeftLobe lobe;
@@ -102,11 +103,14 @@ static bool none_given(const Options *options, const char *const *names, const c
 
 static int bake_read(const Options *options, Bake *bake) {
     static const char *const others[] = {"--lobe", "--channel", "--max", "--rounds", NULL};
+    static const char *const form[] = {"--axes", NULL}; /* where a kind has axes of its own */
     const WeftBakeKind *kind = kind_of_table(options->operands[0]);
     const char *lobe = options->operand_count > 1 ? options->operands[1] : NULL;
     int cursor = 0, result = 0;
     bake->options = options;
-    if (!kind || !none_given(options, others, kind->id) || !bake_common(options, &bake->common) ||
+    bake->kind = kind;
+    if (!kind || !none_given(options, others, kind->id) ||
+        (!kind->formed && !none_given(options, form, kind->id)) || !bake_common(options, &bake->common) ||
         !size_read(options, kind, &bake->desc))
         return WEFT_USAGE;
     if (!lobe && kind->lobe == 2)
@@ -155,8 +159,9 @@ static int files_write(const Bake *bake) {
     char elements[WEFT_TABLE_FORM_TEXT], about[384];
     char *command = command_text(bake->options);
     int cursor = 0, result = command ? 0 : report(WEFT_RESOURCES, "out of memory");
-    snprintf(about, sizeof about, "%s: %s; %s; within %.2g", bake->info.words, bake->info.channels,
-             weft_table_form_text(&bake->desc.form, elements), bake->info.error);
+    snprintf(about, sizeof about, "%s: %s%s%s; within %.2g", bake->info.words, bake->info.channels,
+             bake->kind->formed ? "; " : "",
+             bake->kind->formed ? weft_table_form_text(&bake->desc.form, elements) : "", bake->info.error);
     const TableFile file = {.table = &bake->table,
                             .command = command,
                             .about = about,
@@ -183,7 +188,7 @@ static void json_write(const Bake *bake) {
     json_integer(&json, "width", bake->table.width);
     json_integer(&json, "height", bake->table.height);
     json_text(&json, "channels", info->channels);
-    json_text(&json, "axes", weft_table_form_text(&bake->desc.form, elements));
+    if (bake->kind->formed) json_text(&json, "axes", weft_table_form_text(&bake->desc.form, elements));
     json_number(&json, "tolerance", bake->common.tolerance);
     json_number(&json, "error", info->error);
     json_integer(&json, "unmet", info->unmet);

@@ -8,8 +8,6 @@
 #include "base/thread.h"
 #include "fibre/matrix.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
  * places are summed in order, so that threads change nothing. */
 typedef struct Pass {
@@ -32,12 +30,9 @@ static void theta_of(const FitForm *form, int slab, const double *coefficients, 
     }
 }
 
-/* The weight of a pair in the sum of both its directions' errors over R. */
-static double pair_weight(const Truth *t, int p, double grazing) {
-    int i = t->i[p], j = t->j[p];
-    double at_i = (t->w[i] + grazing / t->sides) * t->w[j] * t->mu[j] / fmax(t->reflected[i], 1e-3);
-    double at_j = (t->w[j] + grazing / t->sides) * t->w[i] * t->mu[i] / fmax(t->reflected[j], 1e-3);
-    return pi * t->share[p] * (i == j ? at_i : at_i + at_j);
+/* V, what a direction counts for in the sum. */
+static double side_weight(const Truth *t, int k, double grazing) {
+    return 0.5 * (t->w[k] + grazing / t->sides);
 }
 
 /* curvature += S^T S and gradient += S^T r, for rows of slopes that are weighed already. */
@@ -48,7 +43,8 @@ static bool add_rows(int rows, int n, const double *slope, const double *residua
            matrix_product(n, 1, rows, 1.0, columns_of, (Matrix){residual, 1, rows}, 1.0, gradient, n);
 }
 
-/* cost = sum W sqrt(r^2 + e^2) + sum over directions of V sqrt(dR^2 + 1e-8). */
+/* cost = sum over directions of V (x + worst x^2 / 2 + 2 albedo sqrt(dR^2 + 1e-8)), x = sum over pairs of row
+ * sqrt(r^2 + e^2) / R: the direction's error. */
 static void slab_pass(void *user, int item, int thread) {
     (void)thread;
     Pass *pass = user;
@@ -57,27 +53,37 @@ static void slab_pass(void *user, int item, int thread) {
     int n = form->movings;
     size_t pairs = (size_t)t->pairs, sides = (size_t)t->sides, slopes = pass->slopes ? (size_t)n : 0;
     size_t locals = (size_t)form->locals, wide = pass->slopes ? pairs * locals : 0;
-    double *block = alloc_array(2 * pairs + wide + sides + sides * slopes + locals, sizeof(double));
+    double *block = alloc_array(3 * pairs + wide + 2 * sides + sides * slopes + locals, sizeof(double));
     if (!block) {
         pass->failed = true;
         return;
     }
-    double *log_f = block, *r = log_f + pairs, *slope = r + pairs, *dr = slope + wide;
-    double *row = dr + sides, *theta = row + sides * slopes, cost = 0.0;
+    double *log_f = block, *r = log_f + pairs, *q = r + pairs, *slope = q + pairs, *dr = slope + wide;
+    double *x = dr + sides, *row = x + sides, *theta = row + sides * slopes, cost = 0.0;
     theta_of(form, item, pass->coefficients, theta);
     form->value(form->user, item, t, theta, log_f, pass->slopes ? slope : NULL);
     for (int p = 0; p < t->pairs; p++) {
-        double truth = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0), f = exp(l);
-        double scale = pass->logs ? truth : f, e = pass->softness * truth;
-        r[p] = pass->logs ? truth * (l - log(truth)) : f - truth;
+        double truth = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0),
+               e = pass->softness * truth;
+        r[p] = pass->logs ? truth * (l - log(truth)) : exp(l) - truth;
+        q[p] = sqrt(r[p] * r[p] + e * e);
         dr[t->i[p]] += truth_row_i(t, p) * r[p];
         dr[t->j[p]] += truth_row_j(t, p) * r[p];
-        double q = sqrt(r[p] * r[p] + e * e), w = pair_weight(t, p, pass->effort.grazing);
-        cost += w * q;
+        x[t->i[p]] += truth_row_i(t, p) * q[p] / fmax(t->reflected[t->i[p]], 1e-3);
+        x[t->j[p]] += truth_row_j(t, p) * q[p] / fmax(t->reflected[t->j[p]], 1e-3);
+        log_f[p] = pass->logs ? truth : exp(l); /* from now on, r by log f */
+    }
+    for (int k = 0; k < t->sides; k++) {
+        double v = side_weight(t, k, pass->effort.grazing), worst = pass->effort.worst * x[k];
+        cost += v * x[k] * (1.0 + 0.5 * worst);
+        x[k] = v * (1.0 + worst) / fmax(t->reflected[k], 1e-3); /* from now on, cost by r */
+    }
+    for (int p = 0; p < t->pairs; p++) {
+        double w = truth_row_i(t, p) * x[t->i[p]] + truth_row_j(t, p) * x[t->j[p]], root = sqrt(w / q[p]);
         const double *from = slope + (size_t)p * locals; /* what moves is gathered at the front */
-        double *s = slope + (size_t)p * slopes, root = sqrt(w / q);
+        double *s = slope + (size_t)p * slopes;
         for (size_t k = 0; k < slopes; k++) {
-            s[k] = scale * from[form->moving[k]];
+            s[k] = log_f[p] * from[form->moving[k]];
             row[(size_t)t->i[p] * slopes + k] += truth_row_i(t, p) * s[k];
             row[(size_t)t->j[p] * slopes + k] += truth_row_j(t, p) * s[k];
             s[k] *= root;
@@ -85,11 +91,11 @@ static void slab_pass(void *user, int item, int thread) {
         r[p] *= root;
     }
     for (int k = 0; k < t->sides; k++) {
-        double q = sqrt(dr[k] * dr[k] + 1e-8),
-               v = pass->effort.albedo * (t->w[k] + 2.0 * pass->effort.grazing / t->sides);
-        if (dr[k] > 0.0 && t->reflected[k] + dr[k] > 0.997) v *= 100.0;
-        cost += v * q;
-        double root = sqrt(v / q);
+        double norm = sqrt(dr[k] * dr[k] + 1e-8),
+               v = 2.0 * pass->effort.albedo * side_weight(t, k, pass->effort.grazing);
+        if (dr[k] > 0.0 && t->reflected[k] + dr[k] > 0.96) v *= 100.0;
+        cost += v * norm;
+        double root = sqrt(v / norm);
         dr[k] *= root;
         for (size_t c = 0; c < slopes; c++) row[(size_t)k * slopes + c] *= root;
     }
@@ -106,17 +112,23 @@ static void slab_pass(void *user, int item, int thread) {
 
 static double pass_run(Pass *pass, int threads) {
     double cost = 0.0;
+    for (int k = 0; k < pass->form->coefficients; k++)
+        cost += 0.5 * pass->effort.size * pass->coefficients[k] * pass->coefficients[k];
     parallel_for(threads, pass->set->count, slab_pass, pass);
     for (int k = 0; k < pass->set->count; k++) cost += pass->cost[k];
     return cost;
 }
 
-/* From theta to coefficients: H = sum B^T H_slab B, g = sum B^T g_slab. */
+/* From theta to coefficients: H = sum B^T H_slab B, g = sum B^T g_slab, and what their size counts. */
 static void assemble(const Pass *pass, double *h, double *g) {
     const FitForm *form = pass->form;
     size_t n = (size_t)form->coefficients, m = (size_t)form->movings;
     memset(h, 0, n * n * sizeof *h);
     memset(g, 0, n * sizeof *g);
+    for (size_t k = 0; k < n; k++) {
+        h[k * n + k] = pass->effort.size;
+        g[k] = pass->effort.size * pass->coefficients[k];
+    }
     for (int slab = 0; slab < pass->set->count; slab++) {
         const FitTerm *terms = form->terms[slab];
         const double *gs = pass->gradient + (size_t)slab * m, *hs = pass->curvature + (size_t)slab * m * m;

@@ -33,6 +33,8 @@ typedef struct FitEffort {
     int rounds;
     double albedo;  /* how much the error of R counts */
     double grazing; /* added to the weight of every direction, so that the few at the horizon count */
+    double worst;   /* an error of 1 / worst counts for one and a half times its size */
+    double size; /* how much the squares of the coefficients count, so that what nothing asks for is small */
 } FitEffort;
 
 /* coefficients come as the start and leave as the best found. False where memory is short or progress says

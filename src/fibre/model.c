@@ -12,49 +12,71 @@ typedef enum Part { PART_A, PART_H, PART_G, PART_K, PART_P, PART_Q, PART_V, PART
 /* Numbers of one part and kind of feature, which depend on the material by polynomials: `degree[b][c]` is how
  * many powers of t go with the power b of the tilt's measure and the power c of l. */
 enum { POWERS = 3 };
+typedef enum Kind {
+    UPRIGHT,
+    THIN, /* multiplied by what vanishes from alpha_thin up, so that common cloth need not pay for fine fibres
+           */
+    NAP   /* features that vanish where fibres stand upright */
+} Kind;
 typedef struct Group {
     Part part;
-    bool nap; /* features that vanish where fibres stand upright */
+    Kind kind;
+    int first; /* of the exponents */
     int count;
     int degree[POWERS][POWERS];
 } Group;
 
 static const Group groups[] = {
-    {PART_A, false, 12, {{8, 6, 4}}},         {PART_H, false, 7, {{6, 5, 3}}},
-    {PART_G, false, 7, {{6, 5, 3}}},          {PART_K, false, 5, {{5, 3, 2}}},
-    {PART_P, false, 3, {{6, 5, 3}}},          {PART_A, true, 25, {{5, 2, 1}, {4, 1}, {3}}},
-    {PART_H, true, 9, {{4, 2}, {3, 1}, {2}}}, {PART_G, true, 9, {{4, 2}, {3, 1}, {2}}},
-    {PART_K, true, 3, {{4, 2}, {3}, {2}}},    {PART_P, true, 4, {{4, 2}, {3, 1}, {2}}},
-    {PART_Q, false, 5, {{4, 3, 1}}},          {PART_V, false, 4, {{3, 2, 1}}},
-    {PART_U, false, 4, {{3, 2, 1}}},          {PART_C, false, 3, {{3, 2}}},
+    {PART_A, UPRIGHT, 0, 9, {{8, 6, 4}}},
+    {PART_H, UPRIGHT, 0, 5, {{6, 5, 3}}},
+    {PART_G, UPRIGHT, 0, 7, {{6, 5, 3}}},
+    {PART_K, UPRIGHT, 0, 4, {{5, 3, 2}}},
+    {PART_P, UPRIGHT, 0, 2, {{6, 5, 3}}},
+    {PART_A, THIN, 0, 12, {{5, 3, 2}}},
+    {PART_H, THIN, 0, 7, {{5, 2, 1}}},
+    {PART_G, THIN, 0, 7, {{5, 2, 1}}},
+    {PART_K, THIN, 0, 5, {{4, 1}}},
+    {PART_P, THIN, 0, 3, {{5, 2, 1}}},
+    {PART_A, NAP, 0, 25, {{5, 2, 1}, {4, 1}, {3}}},
+    {PART_H, NAP, 0, 9, {{4, 2}, {3, 1}, {2}}},
+    {PART_G, NAP, 0, 9, {{4, 2}, {3, 1}, {2}}},
+    {PART_K, NAP, 0, 3, {{4, 2}, {3}, {2}}},
+    {PART_P, NAP, 3, 4, {{4, 2}, {3, 1}, {2}}},
+    {PART_Q, UPRIGHT, 0, 5, {{4, 3, 1}}},
+    {PART_V, UPRIGHT, 0, 4, {{3, 2, 1}}},
+    {PART_U, UPRIGHT, 0, 4, {{3, 2, 1}}},
+    {PART_C, UPRIGHT, 0, 3, {{3, 2}}},
 };
 enum {
     GROUPS = sizeof groups / sizeof groups[0],
-    SCATTER_GROUPS = 10,
+    SCATTER_GROUPS = 15,
     FEATURES = 12,
     NAPS = 25,
-    LOCALS_MAX = 96
+    LOCALS_MAX = 128
 };
 
 static FibreStage stage_of(const Group *g, int b, int c) {
     (void)b;
     if (g->part >= PART_Q) return FIBRE_COLOR;
-    if (g->nap) return FIBRE_NAP;
-    return c ? FIBRE_DENSITY : FIBRE_WHITE;
+    if (g->kind == NAP) return FIBRE_NAP;
+    if (c) return FIBRE_DENSITY;
+    return g->kind == THIN ? FIBRE_THIN : FIBRE_WHITE;
 }
 
 /* ---- features: the same as shading/fibre_model.h, in double precision ---- */
 
-static const double alpha_low = 0.045;
+static const double alpha_low = 0.045, alpha_thin = 0.19, alpha_nap = 0.38;
 static double t_of(double alpha) { return 1.0 - 2.0 * log(alpha) / log(alpha_low); }
+static double thin_of(double t) { return fmax(t_of(alpha_thin) - t, 0.0); }
 static double l_of(double depth) { return log(depth) / log(4.0); }
 static double tilt_of(double tilt) { return 2.0 * sin(tilt) * sin(tilt); }
 
-/* u in [-1, 1] of mu: a power between a logarithm at low alpha and a root at high alpha, straight at the
- * horizon. */
+/* u in [-1, 1] of mu: a power that is a root at alpha 1, a sixth of one at the lowest, straight at the
+ * horizon.
+ */
 static double u_of(double mu, double t) {
     const double c = 1e-3;
-    double q = 0.02 + 0.24 * (t + 1.0);
+    double q = 0.26 + 0.24 * fmax(t, -0.4);
     return 2.0 * (pow(mu + c, q) - pow(c, q)) / (pow(1.0 + c, q) - pow(c, q)) - 1.0;
 }
 
@@ -98,7 +120,7 @@ static void features(const Truth *truth, int k, Side *side) {
 }
 
 /* The logarithms that the exponents p multiply; the last four vanish where fibres stand upright. */
-enum { UPRIGHT_LOGS = 3, LOGS = 7 };
+enum { LOGS = 7 };
 static void logarithms(const Truth *truth, int pair, double *l) {
     double a = truth->mu[truth->i[pair]], b = truth->mu[truth->j[pair]];
     double x = truth->nu[truth->i[pair]], y = truth->nu[truth->j[pair]],
@@ -126,12 +148,16 @@ static int locals_of(bool color) {
     return first_local(last) + groups[last].count;
 }
 
+static const double *features_of(const Side *side, int group) {
+    return groups[group].kind == NAP ? side->nap : side->upright;
+}
+
 /* The sums of features that make the parts of one direction. */
 static double part_value(const Side *side, Part part, const double *theta) {
     double sum = 0.0;
     for (int k = 0; k < GROUPS; k++) {
         if (groups[k].part != part) continue;
-        const double *f = groups[k].nap ? side->nap : side->upright, *at = theta + first_local(k);
+        const double *f = features_of(side, k), *at = theta + first_local(k);
         for (int q = 0; q < groups[k].count; q++) sum += f[q] * at[q];
     }
     return sum;
@@ -142,7 +168,7 @@ static void part_slope(Part part, double sign, const Side *i, const Side *j, dou
                        double *slope) {
     for (int k = 0; k < GROUPS; k++) {
         if (groups[k].part != part) continue;
-        const double *fi = groups[k].nap ? i->nap : i->upright, *fj = groups[k].nap ? j->nap : j->upright;
+        const double *fi = features_of(i, k), *fj = features_of(j, k);
         double *at = slope + first_local(k);
         for (int q = 0; q < groups[k].count; q++) at[q] = sign * (fi[q] * value_j + fj[q] * value_i);
     }
@@ -177,7 +203,10 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
     (void)user;
     (void)slab;
     Sides s;
-    int n = locals_of(false);
+    int n = locals_of(false), exponents = 0, at[2 * LOGS], which[2 * LOGS]; /* p_which += theta_at */
+    for (int k = 0; k < SCATTER_GROUPS; k++)
+        for (int q = 0; groups[k].part == PART_P && q < groups[k].count; q++, exponents++)
+            at[exponents] = first_local(k) + q, which[exponents] = groups[k].first + q;
     if (sides_make(truth, theta, PART_A, PART_K, &s))
         for (int p = 0; p < truth->pairs; p++) {
             int i = truth->i[p], j = truth->j[p];
@@ -185,9 +214,7 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
             double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j], x = truth->x[p];
             logarithms(truth, p, l);
             double sum = s.part[PART_A][i] + s.part[PART_A][j] + h * h2 - g * g2 - k * k2 * x;
-            for (int b = 0; b < LOGS; b++)
-                sum -=
-                    l[b] * theta[b < UPRIGHT_LOGS ? first_local(4) + b : first_local(9) + b - UPRIGHT_LOGS];
+            for (int b = 0; b < exponents; b++) sum -= l[which[b]] * theta[at[b]];
             log_f[p] = sum;
             if (!slope) continue;
             double *row = slope + (size_t)p * (size_t)n;
@@ -196,8 +223,7 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
             part_slope(PART_H, 1.0, a, b, h, h2, row);
             part_slope(PART_G, -1.0, a, b, g, g2, row);
             part_slope(PART_K, -x, a, b, k, k2, row);
-            for (int c = 0; c < LOGS; c++)
-                row[c < UPRIGHT_LOGS ? first_local(4) + c : first_local(9) + c - UPRIGHT_LOGS] = -l[c];
+            for (int c = 0; c < exponents; c++) row[at[c]] = -l[which[c]];
         }
     sides_free(&s);
 }
@@ -263,8 +289,10 @@ int fibre_model_count(FibreStage stage) {
 
 static double basis_of(const Coefficient *k, const Truth *truth) {
     double t = t_of(truth->slab.alpha), l = l_of(truth->slab.depth), s = tilt_of(truth->tilt);
-    double chebyshev = cos(k->a * acos(fmin(fmax(t, -1.0), 1.0)));
-    return chebyshev * pow(s, k->b) * pow(l, k->c);
+    bool is_thin = groups[k->group].kind == THIN;
+    double thin = thin_of(t), x = is_thin ? thin : t + thin;
+    double chebyshev = cos(k->a * acos(fmin(fmax(x, -1.0), 1.0)));
+    return chebyshev * (is_thin ? thin : 1.0) * pow(s, k->b) * pow(l, k->c);
 }
 
 /* One stage's free coefficients are terms; those of earlier stages make what is fixed. */
@@ -336,7 +364,7 @@ static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient
  * has no slope. */
 static double start_of(const Coefficient *k) {
     static const double exponent[] = {2.6, -2.1, 0.0, -0.2};
-    if (k->b || k->c || groups[k->group].nap) return 0.0;
+    if (k->b || k->c || groups[k->group].kind != UPRIGHT) return 0.0;
     bool constant = k->a == 0;
     switch (groups[k->group].part) {
     case PART_A: return constant && k->number == 0 ? -1.5 : 0.0;
@@ -361,16 +389,23 @@ static void alphas_fill(double low, int n, double *alpha) {
 static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, void *user, TruthSet *out) {
     static const double white[] = {1.0}, colors[] = {0.05, 0.2, 0.4, 0.6, 0.8, 0.92, 0.98, 1.0};
     static const double radians = 3.14159265358979323846 / 180.0;
-    double alpha[26], tilts[] = {9 * radians, 18 * radians, 27 * radians, 36 * radians, 45 * radians};
-    TruthGrid grid = {26, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
+    double alpha[36], tilts[] = {9 * radians, 18 * radians, 27 * radians, 36 * radians, 45 * radians};
+    TruthGrid grid = {0, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
     switch (stage) {
-    case FIBRE_WHITE: alphas_fill(alpha_low, 26, alpha); break;
+    case FIBRE_WHITE:
+        alphas_fill(alpha_thin, 16, alpha);
+        grid.alphas = 16;
+        break;
+    case FIBRE_THIN:
+        alphas_fill(alpha_low, 36, alpha); /* the first half of these */
+        grid.alphas = 16;
+        break;
     case FIBRE_DENSITY:
         alphas_fill(alpha_low, 14, alpha);
         grid.alphas = 14, grid.kept = 5, grid.depth = 4.0;
         break;
     case FIBRE_NAP:
-        alphas_fill(0.38, 8, alpha);
+        alphas_fill(alpha_nap, 8, alpha);
         grid.alphas = 8, grid.tilts = 5, grid.kept = 5, grid.depth = 4.0, grid.rings = 10, grid.spokes = 8;
         break;
     case FIBRE_COLOR:
@@ -406,7 +441,9 @@ static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int roun
     done = done && found;
     if (done) {
         for (int k = 0; k < staged.form.coefficients; k++) found[k] = start_of(&list[staged.columns[k]]);
-        done = fit_run(&staged.form, &set, (FitEffort){rounds, 10.0, 0.4}, threads, progress, user, found);
+        FitEffort effort = {rounds, 10.0, 0.4, stage == FIBRE_NAP ? 300.0 : 0.0,
+                            stage <= FIBRE_THIN ? 1e-4 : 0.0};
+        done = fit_run(&staged.form, &set, effort, threads, progress, user, found);
     }
     if (done) {
         for (int k = 0; k < staged.form.coefficients; k++) model->coefficients[staged.columns[k]] = found[k];
@@ -441,12 +478,11 @@ void fibre_model_free(FibreModelFit *model) {
 
 static const char *const part_letters[PARTS] = {"a", "h", "g", "k", "p", "q", "v", "u", "c"};
 
-/* The name of a group's number: nap numbers go on after the upright ones. */
+/* The name of a group's number; those of thin fibres begin with a t, those of nap with an n. */
 static void name_of(int group, int number, char name[16]) {
-    int first = 0;
-    for (int k = 0; k < group; k++)
-        if (groups[k].part == groups[group].part) first += groups[k].count;
-    snprintf(name, 16, "%s%d", part_letters[groups[group].part], first + number);
+    const Group *g = &groups[group];
+    static const char *const kinds[] = {"", "t", "n"};
+    snprintf(name, 16, "%s%s%d", kinds[g->kind], part_letters[g->part], number);
 }
 
 /* exp and log of the form become exp2 and log2: exponents are scaled by log2 e, and factors of products by
@@ -458,12 +494,12 @@ static double scale_of(Part part) {
 }
 
 /* sum_a k_a T_a(t) as sum_a m_a t^a: T_0 = 1, T_1 = t, T_{a+1} = 2 t T_a - T_{a-1}. */
-static void monomials(int n, const double *chebyshev, double *power) {
-    double before[10] = {1.0}, now[10] = {0.0, 1.0};
-    memset(power, 0, 10 * sizeof *power);
+static void monomials(int n, const double *chebyshev, double power[FEATURES]) {
+    double before[FEATURES] = {1.0}, now[FEATURES] = {0.0, 1.0};
+    memset(power, 0, FEATURES * sizeof *power);
     for (int a = 0; a < n; a++) {
-        double next[10] = {0.0};
-        for (int k = 0; k < 10; k++) {
+        double next[FEATURES] = {0.0};
+        for (int k = 0; k < FEATURES; k++) {
             power[k] += chebyshev[a] * before[k];
             next[k] = (k ? 2.0 * now[k - 1] : 0.0) - before[k];
         }
@@ -472,15 +508,16 @@ static void monomials(int n, const double *chebyshev, double *power) {
     }
 }
 
-/* Horner's rule in t. */
-static void write_polynomial(FILE *file, int n, const double *chebyshev, double scale) {
-    double power[10];
+/* Horner's rule in x. */
+static void write_polynomial(FILE *file, int n, const char *x, const double *chebyshev, double scale) {
+    double power[FEATURES];
     monomials(n, chebyshev, power);
     for (int k = 0; k < n - 2; k++) fputc('(', file);
     fprintf(file, "%.8e", scale * power[n - 1]);
     fputc('f', file);
     for (int k = n - 2; k >= 0; k--)
-        fprintf(file, " * t %c %.8ef%s", power[k] < 0.0 ? '-' : '+', fabs(scale * power[k]), k ? ")" : "");
+        fprintf(file, " * %s %c %.8ef%s", x, power[k] < 0.0 ? '-' : '+', fabs(scale * power[k]),
+                k ? ")" : "");
 }
 
 /* Where a number's coefficients of the powers b and c begin. */
@@ -496,6 +533,27 @@ static int block_of(int group, int number, int b, int c) {
     return n;
 }
 
+/* The same sums by powers of u instead of T_q(u): what multiplies each is a polynomial in t, l and s, whose
+ * coefficients are turned one by one. False where memory is short. */
+static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
+    *out = *model;
+    out->coefficients = alloc_array((size_t)model->count, sizeof(double));
+    if (!out->coefficients) return false;
+    memcpy(out->coefficients, model->coefficients, (size_t)model->count * sizeof(double));
+    for (int g = 0; g < GROUPS; g++)
+        for (int b = 0; b < POWERS && groups[g].kind == UPRIGHT && groups[g].part != PART_P; b++)
+            for (int c = 0; c < POWERS; c++)
+                for (int a = 0; a < groups[g].degree[b][c]; a++) {
+                    double chebyshev[FEATURES], power[FEATURES];
+                    for (int q = 0; q < groups[g].count; q++)
+                        chebyshev[q] = model->coefficients[block_of(g, q, b, c) + a];
+                    monomials(groups[g].count, chebyshev, power);
+                    for (int q = 0; q < groups[g].count; q++)
+                        out->coefficients[block_of(g, q, b, c) + a] = power[q];
+                }
+    return true;
+}
+
 /* One number as a polynomial in t, l and s, from the power `first` of l on: a sum of products. */
 static bool write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
     static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ",
@@ -506,7 +564,8 @@ static bool write_number(FILE *file, const FibreModelFit *model, int group, int 
             int n = groups[group].degree[b][c];
             if (!n) continue;
             fprintf(file, "%s%s%s(", any ? " + " : "", s[b], l[c]);
-            write_polynomial(file, n, model->coefficients + block_of(group, number, b, c),
+            write_polynomial(file, n, groups[group].kind == THIN ? "m.thin" : "t",
+                             model->coefficients + block_of(group, number, b, c),
                              scale_of(groups[group].part));
             fputc(')', file);
             any = true;
@@ -514,22 +573,28 @@ static bool write_number(FILE *file, const FibreModelFit *model, int group, int 
     return any;
 }
 
-static void write_group(FILE *file, const FibreModelFit *model, int group, int first, int last, bool more) {
+/* What the powers first .. last of l give to the numbers of one kind. */
+static void write_kind(FILE *file, const FibreModelFit *model, Kind kind, int first, int last) {
     char name[16];
-    for (int q = 0; q < groups[group].count; q++) {
-        bool there = false;
-        for (int b = 0; b < POWERS; b++)
-            for (int c = first; c <= last; c++) there = there || groups[group].degree[b][c] > 0;
-        if (!there) continue;
-        name_of(group, q, name);
-        fprintf(file, more ? "        m.%s = m.%s + " : "    m.%s = ", name, name);
-        write_number(file, model, group, q, first, last);
-        fputs(";\n", file);
-    }
+    for (int g = 0; g < GROUPS; g++)
+        for (int q = 0; groups[g].kind == kind && q < groups[g].count; q++) {
+            int there = 0;
+            for (int b = 0; b < POWERS; b++)
+                for (int c = first; c <= last; c++) there += groups[g].degree[b][c];
+            if (!there) continue;
+            name_of(g, q, name);
+            fprintf(file, "%*sm.%s = ", first || kind != UPRIGHT ? 8 : 4, "", name);
+            if (first) fprintf(file, "m.%s + ", name);
+            if (kind == THIN) fputs("m.thin * (", file);
+            write_number(file, model, g, q, first, last);
+            fputs(kind == THIN ? ");\n" : ";\n", file);
+        }
 }
 
-void fibre_model_write(const FibreModelFit *model, const char *command, FILE *file) {
+bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file) {
     char name[16];
+    FibreModelFit turned, *model = &turned;
+    if (!powers_of_u(fit, model)) return false;
     fprintf(file, "/* %s\n", command);
     fputs(" *\n * Numbers of shading/fibre_model.h for a material, fitted to the solved slab: polynomials in "
           "t, which runs\n"
@@ -537,38 +602,42 @@ void fibre_model_write(const FibreModelFit *model, const char *command, FILE *fi
           "square of the\n"
           " * tilt's sine. Errors over what they were fitted to:\n *\n",
           file);
-    static const char *const names[FIBRE_STAGES] = {"white", "density", "nap", "colour"};
+    static const char *const names[FIBRE_STAGES] = {"white", "thin", "density", "nap", "colour"};
     for (int k = 0; k < FIBRE_STAGES; k++)
         fprintf(file, " *   %-8s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n",
                 names[k], fibre_model_count((FibreStage)k), 100.0 * model->errors[k].mean,
                 100.0 * model->errors[k].worst, model->errors[k].albedo);
     fputs(" */\n/* clang-format off */\n#ifndef WEFT_TABLES_FIBRE_MODEL_H\n#define "
           "WEFT_TABLES_FIBRE_MODEL_H\n\n"
-          "#include \"shading/lang.h\"\n\nSTRUCT(FibreNumbers) {\n",
+          "#include \"shading/lang.h\"\n\nSTRUCT(FibreNumbers) {\n    float thin;\n",
           file);
     for (int g = 0; g < GROUPS; g++) {
-        fputs("    float ", file);
+        const char *before = "    float ";
         for (int q = 0; q < groups[g].count; q++) {
             name_of(g, q, name);
-            fprintf(file, "%s%s", q ? ", " : "", name);
+            fprintf(file, "%s%s", before, name);
+            before = ", ";
         }
-        fputs(";\n", file);
+        if (before[0] == ',') fputs(";\n", file);
     }
-    fputs("};\n\nFN_APART FibreNumbers fibre_numbers(float t, float l, float s) {\n    FibreNumbers m;\n",
-          file);
+    fprintf(file,
+            "};\n\nFN_APART FibreNumbers fibre_numbers(float t, float l, float s) {\n"
+            "    FibreNumbers m;\n    m.thin = max(%.8ef - t, 0.0f);\n    t = t + m.thin;\n",
+            t_of(alpha_thin));
     for (int g = 0; g < GROUPS; g++)
-        if (!groups[g].nap) write_group(file, model, g, 0, 0, false);
-    fputs("    if (l != 0.0f) {\n", file);
-    for (int g = 0; g < GROUPS; g++)
-        if (!groups[g].nap) write_group(file, model, g, 1, POWERS - 1, true);
-    fputs("    }\n", file);
-    for (int g = 0; g < GROUPS; g++)
-        for (int q = 0; groups[g].nap && q < groups[g].count; q++) {
+        for (int q = 0; groups[g].kind != UPRIGHT && q < groups[g].count; q++) {
             name_of(g, q, name);
             fprintf(file, "    m.%s = 0.0f;\n", name);
         }
-    fputs("    if (s > 0.0f) {\n", file);
-    for (int g = 0; g < GROUPS; g++)
-        if (groups[g].nap) write_group(file, model, g, 0, POWERS - 1, true);
+    write_kind(file, model, UPRIGHT, 0, 0);
+    fputs("    if (l != 0.0f) {\n", file);
+    write_kind(file, model, UPRIGHT, 1, POWERS - 1);
+    fputs("    }\n    if (m.thin > 0.0f) {\n", file);
+    write_kind(file, model, THIN, 0, POWERS - 1);
+    /* nap was fitted from there up */
+    fprintf(file, "    }\n    if (s > 0.0f) {\n        t = max(t, %.8ef);\n", t_of(alpha_nap));
+    write_kind(file, model, NAP, 0, POWERS - 1);
     fputs("    }\n    return m;\n}\n\n#endif\n", file);
+    fibre_model_free(model);
+    return true;
 }

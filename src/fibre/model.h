@@ -7,7 +7,8 @@
  *
  * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/fibre_model.h) times numbers that
  * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
- * are found in stages, each on top of the last and without touching it: white, density, nap, colour. */
+ * are found in stages, each on top of the last and without touching it: white of
+ * alpha 0.19 and up, white of thinner fibres, density, nap, colour. */
 #ifndef WEFT_FIBRE_MODEL_H
 #define WEFT_FIBRE_MODEL_H
 
@@ -15,7 +16,14 @@
 
 #include "fibre/fit.h"
 
-typedef enum FibreStage { FIBRE_WHITE, FIBRE_DENSITY, FIBRE_NAP, FIBRE_COLOR, FIBRE_STAGES } FibreStage;
+typedef enum FibreStage {
+    FIBRE_WHITE,
+    FIBRE_THIN,
+    FIBRE_DENSITY,
+    FIBRE_NAP,
+    FIBRE_COLOR,
+    FIBRE_STAGES
+} FibreStage;
 
 /* Coefficients of all stages, as one list; release with fibre_model_free. */
 typedef struct FibreModelFit {
@@ -29,8 +37,9 @@ bool fibre_model_fit(FibreStage last, int rounds, int threads, TruthProgress pro
                      FibreModelFit *out);
 void fibre_model_free(FibreModelFit *model);
 
-/* The generated part of the catalogue: shading/tables/fibre_model.h, in the dialect. */
-void fibre_model_write(const FibreModelFit *model, const char *command, FILE *file);
+/* The generated part of the catalogue: shading/tables/fibre_model.h, in the dialect. False where memory is
+ * short. */
+bool fibre_model_write(const FibreModelFit *model, const char *command, FILE *file);
 
 /* How many coefficients each stage adds. */
 int fibre_model_count(FibreStage stage);

@@ -3,9 +3,9 @@
 
 #include "base/fail.h"
 
-#define KIND(id, maker, lobe, width, height, help) {id, help, lobe, width, height},
+#define KIND(id, maker, lobe, formed, width, height, help) {id, help, lobe, formed, width, height},
 static const WeftBakeKind kinds[] = {BAKE_KINDS(KIND)};
-#define MAKER(id, maker, lobe, width, height, help) maker,
+#define MAKER(id, maker, lobe, formed, width, height, help) maker,
 static BakeMaker *const makers[] = {BAKE_KINDS(MAKER)};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 

@@ -10,16 +10,19 @@
 /* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
  * leaves *out zeroed. */
 typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
-BakeMaker bake_albedo, bake_dfg, bake_truth, bake_ltc, bake_ltc_amplitude;
+BakeMaker bake_albedo, bake_dfg, bake_truth, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table;
 
-/* K(id, maker, lobe, width, height, help): the columns of a WeftBakeKind. */
+/* K(id, maker, lobe, formed, width, height, help): the columns of a WeftBakeKind. */
 #define BAKE_KINDS(K)                                                                                        \
-    K("albedo", bake_albedo, 2, 64, 64, "E of LOBE; the parts of f0 and f90 where it mixes two colours")     \
-    K("dfg", bake_dfg, 1, 128, 128, "split sum: scale of f0 and bias of f90 of ggx, and E of LOBE")          \
-    K("ltc", bake_ltc, 2, 32, 32, "linearly transformed cosines of LOBE: z, q, b, r; axes of their own")     \
-    K("ltc-amplitude", bake_ltc_amplitude, 2, 32, 32,                                                        \
+    K("albedo", bake_albedo, 2, 1, 64, 64, "E of LOBE; the parts of f0 and f90 where it mixes two colours")  \
+    K("dfg", bake_dfg, 1, 1, 128, 128, "split sum: scale of f0 and bias of f90 of ggx, and E of LOBE")       \
+    K("ltc", bake_ltc, 2, 0, 32, 32, "linearly transformed cosines of LOBE: z, q, b, r")                     \
+    K("ltc-amplitude", bake_ltc_amplitude, 2, 0, 32, 32,                                                     \
       "their amplitudes of both colours, and each fit's error")                                              \
-    K("fibre-truth", bake_truth, 1, 32, 32, "R and T of the solved slab of fibres; -p density of LOBE fibre")
+    K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
+    K("fibre-table", bake_fibre_table, 0, 0, 16, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
+    K("fibre-truth", bake_truth, 1, 1, 32, 32,                                                               \
+      "R and T of the solved slab of fibres; -p density of LOBE fibre")
 
 /* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and
  * progress on the caller's. What texel finds it puts into places of its own or of its thread.

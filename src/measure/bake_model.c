@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/fail.h"
 #include "fibre/model.h"
@@ -31,8 +32,11 @@ WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *com
         return WEFT_INTERRUPTED;
     FILE *stream = open_memstream(text, &size);
     if (stream) {
-        fibre_model_write(&model, command, stream);
-        if (fclose(stream) != 0) *text = NULL;
+        bool written = fibre_model_write(&model, command, stream);
+        if (fclose(stream) != 0 || !written) {
+            free(*text);
+            *text = NULL;
+        }
     }
     fibre_model_free(&model);
     return *text ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "fibre-model", NULL);

@@ -38,6 +38,7 @@ static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc
     ltc->f0 = white ? 1.0f : desc->f0;
     ltc->second = lobe_second(ltc->lobe, ltc->f0, white ? 1.0f : desc->f90);
     ltc->norm = desc->norm ? desc->norm : 1;
+    ltc->level = desc->level != 0;
     ltc->columns = desc->columns ? desc->columns : 32;
     ltc->lobe.params[0] = 0.0f;
     if (p) {

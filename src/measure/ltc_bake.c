@@ -88,11 +88,13 @@ static bool bake_cell(WeftLtc *ltc, int row, int column) {
         int count = 0;
         if (column + 1 < ltc->columns) starts[count++] = entries(ltc, row, column + 1);
         if (row + 1 < ltc->rows) starts[count++] = entries(ltc, row + 1, column);
+        coarse.level = fine.level = ltc->level;
         ltc_target_look(&coarse, ltc_cos_o(ltc, column));
         ltc_target_look(&fine, ltc_cos_o(ltc, column));
         ltc_target_lobe(&coarse, &lobe, ltc->f0, ltc->second);
         ltc_target_lobe(&fine, &lobe, ltc->f0, ltc->second);
-        LtcEntries found = count ? starts[count - 1] : (LtcEntries){1.0f, 1.0f, 0.0f, 1.0f};
+        LtcEntries found =
+            count ? starts[count - 1] : (LtcEntries){1.0f, 1.0f, 0.0f, ltc->level ? 0.0f : 1.0f};
         if (coarse.e > nothing && fine.e > nothing) {
             starts[count++] = ltc_guess(&coarse);
             found = ltc_fit(&coarse, starts, count, ltc->norm);

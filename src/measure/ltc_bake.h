@@ -9,6 +9,7 @@
 struct WeftLtc {
     Lobe lobe;        /* its parameter 0 says nothing */
     float f0, second; /* the colours that the matrix is fitted to */
+    bool level;       /* r is 0 */
     int norm, rows, columns;
     float low, high; /* of parameter 0 */
     float *texels;   /* WEFT_LTC_CHANNELS planes, as ltc_table.h has them */

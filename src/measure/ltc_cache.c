@@ -13,7 +13,7 @@
 #include "text/dispatch.h"
 
 /* Raised whenever the same lobe would be fitted otherwise. */
-enum { FITTER = 1 };
+enum { FITTER = 2 };
 
 enum { SIDE_MOST = 256 };
 static const unsigned char magic[8] = {'w', 'e', 'f', 't', '-', 'l', 't', 'c'};
@@ -33,7 +33,7 @@ WeftResult ltc_key(const WeftLtc *ltc, uint64_t *key, WeftError *error) {
     text_include(&text, "shading/ltc_table.h");
     WeftResult result = text_end(&text, error);
     if (result == WEFT_OK) {
-        const int sizes[] = {FITTER, ltc->lobe.id, ltc->norm, ltc->rows, ltc->columns};
+        const int sizes[] = {FITTER, ltc->lobe.id, ltc->norm, ltc->rows, ltc->columns, ltc->level};
         const float ranges[] = {ltc->low, ltc->high, ltc->f0, ltc->second};
         uint64_t hash = hash_bytes(hash_start, text.bytes, text.size);
         for (int k = 0; k < text.table_count; k++)

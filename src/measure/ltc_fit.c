@@ -120,7 +120,8 @@ static bool is_normal(const LtcTarget *target) { return !(target->o.x > 1e-3f); 
 
 static LtcEntries entries_at(const Search *search, const double *step) {
     double s = (double)search->target->o.x, cos_o = (double)search->target->o.z, across = (exp)(step[ACROSS]);
-    if (is_normal(search->target)) return (LtcEntries){(float)across, 1.0f, 0.0f, (float)across};
+    if (is_normal(search->target))
+        return (LtcEntries){(float)across, 1.0f, 0.0f, search->target->level ? 0.0f : (float)across};
     double phi = fmin(fmax(search->unit[TILT] * step[TILT], -1.56), 1.56), t = tan(phi);
     double q = search->unit[Q] * step[Q], m11 = cos_o * cos_o + q * s * s;
     double z = across / ((cos)(phi) * (1.0 + step[LEAN] * t * t));
@@ -132,7 +133,8 @@ static Search search_from(const LtcTarget *target, int norm, double phi, double 
                           double lean) {
     double s = (double)target->o.x, c2 = (double)target->o.z * (double)target->o.z;
     double m11 = fmax(across * (cos)(phi) / along, c2), tilt = fmin(along, 1.0), q = m11 / fmax(s * s, 1e-6);
-    Search search = {target, norm, {tilt, q, 1.0, 1.0}, {phi / tilt, (m11 - c2) / m11, log(across), lean}};
+    Search search = {target, norm, {tilt, q, 1.0, 1.0}, {phi / tilt, (m11 - c2) / m11, log(across)}};
+    search.step[LEAN] = target->level ? 0.0 : lean;
     for (int k = 0; k < STEPS; k++) search.step[k] = fmin(fmax(search.step[k], low[k]), high[k]);
     return search;
 }
@@ -169,7 +171,7 @@ LtcEntries ltc_guess(const LtcTarget *target) {
 static double error_at(unsigned n, const double *step, double *gradient, void *user) {
     const Search *search = user;
     double all[STEPS];
-    for (int k = 0; k < STEPS; k++) all[k] = n == STEPS ? step[k] : step[0];
+    for (int k = 0; k < STEPS; k++) all[k] = n == 1 ? step[0] : k < (int)n ? step[k] : 0.0;
     return ltc_error(search->target, entries_at(search, all), search->norm);
 }
 
@@ -178,7 +180,7 @@ static double error_at(unsigned n, const double *step, double *gradient, void *u
  * no random numbers. */
 static void descend(Search *search) {
     int first = is_normal(search->target) ? ACROSS : 0;
-    unsigned n = first ? 1 : STEPS;
+    unsigned n = first ? 1 : search->target->level ? LEAN : STEPS;
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
     if (!method) return; /* the start stands */
     nlopt_set_min_objective(method, error_at, search);

@@ -14,6 +14,7 @@ typedef struct LtcEntries {
  * incidence, wo being in the plane of the tangent. */
 typedef struct LtcTarget {
     int rings, columns;
+    bool level; /* r shall be 0; set after ltc_target_create */
     Dir o;
     float *x, *y, *z; /* wi, ring after ring */
     float *area;      /* its solid angle and that of its mirror image, sr */

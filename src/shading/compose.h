@@ -58,7 +58,7 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
     if (c.sheen_lobe >= 0) {
         Lobe lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
         lobe = lobe_fibres(lobe, s.sheen_density, s.nap, azimuth_of(s.nap_direction));
-        m.sheen = slot_make(lobe, m.color, s.sheen_second, m.left, m.sheen.pick);
+        m.sheen = slot_make(lobe, m.sheen_color, s.sheen_second, m.left, m.sheen.pick);
         m.albedo = ALBEDO_TABLE;
         m.at = lobe.params[0];
     }

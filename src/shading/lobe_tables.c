@@ -3,17 +3,44 @@
 #include <pthread.h>
 
 #include "shading/albedo.h"
+#include "shading/tables/fibre_table.h"
+#include "shading/tables/ltc_fibre.h"
 
-TableRef lobe_table_refs[1];
+TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 
 static AlbedoTable charlie_neubelt;
 
-static void make(void) {
+static TableRef make_charlie_neubelt(void) {
     Lobe lobe = {.id = LOBE_CHARLIE_NEUBELT};
     const WeftParamInfo *alpha = &weft_lobe_info(lobe.id)->params[0];
     albedo_table_fill(&charlie_neubelt, &lobe, alpha->hard_low, alpha->hard_high, 0);
-    lobe_table_refs[0] = albedo_table_ref(&charlie_neubelt);
+    return albedo_table_ref(&charlie_neubelt);
 }
+
+/* A baked table: what is side by side in a texel is put below each other, into `planes`. */
+static TableRef make_planes(const float *texels, int channels, int rows, int columns, float low, float high,
+                            float *planes) {
+    for (int c = 0; c < channels; c++)
+        for (int k = 0; k < rows * columns; k++) planes[c * rows * columns + k] = texels[k * channels + c];
+    return (TableRef){planes, TABLE_PLANES, channels * rows, columns, low, high};
+}
+
+#define PLANES(name) name##_channels, name##_height, name##_width
+static TableRef make_ltc_fibre(void) {
+    static float planes[sizeof table_ltc_fibre / sizeof(float)];
+    const WeftParamInfo *alpha = &weft_lobe_info(LOBE_FIBRE)->params[0];
+    return make_planes(table_ltc_fibre, PLANES(table_ltc_fibre), sqrt(alpha->low), sqrt(alpha->high), planes);
+}
+
+static TableRef make_fibre(void) {
+    static float planes[sizeof table_fibre_table / sizeof(float)];
+    const WeftParamInfo *alpha = &weft_lobe_info(LOBE_FIBRE_TABLE)->params[0];
+    return make_planes(table_fibre_table, PLANES(table_fibre_table), log2(alpha->hard_low),
+                       log2(alpha->hard_high), planes);
+}
+
+#define MAKE_TABLE(name, index) lobe_table_refs[index] = make_##name();
+static void make(void) { LOBE_TABLES(MAKE_TABLE) }
 
 void lobe_tables_make(void) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;

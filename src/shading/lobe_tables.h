@@ -6,12 +6,22 @@
 
 #include "shading/table.h"
 
+/* T(name, index). charlie_neubelt: E of that lobe over all of its alphas. ltc_fibre: z, q, b and E, below
+ * each other; low and high are roots of alpha. fibre: A, h, g and k likewise; low and high are log2 alpha. */
+#define LOBE_TABLES(T)                                                                                       \
+    T(charlie_neubelt, 0)                                                                                    \
+    T(ltc_fibre, 1)                                                                                          \
+    T(fibre, 2)
+#define LOBE_TABLE_COUNT 3
+
 /* Read-only after lobe_tables_make, which any number of threads may call at once; whoever makes a Lobe has.
  */
-extern TableRef lobe_table_refs[1];
+extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 void lobe_tables_make(void);
 
-/* E of charlie-neubelt over all of its alphas. */
-FN TableRef lobe_table_charlie_neubelt(void) { return lobe_table_refs[0]; }
+#define LOBE_TABLE_GET(name, index)                                                                          \
+    FN TableRef lobe_table_##name(void) { return lobe_table_refs[index]; }
+LOBE_TABLES(LOBE_TABLE_GET)
+#undef LOBE_TABLE_GET
 
 #endif

@@ -13,6 +13,7 @@
 #include "shading/profiles/hdrp_silk.h"
 #include "shading/profiles/khronos.h"
 #include "shading/profiles/materialx.h"
+#include "shading/profiles/openpbr.h"
 #include "shading/profiles/order_1886.h"
 #include "shading/profiles/three.h"
 #include "shading/profiles/unreal4.h"
@@ -47,7 +48,8 @@
     P("materialx", 10, materialx_stack(s, o), "MaterialX, gltf_pbr in GLSL")                                 \
     P("cycles-velvet", 11, cycles_velvet_stack(s, o), "Blender Cycles before 4.0, Velvet over Lambert")      \
     P("disney-2012", 12, disney_2012_stack(s, o), "the BRDF Explorer's disney.brdf")                         \
-    P("order-1886", 13, order_1886_stack(s, o), "The Order: 1886, a reconstruction")
+    P("order-1886", 13, order_1886_stack(s, o), "The Order: 1886, a reconstruction")                         \
+    P("openpbr", 14, openpbr_stack(s, o), "OpenPBR Surface: its fuzz over its base, without noise")
 
 /* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \

@@ -58,7 +58,9 @@
       CHARLIE_NEUBELT_NORMALISED)                                                                            \
     L("exponential", exponential, Exponential, EXPONENTIAL)                                                  \
     L("exponential-lit", exponential_lit, ExponentialLit, EXPONENTIAL_LIT)                                   \
-    L("patry", patry, Patry, PATRY)
+    L("patry", patry, Patry, PATRY)                                                                          \
+    L("ltc-fibre", ltc_fibre, LtcFibre, LTC_FIBRE)                                                           \
+    L("fibre-table", fibre_table, FibreTable, FIBRE_TABLE)
 
 #define WEFT_TWO_COLOR_LOBES(L)                                                                              \
     L("eon", eon, Eon, EON)                                                                                  \

@@ -46,8 +46,9 @@ STRUCT(Stack) {
     float under_f90;
     float left; /* of what comes from below the coat, 1 without one */
     int layer, by;
-    Rgb color;  /* of the sheen, as the layer rule sees it */
-    int albedo; /* source of E */
+    Rgb color;       /* of the sheen, as the layer rule sees it */
+    Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
+    int albedo;      /* source of E */
     TableRef table;
     float at;                   /* the parameter with which E is asked for */
     SheenE e_o, e_avg;          /* E of the white sheen towards wo, and on cosine average */
@@ -95,6 +96,7 @@ FN Stack stack_empty(void) {
     m.layer = LAYER_ADDITIVE;
     m.by = LAYER_BY_MAX;
     m.color = rgb_grey(0.0f);
+    m.sheen_color = m.color;
     m.albedo = ALBEDO_TABLE;
     m.table.texels = TABLE_OF_NOTHING;
     m.table.kind = TABLE_NONE;

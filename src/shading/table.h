@@ -12,6 +12,7 @@
     1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
 #define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
 #define TABLE_TINTED 3 /* TABLE_ROOTS of a tinted lobe, with three maps more below: s, q and e (albedo.h) */
+#define TABLE_PLANES 4 /* a lobe's own, planes below each other: lobe_tables.h */
 
 STRUCT(TableRef) {
     Table texels;

@@ -37,6 +37,7 @@ FN Stack workflow_coat(Stack m, Surface s, Dir o) {
 FN Stack workflow_sheen(Stack m, Lobe lobe, Rgb color, Rgb second, int layer) {
     m.layer = layer;
     m.color = color;
+    m.sheen_color = color;
     m.at = lobe.params[0];
     m.sheen = slot_make(lobe, color, second, m.left, m.left * rgb_mean(color));
     return m;

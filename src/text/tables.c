@@ -20,9 +20,13 @@ void text_lobe_tables(Text *text) {
     if (!text_provide(text, "shading/lobe_tables.h")) return;
     text_include(text, "shading/table.h");
     lobe_tables_make();
-    text_line(text, "\nTableRef lobe_table_charlie_neubelt() {\n    TableRef t;");
-    put_reference(text, &lobe_table_refs[0], "    ");
-    text_line(text, "    return t;\n}");
+#define LOBE_TABLE_NAME(name, index) [index] = #name,
+    static const char *const names[LOBE_TABLE_COUNT] = {LOBE_TABLES(LOBE_TABLE_NAME)};
+    for (int k = 0; k < LOBE_TABLE_COUNT; k++) {
+        text_line(text, "\nTableRef lobe_table_%s() {\n    TableRef t;", names[k]);
+        put_reference(text, &lobe_table_refs[k], "    ");
+        text_line(text, "    return t;\n}");
+    }
 }
 
 void text_engine_tables(Text *text, const int *which, int count) {

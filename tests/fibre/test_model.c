@@ -83,7 +83,7 @@ static void colour_saturates(void **state) {
 static void nap_leans(void **state) {
     (void)state;
     const double alpha[] = {0.5, 0.8}, tilt[] = {12.0 * degree, 33.0 * degree};
-    expect("nap", error_of(&(TruthGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.25, 4e-2);
+    expect("nap", error_of(&(TruthGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.12, 6e-2);
 }
 
 /* What the text and the fit must share: where fibres stand upright, the azimuth says nothing. */
@@ -127,7 +127,8 @@ static void nothing_is_made_of_nothing(void **state) {
         mu = k % 2 ? mu * mu * mu * mu + 1e-5f : mu;
         set(&lobe, "alpha", (exp)((log)(0.05) * (double)unit(k, 0)));
         set(&lobe, "density", 0.25 * (pow)(16.0, (double)unit(k, 1)));
-        set(&lobe, "tilt", k % 4 ? 0.7853 * (double)(sqrtf)(unit(k, 2)) : 0.0);
+        float lean = k % 5 ? (sqrtf)(unit(k, 2)) : 0.2f * unit(k, 2); /* a little too */
+        set(&lobe, "tilt", k % 4 ? 0.7853 * (double)lean : 0.0);
         float r = (sqrtf)((1.0f - mu) * (1.0f + mu));
         Albedo e = albedo_quadrature(&lobe, dir(r * (cosf)(phi), r * (sinf)(phi), mu), 1e-3);
         if ((double)e.f0 > most) most = (double)e.f0;

@@ -189,7 +189,7 @@ static Tally compare(const Subject *subject, int language) {
 }
 
 static bool holds(const Tally *tally, double share) {
-    return (double)tally->beyond <= share * (double)samples;
+    return (double)tally->beyond <= ceil(share * (double)samples);
 }
 
 static void report(const Subject *subject, int language, const char *name, const Tally *tally) {

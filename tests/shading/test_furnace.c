@@ -55,6 +55,12 @@ static int layer_named(const char *id) {
     return k;
 }
 
+/* E that a smooth table does not follow: a maximum of two, or the nodes of a table mixed in straight lines.
+ */
+static bool has_creases(int id) {
+    return id == LOBE_CHARLIE_NEUBELT_NORMALISED || id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE;
+}
+
 static void albedo_view_returns_what_it_receives(void **state) {
     (void)state;
     static AlbedoTable table;
@@ -77,16 +83,16 @@ static void albedo_view_returns_what_it_receives(void **state) {
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;
-                    worst = fmax(worst, id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 0.0 : fabs(all - 1.0));
-                    if (fabs(all - 1.0) >
-                        (id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 5e-3 : 1e-3)) /* its table has a crease */
+                    worst = fmax(worst, has_creases(id) ? 0.0 : fabs(all - 1.0));
+                    if (fabs(all - 1.0) > (has_creases(id) ? 5e-3 : 1e-3))
                         fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.at,
                                  (double)o.z, all);
                 }
-                assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (2e-3f + 2e-3f * e));
+                float step = has_creases(id) ? 5e-3f : 2e-3f;
+                assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (step + step * e));
             }
     }
-    print_message("all but charlie-neubelt-normalised within %.1e\n", worst);
+    print_message("all without creases within %.1e\n", worst);
     assert_true(checked > seen / 2);
 }
 

@@ -9,7 +9,7 @@
  * Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015. f1 is exact: light
  * that met one flake (fibre_medium.h). Departures: M, what met more, is a closed form instead of a table.
  *   color: the albedo of the fibres; light that met n of them has its n-th power (tint.h).
- *   roughness: alpha = roughness^2; where fibres lean by nine degrees or more, alpha below 0.38 counts as
+ *   roughness: alpha = roughness^2; where fibres lean by two degrees or more, alpha below 0.38 counts as
  *     0.38.
  *   reciprocal: yes.
  *   energy: E <= 1; what is missing goes through.
@@ -37,9 +37,10 @@
 
 STRUCT(Fibre){FIBRE_PARAMS(FIELD)};
 
-/* The model of leaning fibres was fitted from alpha 0.38 up; a lean of nine degrees needs it whole. */
+/* The model of leaning fibres was fitted from alpha 0.38 up; sharper ones that lean ever so little would
+ * reflect more than they receive. */
 FN Fibre fibre_sure(Fibre m) {
-    m.alpha = max(m.alpha, min(2.42f * m.tilt, 0.38f));
+    m.alpha = max(m.alpha, min(2.2f * sqrt(m.tilt), 0.38f));
     return m;
 }
 
@@ -65,18 +66,18 @@ FN float fibre_single(FibreReady r, Angles a) {
 FN float fibre_eval(FibreReady r, Angles a) {
     FibreSide o = fibre_side(r.model, a.o.z, dir_dot(a.o, r.axis));
     FibreSide i = fibre_side(r.model, a.i.z, dir_dot(a.i, r.axis));
-    return fibre_single(r, a) + fibre_multiple(r.model, o, i, a.o, a.i);
+    return fibre_single(r, a) + fibre_multiple(r.model, o, i, fibre_turn(o, i, a.o, a.i));
 }
 
 FN Tint fibre_tint(FibreReady r, Angles a) {
     FibreSide o = fibre_side(r.model, a.o.z, dir_dot(a.o, r.axis));
     FibreSide i = fibre_side(r.model, a.i.z, dir_dot(a.i, r.axis));
-    float multiple = fibre_multiple(r.model, o, i, a.o, a.i);
+    float turn = fibre_turn(o, i, a.o, a.i), multiple = fibre_multiple(r.model, o, i, turn);
     Tint t;
     t.s = multiple / max(fibre_single(r, a) + multiple, 1e-30f);
     t.q_o = o.q;
     t.q_i = i.q;
-    t.e = fibre_deepen(r.model, o, i, a.o, a.i);
+    t.e = fibre_deepen(o, i, turn);
     return t;
 }
 

@@ -39,6 +39,7 @@ FN Stack unreal4_stack(Surface s, Dir o) {
     Stack m = stack_empty();
     Lobe haze = unreal4_lobe(max(alpha, 0.005f), D_INVERSE_GGX, V_NEUBELT);
     m.color = rgb_scale(fuzz, cloth);
+    m.sheen_color = m.color;
     m.at = haze.params[0];
     m.sheen = slot_make(haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth, cloth * rgb_mean(fuzz));
     m.specular =

@@ -1,0 +1,26 @@
+/* table.h - the functions A, h, g and k of shading/fibre_model.h at the nodes of a small table
+ *
+ * Of white fibres that stand upright, of density 1. Columns are uniform in a power of mu + 0.001 that rises
+ * with alpha, rows in the logarithm of alpha; between nodes all four are mixed linearly, and the fit is of
+ * what is mixed. */
+#ifndef WEFT_FIBRE_TABLE_H
+#define WEFT_FIBRE_TABLE_H
+
+#include "fibre/fit.h"
+
+/* What a table is for, and what made it. */
+typedef struct FibreTableDesc {
+    int columns, rows; /* each 2 .. 64 */
+    double low, high;  /* alpha in the first and the last row */
+    int rounds;        /* of the search */
+    int threads;       /* 0: all */
+    TruthProgress progress;
+    void *user;
+} FibreTableDesc;
+
+/* texels[rows][columns][4] becomes A, h, g, k, each a half float; error, how far the table is off where it
+ * was fitted: the mean of the means, the largest of the rest. False where memory is short or progress says
+ * so. */
+bool fibre_table_fit(const FibreTableDesc *desc, float *texels, TruthError *error);
+
+#endif

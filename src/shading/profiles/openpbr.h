@@ -1,0 +1,45 @@
+/* openpbr - OpenPBR Surface: a fuzz that scatters again and again, over a base that its colour does not tint
+ *
+ *   f      = w c f_fuzz + (1 - w E(cos_o)) mix(dielectric, metal, metallic),  w = min(sheen, 1)
+ *   f_fuzz = E(cos_o) D / cos_i,  alpha = sheen_roughness
+ *   dielectric = (1 - max3 F_min) base_color / pi + D_ggx V_ggx specular_color (F0 (1 - s) + s)
+ *   metal  = specular D_ggx V_ggx (base_color (1 - s) + s),  s = (1 - wi . h)^5,  alpha = roughness^2
+ *
+ *   AcademySoftwareFoundation/OpenPBR, reference/open_pbr_surface.mtlx: nodes fuzz_bsdf, a sheen of mode
+ * zeltner, fuzz_layer and metal_bsdf. E is that of white fuzz, so that dark fuzz darkens (issue 176 there).
+ *   IBL there: renderers choose; E c times the irradiance, or the transformed cosine itself.
+ *   Inputs: fuzz_weight is sheen, fuzz_color sheen_color, fuzz_roughness sheen_roughness, specular_weight
+ * specular, F0 as in workflow metallic. Clear coat and anisotropy are not looked at.
+ *   Departures: D and E are those of lobe ltc-fibre, fitted to the same slab without noise, where the
+ * specification has the table of tizian/ltc-sheen; sheen_roughness is at least 0.05. F_min, which dims the
+ * diffuse lobe, is that of workflow metallic, where the specification scales by the albedo of the highlight.
+ * The diffuse lobe is Lambert, EON at roughness 0; a metal has no F82 tint, and alpha is at least 0.001. */
+#ifndef WEFT_PROFILE_OPENPBR_H
+#define WEFT_PROFILE_OPENPBR_H
+
+#include "shading/workflows/metallic.h"
+
+FN Stack openpbr_stack(Surface s, Dir o) {
+    float weight = clamp(s.sheen, 0.0f, 1.0f);
+    Lobe fuzz = lobe_default(LOBE_LTC_FIBRE);
+    fuzz.params[0] = clamp(s.sheen_roughness, 0.05f, 1.0f);
+    Stack m = workflow_sheen(stack_empty(), fuzz, rgb_scale(s.sheen_color, weight), s.sheen_second,
+                             LAYER_ALBEDO_VIEW);
+    m.color = rgb_grey(weight);
+    if (weight > 0.0f) m.sheen.pick = max(m.sheen.pick, 1e-3f); /* black fuzz takes from the base too */
+
+    float f0 = min(dielectric_f0(s) * s.specular, 1.0f);
+    m.under = UNDER_LEAST;
+    m.under_f0 = rgb_grey(f0);
+    m.under_f90 = 1.0f;
+    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), rgb_grey(f0), 1.0f, o);
+    m.specular.lobe = lobe_default(LOBE_GGX);
+    m.specular.lobe.params[0] = clamp(s.roughness * s.roughness, 0.001f, 1.0f);
+    /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
+    float glass = 1.0f - s.metallic, metal = s.specular * s.metallic;
+    m.specular.f0 = rgb_add(rgb_scale(s.specular_color, f0 * glass), rgb_scale(s.base_color, metal));
+    m.specular.f90 = rgb_add(rgb_scale(s.specular_color, glass), rgb_grey(metal));
+    return m;
+}
+
+#endif
