@@ -153,20 +153,72 @@ typedef struct Fill {
 /* The colours, beside white, that the maps of a tinted lobe are made from: the last is 0 in the limit. */
 static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
+/* How far the lobe leans; 0 of one that cannot. */
+static float tilt_of(const Lobe *lobe) {
+    int tilt = lobe_param(lobe->id, "tilt");
+    return tilt > 0 && lobe_param(lobe->id, "azimuth") > 0 ? lobe->params[tilt] : 0.0f;
+}
+
+/* Of how many tilts there are maps. */
+static int tilts_of(const Lobe *lobe, bool scaled) {
+    if (!(tilt_of(lobe) > 0.0f)) return 0;
+    return scaled ? TABLE_TILTS : 1;
+}
+
+enum { ACROSS = TABLE_HEADINGS / 2 + 1 }; /* heading 0 of the greatest tilt, from the last map */
+
+/* E of a lobe with azimuth 0 towards wo at that heading. */
+static float towards(const Lobe *lobe, float heading, float cos_o, double tolerance) {
+    float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), side = sqrt(1.0f - heading * heading);
+    Albedo e = albedo_quadrature(lobe, dir(s * heading, s * side, cos_o), tolerance);
+    return e.f0 + e.f90;
+}
+
+/* One texel of all maps by heading. A lobe that takes walks takes as many for them together as for one E. */
+static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, float cos_o) {
+    int tilt = lobe_param(lobe.id, "tilt"), map = table->maps - table->tilts * TABLE_HEADINGS;
+    float most = lobe.params[tilt];
+    double tolerance = 1e-4 * table->tilts * TABLE_HEADINGS;
+    for (int t = 0; t < table->tilts; t++) {
+        float root = table->tilts > 1 ? (float)t / (TABLE_TILTS - 1) : 1.0f;
+        lobe_set(&lobe, tilt, most * root * root);
+        for (int k = 0; k < TABLE_HEADINGS; k++)
+            table->e[map++ * table->rows + row][column] =
+                towards(&lobe, 2.0f * (float)k / (TABLE_HEADINGS - 1) - 1.0f, cos_o, tolerance);
+    }
+}
+
+/* The mean over azimuths of what is known at five headings, for the last column: exact for what is a
+ * polynomial of the fifth degree in the heading. */
+static void average_headings(AlbedoTable *table, int map, int row) {
+    static const float weights[TABLE_HEADINGS] = {1.0f / 6, 1.0f / 3, 0.0f, 1.0f / 3, 1.0f / 6};
+    float mean = 0.0f;
+    for (int k = 0; k < TABLE_HEADINGS; k++)
+        mean += weights[k] * table->e[(map + k) * table->rows + row][ALBEDO_MU];
+    for (int k = 0; k < TABLE_HEADINGS; k++) table->e[(map + k) * table->rows + row][ALBEDO_MU] = mean;
+}
+
 static void fill_column(void *user, int column, int thread) {
     (void)thread;
     const Fill *fill = user;
     AlbedoTable *table = fill->table;
+    bool tinted = (weft_lobe_info(fill->lobe->id)->traits & TRAIT_TINTED) != 0;
     float y = 1.0f - (float)column / (ALBEDO_MU - 1), x = 1.0f - y * y, cos_o = max(x * x * x * x, 1e-7f);
-    Dir wo = {sqrt(max(1.0f - cos_o * cos_o, 0.0f)), 0.0f, cos_o};
+    float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
+    Dir wo = table->tilts ? dir(0.0f, s, cos_o) : dir(s, 0.0f, cos_o);
     for (int row = 0; row < table->rows; row++) {
         Lobe lobe = *fill->lobe;
         float t = table->rows > 1 ? (float)row / (ALBEDO_ROWS - 1) : 0.0f;
         float r = mix(table->root_low, table->root_high, t), r2 = r * r, r4 = r2 * r2;
         if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, r4 * r4);
+        if (table->tilts) fill_headings(table, lobe, row, column, cos_o);
+        if (table->tilts && !tinted) {
+            table->e[row][column] = table->e[(table->maps - ACROSS) * table->rows + row][column];
+            continue;
+        }
         Albedo e = albedo_quadrature(&lobe, wo, 1e-4);
         table->e[row][column] = e.f0 + e.f90;
-        if (table->maps == 1) continue;
+        if (!tinted) continue;
         float colors[3];
         albedo_tinted(&lobe, wo, map_colors, 1e-4, colors);
         for (int c = 0; c < 3; c++) table->e[(1 + c) * table->rows + row][column] = colors[c];
@@ -210,9 +262,13 @@ static void solve_maps(float *map[ALBEDO_MAPS]) {
     *map[3] = (float)fmin(fmax(2.0 * (y[1] - 2.0 * (log1p(-low) - log1p(-0.5 * low))), -20.0), 20.0);
 }
 
-void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
+static void table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled,
+                       int threads) {
     const WeftLobeInfo *info = weft_lobe_info((int)lobe->id);
+    bool tinted = (info->traits & TRAIT_TINTED) != 0;
     table->lobe = *lobe;
+    table->tilts = tilts_of(lobe, scaled);
+    if (table->tilts) lobe_set(&table->lobe, lobe_param(lobe->id, "azimuth"), 0.0f);
     table->low = low;
     table->high = high;
     if (info->param_count > 0) {
@@ -222,11 +278,14 @@ void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
     table->root_low = eighth_root(low);
     table->root_high = eighth_root(high);
     table->rows = info->param_count > 0 && low < high ? ALBEDO_ROWS : 1;
-    table->maps = info->traits & TRAIT_TINTED ? ALBEDO_MAPS : 1;
-    parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, lobe});
+    int colors = tinted ? ALBEDO_MAPS : 1;
+    table->maps = colors + table->tilts * TABLE_HEADINGS;
+    parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, &table->lobe});
     for (int row = 0; row < table->maps * table->rows; row++)
         table->e[row][ALBEDO_MU] = (float)row_average(table, row);
-    if (table->maps == 1) return;
+    for (int map = colors; map < table->maps; map += TABLE_HEADINGS)
+        for (int row = 0; row < table->rows; row++) average_headings(table, map, row);
+    if (!tinted) return;
     for (int row = 0; row < table->rows; row++)
         for (int column = 0; column <= ALBEDO_MU; column++) {
             float *map[ALBEDO_MAPS];
@@ -235,20 +294,32 @@ void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
         }
 }
 
+void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
+    table_fill(table, lobe, low, high, false, threads);
+}
+
+void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads) {
+    table_fill(table, lobe, low, high, true, threads);
+}
+
 static bool same(float a, float b) { return !(a < b) && !(a > b); }
 
-bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high) {
+bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled) {
     if (table->lobe.id != lobe->id) return false;
+    int azimuth = lobe_param(lobe->id, "tilt") > 0 ? lobe_param(lobe->id, "azimuth") : -1;
     for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
-        if (!same(table->lobe.params[k], lobe->params[k])) return false;
-    return same(table->low, low) && same(table->high, high);
+        if (k != azimuth && !same(table->lobe.params[k], lobe->params[k])) return false;
+    return table->tilts == tilts_of(lobe, scaled) && same(table->low, low) && same(table->high, high);
 }
 
 TableRef albedo_table_ref(const AlbedoTable *table) {
+    bool tinted = (weft_lobe_info(table->lobe.id)->traits & TRAIT_TINTED) != 0;
     return (TableRef){.texels = table->e[0],
-                      .kind = table->maps > 1 ? TABLE_TINTED : TABLE_ROOTS,
+                      .kind = tinted ? TABLE_TINTED : TABLE_ROOTS,
                       .rows = table->rows,
                       .columns = ALBEDO_MU,
                       .low = table->root_low,
-                      .high = table->root_high};
+                      .high = table->root_high,
+                      .tilts = table->tilts,
+                      .tilt = table->tilts ? tilt_of(&table->lobe) : 0.0f};
 }

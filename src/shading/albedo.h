@@ -34,28 +34,43 @@ void albedo_tinted(const Lobe *lobe, Dir wo, const float w[3], double tolerance,
  *
  *   E(w) = E(1) c(w),  c: tint_color with s, q_o = q_i = q and e of these maps
  *
- * which is right at w = 1, at 7/8, at 1/2 and, as a slope, at 0. */
-enum { ALBEDO_MU = 40, ALBEDO_ROWS = 32, ALBEDO_MAPS = 4 };
+ * which is right at w = 1, at 7/8, at 1/2 and, as a slope, at 0.
+ *
+ * Of a lobe whose fibres lean, one with the parameters tilt > 0 and azimuth, these are for wo across the nap,
+ * whatever the azimuth; and there are maps more of E by heading (table.h), for the tilt of the lobe or for
+ * TABLE_TILTS of them. */
+enum {
+    ALBEDO_MU = 40,
+    ALBEDO_ROWS = 32,
+    ALBEDO_MAPS = 4,
+    ALBEDO_MAPS_MOST = ALBEDO_MAPS + TABLE_TILTS * TABLE_HEADINGS
+};
 
 typedef struct AlbedoTable {
     Lobe lobe; /* its parameter 0 says nothing */
     int rows;
     float low, high;           /* the range asked for */
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */
-    /* E, then s, q and e. The last column: on cosine average, 2 integral of E mu dmu, and s, q, e of that. */
-    float e[ALBEDO_MAPS * ALBEDO_ROWS][ALBEDO_MU + 1];
-    int maps; /* of `rows` rows each */
+    int maps;                  /* all, of `rows` rows each */
+    int tilts;                 /* with maps for headings: 0, 1 or TABLE_TILTS */
+    /* E, then s, q and e. The last column: on cosine average, 2 integral of E mu dmu, and s, q, e of that; of
+     * E by heading the average over azimuths too. */
+    float e[ALBEDO_MAPS_MOST * ALBEDO_ROWS][ALBEDO_MU + 1];
 } AlbedoTable;
 
 /* Fills the table for a lobe as its parameter 0 runs over low .. high (equal: one row), the others as given.
  * Runs on `threads` threads (0: all). */
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
-/* Whether the table is that of the lobe for its parameter 0 over low .. high. */
-bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high);
+/* The same of a sheen whose tilt a texture scales: from 0 to that of the lobe. */
+void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
+
+/* Whether the table is that of the lobe for its parameter 0 over low .. high and, scaled, for all tilts. */
+bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled);
 
 /* The table for table.h to read, which clamps to its ends; it must outlive the reference. Off the nodes it is
- * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3 (tests/shading/test_energy). */
+ * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3 (tests/shading/test_energy); of fibres
+ * that lean within 0.07, and 0.015 for one tilt and alpha >= 0.5 (tests/shading/test_leaning). */
 TableRef albedo_table_ref(const AlbedoTable *table);
 
 #endif

@@ -58,6 +58,7 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
     if (c.sheen_lobe >= 0) {
         Lobe lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
         lobe = lobe_fibres(lobe, s.sheen_density, s.nap, azimuth_of(s.nap_direction));
+        m.nap = nap_of(s.nap, s.nap_direction);
         m.sheen = slot_make(lobe, m.sheen_color, s.sheen_second, m.left, m.sheen.pick);
         m.albedo = ALBEDO_TABLE;
         m.at = lobe.params[0];
@@ -81,20 +82,21 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
     return m;
 }
 
-/* E of the white sheen towards a direction of that cosine. */
+/* E of the white sheen towards a direction. */
 #define COMPOSE_ALBEDO(name, index, formula)                                                                 \
     if (m.albedo == index) return sheen_e_of(formula);
-FN SheenE stack_albedo(Stack m, float cosine) {
+FN SheenE stack_albedo(Stack m, Dir w) {
+    float cosine = w.z;
     WEFT_ALBEDO_FORMULAS(COMPOSE_ALBEDO)
-    return table_sheen(m.table, cosine, m.at);
+    return table_sheen_nap(m.table, w, m.nap, m.at);
 }
 
 /* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
 FN Stack compose_finish(Stack m, TableRef e, Dir o) {
     m.table = e;
     if (m.sheen.pick > 0.0f) {
-        m.e_o = stack_albedo(m, o.z);
-        m.e_avg = table_sheen_average(e, m.at);
+        m.e_o = stack_albedo(m, o);
+        m.e_avg = table_sheen_nap_average(e, m.nap, m.at);
         float keep = rgb_mean(stack_keep(m, m.e_o));
         m.sheen.pick = m.layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m.sheen.pick * m.e_o.e, 1e-3f);
         m.diffuse.pick = m.diffuse.pick * keep;
@@ -127,7 +129,7 @@ FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
 FN StackValue stack_value(Stack m, Angles a, Angles coat) {
     SheenE e_i = sheen_e_of(0.0f);
-    if (m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f) e_i = stack_albedo(m, a.i.z);
+    if (m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f) e_i = stack_albedo(m, a.i);
     bool worn = m.color.r + m.color.g + m.color.b > 0.0f;
     Rgb keep = worn ? stack_keep(m, e_i) : rgb_grey(1.0f);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;

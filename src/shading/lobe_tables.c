@@ -22,7 +22,7 @@ static TableRef make_planes(const float *texels, int channels, int rows, int col
                             float *planes) {
     for (int c = 0; c < channels; c++)
         for (int k = 0; k < rows * columns; k++) planes[c * rows * columns + k] = texels[k * channels + c];
-    return (TableRef){planes, TABLE_PLANES, channels * rows, columns, low, high};
+    return (TableRef){planes, TABLE_PLANES, channels * rows, columns, low, high, 0, 0.0f};
 }
 
 #define PLANES(name) name##_channels, name##_height, name##_width

@@ -28,8 +28,8 @@ static bool walk_on(uint32_t *walk, const Stack *layer, Dir *o, Rgb *weight) {
     return rgb_max3(*weight) > 0.0f;
 }
 
-static Rgb let_through(const Stack *stack, float cosine) {
-    SheenE e = stack_albedo(*stack, cosine);
+static Rgb let_through(const Stack *stack, Dir w) {
+    SheenE e = stack_albedo(*stack, w);
     Rgb c = stack->by == LAYER_BY_CHANNEL ? stack->color : rgb_grey(rgb_max3(stack->color));
     return rgb(max(1.0f - c.r * sheen_e_in(e, c.r), 0.0f), max(1.0f - c.g * sheen_e_in(e, c.g), 0.0f),
                max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));
@@ -59,8 +59,8 @@ static Stack only(const Stack *stack, bool sheen) {
 
 Rgb sheet_bounces(const Stack *stack, Dir o, Dir i, uint32_t seed) {
     Stack base = only(stack, false), sheen = only(stack, true);
-    Rgb weight = rgb_scale(let_through(stack, o.z), stack->left), sum = rgb_grey(0.0f);
-    Rgb out = let_through(stack, i.z);
+    Rgb weight = rgb_scale(let_through(stack, o), stack->left), sum = rgb_grey(0.0f);
+    Rgb out = let_through(stack, i);
     for (int bounce = 0; bounce < BOUNCES_MOST; bounce++) {
         if (!walk_on(&seed, &base, &o, &weight) || !walk_on(&seed, &sheen, &o, &weight)) break;
         sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), stack_eval(&base, o, i, 0).f_cos));

@@ -50,6 +50,7 @@ STRUCT(Stack) {
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
     int albedo;      /* source of E */
     TableRef table;
+    Nap nap;                    /* of the sheen */
     float at;                   /* the parameter with which E is asked for */
     SheenE e_o, e_avg;          /* E of the white sheen towards wo, and on cosine average */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
@@ -104,6 +105,9 @@ FN Stack stack_empty(void) {
     m.table.columns = 0;
     m.table.low = 0.0f;
     m.table.high = 0.0f;
+    m.table.tilts = 0;
+    m.table.tilt = 0.0f;
+    m.nap = nap_of(0.0f, dir(1.0f, 0.0f, 0.0f));
     m.at = 0.0f;
     m.e_o = sheen_e_of(0.0f);
     m.e_avg = m.e_o;

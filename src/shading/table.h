@@ -1,10 +1,15 @@
 /* table.h - directional albedo looked up: weft's own tables and those that engines ship
  *
  * A table has cos_o along its columns and one shape parameter down its rows. Texels are fetched one by one
- * and mixed here, so that C and GPU agree: a GPU's filter has 8 bits of fraction. */
+ * and mixed here, so that C and GPU agree: a GPU's filter has 8 bits of fraction.
+ *
+ * Where fibres lean, E depends on the azimuth too. Then there are maps for the headings (nap.h) -1, -1/2, 0,
+ * 1/2 and 1 below the others, and five such sets, for 0, 1/16, 1/4, 9/16 and all of the tilt, where a texture
+ * scales it. */
 #ifndef WEFT_TABLE_H
 #define WEFT_TABLE_H
 
+#include "shading/nap.h"
 #include "shading/tint.h"
 
 #define TABLE_NONE 0 /* E is 0 */
@@ -14,11 +19,16 @@
 #define TABLE_TINTED 3 /* TABLE_ROOTS of a tinted lobe, with three maps more below: s, q and e (albedo.h) */
 #define TABLE_PLANES 4 /* a lobe's own, planes below each other: lobe_tables.h */
 
+#define TABLE_HEADINGS 5
+#define TABLE_TILTS    5
+
 STRUCT(TableRef) {
     Table texels;
     int kind;
     int rows, columns; /* of a map; weft's have one column more, E on cosine average */
     float low, high;   /* weft's: eighth roots of the parameter in the first and the last row */
+    int tilts;         /* with maps for headings: 0 where nothing leans, 1 or TABLE_TILTS */
+    float tilt;        /* the greatest, radians */
 };
 
 /* The cubic through four neighbouring nodes whose slope at a node is that between its neighbours; beyond its
@@ -156,6 +166,41 @@ FN SheenE table_sheen(TableRef m, float cos_o, float p) {
 }
 FN float table_albedo(TableRef m, float cos_o, float p) { return table_sheen(m, cos_o, p).e; }
 
+/* Where the maps for headings begin. */
+FN int table_headings(TableRef m) { return m.kind == TABLE_TINTED ? 4 : 1; }
+
+/* Where a tilt falls among those of the maps: even in its root, for E changes the most as fibres begin to
+ * lean. */
+FN Taps table_tilt(TableRef m, float tilt) {
+    return table_taps(sqrt(max(tilt, 0.0f) / m.tilt) * to_float(m.tilts - 1), m.tilts);
+}
+
+/* E at a heading, of the tilt whose maps begin there. */
+FN float table_turned(TableRef m, int map, Taps heading, TablePlace at) {
+    int k = map + heading.first;
+    return heading.a * table_map(m, k, at) + heading.b * table_map(m, k + 1, at) +
+           heading.c * table_map(m, k + 2, at) + heading.d * table_map(m, k + 3, at);
+}
+
+FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
+    Taps h = table_taps((0.5f + 0.5f * heading) * to_float(TABLE_HEADINGS - 1), TABLE_HEADINGS);
+    int map = table_headings(m);
+    if (m.tilts < 2) return table_turned(m, map, h, at);
+    Taps t = table_tilt(m, nap.tilt);
+    map = map + TABLE_HEADINGS * t.first;
+    return t.a * table_turned(m, map, h, at) + t.b * table_turned(m, map + TABLE_HEADINGS, h, at) +
+           t.c * table_turned(m, map + 2 * TABLE_HEADINGS, h, at) +
+           t.d * table_turned(m, map + 3 * TABLE_HEADINGS, h, at);
+}
+
+/* E towards w of a sheen with a nap. Colour changes it as it does across the nap. */
+FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, float p) {
+    SheenE x = table_sheen(m, w.z, p);
+    if ((m.kind == TABLE_ROOTS || m.kind == TABLE_TINTED) && m.tilts > 0)
+        x.e = clamp(table_leaning(m, nap, nap_heading(nap, w), table_place(m, w.z, p)), 0.0f, 1.0f);
+    return x;
+}
+
 /* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
 FN SheenE table_sheen_average(TableRef m, float p) {
     if (m.kind == TABLE_LINEAR || m.kind == TABLE_NONE) return sheen_e_of(0.0f);
@@ -165,5 +210,23 @@ FN SheenE table_sheen_average(TableRef m, float p) {
                           table_map_average(m, 3, p));
 }
 FN float table_average(TableRef m, float p) { return table_sheen_average(m, p).e; }
+
+/* The same of a sheen with a nap, and on average over the azimuth, which is what the maps of all headings
+ * have. */
+FN SheenE table_sheen_nap_average(TableRef m, Nap nap, float p) {
+    SheenE x = table_sheen_average(m, p);
+    if ((m.kind != TABLE_ROOTS && m.kind != TABLE_TINTED) || m.tilts < 1) return x;
+    int map = table_headings(m);
+    x.e = table_map_average(m, map, p);
+    if (m.tilts > 1) {
+        Taps t = table_tilt(m, nap.tilt);
+        map = map + TABLE_HEADINGS * t.first;
+        x.e = t.a * table_map_average(m, map, p) + t.b * table_map_average(m, map + TABLE_HEADINGS, p) +
+              t.c * table_map_average(m, map + 2 * TABLE_HEADINGS, p) +
+              t.d * table_map_average(m, map + 3 * TABLE_HEADINGS, p);
+    }
+    x.e = clamp(x.e, 0.0f, 1.0f);
+    return x;
+}
 
 #endif

@@ -12,8 +12,9 @@ static void put_reference(Text *text, const TableRef *e, const char *indent) {
     int layer = text_table(text, (TextTable){e->texels, e->rows, columns});
     text_line(text, "%st.texels = %d;\n%st.kind = %d;\n%st.rows = %d;\n%st.columns = %d;", indent, layer,
               indent, e->kind, indent, e->rows, indent, e->columns);
-    text_line(text, "%st.low = %s;\n%st.high = %s;", indent, number(e->low).text, indent,
-              number(e->high).text);
+    text_line(text, "%st.low = %s;\n%st.high = %s;\n%st.tilts = %d;\n%st.tilt = %s;", indent,
+              number(e->low).text, indent, number(e->high).text, indent, e->tilts, indent,
+              number(e->tilt).text);
 }
 
 void text_lobe_tables(Text *text) {
@@ -35,7 +36,8 @@ void text_engine_tables(Text *text, const int *which, int count) {
     text_line(
         text,
         "\nTableRef engine_table(int which) {\n    TableRef t;\n    t.texels = 0;\n    t.kind = TABLE_NONE;\n"
-        "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;");
+        "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;\n    t.tilts = 0;\n    "
+        "t.tilt = 0.0;");
     for (int k = 0; k < count; k++) {
         TableRef e = engine_table(which[k]);
         text_line(text, "    if (which == %d) {", which[k]);

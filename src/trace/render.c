@@ -113,15 +113,6 @@ static void table_range(const PathMaterial *known, bool all, float *low, float *
     }
 }
 
-/* A table of E knows one azimuth. Of fibres that lean it is the one across: there E is near its mean over all
- * azimuths, whatever the map of directions, while along and against the nap it is less and more. Where a
- * texture scales the nap it is that of the whole of it, which has the greater E across. */
-static Lobe seen_across(Lobe lobe) {
-    int azimuth = lobe_param(lobe.id, "azimuth");
-    if (azimuth > 0) lobe_set(&lobe, azimuth, 0.5f * PI);
-    return lobe;
-}
-
 /* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
  * over the same range. */
 static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made, WeftError *error) {
@@ -129,20 +120,21 @@ static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made,
     known->sheen_e = (TableRef){.kind = TABLE_NONE};
     if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
     if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
-        stack_albedo(most, 0.5f); /* an engine's own, made before the threads start */
+        stack_albedo(most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before the threads start */
         return WEFT_OK;
     }
-    Lobe lobe = seen_across(most.sheen.lobe);
+    Lobe lobe = most.sheen.lobe;
+    bool scaled = known->material.inputs[INPUT_nap].texture != 0;
     float low, high;
     table_range(known, *made >= NARROW_TABLES, &low, &high); /* after some, one for all */
     for (int k = 0; k < *made; k++)
-        if (albedo_table_serves(render->tables[k], &lobe, low, high)) {
+        if (albedo_table_serves(render->tables[k], &lobe, low, high, scaled)) {
             known->sheen_e = albedo_table_ref(render->tables[k]);
             return WEFT_OK;
         }
     AlbedoTable *table = render->tables[*made] = alloc_array(1, sizeof(AlbedoTable));
     if (!table) return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
-    albedo_table_fill(table, &lobe, low, high, render->desc.threads);
+    (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, render->desc.threads);
     known->sheen_e = albedo_table_ref(table);
     ++*made;
     return WEFT_OK;

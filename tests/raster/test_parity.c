@@ -572,23 +572,23 @@ static void stacks_agree(void **state) {
     assert_true(good);
 }
 
-/* E of a tinted lobe, with s, q and e. */
-static AlbedoTable tinted;
+/* E of a tinted lobe, with s, q and e; and of one whose fibres lean, by one tilt and by all. */
+static AlbedoTable tinted, leaning, scaled;
 
-static void put_tinted(Text *text) {
-    TableRef e = albedo_table_ref(&tinted);
-    int layer = text_table(text, (TextTable){e.texels, e.rows * ALBEDO_MAPS, e.columns + 1});
-    text_line(text, "\nTableRef tinted() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", layer,
+static void put_table(Text *text, const char *name, const AlbedoTable *table) {
+    TableRef e = albedo_table_ref(table);
+    int layer = text_table(text, (TextTable){e.texels, e.rows * table->maps, e.columns + 1});
+    text_line(text, "\nTableRef %s() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", name, layer,
               e.kind);
     text_line(text, "    t.rows = %d;\n    t.columns = %d;\n    t.low = %s;\n    t.high = %s;", e.rows,
               e.columns, number(e.low).text, number(e.high).text);
-    text_line(text, "    return t;\n}");
+    text_line(text, "    t.tilts = %d;\n    t.tilt = %s;\n    return t;\n}", e.tilts, number(e.tilt).text);
 }
 
 static void put_tables(Text *text, int which) {
     text_lobe_tables(text);
     text_engine_tables(text, (const int[]){ENGINE_THREE_GGX, ENGINE_FILAMENT_GGX}, 2);
-    put_tinted(text);
+    put_table(text, "tinted", &tinted);
 }
 
 static void fill_cosine(Random *random, int which, float *row) {
@@ -628,6 +628,51 @@ static void tables_agree(void **state) {
     };
     need_gpu();
     assert_true(agree(&subject, 0, "tables"));
+}
+
+static void put_leaning(Text *text, int which) {
+    text_include(text, "shading/table.h");
+    put_table(text, "leaning", &leaning);
+    put_table(text, "scaled", &scaled);
+}
+
+static void fill_nap(Random *random, int which, float *row) {
+    Dir w = any_direction(random), to = any_direction(random);
+    row[0] = w.x, row[1] = w.y, row[2] = w.z;
+    row[3] = any_value(random, 0.05f, 1.0f, 0.0f, 4.0f);
+    row[4] = to.x, row[5] = to.y;
+    row[6] = any_value(random, 0.0f, 0.8f, 0.0f, 2.0f);
+    row[7] = any_value(random, 0.0f, 1.0f, 0.0f, 1.0f);
+}
+
+static void answer_nap(int which, const float *row, float *answers) {
+    Dir w = dir(row[0], row[1], row[2]);
+    Nap nap = nap_of(row[6], dir(row[4], row[5], 0.0f));
+    TableRef one = albedo_table_ref(&leaning), all = albedo_table_ref(&scaled);
+    const float e[] = {table_sheen_nap(one, w, nap, row[3]).e,
+                       sheen_e_in(table_sheen_nap(all, w, nap, row[3]), row[7]),
+                       table_sheen_nap_average(one, nap, row[3]).e,
+                       sheen_e_in(table_sheen_nap_average(all, nap, row[3]), row[7])};
+    memcpy(answers, e, sizeof e);
+}
+
+static void naps_agree(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body =
+            "    Dir w = dir(in0.x, in0.y, in0.z);\n    Nap nap = nap_of(in1.z, dir(in1.x, in1.y, 0.0));\n"
+            "    out0.x = table_sheen_nap(leaning(), w, nap, in0.w).e;\n"
+            "    out0.y = sheen_e_in(table_sheen_nap(scaled(), w, nap, in0.w), in1.w);\n"
+            "    out0.z = table_sheen_nap_average(leaning(), nap, in0.w).e;\n"
+            "    out0.w = sheen_e_in(table_sheen_nap_average(scaled(), nap, in0.w), in1.w);\n",
+        .inputs = 2,
+        .answers = "nnnn",
+        .put = put_leaning,
+        .fill = fill_nap,
+        .answer = answer_nap,
+    };
+    need_gpu();
+    assert_true(agree(&subject, 0, "naps"));
 }
 
 /* A term whose text says something else by a thousandth, laid over the library's. */
@@ -675,6 +720,9 @@ static int begin(void **state) {
     lobe_tables_make();
     Lobe lobe = lobe_default(LOBE_FIBRE);
     albedo_table_fill(&tinted, &lobe, 0.05f, 1.0f, 0);
+    lobe = lobe_fibres(lobe, 1.0f, 0.7f, 0.0f);
+    albedo_table_fill(&leaning, &lobe, 0.5f, 0.5f, 0);
+    albedo_table_fill_tilts(&scaled, &lobe, 0.3f, 1.0f, 0);
     expected = calloc(samples, ANSWERS * sizeof(float));
     return 0;
 }
@@ -690,10 +738,10 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_agree),           cmocka_unit_test(lobes_are_told_apart),
-        cmocka_unit_test(terms_agree),           cmocka_unit_test(layers_agree),
-        cmocka_unit_test(stacks_agree),          cmocka_unit_test(tables_agree),
-        cmocka_unit_test(a_wrong_text_is_found),
+        cmocka_unit_test(lobes_agree),  cmocka_unit_test(lobes_are_told_apart),
+        cmocka_unit_test(terms_agree),  cmocka_unit_test(layers_agree),
+        cmocka_unit_test(stacks_agree), cmocka_unit_test(tables_agree),
+        cmocka_unit_test(naps_agree),   cmocka_unit_test(a_wrong_text_is_found),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

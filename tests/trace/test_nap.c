@@ -52,16 +52,18 @@ static Material *lean(WeftScene *scene, float nap, float direction) {
 }
 
 /* The mean radiance of its middle. */
-static double seen(WeftScene *scene) {
+static double seen_by(WeftScene *scene, const char *camera) {
     enum { SIDE = 32 };
     assert_int_equal(tangents_complete(scene, NULL), WEFT_OK);
     WeftImage image =
-        test_render(scene, (WeftRenderDesc){.camera = "0,0,50;0,0,0;1", .width = SIDE, .height = SIDE}, 16);
+        test_render(scene, (WeftRenderDesc){.camera = camera, .width = SIDE, .height = SIDE}, 16);
     double sum = 0.0;
     for (int k = 0; k < SIDE * SIDE; k++) sum += (double)((const float *)image.pixels)[4 * k] / (SIDE * SIDE);
     weft_image_free(&image);
     return sum;
 }
+
+static double seen(WeftScene *scene) { return seen_by(scene, "0,0,50;0,0,0;1"); }
 
 static double seen_and_freed(WeftScene *scene) {
     double mean = seen(scene);
@@ -163,6 +165,27 @@ static void nothing_leans_without_nap(void **state) {
     }
 }
 
+/* White fibres over a white base in white light, seen from 11 degrees over the right: along, between and
+ * against the nap, by numbers and by a map. tests/shading/test_leaning has the figures. */
+static void a_white_base_stays_white(void **state) {
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        bool map = k % 2 == 1;
+        WeftScene *scene = square(map ? (const float[3]){0.5f, 1.0f, 0.5f} : NULL);
+        scene->light_count = 0;
+        test_environment(scene, 1.0f);
+        Material *material = lean(scene, map ? 80.0f : 40.0f, 60.0f * (float)k - (map ? 90.0f : 0.0f));
+        material->choices[CHOICE_sheen_lobe] = weft_lobe_find("fibre");
+        material->choices[CHOICE_layer] = 3; /* albedo-view */
+        material->inputs[INPUT_sheen_roughness].value[0] = 0.71f;
+        material->inputs[INPUT_sheen_density].value[0] = 1.0f;
+        test_color(material, INPUT_base_color, 1.0f);
+        double mean = seen_by(scene, "49,0,10;0,0,0;0.4");
+        if (!(fabs(mean - 1.0) < 0.02)) fail_msg("%g at %d degrees", mean, 60 * k);
+        weft_scene_free(scene);
+    }
+}
+
 static void set_takes_degrees(void **state) {
     (void)state;
     WeftScene *scene = square((const float[3]){0.5f, 1.0f, 0.5f});
@@ -188,6 +211,7 @@ int main(void) {
         cmocka_unit_test(a_turned_map_is_a_turned_direction),
         cmocka_unit_test(anisotropy_does_not_turn_the_nap),
         cmocka_unit_test(nothing_leans_without_nap),
+        cmocka_unit_test(a_white_base_stays_white),
         cmocka_unit_test(set_takes_degrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
