@@ -320,7 +320,7 @@ static void fibre_costs(Gpu *gpu) {
     for (size_t k = 0; k < sizeof fibre_rows / sizeof fibre_rows[0]; k++) {
         Cost cost = fibre_cost(gpu, k, true), alone = fibre_cost(gpu, k, false);
         if (k == 0) first = cost, first_alone = alone;
-        printf("| %s | %.0f | %.0f | %.1f | %.0f | %.1f | %.0f |\n", fibre_rows[k].name, cost.instructions,
+        printf("| %s | %.0f | %.0f | %.2f | %.0f | %.2f | %.0f |\n", fibre_rows[k].name, cost.instructions,
                cost.cycles, cost.cycles / first.cycles, alone.cycles, alone.cycles / first_alone.cycles,
                cost.registers);
     }

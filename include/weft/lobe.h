@@ -23,7 +23,7 @@ enum {
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
     WEFT_LOBE_REFERENCE = 32,   /* f is an estimate, and its mean over near directions is meant */
     WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
-    WEFT_LOBE_TABLE = 128,      /* reads a table that is made at the first use of the lobe */
+    WEFT_LOBE_TABLE = 128,      /* reads a table, which the lobe's first use makes or the library holds */
     WEFT_LOBE_TINTED = 256      /* its colour is no factor on f but the albedo of its fibres, in [0, 1] */
 };
 

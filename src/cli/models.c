@@ -22,7 +22,7 @@ static const struct {
     {WEFT_LOBE_ANISOTROPIC, "anisotropic", "anisotropic"},
     {WEFT_LOBE_REFERENCE, "reference", "for the path tracer only"},
     {WEFT_LOBE_DIFFUSE, "diffuse", "a diffuse term"},
-    {WEFT_LOBE_TABLE, "table", "reads a table made at its first use"},
+    {WEFT_LOBE_TABLE, "table", "reads a table"},
     {WEFT_LOBE_TINTED, "tinted", "its colour is the albedo of fibres, no factor"},
 };
 enum { TRAIT_COUNT = sizeof traits / sizeof *traits, COLUMN = 32 };

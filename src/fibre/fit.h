@@ -3,7 +3,8 @@
  * A form has local numbers theta, which hold for one slab, and these are linear in the coefficients that are
  * sought: theta[q] = fixed[q] + sum of coefficients[column] * basis. The error of a slab is what is printed
  * everywhere, integral of |f - f_true| mu over R, for each direction; the albedo's own error is weighed in,
- * and heavily where the form would reflect more than it receives. */
+ * and heavily where the form would reflect more than 0.96 of what it receives, so that what it
+ * does between the directions of the fit stays below 1. */
 #ifndef WEFT_FIBRE_FIT_H
 #define WEFT_FIBRE_FIT_H
 

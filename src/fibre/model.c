@@ -21,7 +21,7 @@ typedef enum Kind {
 typedef struct Group {
     Part part;
     Kind kind;
-    int first; /* of the exponents */
+    int first; /* of PART_P: which of the logarithms the first number multiplies */
     int count;
     int degree[POWERS][POWERS];
 } Group;
@@ -55,15 +55,14 @@ enum {
     LOCALS_MAX = 128
 };
 
-static FibreStage stage_of(const Group *g, int b, int c) {
-    (void)b;
+static FibreStage stage_of(const Group *g, int c) {
     if (g->part >= PART_Q) return FIBRE_COLOR;
     if (g->kind == NAP) return FIBRE_NAP;
     if (c) return FIBRE_DENSITY;
     return g->kind == THIN ? FIBRE_THIN : FIBRE_WHITE;
 }
 
-/* ---- features: the same as shading/fibre_model.h, in double precision ---- */
+/* ---- features: the same as shading/fibre_model.h, in double precision, but for its `hold` ---- */
 
 static const double alpha_low = 0.045, alpha_thin = 0.19, alpha_nap = 0.38;
 static double t_of(double alpha) { return 1.0 - 2.0 * log(alpha) / log(alpha_low); }
@@ -71,9 +70,8 @@ static double thin_of(double t) { return fmax(t_of(alpha_thin) - t, 0.0); }
 static double l_of(double depth) { return log(depth) / log(4.0); }
 static double tilt_of(double tilt) { return 2.0 * sin(tilt) * sin(tilt); }
 
-/* u in [-1, 1] of mu: a power that is a root at alpha 1, a sixth of one at the lowest, straight at the
- * horizon.
- */
+/* u in [-1, 1] of mu: a power, from the square root at alpha 1 to the sixth root below 0.11, straight at the
+ * horizon. */
 static double u_of(double mu, double t) {
     const double c = 1e-3;
     double q = 0.26 + 0.24 * fmax(t, -0.4);
@@ -283,7 +281,7 @@ int fibre_model_count(FibreStage stage) {
     for (int g = 0; g < GROUPS; g++)
         for (int b = 0; b < POWERS; b++)
             for (int c = 0; c < POWERS; c++)
-                if (stage_of(&groups[g], b, c) == stage) n += groups[g].count * groups[g].degree[b][c];
+                if (stage_of(&groups[g], c) == stage) n += groups[g].count * groups[g].degree[b][c];
     return n;
 }
 
@@ -323,7 +321,7 @@ static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient
     for (int c = 0; c < n; c++) {
         const Group *g = &groups[list[c].group];
         int local = first_local(list[c].group) + list[c].number;
-        if (stage_of(g, list[c].b, list[c].c) != stage || place[local] >= 0) continue;
+        if (stage_of(g, list[c].c) != stage || place[local] >= 0) continue;
         place[local] = movings;
         out->moving[movings++] = local;
     }
@@ -338,7 +336,7 @@ static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient
             if ((g->part >= PART_Q) != color) continue;
             int local = first_local(at->group) + at->number;
             double basis = basis_of(at, &set->slabs[k]);
-            if (stage_of(g, at->b, at->c) == stage) {
+            if (stage_of(g, at->c) == stage) {
                 out->columns[column] = c;
                 out->terms[k][column] = (FitTerm){place[local], column, basis};
                 column++;
@@ -397,7 +395,7 @@ static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, v
         grid.alphas = 16;
         break;
     case FIBRE_THIN:
-        alphas_fill(alpha_low, 36, alpha); /* the first half of these */
+        alphas_fill(alpha_low, 36, alpha); /* the first 16: 0.045 to 0.17 */
         grid.alphas = 16;
         break;
     case FIBRE_DENSITY:

@@ -72,14 +72,6 @@ static void value(void *user, int slab, const Truth *t, const double *theta, dou
     }
 }
 
-/* The nearest half float. */
-static float half_near(double x) {
-    int exponent;
-    if (frexp(x, &exponent) == 0.0) return 0.0f;
-    double step = ldexp(1.0, (exponent > -13 ? exponent : -13) - 11);
-    return (float)((rint)(x / step) * step);
-}
-
 /* What the closed form has at the nodes, A such that both agree where mu_o = mu_i. */
 static void start(const FibreTableDesc *desc, double *coefficients) {
     for (int row = 0; row < desc->rows; row++) {

@@ -1,8 +1,8 @@
-/* table.h - the functions A, h, g and k of shading/fibre_model.h at the nodes of a small table
+/* table.h - the functions A, h, g and k of shading/lobes/fibre_table.h at the nodes of a small table
  *
- * Of white fibres that stand upright, of density 1. Columns are uniform in a power of mu + 0.001 that rises
- * with alpha, rows in the logarithm of alpha; between nodes all four are mixed linearly, and the fit is of
- * what is mixed. */
+ * Of white fibres that stand upright, of density 1. Columns are uniform in the root of mu + 0.001,
+ * rows in the logarithm of alpha; between nodes all four are mixed linearly, and the fit is of what is mixed.
+ * It starts from shading/fibre_model.h, which is to be baked first. */
 #ifndef WEFT_FIBRE_TABLE_H
 #define WEFT_FIBRE_TABLE_H
 

@@ -17,4 +17,12 @@ static inline float half_value(unsigned half) {
     return half & 0x8000 ? -value : value;
 }
 
+/* The half nearest to x, as a float; |x| < 65504. */
+static inline float half_near(double x) {
+    int exponent;
+    frexp(x, &exponent);
+    double step = ldexp(1.0, (exponent > -13 ? exponent : -13) - 11);
+    return (float)((rint)(x / step) * step);
+}
+
 #endif

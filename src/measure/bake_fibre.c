@@ -15,17 +15,19 @@ static const double alpha_low = 0.19; /* of the lobe */
 typedef struct Counter {
     const WeftBakeDesc *desc;
     int phases;
+    bool stopped;
 } Counter;
 
 static bool count(void *user, int done, int all) {
     Counter *counter = user;
     double fraction = (counter->phases + (double)done / all) / 2.0;
     if (done == all) counter->phases++;
-    return !counter->desc->progress || counter->desc->progress(counter->desc->user, fraction) == 0;
+    counter->stopped = counter->desc->progress && counter->desc->progress(counter->desc->user, fraction) != 0;
+    return !counter->stopped;
 }
 
 WeftResult bake_fibre_table(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
-    Counter counter = {desc, 0};
+    Counter counter = {desc, 0, false};
     const FibreTableDesc table = {desc->width, desc->height,  alpha_low, 1.0,
                                   ROUNDS,      desc->threads, count,     &counter};
     TruthError off;
@@ -37,7 +39,7 @@ WeftResult bake_fibre_table(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftIm
     if (!fibre_table_fit(&table, out->pixels, &off)) {
         weft_image_free(out);
         *out = (WeftImage){0};
-        return WEFT_INTERRUPTED;
+        return counter.stopped ? WEFT_INTERRUPTED : fail(error, WEFT_MESSAGE_MEMORY, "fibre-table", NULL);
     }
     snprintf(info->words, sizeof info->words,
              "functions of upright white fibres, sqrt(cos_o + 0.001) to the right, log alpha downwards from "

@@ -9,6 +9,7 @@
 typedef struct Counter {
     const WeftFibreModelDesc *desc;
     int phases; /* truth and fit of each stage: a phase ends where its count is full */
+    bool stopped;
 } Counter;
 
 static bool count(void *user, int done, int all) {
@@ -16,20 +17,21 @@ static bool count(void *user, int done, int all) {
     const double total = 2.0 * FIBRE_STAGES;
     double fraction = (counter->phases + (double)done / all) / total;
     if (done == all) counter->phases++;
-    return !counter->desc->progress || counter->desc->progress(counter->desc->user, fraction) == 0;
+    counter->stopped = counter->desc->progress && counter->desc->progress(counter->desc->user, fraction) != 0;
+    return !counter->stopped;
 }
 
 WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
                                  WeftError *error) {
     FibreModelFit model;
-    Counter counter = {desc, 0};
+    Counter counter = {desc, 0, false};
     size_t size;
     *text = NULL;
     if (desc->rounds < 0 || desc->rounds > 1000 || desc->threads < 0)
         return fail(error, WEFT_MESSAGE_DESC, "rounds", "%d", desc->rounds);
     if (!fibre_model_fit(FIBRE_COLOR, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter,
                          &model))
-        return WEFT_INTERRUPTED;
+        return counter.stopped ? WEFT_INTERRUPTED : fail(error, WEFT_MESSAGE_MEMORY, "fibre-model", NULL);
     FILE *stream = open_memstream(text, &size);
     if (stream) {
         bool written = fibre_model_write(&model, command, stream);

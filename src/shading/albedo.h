@@ -69,8 +69,9 @@ void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, fl
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled);
 
 /* The table for table.h to read, which clamps to its ends; it must outlive the reference. Off the nodes it is
- * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3 (tests/shading/test_energy); of fibres
- * that lean within 0.07, and 0.015 for one tilt and alpha >= 0.5 (tests/shading/test_leaning). */
+ * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3, but for the lobes that
+ * tests/shading/test_energy names, whose E has creases. Of fibres that lean, a white base under rule
+ * albedo-view is within 0.08 of 1, and 0.03 for one tilt and alpha >= 0.5 (tests/shading/test_leaning). */
 TableRef albedo_table_ref(const AlbedoTable *table);
 
 #endif

@@ -24,7 +24,7 @@ STRUCT(FibreModel) {
     float power, span, low; /* u = span (mu + 0.001)^power + low */
     float ridge, narrow;    /* squares */
     float s;                /* twice the square of the tilt's sine */
-    float hold;             /* keeps E below 1 against the nap, at the lowest alpha */
+    float hold;             /* keeps E below 1 against the nap; set by hand after the fit, which knows none */
 };
 
 /* What one direction has of its own: cosines to the normal and to the fibre, exponents of M, and for colour

@@ -49,7 +49,7 @@
     P("cycles-velvet", 11, cycles_velvet_stack(s, o), "Blender Cycles before 4.0, Velvet over Lambert")      \
     P("disney-2012", 12, disney_2012_stack(s, o), "the BRDF Explorer's disney.brdf")                         \
     P("order-1886", 13, order_1886_stack(s, o), "The Order: 1886, a reconstruction")                         \
-    P("openpbr", 14, openpbr_stack(s, o), "OpenPBR Surface: its fuzz over its base, without noise")
+    P("openpbr", 14, openpbr_stack(s, o), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
 
 /* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \

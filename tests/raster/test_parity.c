@@ -27,7 +27,7 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS
 #define TURN     1e-3
 /* Only where inputs of the hard range and choices of all kinds are mixed may a few samples be beyond: colours
  * of 1e3 that cancel leave no more digits than they had. */
-#define MIXED_SHARE 1e-4
+#define MIXED_SHARE 1e-4 /* and one where there are few samples */
 
 /* What is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
  */

@@ -347,13 +347,14 @@ static double openpbr_fuzz[2];
 static Color engine_openpbr(const Surface *s, Pair p) {
     Given g = given_of(s);
     double a = sq(g.r), weight = fmin((double)s->sheen, 1.0), fc = schlick(p.vh);
-    double ior = (double)s->ior, f0 = fmin(sq((ior - 1.0) / (ior + 1.0)) * (double)s->specular, 1.0);
+    double ior = (double)s->ior, strength = fmin((double)s->specular, 1.0);
+    double f0 = sq((ior - 1.0) / (ior + 1.0)) * strength;
     double dv = ggx(a, p.nh) * smith(a, p), least = schlick(fmin(p.vh, fmin(p.v, p.l)));
     Color f, tint = color_of(s->specular_color), fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
         double dielectric =
             g.base.c[k] / TEST_PI * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
-        double metal = dv * (double)s->specular * lerp(g.base.c[k], 1.0, fc);
+        double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
         f.c[k] = weight * fuzz.c[k] * openpbr_fuzz[0] +
                  (1.0 - weight * openpbr_fuzz[1]) * lerp(dielectric, metal, g.metal);
     }

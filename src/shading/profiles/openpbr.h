@@ -1,4 +1,4 @@
-/* openpbr - OpenPBR Surface: a fuzz that scatters again and again, over a base that its colour does not tint
+/* openpbr - OpenPBR Surface: a fuzz that scatters again and again, over a base that it dims but does not tint
  *
  *   f      = w c f_fuzz + (1 - w E(cos_o)) mix(dielectric, metal, metallic),  w = min(sheen, 1)
  *   f_fuzz = E(cos_o) D / cos_i,  alpha = sheen_roughness
@@ -9,8 +9,8 @@
  * zeltner, fuzz_layer and metal_bsdf. E is that of white fuzz, so that dark fuzz darkens (issue 176 there).
  *   IBL there: renderers choose; E c times the irradiance, or the transformed cosine itself.
  *   Inputs: fuzz_weight is sheen, fuzz_color sheen_color, fuzz_roughness sheen_roughness, specular_weight
- * specular, F0 as in workflow metallic. Clear coat and anisotropy are not looked at.
- *   Departures: D and E are those of lobe ltc-fibre, fitted to the same slab without noise, where the
+ * min(specular, 1), F0 as in workflow metallic. Clear coat and anisotropy are not looked at.
+ *   Departures: D and E are those of lobe ltc-fibre, fitted to lobe fibre, where the
  * specification has the table of tizian/ltc-sheen; sheen_roughness is at least 0.05. F_min, which dims the
  * diffuse lobe, is that of workflow metallic, where the specification scales by the albedo of the highlight.
  * The diffuse lobe is Lambert, EON at roughness 0; a metal has no F82 tint, and alpha is at least 0.001. */
@@ -28,16 +28,16 @@ FN Stack openpbr_stack(Surface s, Dir o) {
     m.color = rgb_grey(weight);
     if (weight > 0.0f) m.sheen.pick = max(m.sheen.pick, 1e-3f); /* black fuzz takes from the base too */
 
-    float f0 = min(dielectric_f0(s) * s.specular, 1.0f);
+    float strength = clamp(s.specular, 0.0f, 1.0f), f0 = dielectric_f0(s) * strength;
     m.under = UNDER_LEAST;
     m.under_f0 = rgb_grey(f0);
     m.under_f90 = 1.0f;
-    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), rgb_grey(f0), 1.0f, o);
+    /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
+    float glass = 1.0f - s.metallic, metal = strength * s.metallic;
+    Rgb first = rgb_add(rgb_scale(s.specular_color, f0 * glass), rgb_scale(s.base_color, metal));
+    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), first, 1.0f, o);
     m.specular.lobe = lobe_default(LOBE_GGX);
     m.specular.lobe.params[0] = clamp(s.roughness * s.roughness, 0.001f, 1.0f);
-    /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
-    float glass = 1.0f - s.metallic, metal = s.specular * s.metallic;
-    m.specular.f0 = rgb_add(rgb_scale(s.specular_color, f0 * glass), rgb_scale(s.base_color, metal));
     m.specular.f90 = rgb_add(rgb_scale(s.specular_color, glass), rgb_grey(metal));
     return m;
 }
