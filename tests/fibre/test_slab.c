@@ -130,6 +130,8 @@ typedef struct Score {
 
 static void compare(Score *score, const WalkDesc *desc, const WalkEstimate *walked, const double *solved) {
     for (int k = 0; k < desc->directions; k++) {
+        /* where one walk in ten thousand brings all of it, means of batches are skewed, and say too little */
+        if (walked[k].error * sqrt((double)desc->walks) > 100.0 * solved[k]) continue;
         /* what the solver's own quadrature may err by, beside the walk's error */
         double margin = 3e-3 * solved[k], off = fmax(fabs(walked[k].mean - solved[k]) - margin, 0.0);
         score->worst = fmax(score->worst, off / walked[k].error);
@@ -176,12 +178,12 @@ static void case_run(Score *score, uint32_t seed, bool tilts, long long walks) {
 /* 1 % that any of the points is out by chance: 1 - (1 - 0.01)^(1 / n), two-sided; 4.1 for 300. */
 static void walk_agrees(void **state) {
     (void)state;
-    int cases = getenv("WEFT_TEST_LONG") ? 60 : getenv("WEFT_TEST_SHORT") ? 2 : 4;
+    int cases = getenv("WEFT_TEST_LONG") ? 64 : getenv("WEFT_TEST_SHORT") ? 2 : 4;
     long long walks = getenv("WEFT_TEST_LONG") ? 4000000 : 40000;
     Score score = {0.0, 0};
     for (int k = 0; k < cases; k++) case_run(&score, 71u + (uint32_t)k, k % 2 == 1, walks);
     printf("%d points, largest deviation %.2f standard errors beyond 0.3 %%\n", score.count, score.worst);
-    assert_true(score.worst < 4.1);
+    assert_true(score.worst < 4.1 && score.count >= (getenv("WEFT_TEST_LONG") ? 300 : 3 * cases));
 }
 
 int main(void) {
