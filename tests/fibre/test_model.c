@@ -70,18 +70,21 @@ static void white_fibres_are_the_slab(void **state) {
 
 static void density_is_the_slabs(void **state) {
     (void)state;
+    if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.3, 0.7};
     expect("density", error_of(&(TruthGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08, 1e-2);
 }
 
 static void colour_saturates(void **state) {
     (void)state;
+    if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.35, 0.8}, albedo[] = {0.3, 0.75, 1.0};
     expect("colour", error_of(&(TruthGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.022, 0.16, 2e-2);
 }
 
 static void nap_leans(void **state) {
     (void)state;
+    if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.5, 0.8}, tilt[] = {12.0 * degree, 33.0 * degree};
     expect("nap", error_of(&(TruthGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.12,
            6e-2); /* R: the lobe's hold against the nap takes some */

@@ -23,6 +23,7 @@ static Lobe lobe_at_alpha(int id, double alpha) {
 
 static void the_lobe_is_the_solved_slab(void **state) {
     (void)state;
+    if (getenv("WEFT_TEST_SHORT")) skip();
     enum { ALPHAS = 4 };
     static const double alpha[ALPHAS] = {0.231, 0.41, 0.63, 0.9}, white[] = {1.0};
     TruthGrid grid = {ALPHAS, 1, 0, 1, 24, 5, alpha, white, NULL, 1.0};
