@@ -8,12 +8,13 @@
  * Using Linearly Transformed Cosines", SIGGRAPH Talks 2022. Departures: A, h, g and k, one texel for each
  * direction, are fitted to its solution as they are mixed between the nodes; fibres stand upright, and their
  * density is 1.
- * The text below reads the table texel by texel, in 32 bits; an engine binds it as one filtered texture of
- * four half floats, at (15 / 16 x + 1 / 32, 15 / 16 y + 1 / 32) for 16 by 16 texels. color: a factor; that of
- * fibre is not. roughness: alpha = roughness^2. reciprocal: yes. energy: E <= 1; what is missing goes
- * through. sampling: that of fibre. measured by weft check fibre-table: E at most 0.77 (alpha 0.19, cos_o
- * 0.001); reciprocal to 1e-3; weight variance under 0.01 of the cosine's; half precision: finite for cosines
- * >= 2^-13.
+ *   The text below reads the table texel by texel, in 32 bits; an engine binds it as one filtered texture of
+ * four half floats, at (15 / 16 x + 1 / 32, 15 / 16 y + 1 / 32) for 16 by 16 texels.
+ *   color: a factor; that of fibre is not.
+ *   roughness: alpha = roughness^2.
+ *   reciprocal: yes.
+ *   energy: E <= 1; what is missing goes through.
+ *   sampling: that of fibre.
  *   measured by weft check fibre-table: E at most 0.77 (alpha 0.19, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */

@@ -8,7 +8,9 @@
  * Neubelt, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", ACM TOG 35(4), 2016.
  * Departures: z, q, b and E are fitted to the lobe fibre, upright, white and of density 1, without noise and
  * with one number more, q; no tangent and no angle is taken, so that nothing is singular at normal incidence
- * (ltc.h). color: a factor, as engines have it; that of fibres is not. roughness: alpha = roughness^2.
+ * (ltc.h).
+ *   color: a factor, as engines have it; that of fibres is not.
+ *   roughness: alpha = roughness^2.
  *   reciprocal: no; z, q, b and E belong to wo alone.
  *   energy: E <= 1, and exact at the nodes of the table.
  *   sampling: D itself; weight E.
