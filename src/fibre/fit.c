@@ -207,8 +207,8 @@ bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int thr
     return done;
 }
 
-bool fit_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
-               TruthError *out) {
+static bool slab_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
+                       TruthError *out) {
     const Truth *t = &set->slabs[slab];
     double *f = alloc_array((size_t)t->pairs + (size_t)form->locals, sizeof(double));
     if (!f) return false;
@@ -218,4 +218,17 @@ bool fit_error(const FitForm *form, const TruthSet *set, int slab, const double 
     bool done = truth_error(t, f, out);
     free(f);
     return done;
+}
+
+bool fit_error(const FitForm *form, const TruthSet *set, const double *coefficients, TruthError *all) {
+    TruthError one;
+    *all = (TruthError){0};
+    for (int k = 0; k < set->count; k++) {
+        if (!slab_error(form, set, k, coefficients, &one)) return false;
+        all->mean += one.mean / set->count;
+        all->worst = fmax(all->worst, one.worst);
+        all->albedo = fmax(all->albedo, one.albedo);
+        all->most = fmax(all->most, one.most);
+    }
+    return true;
 }

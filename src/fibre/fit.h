@@ -43,8 +43,8 @@ typedef struct FitEffort {
 bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int threads, TruthProgress progress,
              void *user, double *coefficients);
 
-/* The same form's error over one slab of the set. */
-bool fit_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
-               TruthError *out);
+/* The same form's error over the set: the mean of the slabs' means, the largest of the rest. False where
+ * memory is short. */
+bool fit_error(const FitForm *form, const TruthSet *set, const double *coefficients, TruthError *all);
 
 #endif

@@ -416,18 +416,6 @@ static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, v
     return truth_make(&grid, threads, progress, user, out);
 }
 
-static TruthError total_error(const FitForm *form, const TruthSet *set, const double *coefficients) {
-    TruthError all = {0}, one;
-    for (int k = 0; k < set->count; k++) {
-        if (!fit_error(form, set, k, coefficients, &one)) continue;
-        all.mean += one.mean / set->count;
-        all.worst = fmax(all.worst, one.worst);
-        all.albedo = fmax(all.albedo, one.albedo);
-        all.most = fmax(all.most, one.most);
-    }
-    return all;
-}
-
 static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int rounds, int threads,
                       TruthProgress progress, void *user, FibreModelFit *model) {
     TruthSet set;
@@ -445,7 +433,7 @@ static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int roun
     }
     if (done) {
         for (int k = 0; k < staged.form.coefficients; k++) model->coefficients[staged.columns[k]] = found[k];
-        model->errors[stage] = total_error(&staged.form, &set, found);
+        done = fit_error(&staged.form, &set, found, &model->errors[stage]);
     }
     free(found);
     arena_free(&staged.arena);
@@ -553,7 +541,7 @@ static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
 }
 
 /* One number as a polynomial in t, l and s, from the power `first` of l on: a sum of products. */
-static bool write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
+static void write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
     static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ",
                                                                                        "l * l * "};
     bool any = false;
@@ -568,7 +556,6 @@ static bool write_number(FILE *file, const FibreModelFit *model, int group, int 
             fputc(')', file);
             any = true;
         }
-    return any;
 }
 
 /* What the powers first .. last of l give to the numbers of one kind. */
@@ -610,13 +597,11 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
           "#include \"shading/lang.h\"\n\nSTRUCT(FibreNumbers) {\n    float thin;\n",
           file);
     for (int g = 0; g < GROUPS; g++) {
-        const char *before = "    float ";
         for (int q = 0; q < groups[g].count; q++) {
             name_of(g, q, name);
-            fprintf(file, "%s%s", before, name);
-            before = ", ";
+            fprintf(file, "%s%s", q ? ", " : "    float ", name);
         }
-        if (before[0] == ',') fputs(";\n", file);
+        fputs(";\n", file);
     }
     fprintf(file,
             "};\n\nFN_APART FibreNumbers fibre_numbers(float t, float l, float s) {\n"

@@ -11,11 +11,6 @@
 /* Cosines and angles of a slab; slabs in a row of the table and in the middles between rows. */
 enum { PARTS = 4, RINGS = 40, SPOKES = 5, CORNERS = 4 };
 
-typedef struct Nodes {
-    const FibreTableDesc *desc;
-    FitTerm *terms; /* [slab][side][part][corner] */
-} Nodes;
-
 /* The base of M and its power, as shading/lobes/fibre_table.h has them. */
 static double base_of(double alpha, double sum) { return sum + 0.2 * alpha; }
 static double power_of(double alpha) { return 1.4 - 2.2 * log(alpha) / log(2.0); }
@@ -89,10 +84,8 @@ static void start(const FibreTableDesc *desc, double *coefficients) {
     }
 }
 
-/* Which nodes the sides of each slab lie between. */
-static void place(const TruthSet *set, Nodes *nodes) {
-    const FibreTableDesc *desc = nodes->desc;
-    FitTerm *term = nodes->terms;
+/* Which nodes the sides of each slab lie between: term[slab][side][part][corner]. */
+static void place(const TruthSet *set, const FibreTableDesc *desc, FitTerm *term) {
     for (int slab = 0; slab < set->count; slab++) {
         const Truth *t = &set->slabs[slab];
         double y = log(t->slab.alpha / desc->low) / log(desc->high / desc->low) * (desc->rows - 1);
@@ -107,43 +100,30 @@ static void place(const TruthSet *set, Nodes *nodes) {
     }
 }
 
-static bool errors(const FitForm *form, const TruthSet *set, const double *coefficients, TruthError *all) {
-    TruthError one;
-    *all = (TruthError){0};
-    for (int k = 0; k < set->count; k++) {
-        if (!fit_error(form, set, k, coefficients, &one)) return false;
-        all->mean += one.mean / set->count;
-        all->worst = fmax(all->worst, one.worst);
-        all->albedo = fmax(all->albedo, one.albedo);
-        all->most = fmax(all->most, one.most);
-    }
-    return true;
-}
-
 static bool fit(const FibreTableDesc *desc, const TruthSet *set, float *texels, TruthError *error) {
     enum { LOCALS = PARTS * RINGS };
     size_t slabs = (size_t)set->count, per_slab = LOCALS * CORNERS;
     int count = PARTS * desc->rows * desc->columns, moving[LOCALS];
     double zeros[LOCALS] = {0.0};
-    Nodes nodes = {desc, alloc_array(slabs * per_slab, sizeof(FitTerm))};
+    FitTerm *all = alloc_array(slabs * per_slab, sizeof(FitTerm));
     const FitTerm **terms = alloc_array(slabs, sizeof(FitTerm *));
     const double **fixed = alloc_array(slabs, sizeof(double *));
     int *counts = alloc_array(slabs, sizeof *counts);
     double *found = alloc_array((size_t)count, sizeof *found);
-    bool done = nodes.terms && terms && fixed && counts && found;
+    bool done = all && terms && fixed && counts && found;
     for (int k = 0; k < LOCALS; k++) moving[k] = k;
     for (size_t s = 0; done && s < slabs; s++)
-        terms[s] = nodes.terms + s * per_slab, fixed[s] = zeros, counts[s] = (int)per_slab;
-    FitForm form = {LOCALS, count, LOCALS, moving, &nodes, value, terms, counts, fixed};
+        terms[s] = all + s * per_slab, fixed[s] = zeros, counts[s] = (int)per_slab;
+    FitForm form = {LOCALS, count, LOCALS, moving, NULL, value, terms, counts, fixed};
     if (done) {
-        place(set, &nodes);
+        place(set, desc, all);
         start(desc, found);
         done = fit_run(&form, set, (FitEffort){desc->rounds, 5.0, 0.4, 0.0, 0.0}, desc->threads,
                        desc->progress, desc->user, found);
     }
     for (int k = 0; done && k < count; k++) found[k] = (double)(texels[k] = half_near(found[k]));
-    done = done && errors(&form, set, found, error);
-    free(nodes.terms);
+    done = done && fit_error(&form, set, found, error);
+    free(all);
     free(terms);
     free(fixed);
     free(counts);
