@@ -224,4 +224,16 @@ static inline void fill_albedo(AlbedoTable *table, int id) {
     albedo_table_fill(table, &lobe, one ? 0.0f : min(a, b), one ? 0.0f : max(a, b), 0);
 }
 
+/* A white Lambert base without an interface, under a white sheen. */
+static inline Surface white_cloth(float roughness) {
+    return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
+                     .sheen_color = {1.0f, 1.0f, 1.0f},
+                     .sheen_second = {1.0f, 1.0f, 1.0f},
+                     .sheen = 1.0f,
+                     .ior = 1.0f,
+                     .sheen_roughness = roughness,
+                     .sheen_density = 1.0f,
+                     .normal = {0.0f, 0.0f, 1.0f}};
+}
+
 #endif

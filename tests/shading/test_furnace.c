@@ -36,18 +36,6 @@ static double sampled_furnace(const Stack *stack, Dir o, int count, double *erro
     return mean;
 }
 
-/* A white Lambert base without an interface, under a white sheen. */
-static Surface white_cloth(float roughness) {
-    return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
-                     .sheen_color = {1.0f, 1.0f, 1.0f},
-                     .sheen_second = {1.0f, 1.0f, 1.0f},
-                     .sheen = 1.0f,
-                     .ior = 1.0f,
-                     .sheen_roughness = roughness,
-                     .sheen_density = 1.0f,
-                     .normal = {0.0f, 0.0f, 1.0f}};
-}
-
 static int layer_named(const char *id) {
     int k = 0;
     while (weft_layer_id(k) && strcmp(weft_layer_id(k), id) != 0) k++;

@@ -9,16 +9,10 @@ enum { HEADINGS = sizeof headings / sizeof headings[0], COSINES = sizeof cosines
 
 /* A white base under white fibres that lean. */
 static Surface brushed(float roughness, float tilt, float azimuth) {
-    return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
-                     .sheen_color = {1.0f, 1.0f, 1.0f},
-                     .sheen_second = {1.0f, 1.0f, 1.0f},
-                     .sheen = 1.0f,
-                     .ior = 1.0f,
-                     .sheen_roughness = roughness,
-                     .sheen_density = 1.0f,
-                     .nap = tilt,
-                     .nap_direction = dir(3.0f * cos(azimuth), 3.0f * sin(azimuth), 0.0f),
-                     .normal = {0.0f, 0.0f, 1.0f}};
+    Surface cloth = white_cloth(roughness);
+    cloth.nap = tilt;
+    cloth.nap_direction = dir(3.0f * cos(azimuth), 3.0f * sin(azimuth), 0.0f);
+    return cloth;
 }
 
 /* Of its sheen; the azimuth is to say nothing. */
