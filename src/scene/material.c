@@ -5,6 +5,7 @@
 
 #include "scene/shade.h"
 #include "shading/choice.h"
+#include "shading/texel.h"
 
 const InputInfo input_infos[INPUT_COUNT] = {
 #define INPUT_INFO(kind, name, def, low, high, hard_low, hard_high, help)                                    \
@@ -126,20 +127,12 @@ static Rgb read_COLOR(Lookup *lookup, const Input *input) {
 
 static Dir read_NORMAL(Lookup *lookup, const Input *input) {
     const float *c = fetch(lookup, input, NULL)->c;
-    Dir n = dir((2.0f * c[0] - 1.0f) * input->value[0], (2.0f * c[1] - 1.0f) * input->value[0],
-                2.0f * c[2] - 1.0f);
-    n.z = max(n.z, 1e-3f); /* a map that points down is damaged */
-    float s = 1.0f / sqrt(dir_dot(n, n));
-    return dir(n.x * s, n.y * s, n.z * s);
+    return texel_normal(c[0], c[1], c[2], input->value[0]);
 }
 
 static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
     const float *c = fetch(lookup, input, NULL)->c;
-    float x = cos(input->value[0]), y = sin(input->value[0]), tx = 2.0f * c[0] - 1.0f,
-          ty = 2.0f * c[1] - 1.0f;
-    float s = sqrt(tx * tx + ty * ty);
-    if (s < 1e-3f) return dir(x, y, 0.0f);
-    return dir((x * tx - y * ty) / s, (x * ty + y * tx) / s, 0.0f);
+    return texel_direction(c[0], c[1], cos(input->value[0]), sin(input->value[0]));
 }
 
 Surface material_plain(const Material *material) {

@@ -3,6 +3,7 @@
 #include "trace/lights.h"
 
 #include "base/fail.h"
+#include "shading/punctual.h"
 #include "trace/emitters.h"
 #include "trace/sky.h"
 
@@ -22,7 +23,6 @@ static float share(const Lights *lights, Group group) {
     return lights->dark ? 0.0f : distribution_probability(&lights->groups, (int)group);
 }
 
-/* The cone and window of KHR_lights_punctual (Khronos Group, 2018-2020). */
 static LightSample sample_punctual(const Lights *lights, Vec3 point, float w) {
     Choice choice = distribution_choose(&lights->punctual, w);
     const Light *light = &lights->scene->lights[choice.index];
@@ -36,17 +36,9 @@ static LightSample sample_punctual(const Lights *lights, Vec3 point, float w) {
         if (!(d > 0.0f)) return (LightSample){0};
         s.wi = vec3_scale(to, 1.0f / d);
         s.distance = d;
-        scale /= d2;
-        if (light->range > 0.0f) {
-            float x = d2 / (light->range * light->range);
-            scale *= clamp(1.0f - x * x, 0.0f, 1.0f);
-        }
-        if (light->kind == LIGHT_SPOT) {
-            float c = -vec3_dot(s.wi, light->direction);
-            float t =
-                clamp((c - light->cos_outer) / max(light->cos_inner - light->cos_outer, 1e-3f), 0.0f, 1.0f);
-            scale *= t * t;
-        }
+        scale *= punctual_distance(d2, light->range);
+        if (light->kind == LIGHT_SPOT)
+            scale *= punctual_cone(-vec3_dot(s.wi, light->direction), light->cos_inner, light->cos_outer);
     }
     s.radiance = (Rgb){light->color[0] * scale, light->color[1] * scale, light->color[2] * scale};
     return s;

@@ -1,44 +1,25 @@
 #include "trace/path.h"
 
 #include "scene/shade.h"
+#include "shading/frame.h"
 
-/* A surface point ready to be lit: its lobes and its frame. */
-typedef struct Point3 {
+/* A point of a surface ready to be lit: its lobes and its frame. */
+typedef struct ShadingPoint {
     Vec3 geometric; /* unit, on the viewer's side */
     Vec3 origin;    /* where rays that leave start, before their offset */
-    Vec3 x, y, z;   /* shading frame */
+    Frame frame;
     Dir wo;
     bool lit; /* stack is filled; else it only shines */
     Stack stack;
-} Point3;
+} ShadingPoint;
 
-static Dir to_local(const Point3 *p, Vec3 w) {
-    return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z));
-}
+static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 
-static Vec3 to_world(const Point3 *p, Dir w) { return vec3_lerp3(p->x, p->y, p->z, w.x, w.y, w.z); }
+static Dir to_local(const ShadingPoint *p, Vec3 w) { return frame_to(p->frame, dir_of(w)); }
 
-/* Frame about n whose x is along `tangent`, or, where that has no direction across n, along any. Without a
- * tangent: Tom Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
-static void set_frame(Point3 *p, Vec3 n, Vec3 tangent, float handedness) {
-    float sign = copysignf(1.0f, n.z), a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-    Vec3 any = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    p->z = n;
-    p->x = vec3_normal_or(vec3_madd(tangent, n, -vec3_dot(tangent, n)), any);
-    p->y = vec3_scale(vec3_cross(p->z, p->x), handedness < 0.0f ? -1.0f : 1.0f);
-}
-
-/* The normal nearest to n whose mirror direction of wo is not below the surface: else a normal map shows
- * black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
- * System", 2017, A.3. */
-static Vec3 bend_normal(Vec3 n, Vec3 geometric, Vec3 wo) {
-    float cosine = vec3_dot(wo, n);
-    Vec3 mirror = vec3_sub(vec3_scale(n, 2.0f * cosine), wo);
-    float least = 0.05f * max(vec3_dot(wo, geometric), 0.0f) + 1e-4f, below = vec3_dot(mirror, geometric);
-    if (cosine > 1e-4f && below >= least) return n;
-    mirror = vec3_normal_or(vec3_madd(mirror, geometric, max(least - below, 0.0f)), geometric);
-    Vec3 bent = vec3_normal_or(vec3_add(wo, mirror), geometric);
-    return vec3_dot(wo, bent) > 1e-4f ? bent : geometric;
+static Vec3 to_world(const ShadingPoint *p, Dir w) {
+    Dir d = frame_from(p->frame, w);
+    return vec3(d.x, d.y, d.z);
 }
 
 /* Carsten Waechter, Nikolaus Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
@@ -57,7 +38,7 @@ static float step_out(float p, float n) {
 static Vec3 leave(Vec3 p, Vec3 n) { return vec3(step_out(p.x, n.x), step_out(p.y, n.y), step_out(p.z, n.z)); }
 
 /* Fills p for a hit seen from wo and returns what the surface itself sends there. */
-static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, Point3 *p) {
+static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, ShadingPoint *p) {
     const PathMaterial *known = &context->materials[mesh->material];
     const Material *material = &known->material;
     Vertex vertex = geometry_vertex(mesh, hit);
@@ -69,28 +50,19 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
     }
     p->geometric = vec3_scale(vertex.geometric, side);
     p->lit = false;
-    Vec3 normal = vec3_scale(vertex.normal, side);
 
     float strength = side < 0.0f && !material->double_sided ? 0.0f : surface.emission_strength;
     Rgb emission = {surface.emission.r * strength, surface.emission.g * strength,
                     surface.emission.b * strength};
     if (material->unlit) return surface.base_color;
-    if (vec3_dot(normal, p->geometric) <= 0.0f) normal = p->geometric; /* damaged normals */
     p->origin = geometry_lift(mesh, hit, &vertex, side);
     /* from behind everything is mirrored: the bumps of a normal map are dents there */
-    Vec3 tangent = vec3_scale(vertex.tangent, side);
-    float handedness = vertex.handedness * side;
-    set_frame(p, normal, tangent, handedness);
-    Dir n = surface.normal;
-    if (n.z < 1.0f)
-        set_frame(p, bend_normal(to_world(p, n), p->geometric, wo), p->x, handedness);
-    else if (vec3_dot(normal, wo) <= 1e-4f)
-        set_frame(p, bend_normal(normal, p->geometric, wo), p->x, handedness);
-    if (surface.anisotropy > 0.0f) {
-        Dir a = surface.anisotropy_direction, b = surface.nap_direction;
-        set_frame(p, p->z, to_world(p, a), handedness);
-        surface.nap_direction = dir(a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, 0.0f); /* as seen there */
-    }
+    Facing at = {.geometric = dir_of(p->geometric),
+                 .normal = dir_of(vec3_scale(vertex.normal, side)),
+                 .tangent = dir_of(vec3_scale(vertex.tangent, side)),
+                 .handedness = vertex.handedness * side};
+    p->frame = frame_of(at, surface, dir_of(wo));
+    surface = frame_surface(surface);
     p->wo = to_local(p, wo);
     stack_make(&p->stack, &surface, &known->choices, known->sheen_e, p->wo);
     p->lit = true;
@@ -112,8 +84,8 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
 }
 
 /* One light sample. */
-static void add_direct(const PathContext *context, const Point3 *p, Rgb throughput, Point uv, uint32_t key,
-                       Rgb *sum, long long *rays) {
+static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb throughput, Point uv,
+                       uint32_t key, Rgb *sum, long long *rays) {
     LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
@@ -139,7 +111,7 @@ static void add_direct(const PathContext *context, const Point3 *p, Rgb throughp
 __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, Hit hit, Sampler *sampler,
                                            long long *rays) {
     Rgb sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
-    Point3 p;
+    ShadingPoint p;
     float pdf = 0.0f; /* of the direction by which we came; 0: the camera's */
     for (int depth = 0;; depth++) {
         const Mesh *mesh = &context->scene->meshes[hit.mesh];

@@ -15,7 +15,6 @@ typedef struct PathMaterial {
     Surface plain;     /* all its textures left out */
     Choices choices;
     bool textured;    /* has any */
-    bool worn;        /* by some mesh */
     TableRef sheen_e; /* TABLE_NONE without a sheen */
 } PathMaterial;
 

@@ -7,6 +7,7 @@
 #include "base/thread.h"
 #include "scene/camera.h"
 #include "scene/shade.h"
+#include "scene/sheen_tables.h"
 #include "trace/path.h"
 
 enum {
@@ -17,7 +18,6 @@ enum {
     DEFAULT_DEPTH = 9,
     SIDE_MAX = 65536,
     FILTER_STEPS = 256,
-    NARROW_TABLES = 8, /* albedo tables made for one material's range of roughness */
 };
 
 /* One tile's finished work. Only one thread holds a tile at a time. */
@@ -31,7 +31,7 @@ struct WeftRender {
     WeftRenderDesc desc;
     Geometry *geometry;
     Lights *lights;
-    AlbedoTable **tables;    /* one a distinct sheen */
+    SheenTables *tables;
     PathMaterial *materials; /* their sheen_e point into tables */
     PathContext context;
     Camera camera;
@@ -77,78 +77,12 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
-/* The stack of a material without its textures. */
-static Stack plain_stack(const Surface *surface, const Choices *choices) {
-    Stack stack;
-    stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-    return stack;
-}
-
-/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for. */
-static const struct {
-    InputId input;
-    size_t member; /* of Surface */
-} shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness)},
-              {INPUT_roughness, offsetof(Surface, roughness)},
-              {INPUT_anisotropy, offsetof(Surface, anisotropy)}};
-enum { SHAPES = sizeof shapes / sizeof shapes[0] };
-
-/* Where that parameter runs while textures scale their inputs from 0 to 1; with all, wherever inputs may be.
- */
-static void table_range(const PathMaterial *known, bool all, float *low, float *high) {
-    *low = *high = plain_stack(&known->plain, &known->choices).at;
-    for (int ends = 0; ends < 1 << SHAPES; ends++) {
-        Surface surface = known->plain;
-        for (int k = 0; k < SHAPES; k++) {
-            float *value = (float *)((char *)&surface + shapes[k].member);
-            bool upper = ends >> k & 1;
-            if (all)
-                *value = upper ? 1.0f : 0.0f;
-            else if (known->material.inputs[shapes[k].input].texture && !upper)
-                *value = 0.0f;
-        }
-        float at = plain_stack(&surface, &known->choices).at;
-        *low = fminf(*low, at);
-        *high = fmaxf(*high, at);
-    }
-}
-
-/* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
- * over the same range. */
-static WeftResult find_table(WeftRender *render, PathMaterial *known, int *made, WeftError *error) {
-    Stack most = plain_stack(&known->plain, &known->choices);
-    known->sheen_e = (TableRef){.kind = TABLE_NONE};
-    if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
-    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
-        stack_albedo(most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before the threads start */
-        return WEFT_OK;
-    }
-    Lobe lobe = most.sheen.lobe;
-    bool scaled = known->material.inputs[INPUT_nap].texture != 0;
-    float low, high;
-    table_range(known, *made >= NARROW_TABLES, &low, &high); /* after some, one for all */
-    for (int k = 0; k < *made; k++)
-        if (albedo_table_serves(render->tables[k], &lobe, low, high, scaled)) {
-            known->sheen_e = albedo_table_ref(render->tables[k]);
-            return WEFT_OK;
-        }
-    AlbedoTable *table = render->tables[*made] = alloc_array(1, sizeof(AlbedoTable));
-    if (!table) return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
-    (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, render->desc.threads);
-    known->sheen_e = albedo_table_ref(table);
-    ++*made;
-    return WEFT_OK;
-}
-
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
     size_t count = (size_t)scene->material_count;
-    render->tables = alloc_array(count, sizeof(AlbedoTable *));
     render->materials = alloc_array(count, sizeof(PathMaterial));
-    if (!render->tables || !render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int m = 0; m < scene->mesh_count; m++) render->materials[scene->meshes[m].material].worn = true;
-    WeftResult result = WEFT_OK;
-    int made = 0;
+    if (!render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    WeftResult result = sheen_tables_create(scene, render->desc.threads, &render->tables, error);
     for (size_t k = 0; k < count && result == WEFT_OK; k++) {
         const Material *material = &scene->materials[k];
         PathMaterial *known = &render->materials[k];
@@ -159,7 +93,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         known->choices = material_choices(material);
         for (int input = 0; input < INPUT_COUNT; input++)
             known->textured |= known->material.inputs[input].texture != 0;
-        if (known->worn) result = find_table(render, known, &made, error);
+        known->sheen_e = sheen_tables_of(render->tables, (int)k);
     }
     return result;
 }
@@ -244,8 +178,7 @@ WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc
 
 void weft_render_free(WeftRender *render) {
     if (!render) return;
-    for (int k = 0; render->tables && k < render->scene->material_count; k++) free(render->tables[k]);
-    free(render->tables);
+    sheen_tables_free(render->tables);
     free(render->materials);
     lights_free(render->lights);
     geometry_free(render->geometry);

@@ -1,0 +1,119 @@
+#include <stdlib.h>
+
+#include "scene/sheen_tables.h"
+
+#include "base/fail.h"
+#include "scene/shade.h"
+#include "shading/material_stack.h"
+
+enum { NARROW_TABLES = 8 }; /* made for one material's range of roughness; then one for all */
+
+struct SheenTables {
+    AlbedoTable **tables; /* one a distinct sheen */
+    TableRef *refs;       /* one a material, into tables */
+    int table_count;
+};
+
+/* The stack of a material without its textures. */
+static Stack plain_stack(const Surface *surface, const Choices *choices) {
+    Stack stack;
+    stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    return stack;
+}
+
+/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for. */
+static const struct {
+    InputId input;
+    size_t member; /* of Surface */
+} shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness)},
+              {INPUT_roughness, offsetof(Surface, roughness)},
+              {INPUT_anisotropy, offsetof(Surface, anisotropy)}};
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
+
+/* Where that parameter runs while textures scale their inputs from 0 to 1; with all, wherever inputs may be.
+ */
+static void table_range(const Material *material, bool all, float *low, float *high) {
+    const Surface plain = material_plain(material);
+    const Choices choices = material_choices(material);
+    *low = *high = plain_stack(&plain, &choices).at;
+    for (int ends = 0; ends < 1 << SHAPES; ends++) {
+        Surface surface = plain;
+        for (int k = 0; k < SHAPES; k++) {
+            float *value = (float *)((char *)&surface + shapes[k].member);
+            bool upper = ends >> k & 1;
+            if (all)
+                *value = upper ? 1.0f : 0.0f;
+            else if (material->inputs[shapes[k].input].texture && !upper)
+                *value = 0.0f;
+        }
+        float at = plain_stack(&surface, &choices).at;
+        *low = min(*low, at);
+        *high = max(*high, at);
+    }
+}
+
+/* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
+ * over the same range. */
+static WeftResult find_table(SheenTables *self, const Material *material, int threads, TableRef *ref,
+                             WeftError *error) {
+    const Surface plain = material_plain(material);
+    const Choices choices = material_choices(material);
+    Stack most = plain_stack(&plain, &choices);
+    if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
+    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
+        stack_albedo(most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
+        return WEFT_OK;
+    }
+    Lobe lobe = most.sheen.lobe;
+    bool scaled = material->inputs[INPUT_nap].texture != 0;
+    float low, high;
+    table_range(material, self->table_count >= NARROW_TABLES, &low, &high);
+    for (int k = 0; k < self->table_count; k++)
+        if (albedo_table_serves(self->tables[k], &lobe, low, high, scaled)) {
+            *ref = albedo_table_ref(self->tables[k]);
+            return WEFT_OK;
+        }
+    AlbedoTable *table = alloc_array(1, sizeof(AlbedoTable));
+    if (!table) return fail(error, WEFT_MESSAGE_MEMORY, material->name, NULL);
+    (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, threads);
+    self->tables[self->table_count++] = table;
+    *ref = albedo_table_ref(table);
+    return WEFT_OK;
+}
+
+WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error) {
+    size_t count = (size_t)scene->material_count;
+    SheenTables *self = alloc_array(1, sizeof *self);
+    bool *worn = alloc_array(count, sizeof(bool));
+    if (self) {
+        self->tables = alloc_array(count, sizeof(AlbedoTable *));
+        self->refs = alloc_array(count, sizeof(TableRef));
+    }
+    WeftResult result = WEFT_OK;
+    if (!worn || !self || !self->tables || !self->refs)
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int m = 0; m < scene->mesh_count && result == WEFT_OK; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        worn[mesh->material] = true;
+    }
+    for (size_t k = 0; k < count && result == WEFT_OK; k++) {
+        self->refs[k] = (TableRef){.kind = TABLE_NONE};
+        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->refs[k], error);
+    }
+    free(worn);
+    if (result == WEFT_OK)
+        *out = self;
+    else
+        sheen_tables_free(self);
+    return result;
+}
+
+void sheen_tables_free(SheenTables *self) {
+    if (!self) return;
+    for (int k = 0; k < self->table_count; k++) free(self->tables[k]);
+    free(self->tables);
+    free(self->refs);
+    free(self);
+}
+
+TableRef sheen_tables_of(const SheenTables *self, int material) { return self->refs[material]; }

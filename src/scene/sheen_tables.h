@@ -1,0 +1,21 @@
+/* sheen_tables.h - the tables of E that the sheens of a scene's materials ask for */
+#ifndef WEFT_SCENE_SHEEN_TABLES_H
+#define WEFT_SCENE_SHEEN_TABLES_H
+
+#include "scene/scene.h"
+#include "shading/albedo.h"
+
+typedef struct SheenTables SheenTables;
+
+/* Makes the tables of all materials that a mesh wears, each over the range its roughness runs through; sheens
+ * that are alike share one. threads: 0 is one a processor. Fails with WEFT_MESSAGE_MEMORY. */
+WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error);
+
+/* tables may be NULL. */
+void sheen_tables_free(SheenTables *tables);
+
+/* The table of a material for surface_stack; of kind TABLE_NONE where it asks for none. Lives as long as
+ * tables. */
+TableRef sheen_tables_of(const SheenTables *tables, int material);
+
+#endif
