@@ -67,8 +67,9 @@ const Preset *preset_at(int index) {
 ")
 weft_embedded(presets ${files})
 
-# catalogue.c holds the shading headers as they are, by name: src/text makes GLSL and pages of them.
-file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src src/shading/*.h)
+# catalogue.c holds the shading headers, and what is GLSL alone, as they are, by name: src/text makes shaders and pages
+# of them.
+file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src src/shading/*.h src/raster/glsl/*.glsl)
 set(assembly "")
 set(names "")
 set(rows "")

@@ -79,6 +79,7 @@ typedef enum WeftResult {
     M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
     M(TEXT_NAME, USAGE, "is not a file of the catalogue")                                                    \
     M(TEXT_DIALECT, INPUT, "is not shading text")                                                            \
+    M(TEXTURES_SCALED, WARNING, "has textures of many sizes, which are scaled to one")                       \
     M(GL_CONTEXT, RESOURCES, "has no OpenGL to draw with")                                                   \
     M(GL_COMPILE, INPUT, "does not compile for the GPU")                                                     \
     M(GL_MEMORY, RESOURCES, "does not fit the GPU")

@@ -8,6 +8,7 @@
 #include "weft/lobe.h"
 #include "weft/ltc.h"
 #include "weft/measure.h"
+#include "weft/raster.h"
 #include "weft/render.h"
 #include "weft/result.h"
 #include "weft/scene.h"

@@ -10,7 +10,7 @@ enum { NARROW_TABLES = 8 }; /* made for one material's range of roughness; then 
 
 struct SheenTables {
     AlbedoTable **tables; /* one a distinct sheen */
-    TableRef *refs;       /* one a material, into tables */
+    int *index;           /* one a material, into tables, or -1 */
     int table_count;
 };
 
@@ -54,10 +54,11 @@ static void table_range(const Material *material, bool all, float *low, float *h
 
 /* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
  * over the same range. */
-static WeftResult find_table(SheenTables *self, const Material *material, int threads, TableRef *ref,
+static WeftResult find_table(SheenTables *self, const Material *material, int threads, int *index,
                              WeftError *error) {
     const Surface plain = material_plain(material);
     const Choices choices = material_choices(material);
+    *index = -1;
     Stack most = plain_stack(&plain, &choices);
     if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
     if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
@@ -70,14 +71,14 @@ static WeftResult find_table(SheenTables *self, const Material *material, int th
     table_range(material, self->table_count >= NARROW_TABLES, &low, &high);
     for (int k = 0; k < self->table_count; k++)
         if (albedo_table_serves(self->tables[k], &lobe, low, high, scaled)) {
-            *ref = albedo_table_ref(self->tables[k]);
+            *index = k;
             return WEFT_OK;
         }
     AlbedoTable *table = alloc_array(1, sizeof(AlbedoTable));
     if (!table) return fail(error, WEFT_MESSAGE_MEMORY, material->name, NULL);
     (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, threads);
+    *index = self->table_count;
     self->tables[self->table_count++] = table;
-    *ref = albedo_table_ref(table);
     return WEFT_OK;
 }
 
@@ -87,18 +88,18 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
     bool *worn = alloc_array(count, sizeof(bool));
     if (self) {
         self->tables = alloc_array(count, sizeof(AlbedoTable *));
-        self->refs = alloc_array(count, sizeof(TableRef));
+        self->index = alloc_array(count, sizeof(int));
     }
     WeftResult result = WEFT_OK;
-    if (!worn || !self || !self->tables || !self->refs)
+    if (!worn || !self || !self->tables || !self->index)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int m = 0; m < scene->mesh_count && result == WEFT_OK; m++) {
         const Mesh *mesh = &scene->meshes[m];
         worn[mesh->material] = true;
     }
     for (size_t k = 0; k < count && result == WEFT_OK; k++) {
-        self->refs[k] = (TableRef){.kind = TABLE_NONE};
-        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->refs[k], error);
+        self->index[k] = -1;
+        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->index[k], error);
     }
     free(worn);
     if (result == WEFT_OK)
@@ -112,8 +113,15 @@ void sheen_tables_free(SheenTables *self) {
     if (!self) return;
     for (int k = 0; k < self->table_count; k++) free(self->tables[k]);
     free(self->tables);
-    free(self->refs);
+    free(self->index);
     free(self);
 }
 
-TableRef sheen_tables_of(const SheenTables *self, int material) { return self->refs[material]; }
+int sheen_tables_count(const SheenTables *self) { return self->table_count; }
+const AlbedoTable *sheen_tables_at(const SheenTables *self, int index) { return self->tables[index]; }
+int sheen_tables_index(const SheenTables *self, int material) { return self->index[material]; }
+
+TableRef sheen_tables_of(const SheenTables *self, int material) {
+    int k = self->index[material];
+    return k < 0 ? (TableRef){.kind = TABLE_NONE} : albedo_table_ref(self->tables[k]);
+}

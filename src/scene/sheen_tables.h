@@ -14,8 +14,14 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
 /* tables may be NULL. */
 void sheen_tables_free(SheenTables *tables);
 
-/* The table of a material for surface_stack; of kind TABLE_NONE where it asks for none. Lives as long as
- * tables. */
+/* How many there are, and each. */
+int sheen_tables_count(const SheenTables *tables);
+const AlbedoTable *sheen_tables_at(const SheenTables *tables, int index);
+
+/* Which of them a material's surface_stack takes; -1 where it asks for none. */
+int sheen_tables_index(const SheenTables *tables, int material);
+
+/* The same as it is handed over; of kind TABLE_NONE where there is none. Lives as long as tables. */
 TableRef sheen_tables_of(const SheenTables *tables, int material);
 
 #endif

@@ -11,6 +11,7 @@
 #include "shading/lobes/ggx.h"
 #include "shading/lobes/silk.h"
 #include "shading/profile.h"
+#include "shading/slots.h"
 
 /* A lobe of facets as the composition that it is. */
 FN Lobe compose_facets(Lobe lobe) {
@@ -142,23 +143,23 @@ FN StackValue stack_value(Stack m, Angles a, Angles coat) {
     sum.f_cos = rgb_grey(0.0f);
     sum.pdf = 0.0f;
     if (m.diffuse.pick > 0.0f) {
-        LobeValue v = lobe_at(m.diffuse.lobe, a);
+        LobeValue v = diffuse_at(m.diffuse.lobe, a);
         sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(m.diffuse, v));
         sum.pdf = slot_pdf(m.diffuse, v);
     }
     if (m.specular.pick > 0.0f) {
-        LobeValue v = lobe_at(m.specular.lobe, a);
+        LobeValue v = specular_at(m.specular.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(m.specular, v)));
         sum.pdf = sum.pdf + slot_pdf(m.specular, v);
     }
     if (m.sheen.pick > 0.0f) {
-        LobeValue v = lobe_at(m.sheen.lobe, a);
+        LobeValue v = sheen_at(m.sheen.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
         sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
     }
     sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
     if (m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {
-        LobeValue v = lobe_at(m.coat.lobe, coat);
+        LobeValue v = coat_at(m.coat.lobe, coat);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(m.coat, v), coat.i.z));
         sum.pdf = sum.pdf + slot_pdf(m.coat, v);
     }

@@ -125,6 +125,12 @@ FN float table_linear(TableRef m, float cos_o, float p) {
     return mix(low, high, y - y0);
 }
 
+/* A shader knows what kind of table its sheen has, and says so in place of these. */
+#ifndef SHEEN_KIND
+#define SHEEN_KIND(m)  (m).kind
+#define SHEEN_TILTS(m) (m).tilts
+#endif
+
 /* E of a white sheen, and how a colour changes it; tint_none where colour is a factor. */
 STRUCT(SheenE) {
     float e;
@@ -157,22 +163,22 @@ FN float sheen_e_in(SheenE x, float color) {
 /* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts
  * there). */
 FN SheenE table_sheen(TableRef m, float cos_o, float p) {
-    if (m.kind == TABLE_LINEAR) return sheen_e_of(table_linear(m, cos_o, p));
-    if (m.kind == TABLE_NONE) return sheen_e_of(0.0f);
+    if (SHEEN_KIND(m) == TABLE_LINEAR) return sheen_e_of(table_linear(m, cos_o, p));
+    if (SHEEN_KIND(m) == TABLE_NONE) return sheen_e_of(0.0f);
     TablePlace at = table_place(m, cos_o, p);
     float e = max(table_map(m, 0, at), 0.0f);
-    if (m.kind != TABLE_TINTED) return sheen_e_of(e);
+    if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
     return sheen_e_tinted(e, table_map(m, 1, at), table_map(m, 2, at), table_map(m, 3, at));
 }
 FN float table_albedo(TableRef m, float cos_o, float p) { return table_sheen(m, cos_o, p).e; }
 
 /* Where the maps for headings begin. */
-FN int table_headings(TableRef m) { return m.kind == TABLE_TINTED ? 4 : 1; }
+FN int table_headings(TableRef m) { return SHEEN_KIND(m) == TABLE_TINTED ? 4 : 1; }
 
 /* Where a tilt falls among those of the maps: even in its root, for E changes the most as fibres begin to
  * lean. */
 FN Taps table_tilt(TableRef m, float tilt) {
-    return table_taps(sqrt(max(tilt, 0.0f) / m.tilt) * to_float(m.tilts - 1), m.tilts);
+    return table_taps(sqrt(max(tilt, 0.0f) / m.tilt) * to_float(SHEEN_TILTS(m) - 1), SHEEN_TILTS(m));
 }
 
 /* E at a heading, of the tilt whose maps begin there. */
@@ -185,7 +191,7 @@ FN float table_turned(TableRef m, int map, Taps heading, TablePlace at) {
 FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
     Taps h = table_taps((0.5f + 0.5f * heading) * to_float(TABLE_HEADINGS - 1), TABLE_HEADINGS);
     int map = table_headings(m);
-    if (m.tilts < 2) return table_turned(m, map, h, at);
+    if (SHEEN_TILTS(m) < 2) return table_turned(m, map, h, at);
     Taps t = table_tilt(m, nap.tilt);
     map = map + TABLE_HEADINGS * t.first;
     return t.a * table_turned(m, map, h, at) + t.b * table_turned(m, map + TABLE_HEADINGS, h, at) +
@@ -196,16 +202,16 @@ FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
 /* E towards w of a sheen with a nap. Colour changes it as it does across the nap. */
 FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, float p) {
     SheenE x = table_sheen(m, w.z, p);
-    if ((m.kind == TABLE_ROOTS || m.kind == TABLE_TINTED) && m.tilts > 0)
+    if ((SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED) && SHEEN_TILTS(m) > 0)
         x.e = clamp(table_leaning(m, nap, nap_heading(nap, w), table_place(m, w.z, p)), 0.0f, 1.0f);
     return x;
 }
 
 /* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
 FN SheenE table_sheen_average(TableRef m, float p) {
-    if (m.kind == TABLE_LINEAR || m.kind == TABLE_NONE) return sheen_e_of(0.0f);
+    if (SHEEN_KIND(m) == TABLE_LINEAR || SHEEN_KIND(m) == TABLE_NONE) return sheen_e_of(0.0f);
     float e = max(table_map_average(m, 0, p), 0.0f);
-    if (m.kind != TABLE_TINTED) return sheen_e_of(e);
+    if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
     return sheen_e_tinted(e, table_map_average(m, 1, p), table_map_average(m, 2, p),
                           table_map_average(m, 3, p));
 }
@@ -215,10 +221,10 @@ FN float table_average(TableRef m, float p) { return table_sheen_average(m, p).e
  * have. */
 FN SheenE table_sheen_nap_average(TableRef m, Nap nap, float p) {
     SheenE x = table_sheen_average(m, p);
-    if ((m.kind != TABLE_ROOTS && m.kind != TABLE_TINTED) || m.tilts < 1) return x;
+    if ((SHEEN_KIND(m) != TABLE_ROOTS && SHEEN_KIND(m) != TABLE_TINTED) || SHEEN_TILTS(m) < 1) return x;
     int map = table_headings(m);
     x.e = table_map_average(m, map, p);
-    if (m.tilts > 1) {
+    if (SHEEN_TILTS(m) > 1) {
         Taps t = table_tilt(m, nap.tilt);
         map = map + TABLE_HEADINGS * t.first;
         x.e = t.a * table_map_average(m, map, p) + t.b * table_map_average(m, map + TABLE_HEADINGS, p) +

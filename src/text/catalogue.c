@@ -6,7 +6,9 @@
 
 const char *weft_catalogue_text(const char *path) {
     const char *folder = "shading/";
+    size_t size = strlen(folder);
     for (const CatalogueFile *file = catalogue_files; file->name; file++)
-        if (strcmp(file->name + strlen(folder), path) == 0) return file->bytes;
+        if (strncmp(file->name, folder, size) == 0 && strcmp(file->name + size, path) == 0)
+            return file->bytes;
     return NULL;
 }

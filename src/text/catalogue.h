@@ -1,5 +1,5 @@
-/* catalogue.h - the files of src/shading as they are, inside the library; cmake/generate.cmake makes the
- * table */
+/* catalogue.h - the files of src/shading and src/raster/glsl as they are, inside the library;
+ * cmake/generate.cmake makes the table */
 #ifndef WEFT_TEXT_CATALOGUE_H
 #define WEFT_TEXT_CATALOGUE_H
 
@@ -8,7 +8,7 @@ typedef struct CatalogueFile {
     const char *bytes, *end;
 } CatalogueFile;
 
-/* Every header below src/shading; ends with a NULL name. */
+/* Every header below src/shading and every text of src/raster/glsl; ends with a NULL name. */
 extern const CatalogueFile catalogue_files[];
 
 #endif

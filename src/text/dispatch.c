@@ -96,10 +96,12 @@ static void put_fibres(Text *text, const int *ids, int count) {
     text_line(text, "    return m;\n}");
 }
 
-static void put_at(Text *text, const int *ids, int count) {
+/* A function from a lobe to its value, for lobes among these; with pdf, that too. */
+static void put_value(Text *text, const char *name, const int *ids, int count, bool pdf) {
     text_line(text,
-              "\nLobeValue lobe_at(Lobe m, Angles a) {\n    LobeValue v;\n    v.f = 0.0;\n    v.s = 0.0;\n"
-              "    v.pdf = 0.0;\n    v.tint = tint_none();");
+              "\nLobeValue %s(Lobe m, Angles a) {\n    LobeValue v;\n    v.f = 0.0;\n    v.s = 0.0;\n"
+              "    v.pdf = 0.0;\n    v.tint = tint_none();",
+              name);
     for (int k = 0; k < count; k++) {
         const LobeNames *lobe = &names[ids[k]];
         text_line(text, "    if (m.id == LOBE_%s) {\n        %s r = %s_record(m);", lobe->macros,
@@ -112,11 +114,23 @@ static void put_at(Text *text, const int *ids, int count) {
         else
             text_line(text, "        v.f = %s_eval(r, a);", lobe->prefix);
         if (has(ids[k], TRAIT_TWO_COLORS)) text_line(text, "        v.s = %s_share(r, a);", lobe->prefix);
-        text_line(text, "        v.pdf = %s_pdf(r, a);\n    }", lobe->prefix);
+        if (pdf) text_line(text, "        v.pdf = %s_pdf(r, a);", lobe->prefix);
+        text_line(text, "    }");
     }
-    text_line(text, "    return v;\n}\n\nfloat lobe_f(Lobe m, Angles a) { return lobe_at(m, a).f; }\n"
+    text_line(text, "    return v;\n}");
+}
+
+static void put_at(Text *text, const int *ids, int count) {
+    put_value(text, "lobe_at", ids, count, true);
+    text_line(text, "\nfloat lobe_f(Lobe m, Angles a) { return lobe_at(m, a).f; }\n"
                     "float lobe_share(Lobe m, Angles a) { return lobe_at(m, a).s; }\n"
                     "float lobe_pdf(Lobe m, Angles a) { return lobe_at(m, a).pdf; }");
+}
+
+void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
+    static const char *const functions[TEXT_SLOTS] = {"diffuse_at", "specular_at", "sheen_at", "coat_at"};
+    text_provide(text, "shading/slots.h");
+    for (int k = 0; k < TEXT_SLOTS; k++) put_value(text, functions[k], slots[k].lobes, slots[k].count, false);
 }
 
 static void put_second(Text *text, const int *ids, int count) {

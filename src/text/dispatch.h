@@ -26,4 +26,15 @@ void text_lobe(Text *text, int id);
  * LOBE_GGX even where its profile then takes others in their place. */
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
+/* The lobes that a slot of a stack may hold. */
+enum { TEXT_SLOTS = 4 };
+typedef struct TextSlot {
+    int lobes[LOBE_COUNT];
+    int count;
+} TextSlot;
+
+/* In place of shading/slots.h: functions for the diffuse, specular, sheen and coat slot that know only these
+ * lobes, and no pdf. Call it once, behind text_dispatch, which has all of them. */
+void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]);
+
 #endif

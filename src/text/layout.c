@@ -44,11 +44,13 @@ void layout_strip(const char *source, const char *end, Buffer *out) {
     }
 }
 
-/* One declaration or function: up to the brace that closes it or, for a record, to the semicolon behind. */
+/* One declaration or function: up to the brace that closes it or, for a record or a block of uniforms, to the
+ * semicolon behind. */
 static const char *item_end(const char *c, const char *end) {
     const char *first = c;
     Token keyword = token_next(&first, end);
-    bool record = token_is(keyword, "struct") || token_is(keyword, "typedef") || token_is(keyword, "enum");
+    bool record = token_is(keyword, "struct") || token_is(keyword, "typedef") || token_is(keyword, "enum") ||
+                  token_is(keyword, "layout");
     int depth = 0;
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         if (token_is(token, "{")) depth++;

@@ -1,0 +1,84 @@
+/* raster.h - drawing a scene with OpenGL: the models of the path tracer at the rate of a display
+ *
+ *   weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, log, &error);
+ *   weft_raster_draw(raster, &(WeftRasterView){.width = 1280, .height = 720}, &error);
+ *   weft_raster_image(raster, &image, &error);
+ *   weft_raster_free(raster);
+ *
+ * A WeftRaster belongs to one thread at a time and owns all that it makes in the driver; each has a context
+ * of its own, and what was current before a call is current after it.
+ *
+ * DOES NOT: light that bounced, refraction, layer rule "stochastic" (drawn without its bounces). */
+#ifndef WEFT_RASTER_H
+#define WEFT_RASTER_H
+
+#include "weft/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WeftRaster WeftRaster;
+
+/* Which OpenGL: desktop 3.3 core, or ES 3.0. */
+typedef enum WeftGl { WEFT_GL_DESKTOP = 0, WEFT_GL_ES } WeftGl;
+
+/* Zero means default, in every member. */
+typedef struct WeftRasterDesc {
+    WeftGl gl;
+    /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
+     * is there. Borrowed. */
+    const char *shader_dir;
+    int threads; /* for the tables; 0: one a processor */
+} WeftRasterDesc;
+
+/* Uploads the scene, which must outlive the raster and not change meanwhile. Shaders are compiled when they
+ * are first drawn with. log (may be NULL) receives warnings. Fails with WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY,
+ * _MEMORY or _SCENE_EMPTY. */
+WEFT_API WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
+                                       const WeftLog *log, WeftError *error);
+
+/* raster may be NULL. */
+WEFT_API void weft_raster_free(WeftRaster *raster);
+
+/* Zero means default, in every member. */
+typedef struct WeftRasterView {
+    int width, height;  /* pixels, 1 .. 16384; 0: 960 x 720 */
+    int samples;        /* a pixel, for edges: 1, 2, 4 or 8; 0: 4. A driver may have fewer */
+    const char *camera; /* as in WeftRenderDesc */
+    WeftBackground background;
+    float background_color[3];
+    int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
+} WeftRasterView;
+
+/* Draws one picture into the raster's own target. A shader that does not compile is an error only where there
+ * is no earlier program to draw with: see WeftRasterInfo. Fails with WEFT_MESSAGE_DESC, _CAMERA_NAME,
+ * _GL_COMPILE, _TEXT_DIALECT, _GL_MEMORY, _GL_CONTEXT. */
+WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *view, WeftError *error);
+
+/* The picture drawn last: F32 RGBA, linear Rec. 709 radiance, straight alpha. Release with weft_image_free.
+ */
+WEFT_API WeftResult weft_raster_image(WeftRaster *raster, WeftImage *out, WeftError *error);
+
+/* Waits until the driver has done all it was asked to: for timing. */
+WEFT_API void weft_raster_finish(WeftRaster *raster);
+
+typedef struct WeftRasterInfo {
+    const char *driver; /* its own name for itself; lives as long as the raster */
+    int programs;       /* in use */
+    int compiled;       /* shaders compiled since the start */
+    int samplers;       /* the most that one program has */
+    int samples;        /* a pixel, of the last picture */
+    double compile_seconds;
+    /* What the compiler says of a text that was changed and is not in use because of it; empty while all is
+     * well. */
+    char complaint[512];
+} WeftRasterInfo;
+
+WEFT_API WeftRasterInfo weft_raster_info(const WeftRaster *raster);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,26 @@
+/* vertex.glsl - a vertex, which is in the world already */
+#include "raster/glsl/picture.glsl"
+
+layout(location = 0) in highp vec3 at_position;
+layout(location = 1) in highp vec3 at_normal;
+layout(location = 2) in highp vec4 at_tangent;
+layout(location = 3) in highp vec2 at_texcoord_0;
+layout(location = 4) in highp vec2 at_texcoord_1;
+layout(location = 5) in highp vec4 at_color;
+
+out highp vec3 from_eye;
+out highp vec3 vertex_normal;
+out highp vec4 vertex_tangent;
+out highp vec2 texcoord_0;
+out highp vec2 texcoord_1;
+out highp vec4 vertex_color;
+
+void main() {
+    from_eye = at_position - eye.xyz;
+    vertex_normal = at_normal;
+    vertex_tangent = at_tangent;
+    texcoord_0 = at_texcoord_0;
+    texcoord_1 = at_texcoord_1;
+    vertex_color = at_color;
+    gl_Position = to_clip * vec4(from_eye, 1.0);
+}

@@ -1,0 +1,108 @@
+#include "raster/meshes.h"
+
+#include <stdlib.h>
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "raster/check.h"
+
+static const int components[AT_COUNT] = {3, 3, 4, 2, 2, 4};
+
+static const float *stream_of(const Mesh *mesh, int attribute) {
+    switch (attribute) {
+    case AT_POSITION: return mesh->position;
+    case AT_NORMAL: return mesh->normal;
+    case AT_TANGENT: return mesh->tangent;
+    case AT_COLOR: return mesh->color;
+    default: return mesh->texcoord[attribute - AT_TEXCOORD];
+    }
+}
+
+/* One attribute of all meshes, one after the other; 0, or white, where a mesh has none. An attribute that no
+ * mesh has takes no memory: the shader reads the constant. */
+static WeftResult upload(GLuint buffer, const WeftScene *scene, int attribute, size_t count,
+                         WeftError *error) {
+    size_t width = (size_t)components[attribute];
+    const float constant = attribute == AT_COLOR ? 1.0f : 0.0f;
+    bool any = false;
+    for (int m = 0; m < scene->mesh_count; m++) any |= stream_of(&scene->meshes[m], attribute) != NULL;
+    if (!any) {
+        glVertexAttrib4f((GLuint)attribute, constant, constant, constant, constant);
+        return WEFT_OK;
+    }
+    float *all = alloc_array(count, width * sizeof(float)), *to = all;
+    if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        const float *from = stream_of(mesh, attribute);
+        size_t floats = mesh->vertex_count * width;
+        for (size_t k = 0; k < floats; k++) to[k] = from ? from[k] : constant;
+        to += floats;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * width * sizeof(float)), all, GL_STATIC_DRAW);
+    glVertexAttribPointer((GLuint)attribute, components[attribute], GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray((GLuint)attribute);
+    free(all);
+    return gl_check(error, "vertices");
+}
+
+static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftError *error) {
+    uint32_t count = self->first[scene->mesh_count], vertex = 0;
+    uint32_t *all = alloc_array(count, sizeof(uint32_t)), *to = all;
+    if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        for (size_t k = 0; k < 3 * (size_t)mesh->triangle_count; k++) *to++ = mesh->index[k] + vertex;
+        vertex += mesh->vertex_count;
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, self->index);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof(uint32_t)), all, GL_STATIC_DRAW);
+    free(all);
+    return gl_check(error, "triangles");
+}
+
+WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error) {
+    *out = (GlMeshes){0};
+    out->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
+    if (!out->first) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    size_t vertices = 0, indices = 0;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        out->first[m] = (uint32_t)indices;
+        vertices += scene->meshes[m].vertex_count;
+        indices += 3 * (size_t)scene->meshes[m].triangle_count;
+        if (vertices > INT32_MAX || indices > INT32_MAX) {
+            meshes_destroy(out);
+            return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "more than 2^31 vertices or corners");
+        }
+    }
+    out->first[scene->mesh_count] = (uint32_t)indices;
+    glGenVertexArrays(1, &out->vertices);
+    glGenBuffers(AT_COUNT, out->attributes);
+    glGenBuffers(1, &out->index);
+    glBindVertexArray(out->vertices);
+    WeftResult result = upload_indices(out, scene, error);
+    for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++)
+        result = upload(out->attributes[a], scene, a, vertices, error);
+    glBindVertexArray(0);
+    if (result != WEFT_OK) meshes_destroy(out);
+    return result;
+}
+
+void meshes_destroy(GlMeshes *self) {
+    if (self->vertices) {
+        glDeleteVertexArrays(1, &self->vertices);
+        glDeleteBuffers(AT_COUNT, self->attributes);
+        glDeleteBuffers(1, &self->index);
+    }
+    free(self->first);
+    *self = (GlMeshes){0};
+}
+
+void meshes_draw(const GlMeshes *self, int mesh) {
+    uint32_t first = self->first[mesh], count = self->first[mesh + 1] - first;
+    if (count)
+        glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT,
+                       (const void *)(first * sizeof(uint32_t)));
+}

@@ -1,0 +1,26 @@
+/* meshes.h - a scene's triangles in the driver's memory: one buffer a kind of attribute, one of indices
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_MESHES_H
+#define WEFT_RASTER_MESHES_H
+
+#include "scene/scene.h"
+
+/* Locations of the attributes in every vertex shader. */
+enum { AT_POSITION, AT_NORMAL, AT_TANGENT, AT_TEXCOORD, AT_COLOR = AT_TEXCOORD + 2, AT_COUNT };
+
+typedef struct GlMeshes {
+    unsigned vertices; /* vertex array object */
+    unsigned attributes[AT_COUNT], index;
+    uint32_t *first; /* a mesh's first index; mesh_count + 1 entries, owned */
+} GlMeshes;
+
+/* Uploads all meshes. Zero on failure: WEFT_MESSAGE_MEMORY, _GL_MEMORY, the latter beyond 2^31 corners too.
+ */
+WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
+void meshes_destroy(GlMeshes *meshes);
+
+/* Draws the triangles of one mesh; the vertex array must be bound. */
+void meshes_draw(const GlMeshes *meshes, int mesh);
+
+#endif

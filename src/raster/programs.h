@@ -1,0 +1,40 @@
+/* programs.h - the programs that were compiled, by key
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_PROGRAMS_H
+#define WEFT_RASTER_PROGRAMS_H
+
+#include "raster/shader.h"
+#include "scene/sheen_tables.h"
+
+/* Texture units and uniform blocks of every program: a material's maps come first. */
+enum { UNIT_TABLES = 8, UNIT_ENVIRONMENT, UNIT_ENVIRONMENT_MAP, UNIT_SHADOW, UNIT_SHADOW_DEPTH, UNIT_COUNT };
+enum { BLOCK_PICTURE, BLOCK_MATERIAL };
+
+typedef struct Program {
+    struct Program *next;
+    ShaderKey key;
+    unsigned name;   /* 0: it never compiled */
+    unsigned tables; /* array texture for weft_tables, 0 where the program has none */
+    int samplers;    /* array elements counted one by one */
+    bool stale;      /* its text may have changed */
+    WeftError error; /* of the last attempt; its program before stays in use */
+} Program;
+
+typedef struct Programs {
+    Program *first;
+    TextDesc desc;             /* of all texts */
+    const SheenTables *sheens; /* of the scene: behind each program's own tables */
+    int compiled;              /* so far */
+} Programs;
+
+/* The program for a key, compiled where it is new or stale. NULL where it has never compiled, with what the
+ * compiler says in error; where it did before, that one stays, and error tells all the same: *error is
+ * WEFT_OK only where all is well. */
+const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
+
+/* From now on all are compiled again at their next use. */
+void programs_refresh(Programs *programs);
+void programs_destroy(Programs *programs);
+
+#endif

@@ -1,0 +1,244 @@
+#define _POSIX_C_SOURCE 200809L
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "raster/check.h"
+#include "raster/context.h"
+#include "raster/materials.h"
+#include "raster/meshes.h"
+#include "raster/picture.h"
+#include "raster/programs.h"
+#include "raster/target.h"
+#include "weft/raster.h"
+
+enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
+
+/* A mesh to draw, and how far away it is. */
+typedef struct Item {
+    int mesh;
+    float depth;
+} Item;
+
+struct WeftRaster {
+    const WeftScene *scene;
+    GlContext *context;
+    GlMeshes meshes;
+    GlTextures textures;
+    GlMaterials materials;
+    Programs programs;
+    Target target;
+    unsigned picture;      /* uniform buffer */
+    unsigned plain;        /* sampler object: bilinear, no smaller copies */
+    Item *solid, *blended; /* meshes in drawing order; one block, solid first */
+    WeftError complaint;
+    double compile_seconds;
+    char *shader_dir;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const WeftLog *log, WeftError *error) {
+    const WeftScene *scene = self->scene;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    WeftResult result = meshes_create(scene, &self->meshes, error);
+    if (result == WEFT_OK) result = textures_create(scene, &self->textures, log, error);
+    if (result == WEFT_OK)
+        result = materials_create(scene, &self->textures, desc->threads, &self->materials, error);
+    self->programs.sheens = self->materials.sheens;
+    glGenBuffers(1, &self->picture);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
+    glGenSamplers(1, &self->plain);
+    return result == WEFT_OK ? gl_check(error, "a scene") : result;
+}
+
+static void release(WeftRaster *self) {
+    meshes_destroy(&self->meshes);
+    textures_destroy(&self->textures);
+    materials_destroy(&self->materials);
+    programs_destroy(&self->programs);
+    target_destroy(&self->target);
+    glDeleteBuffers(1, &self->picture);
+    glDeleteSamplers(1, &self->plain);
+}
+
+WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
+                              const WeftLog *log, WeftError *error) {
+    *out = NULL;
+    if ((unsigned)desc->gl > WEFT_GL_ES) return fail(error, WEFT_MESSAGE_DESC, "gl", "%d", (int)desc->gl);
+    TextLanguage language = desc->gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
+    if (!scene->mesh_count) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
+    WeftRaster *self = alloc_array(1, sizeof *self);
+    if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    self->scene = scene;
+    WeftResult result = WEFT_OK;
+    self->solid = alloc_array((size_t)scene->mesh_count, sizeof(Item));
+    if (desc->shader_dir) self->shader_dir = strdup(desc->shader_dir);
+    if (!self->solid || (desc->shader_dir && !self->shader_dir))
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    self->programs.desc = (TextDesc){language, true, self->shader_dir};
+    if (result == WEFT_OK) result = context_create(language, &self->context, error);
+    GlOuter outer;
+    if (result == WEFT_OK && !context_enter(self->context, &outer))
+        result = fail(error, WEFT_MESSAGE_GL_CONTEXT, scene->name, "its context is in use");
+    else if (result == WEFT_OK) {
+        result = upload(self, desc, log, error);
+        context_leave(self->context, &outer);
+    }
+    if (result == WEFT_OK)
+        *out = self;
+    else
+        weft_raster_free(self);
+    return result;
+}
+
+void weft_raster_free(WeftRaster *self) {
+    GlOuter outer;
+    if (!self) return;
+    if (self->context && context_enter(self->context, &outer)) {
+        release(self);
+        context_leave(self->context, &outer);
+    }
+    context_destroy(self->context);
+    free(self->solid);
+    free(self->shader_dir);
+    free(self);
+}
+
+static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
+    if (view->width < 1 || view->width > SIDE_MAX || view->height < 1 || view->height > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", view->width,
+                    view->height, SIDE_MAX);
+    if (view->samples < 1 || view->samples > 64)
+        return fail(error, WEFT_MESSAGE_DESC, "samples", "%d", view->samples);
+    if ((unsigned)view->background > WEFT_BACKGROUND_COLOR)
+        return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
+    return WEFT_OK;
+}
+
+static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
+    if (!view->width) view->width = DEFAULT_WIDTH;
+    if (!view->height) view->height = DEFAULT_HEIGHT;
+    if (!view->samples) view->samples = DEFAULT_SAMPLES;
+    if (view->background != WEFT_BACKGROUND_AUTO) return;
+    bool studio = scene->environment.kind == ENVIRONMENT_STUDIO;
+    view->background = studio ? WEFT_BACKGROUND_COLOR : WEFT_BACKGROUND_ENVIRONMENT;
+    for (int c = 0; c < 3; c++) view->background_color[c] = 0.62f; /* a light grey paper roll */
+}
+
+static void begin(WeftRaster *self, const WeftRasterView *view) {
+    glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
+    glViewport(0, 0, view->width, view->height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    bool color = view->background == WEFT_BACKGROUND_COLOR;
+    const float *c = view->background_color;
+    glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glBindVertexArray(self->meshes.vertices);
+    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
+}
+
+static WeftResult draw_mesh(WeftRaster *self, int mesh, const WeftRasterView *view, WeftError *error) {
+    int k = self->scene->meshes[mesh].material;
+    const GlMaterial *material = &self->materials.all[k];
+    WeftError said = {0};
+    double start = now();
+    int compiled = self->programs.compiled;
+    const Program *program = programs_get(&self->programs, &material->key, &said);
+    if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
+    if (said.result != WEFT_OK) self->complaint = said;
+    if (!program) {
+        if (error) *error = said;
+        return said.result;
+    }
+    glUseProgram(program->name);
+    glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
+    if (material->key.double_sided)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
+    for (int unit = 0; unit < material->group_count; unit++) glBindSampler((GLuint)unit, 0);
+    meshes_draw(&self->meshes, mesh);
+    return WEFT_OK;
+}
+
+static WeftResult draw_all(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++)
+        result = draw_mesh(self, m, view, error);
+    return result == WEFT_OK ? gl_check(error, "a picture") : result;
+}
+
+WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, WeftError *error) {
+    WeftRasterView view = *wanted;
+    Camera camera;
+    GlOuter outer;
+    set_defaults(self->scene, &view);
+    WeftResult result = check_view(&view, error);
+    if (result != WEFT_OK) return result;
+    float aspect = (float)view.width / (float)view.height;
+    result = camera_find(self->scene, view.camera, aspect, &camera, error);
+    if (result != WEFT_OK) return result;
+    View seen = view_of(&camera, aspect);
+    if (!context_enter(self->context, &outer))
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
+    self->complaint = (WeftError){0};
+    Picture picture;
+    picture_make(self->scene, &seen, &picture);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
+    result = target_resize(&self->target, view.width, view.height, view.samples, error);
+    if (result == WEFT_OK) {
+        begin(self, &view);
+        result = draw_all(self, &view, error);
+        target_resolve(&self->target);
+    }
+    context_leave(self->context, &outer);
+    return result;
+}
+
+WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error) {
+    GlOuter outer;
+    *out = (WeftImage){0};
+    if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, "a picture", "nothing was drawn yet");
+    if (!context_enter(self->context, &outer))
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
+    WeftResult result = target_read(&self->target, out, error);
+    context_leave(self->context, &outer);
+    return result;
+}
+
+void weft_raster_finish(WeftRaster *self) {
+    GlOuter outer;
+    if (!context_enter(self->context, &outer)) return;
+    glFinish();
+    context_leave(self->context, &outer);
+}
+
+WeftRasterInfo weft_raster_info(const WeftRaster *self) {
+    WeftRasterInfo info = {.driver = context_driver(self->context),
+                           .compiled = self->programs.compiled,
+                           .samples = self->target.samples,
+                           .compile_seconds = self->compile_seconds};
+    for (const Program *p = self->programs.first; p; p = p->next) {
+        info.programs += p->name != 0;
+        if (p->samplers > info.samplers) info.samplers = p->samplers;
+    }
+    memcpy(info.complaint, self->complaint.text, sizeof info.complaint);
+    return info;
+}

@@ -1,0 +1,241 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "raster/shader.h"
+
+#include "scene/shade.h"
+#include "shading/choice.h"
+#include "shading/engine_tables.h"
+#include "shading/material_stack.h"
+#include "text/dispatch.h"
+#include "text/number.h"
+#include "text/tables.h"
+#include "weft/lobe.h"
+
+/* A workflow or profile: its file, and what makes its stack. */
+typedef struct Composition {
+    const char *folder, *id, *stack;
+} Composition;
+
+#define WORKFLOW_ROW(id, index, stack, help) {"workflows", id, #stack},
+#define PROFILE_ROW(id, index, stack, help)  {"profiles", id, #stack},
+static const Composition workflows[] = {WEFT_WORKFLOWS(WORKFLOW_ROW)};
+static const Composition profiles[] = {WEFT_PROFILES(PROFILE_ROW)};
+
+typedef struct Formula {
+    int albedo;
+    const char *row;
+} Formula;
+
+#define FORMULA_ROW(name, index, formula) {index, "A(" #name ", " #index ", " #formula ")"},
+static const Formula formulas[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW)};
+
+/* A surface in which every lobe of a stack shows; x is 0 or 1 for what a stack may make a choice of. */
+static Surface full_surface(float x) {
+    const Material material = material_default("");
+    Surface s = material_plain(&material);
+    s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
+    s.clearcoat = 1.0f;
+    s.roughness = s.sheen_roughness = 0.5f;
+    s.anisotropy = s.subsurface = s.metallic = x;
+    s.sheen = s.specular = 1.0f;
+    return s;
+}
+
+static void add_lobe(TextSlot *slot, const Slot *from) {
+    int id = from->lobe.id;
+    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->pick > 0.0f)) return;
+    for (int k = 0; k < slot->count; k++)
+        if (slot->lobes[k] == id) return;
+    slot->lobes[slot->count++] = id;
+}
+
+/* The lobes that the slots of a stack of these choices may hold. */
+static void find_slots(const Choices *choices, TextSlot slots[TEXT_SLOTS]) {
+    for (int x = 0; x <= 2; x++) {
+        Stack m;
+        Surface s = full_surface(0.5f * (float)x);
+        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        add_lobe(&slots[0], &m.diffuse);
+        add_lobe(&slots[1], &m.specular);
+        add_lobe(&slots[2], &m.sheen);
+        add_lobe(&slots[3], &m.coat);
+    }
+}
+
+/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
+static void put_lobes(Text *text, const ShaderKey *key) {
+    TextSlot slots[TEXT_SLOTS] = {0};
+    int ids[2 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    find_slots(&key->choices, slots);
+    for (int k = 0; k < TEXT_SLOTS; k++)
+        for (int j = 0; j < slots[k].count; j++) ids[count++] = slots[k].lobes[j];
+    char kind[16], tilts[16];
+    snprintf(kind, sizeof kind, "%d", key->table_kind);
+    snprintf(tilts, sizeof tilts, "%d", key->table_tilts);
+    text_define(text, "SHEEN_KIND(m)", kind);
+    text_define(text, "SHEEN_TILTS(m)", tilts);
+    text_dispatch(text, ids, count);
+    text_slots(text, slots);
+}
+
+#define ENGINE_NAME(name)                                                                                    \
+    { "ENGINE_" #name, ENGINE_##name }
+static const struct {
+    const char *name;
+    int which;
+} engines[] = {ENGINE_NAME(FILAMENT_SHEEN), ENGINE_NAME(FILAMENT_GGX), ENGINE_NAME(BABYLON_SHEEN),
+               ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
+
+/* The engines' tables that the composition names: each takes a while to make. */
+static void put_engines(Text *text, const char *file) {
+    int which[ENGINE_COUNT], count = 0;
+    const char *source = weft_catalogue_text(file);
+    for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
+        if (source && strstr(source, engines[k].name)) which[count++] = engines[k].which;
+    text_engine_tables(text, which, count);
+}
+
+/* In place of shading/profile.h: the one composition that this shader is for. */
+static void put_composition(Text *text, const Choices *choices) {
+    const Composition *c = choices->profile > 0 ? &profiles[choices->profile]
+                                                : &workflows[choices->workflow < 0 ? 0 : choices->workflow];
+    char file[128], rows[256] = "";
+    int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
+    for (int k = 0; k < size; k++)
+        if (file[k] == '-') file[k] = '_';
+    put_engines(text, file + strlen("shading/"));
+    text_provide(text, "shading/profile.h");
+    text_include(text, "shading/workflow.h");
+    text_include(text, file);
+    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
+    Surface s = full_surface(0.5f);
+    int albedo = compose_begin(s, *choices, dir(0.0f, 0.0f, 1.0f)).albedo;
+    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
+        if (formulas[k].albedo == albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
+    text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
+    text_include(text, "shading/compose.h");
+}
+
+static void put_choices(Text *text, const Choices *choices) {
+    text_line(text, "\nChoices material_choices() {\n    Choices c;");
+#define PUT_CHOICE(name, help) text_line(text, "    c.%s = %d;", #name, choices->name);
+    SURFACE_CHOICES(PUT_CHOICE)
+    text_line(text, "    return c;\n}");
+}
+
+/* One vec4 an input, two for where its texture lies, and the sheen's table: material.c fills them. */
+static void put_uniforms(Text *text, const ShaderKey *key) {
+    text_line(text, "\nlayout(std140) uniform Material {");
+    for (int k = 0; k < INPUT_COUNT; k++) text_line(text, "    highp vec4 material_%s;", input_infos[k].name);
+    text_line(text, "    highp vec4 material_places[%d];", 2 * INPUT_COUNT);
+    text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
+    text_line(text, "    highp vec4 material_more; /* alpha cutoff */\n};");
+    int slots = 0;
+    for (int k = 0; k < INPUT_COUNT; k++)
+        if (key->inputs[k].state == INPUT_MAP && key->inputs[k].slot >= slots)
+            slots = key->inputs[k].slot + 1;
+    if (!slots) return;
+    text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
+    text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
+}
+
+static void put_table(Text *text, const ShaderKey *key) {
+    text_line(text, "\nconst int SHEEN_TABLES = %d;", text->table_count);
+    text_line(
+        text,
+        "\nTableRef material_table() {\n    TableRef t;\n    t.texels = SHEEN_TABLES + int(material_e.x);");
+    text_line(text, "    t.kind = %d;\n    t.rows = %d;\n    t.columns = %d;\n    t.tilts = %d;",
+              key->table_kind, key->table_rows, key->table_columns, key->table_tilts);
+    text_line(text, "    t.low = material_e.y;\n    t.high = material_e.z;\n    t.tilt = material_e.w;\n"
+                    "    return t;\n}");
+}
+
+/* The texel of a map, unless an earlier input has it. */
+static void put_texel(Text *text, const ShaderKey *key, int k) {
+    const ShaderInput *input = &key->inputs[k];
+    if (input->state != INPUT_MAP || input->like >= 0) return;
+    text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);", input_infos[k].name, input->texcoord);
+    text_line(text,
+              "    vec4 map_%s = texture(material_maps[%d], vec3(dot(material_places[%d].xyz, at_%s), "
+              "dot(material_places[%d].xyz, at_%s), material_places[%d].w));",
+              input_infos[k].name, input->slot, 2 * k, input_infos[k].name, 2 * k + 1, input_infos[k].name,
+              2 * k);
+}
+
+static void put_input(Text *text, const ShaderKey *key, int k) {
+    const ShaderInput *input = &key->inputs[k];
+    const char *name = input_infos[k].name;
+    char value[96], map[96];
+    snprintf(value, sizeof value, "material_%s", name);
+    snprintf(map, sizeof map, "map_%s", input_infos[input->like >= 0 ? input->like : k].name);
+    bool mapped = input->state == INPUT_MAP;
+    switch (input_infos[k].kind) {
+    case INPUT_SCALAR:
+    case INPUT_ANGLE:
+        if (mapped)
+            text_line(text, "    s.%s = %s.x * %s.%c;", name, value, map, "rgba"[input->channel]);
+        else if (input->state == INPUT_VALUE)
+            text_line(text, "    s.%s = %s.x;", name, value);
+        else
+            text_line(text, "    s.%s = %s;", name, input->state == INPUT_ONE ? "1.0" : "0.0");
+        break;
+    case INPUT_COLOR:
+        if (mapped)
+            text_line(text, "    s.%s = rgb(%s.x * %s.r, %s.y * %s.g, %s.z * %s.b);", name, value, map, value,
+                      map, value, map);
+        else if (input->state == INPUT_VALUE)
+            text_line(text, "    s.%s = rgb(%s.x, %s.y, %s.z);", name, value, value, value);
+        else
+            text_line(text, "    s.%s = rgb_grey(%s);", name, input->state == INPUT_ONE ? "1.0" : "0.0");
+        break;
+    case INPUT_NORMAL:
+        if (mapped)
+            text_line(text, "    s.%s = texel_normal(%s.r, %s.g, %s.b, %s.x);", name, map, map, map, value);
+        else
+            text_line(text, "    s.%s = dir(0.0, 0.0, 1.0);", name);
+        break;
+    case INPUT_DIRECTION:
+        if (mapped)
+            text_line(text, "    s.%s = texel_direction(%s.r, %s.g, %s.x, %s.y);", name, map, map, value,
+                      value);
+        else if (input->state == INPUT_ZERO)
+            text_line(text, "    s.%s = dir(1.0, 0.0, 0.0);", name);
+        else
+            text_line(text, "    s.%s = dir(%s.x, %s.y, 0.0);", name, value, value);
+        break;
+    }
+}
+
+static void put_surface(Text *text, const ShaderKey *key) {
+    text_include(text, "shading/texel.h");
+    if (key->colored) text_line(text, "\nin highp vec4 vertex_color;");
+    text_line(text, "\nSurface material_surface() {\n    Surface s;");
+    for (int k = 0; k < INPUT_COUNT; k++) put_texel(text, key, k);
+    for (int k = 0; k < INPUT_COUNT; k++) put_input(text, key, k);
+    if (key->colored)
+        text_line(text, "    s.base_color = rgb_mul(s.base_color, rgb(vertex_color.r, vertex_color.g, "
+                        "vertex_color.b));\n    s.opacity = s.opacity * vertex_color.a;");
+    text_line(text, "    return s;\n}");
+    text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
+              key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
+    text_line(text, "\nfloat coverage_of(float opacity) {");
+    if (key->alpha_mode == ALPHA_MASK) text_line(text, "    if (opacity < material_more.x) discard;");
+    text_line(text, "    return %s;\n}", key->alpha_mode == ALPHA_BLEND ? "clamp(opacity, 0.0, 1.0)" : "1.0");
+}
+
+void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
+    text_begin(text, desc);
+    put_lobes(text, key);
+    put_composition(text, &key->choices);
+    put_choices(text, &key->choices);
+    put_uniforms(text, key);
+    put_table(text, key);
+    put_surface(text, key);
+    text_include(text, "raster/glsl/forward.glsl");
+}
+
+void shader_vertex_text(const TextDesc *desc, Text *text) {
+    text_begin(text, &(TextDesc){.language = desc->language, .folder = desc->folder});
+    text_include(text, "raster/glsl/vertex.glsl");
+}

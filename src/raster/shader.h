@@ -1,0 +1,37 @@
+/* shader.h - the text of a shader for a material, from the catalogue
+ *
+ * What a material is made from is in the text, its numbers are uniforms: one key, one program. */
+#ifndef WEFT_RASTER_SHADER_H
+#define WEFT_RASTER_SHADER_H
+
+#include "scene/scene.h"
+#include "shading/surface.h"
+#include "shading/table.h"
+#include "text/text.h"
+
+/* How a shader finds an input. Numbers that leave something out altogether are in the text, so that it falls
+ * away. */
+typedef enum InputState { INPUT_VALUE, INPUT_ZERO, INPUT_ONE, INPUT_MAP } InputState;
+
+typedef struct ShaderInput {
+    int8_t state;
+    int8_t slot, channel, texcoord; /* of a map: sampler, channel of a number, UV set */
+    int8_t like;                    /* the earlier input whose texel this is, or -1 */
+} ShaderInput;
+
+/* Compared byte by byte: zero-initialise. */
+typedef struct ShaderKey {
+    Choices choices;
+    ShaderInput inputs[INPUT_COUNT];
+    int alpha_mode, unlit, double_sided, colored;
+    int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
+} ShaderKey;
+
+/* Puts the fragment shader into text, which the caller ends and frees. Behind the tables that the text names,
+ * weft_tables is to hold those of the scene's sheens. */
+void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text);
+
+/* The vertex shader likewise. */
+void shader_vertex_text(const TextDesc *desc, Text *text);
+
+#endif

@@ -1,0 +1,27 @@
+/* target.h - what a picture is drawn into: linear colours of 16 bits, several samples a pixel, and their mean
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_TARGET_H
+#define WEFT_RASTER_TARGET_H
+
+#include "weft/image.h"
+
+typedef struct Target {
+    int width, height, samples;
+    unsigned drawn, resolved; /* framebuffers; the same with one sample */
+    unsigned color, depth;    /* renderbuffers of drawn */
+    unsigned mean;            /* texture of resolved */
+} Target;
+
+/* Makes it as asked; does nothing where it is so already. samples is cut to what the driver has. Fails with
+ * WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT; it is then empty. */
+WeftResult target_resize(Target *target, int width, int height, int samples, WeftError *error);
+void target_destroy(Target *target);
+
+/* Makes the mean of the samples, which `resolved` then holds. */
+void target_resolve(const Target *target);
+
+/* F32 RGBA, premultiplied colours divided by their alpha. */
+WeftResult target_read(const Target *target, WeftImage *out, WeftError *error);
+
+#endif

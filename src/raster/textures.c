@@ -1,0 +1,208 @@
+#include "raster/textures.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "raster/check.h"
+
+/* What the layers of one array texture have in common. */
+typedef struct Group {
+    int width, height;
+    GLenum format; /* of the driver's texels */
+    Wrap wrap_u, wrap_v;
+    bool nearest;
+    int layers;
+} Group;
+
+typedef struct Plan {
+    const WeftScene *scene;
+    Group *groups;
+    int count;
+    int side_most;   /* of the driver */
+    int layers_most; /* likewise */
+    bool one_size;
+    TexturePlace *places;
+} Plan;
+
+static bool input_is_color(const Material *material, int input) {
+    const Input *i = &material->inputs[input];
+    /* opacity is the alpha of a colour texture: the same texels, and alpha is never decoded */
+    return input_infos[input].kind == INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
+}
+
+static GLenum format_of(const WeftImage *image, bool color) {
+    if (image->type == WEFT_PIXEL_U8) return color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    return GL_RGBA16F; /* OpenGL ES 3.0 has no 16-bit integers that are filtered */
+}
+
+static bool same_group(const Plan *plan, const Group *a, const Group *b) {
+    bool size = plan->one_size || (a->width == b->width && a->height == b->height);
+    return size && a->format == b->format && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v &&
+           a->nearest == b->nearest;
+}
+
+static void place(Plan *plan, int texture, bool color) {
+    TexturePlace *at = &plan->places[2 * texture + color];
+    if (at->group >= 0) return;
+    const Texture *t = &plan->scene->textures[texture];
+    const WeftImage *image = &plan->scene->images[t->image];
+    int most = plan->side_most;
+    Group group = {image->width < most ? image->width : most,
+                   image->height < most ? image->height : most,
+                   format_of(image, color),
+                   t->wrap_u,
+                   t->wrap_v,
+                   t->nearest,
+                   0};
+    int k = 0;
+    while (k < plan->count &&
+           !(same_group(plan, &plan->groups[k], &group) && plan->groups[k].layers < plan->layers_most))
+        k++;
+    if (k == plan->count) plan->groups[plan->count++] = group;
+    Group *home = &plan->groups[k];
+    if (group.width > home->width) home->width = group.width;
+    if (group.height > home->height) home->height = group.height;
+    *at = (TexturePlace){k, home->layers++};
+}
+
+/* Places everything; the most groups that one material needs. */
+static int make_plan(Plan *plan) {
+    const WeftScene *scene = plan->scene;
+    int most = 0;
+    plan->count = 0;
+    for (int k = 0; k < 2 * scene->texture_count; k++) plan->places[k] = (TexturePlace){-1, 0};
+    for (int m = 0; m < scene->material_count; m++) {
+        int groups[INPUT_COUNT], count = 0;
+        for (int k = 0; k < INPUT_COUNT; k++) {
+            const Input *input = &scene->materials[m].inputs[k];
+            if (!input->texture) continue;
+            bool color = input_is_color(&scene->materials[m], k);
+            place(plan, input->texture - 1, color);
+            int group = plan->places[2 * (input->texture - 1) + color].group, g = 0;
+            while (g < count && groups[g] != group) g++;
+            if (g == count) groups[count++] = group;
+        }
+        if (count > most) most = count;
+    }
+    return most;
+}
+
+static GLenum wrap_of(Wrap wrap) {
+    return wrap == WRAP_CLAMP ? GL_CLAMP_TO_EDGE : wrap == WRAP_MIRROR ? GL_MIRRORED_REPEAT : GL_REPEAT;
+}
+
+static void make_group(GLuint texture, const Group *group) {
+    int levels = 1;
+    for (int side = group->width > group->height ? group->width : group->height; side > 1; side /= 2)
+        levels++;
+    bool whole = group->format != GL_RGBA16F;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    for (int level = 0, w = group->width, h = group->height; level < levels; level++) {
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, (GLint)group->format, w, h, group->layers, 0, GL_RGBA,
+                     whole ? GL_UNSIGNED_BYTE : GL_FLOAT, NULL);
+        w = w > 1 ? w / 2 : 1;
+        h = h > 1 ? h / 2 : 1;
+    }
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, (GLint)wrap_of(group->wrap_u));
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, (GLint)wrap_of(group->wrap_v));
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, group->nearest ? GL_NEAREST : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
+                    group->nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
+}
+
+/* Any image as four channels of the group's size: integers of 8 bits stay, others become floats, a colour of
+ * 16 bits decoded. texture_fetch scales. The image's own pixels where they will do. */
+static void *texels_of(const WeftScene *scene, int texture, bool color, const Group *group) {
+    const WeftImage *image = &scene->images[scene->textures[texture].image];
+    bool whole = group->format != GL_RGBA16F;
+    bool same = image->width == group->width && image->height == group->height;
+    if (whole && same && image->channels == 4) return image->pixels;
+    size_t width = (size_t)group->width, height = (size_t)group->height;
+    size_t size = whole ? 1 : sizeof(float);
+    unsigned char *all = alloc_array(width * height, 4 * size), *to = all;
+    Texture direct = scene->textures[texture];
+    direct.wrap_u = direct.wrap_v = WRAP_CLAMP;
+    if (same) direct.nearest = true;
+    const SrgbTable *srgb = color && !whole ? &scene->srgb : NULL;
+    for (size_t y = 0; all && y < height; y++)
+        for (size_t x = 0; x < width; x++, to += 4 * size) {
+            Texel t = texture_fetch(&direct, scene->images, srgb, ((float)x + 0.5f) / (float)width,
+                                    ((float)y + 0.5f) / (float)height);
+            if (!whole) memcpy(to, t.c, sizeof t.c);
+            for (size_t c = 0; whole && c < 4; c++) to[c] = (unsigned char)(t.c[c] * 255.0f + 0.5f);
+        }
+    return all;
+}
+
+static WeftResult fill_groups(GlTextures *self, const Plan *plan, WeftError *error) {
+    const WeftScene *scene = plan->scene;
+    for (int g = 0; g < plan->count; g++) make_group(self->groups[g], &plan->groups[g]);
+    for (int k = 0; k < 2 * scene->texture_count; k++) {
+        TexturePlace at = self->places[k];
+        if (at.group < 0) continue;
+        const Group *group = &plan->groups[at.group];
+        const WeftImage *image = &scene->images[scene->textures[k / 2].image];
+        void *texels = texels_of(scene, k / 2, k & 1, group);
+        if (!texels) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[at.group]);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, at.layer, group->width, group->height, 1, GL_RGBA,
+                        group->format == GL_RGBA16F ? GL_FLOAT : GL_UNSIGNED_BYTE, texels);
+        if (texels != image->pixels) free(texels);
+    }
+    for (int g = 0; g < plan->count; g++) {
+        glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[g]);
+        if (!plan->groups[g].nearest) glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    }
+    return gl_check(error, "textures");
+}
+
+WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLog *log, WeftError *error) {
+    *out = (GlTextures){0};
+    if (!scene->texture_count) return WEFT_OK;
+    size_t count = 2 * (size_t)scene->texture_count;
+    Plan plan = {.scene = scene};
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &plan.side_most);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &plan.layers_most);
+    plan.groups = alloc_array(count, sizeof(Group));
+    out->places = plan.places = alloc_array(count, sizeof(TexturePlace));
+    out->groups = alloc_array(count, sizeof(GLuint));
+    WeftResult result = WEFT_OK;
+    if (!plan.groups || !plan.places || !out->groups) {
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    } else if (make_plan(&plan) > TEXTURE_SLOTS) {
+        plan.one_size = true;
+        if (make_plan(&plan) > TEXTURE_SLOTS)
+            result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name,
+                          "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
+        else
+            warn(log, WEFT_MESSAGE_TEXTURES_SCALED, scene->name, NULL);
+    }
+    if (result == WEFT_OK) {
+        out->group_count = plan.count;
+        glGenTextures(plan.count, out->groups);
+        result = fill_groups(out, &plan, error);
+    }
+    free(plan.groups);
+    if (result != WEFT_OK) textures_destroy(out);
+    return result;
+}
+
+void textures_destroy(GlTextures *self) {
+    if (self->group_count) glDeleteTextures(self->group_count, self->groups);
+    free(self->groups);
+    free(self->places);
+    *self = (GlTextures){0};
+}
+
+TexturePlace textures_place(const GlTextures *self, const Input *input, bool color) {
+    return self->places[2 * (input->texture - 1) + color];
+}
+
+void textures_bind(const GlTextures *self, int group, int unit) {
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[group]);
+}

@@ -1,0 +1,38 @@
+/* textures.h - a scene's images in the driver's memory: those of one size, kind and wrap are layers of one
+ * array texture, so that a material with many maps needs few samplers
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_TEXTURES_H
+#define WEFT_RASTER_TEXTURES_H
+
+#include "scene/scene.h"
+
+/* Array textures that one material may read at once. */
+enum { TEXTURE_SLOTS = 8 };
+
+/* Where a texture of the scene is: looked up as a colour, decoded before it is filtered, or as plain numbers.
+ */
+typedef struct TexturePlace {
+    int group; /* -1: not uploaded */
+    int layer;
+} TexturePlace;
+
+typedef struct GlTextures {
+    unsigned *groups; /* array textures */
+    int group_count;
+    TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
+} GlTextures;
+
+/* Uploads what the materials that are worn look up, with smaller copies of it. Should a material need more
+ * than TEXTURE_SLOTS groups, images are scaled to one size, with a warning. Zero on failure:
+ * WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
+WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLog *log, WeftError *error);
+void textures_destroy(GlTextures *textures);
+
+/* Of what an input of a material looks up. */
+TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);
+
+/* Binds a group to a unit. */
+void textures_bind(const GlTextures *textures, int group, int unit);
+
+#endif
