@@ -70,6 +70,7 @@ typedef struct WeftRasterInfo {
     int samplers;       /* the most that one program has */
     int samples;        /* a pixel, of the last picture */
     double compile_seconds;
+    float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
     /* What the compiler says of a text that was changed and is not in use because of it; empty while all is
      * well. */
     char complaint[512];

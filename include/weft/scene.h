@@ -98,6 +98,25 @@ WEFT_API WeftResult weft_scene_set_environment_color(WeftScene *scene, const flo
 WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                          WeftError *error);
 
+typedef enum WeftLightKind {
+    WEFT_LIGHT_DIRECTIONAL = 0,
+    WEFT_LIGHT_POINT = 1,
+    WEFT_LIGHT_SPOT = 2
+} WeftLightKind;
+
+/* A punctual light, that of KHR_lights_punctual (Khronos Group, 2018-2020) in radiometric units. */
+typedef struct WeftLight {
+    WeftLightKind kind;
+    float position[3];  /* m; point, spot */
+    float direction[3]; /* that it travels, of any length but 0; directional, spot */
+    float color[3];     /* >= 0: W/m^2 across the beam (directional) or W/sr (point, spot) */
+    float range;        /* m, where it ends; 0: nowhere */
+    float inner, outer; /* spot: degrees from the axis, 0 <= inner <= outer <= 90; outer 0: 45 */
+} WeftLight;
+
+/* Adds it to the scene. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_scene_add_light(WeftScene *scene, const WeftLight *light, WeftError *error);
+
 #ifdef __cplusplus
 }
 #endif

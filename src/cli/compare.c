@@ -29,11 +29,16 @@ typedef struct Comparison {
 static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupted, WeftError *error) {
     const Request *request = all->request;
     WeftResult result = WEFT_OK;
-    for (int k = 0; k < request->dress.count && result == WEFT_OK && !*interrupted; k++) {
+    for (int k = 0; k < request_count(request) && result == WEFT_OK && !*interrupted; k++) {
         Shot *shot = &all->shots[k];
         shot->job = (Job){.request = request, .warnings = warnings, .number = k};
-        dress_label(&request->dress, k, shot->label);
+        if (request->engine == ENGINE_BOTH)
+            snprintf(shot->label, sizeof shot->label, "%s", k ? "raster" : "trace");
+        else
+            dress_label(&request->dress, k, shot->label);
+        shot->job.engine = request->engine == ENGINE_BOTH ? (Engine)k : request->engine;
         result = job_run(&shot->job, error);
+        job_close(&shot->job);
         *interrupted = shot->job.interrupted || result == WEFT_INTERRUPTED;
         if (result == WEFT_INTERRUPTED && k > 0) return WEFT_OK;
         if (result == WEFT_OK) all->count++;
@@ -73,6 +78,11 @@ static WeftResult measure(Comparison *all, WeftError *error) {
     return result;
 }
 
+/* What the pictures differ by. */
+static const char *varied(const Request *request) {
+    return request->engine == ENGINE_BOTH ? "engine" : request->dress.varied + 2;
+}
+
 /* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. One
  * picture has none of these. */
 static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
@@ -91,7 +101,7 @@ static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *er
                             .note = "of linear radiance, the channel that differs most"};
     }
     char caption[512];
-    snprintf(caption, sizeof caption, "%.200s, by %s", all->request->scene, all->request->dress.varied + 2);
+    snprintf(caption, sizeof caption, "%.200s, by %s", all->request->scene, varied(all->request));
     const WeftSheetDesc desc = {
         .caption = caption, .panels = panels, .count = rows * columns, .columns = columns};
     return weft_sheet_compose(&desc, sheet, error);
@@ -103,7 +113,8 @@ static void figures(const Comparison *all) {
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
         json_open(&json, NULL, '{');
-        json_text(&json, dress_varied(&all->request->dress), shot->label);
+        json_text(&json, all->request->engine == ENGINE_BOTH ? "engine" : dress_varied(&all->request->dress),
+                  shot->label);
         json_open(&json, "difference", '{');
         json_number(&json, "mean", shot->difference.mean);
         json_number(&json, "relmse", shot->difference.relmse);
@@ -121,7 +132,7 @@ static void summary(const Comparison *all, bool interrupted) {
     double seconds = 0.0;
     for (int k = 0; k < all->count; k++) seconds += all->shots[k].job.info.render_seconds;
     if (interrupted) snprintf(part, sizeof part, "interrupted at %d of ", all->count);
-    report(0, "%s%d pictures in %.2f s; wrote %s", part, all->request->dress.count, seconds,
+    report(0, "%s%d pictures in %.2f s; wrote %s", part, request_count(all->request), seconds,
            request_outputs_text(all->request, files));
 }
 
@@ -135,7 +146,7 @@ int compare_run(const Request *request, Warnings *warnings) {
     WeftResult result = trace_all(all, warnings, &interrupted, &error);
     if (result == WEFT_OK) result = measure(all, &error);
     if (result == WEFT_OK) result = compose(all, &sheet, &error);
-    if (result == WEFT_OK) result = request_outputs_write(request, &sheet, &sheet, &error);
+    if (result == WEFT_OK) result = request_outputs_write(request, NULL, &sheet, &sheet, &error);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {

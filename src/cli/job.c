@@ -41,10 +41,11 @@ WeftResult failure(WeftError *error, WeftResult result, const char *text) {
 /* Loads the scene and dresses and lights it: the asset first, then ever more particular wishes. */
 static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     const Request *request = job->request;
+    int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
     const WeftLog log = {.fn = warn, .user = job->warnings};
     const char *env = option_text(request->options, "--env");
     WeftResult result = weft_scene_load(request->scene, scene, &log, error);
-    if (result == WEFT_OK) result = dress_apply(&request->dress, job->number, *scene, &log, error);
+    if (result == WEFT_OK) result = dress_apply(&request->dress, picture, *scene, &log, error);
     if (result == WEFT_OK && request->env_is_color)
         result = weft_scene_set_environment_color(*scene, request->env_color, error);
     else if (result == WEFT_OK && env)
@@ -52,6 +53,8 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     if (result == WEFT_OK)
         result = weft_scene_set_environment_placement(*scene, (float)request->env_rotation,
                                                       (float)request->env_strength, error);
+    for (int k = 0; k < request->light_count && result == WEFT_OK; k++)
+        result = weft_scene_add_light(*scene, &request->lights[k], error);
     return result;
 }
 
@@ -70,10 +73,10 @@ static WeftResult nothing_gathered(WeftError *error) {
 static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     const Request *request = job->request;
     int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
-    double limit = request->time_limit / request->dress.count;
+    double limit = request->time_limit / request_count(request);
     char prefix[32] = "";
-    if (request->dress.count > 1)
-        snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request->dress.count);
+    if (request_count(request) > 1)
+        snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
     Progress progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(job), limit);
     WeftResult result = weft_render_run(render, spp, limit, on_progress, &progress);
     progress_finish(&progress);
@@ -84,16 +87,89 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     return result == WEFT_OK ? result : failure(error, result, "the render could not be finished");
 }
 
-static WeftResult trace(Job *job, const WeftScene *scene, WeftRender **render, WeftError *error) {
-    WeftRenderDesc desc = job->request->desc;
+/* A built-in scene has a camera that shows it best. */
+static const char *camera_of(const Job *job, const char *camera) {
+    if (!camera) camera = job->request->desc.camera;
     bool builtin = strncmp(job->request->scene, "builtin:", 8) == 0;
+    return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
+}
+
+static WeftResult trace(Job *job, const char *camera, WeftError *error) {
+    WeftRenderDesc desc = job->request->desc;
+    WeftRender *render = NULL;
+    desc.camera = camera;
     if (interrupt_seen()) return nothing_gathered(error);
-    if (!desc.camera && builtin && weft_scene_info(scene).camera_count > 0) desc.camera = "0";
-    WeftResult result = weft_render_create(scene, &desc, render, error);
+    WeftResult result = weft_render_create(job->scene, &desc, &render, error);
+    if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
+    if (result == WEFT_OK) result = gather(job, render, error);
+    if (result == WEFT_OK) result = weft_render_image(render, &job->linear, error);
+    weft_render_free(render);
+    if (result == WEFT_OK && job->info.non_finite > 0) {
+        char text[96];
+        snprintf(text, sizeof text, "%lld samples were not finite and were left out", job->info.non_finite);
+        warnings_add(job->warnings, true, text);
+    }
+    return result;
+}
+
+static WeftResult crop(const Job *job, WeftImage *image, WeftError *error) {
+    const int *c = job->request->desc.crop;
+    WeftImage part;
+    if (!c[2]) return WEFT_OK;
+    WeftResult result = weft_image_create(c[2], c[3], 4, WEFT_PIXEL_F32, &part, error);
     if (result != WEFT_OK) return result;
-    if (interrupt_seen()) return nothing_gathered(error);
-    result = gather(job, *render, error);
-    if (result == WEFT_OK) result = weft_render_image(*render, &job->linear, error);
+    for (int y = 0; y < c[3]; y++)
+        memcpy((float *)part.pixels + 4 * (size_t)y * (size_t)c[2],
+               (const float *)image->pixels + 4 * ((size_t)(c[1] + y) * (size_t)image->width + (size_t)c[0]),
+               4 * (size_t)c[2] * sizeof(float));
+    weft_image_free(image);
+    *image = part;
+    return WEFT_OK;
+}
+
+static WeftResult raster(Job *job, const char *camera, WeftError *error) {
+    const WeftRenderDesc *desc = &job->request->desc;
+    const WeftLog log = {.fn = warn, .user = job->warnings};
+    WeftRasterView view = {.width = desc->width,
+                           .height = desc->height,
+                           .samples = job->request->msaa,
+                           .camera = camera,
+                           .background = desc->background};
+    memcpy(view.background_color, desc->background_color, sizeof view.background_color);
+    WeftResult result = WEFT_OK;
+    if (!job->raster)
+        result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
+    double started = clock_seconds();
+    if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
+    if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
+    if (result != WEFT_OK) return result;
+    const WeftRasterInfo drawn = weft_raster_info(job->raster);
+    job->info = (WeftRenderInfo){.samples_per_pixel = drawn.samples,
+                                 .render_seconds = clock_seconds() - started,
+                                 .camera_fov = drawn.camera_fov};
+    memcpy(job->info.camera_eye, drawn.camera_eye, sizeof job->info.camera_eye);
+    memcpy(job->info.camera_target, drawn.camera_target, sizeof job->info.camera_target);
+    snprintf(job->driver, sizeof job->driver, "%s", drawn.driver);
+    if (*drawn.complaint) warnings_add(job->warnings, true, drawn.complaint);
+    return crop(job, &job->linear, error);
+}
+
+WeftResult job_open(Job *job, WeftError *error) {
+    const WeftRenderDesc *desc = &job->request->desc;
+    double started = clock_seconds();
+    job->width = desc->crop[2] ? desc->crop[2] : desc->width;
+    job->height = desc->crop[3] ? desc->crop[3] : desc->height;
+    WeftResult result = scene_open(job, &job->scene, error);
+    job->load_seconds = clock_seconds() - started;
+    if (result == WEFT_OK) job->triangles = weft_scene_info(job->scene).triangle_count;
+    return result;
+}
+
+WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
+    weft_image_free(&job->linear);
+    weft_image_free(&job->display);
+    camera = camera_of(job, camera);
+    WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
     if (result == WEFT_OK)
         result = weft_image_tonemap(&job->linear, (WeftTonemap)job->request->tonemap,
                                     (float)job->request->exposure, &job->display, error);
@@ -101,29 +177,19 @@ static WeftResult trace(Job *job, const WeftScene *scene, WeftRender **render, W
 }
 
 WeftResult job_run(Job *job, WeftError *error) {
-    const WeftRenderDesc *desc = &job->request->desc;
-    WeftScene *scene = NULL;
-    WeftRender *render = NULL;
-    double started = clock_seconds();
-    job->width = desc->crop[2] ? desc->crop[2] : desc->width;
-    job->height = desc->crop[3] ? desc->crop[3] : desc->height;
-    WeftResult result = scene_open(job, &scene, error);
-    job->load_seconds = clock_seconds() - started;
-    if (result == WEFT_OK) {
-        job->triangles = weft_scene_info(scene).triangle_count;
-        result = trace(job, scene, &render, error);
-    }
-    if (result == WEFT_OK && job->info.non_finite > 0) {
-        char text[96];
-        snprintf(text, sizeof text, "%lld samples were not finite and were left out", job->info.non_finite);
-        warnings_add(job->warnings, true, text);
-    }
-    weft_render_free(render);
-    weft_scene_free(scene);
-    return result;
+    WeftResult result = job_open(job, error);
+    return result == WEFT_OK ? job_draw(job, NULL, error) : result;
+}
+
+void job_close(Job *job) {
+    weft_raster_free(job->raster);
+    weft_scene_free(job->scene);
+    job->raster = NULL;
+    job->scene = NULL;
 }
 
 void job_free(Job *job) {
+    job_close(job);
     weft_image_free(&job->linear);
     weft_image_free(&job->display);
 }
@@ -144,6 +210,8 @@ void job_json(const Job *job, Json *json) {
     const WeftRenderInfo *info = &job->info;
     int cursor = 0;
     json_text(json, "scene", request->scene);
+    json_text(json, "engine", job->engine == ENGINE_RASTER ? "raster" : "trace");
+    if (job->engine == ENGINE_RASTER) json_text(json, "driver", job->driver);
     json_integer(json, "triangles", job->triangles);
     json_integer(json, "width", job->width);
     json_integer(json, "height", job->height);
@@ -154,9 +222,11 @@ void job_json(const Job *job, Json *json) {
     json_number(json, "build", info->build_seconds);
     json_number(json, "render", info->render_seconds);
     json_close(json, '}');
-    json_integer(json, "rays", info->rays);
-    json_number(json, "samples_per_second", job_samples_per_second(job));
-    json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
+    if (job->engine == ENGINE_TRACE) {
+        json_integer(json, "rays", info->rays);
+        json_number(json, "samples_per_second", job_samples_per_second(job));
+        json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
+    }
     json_open(json, "camera", '{');
     json_floats(json, "eye", info->camera_eye, 3);
     json_floats(json, "target", info->camera_target, 3);

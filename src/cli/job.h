@@ -1,4 +1,4 @@
-/* job.h - one picture at work: a scene loaded, dressed, lit and traced, and what is told of it */
+/* job.h - one picture at work: a scene loaded, dressed, lit and drawn by an engine, and what is told of it */
 #ifndef WEFT_CLI_JOB_H
 #define WEFT_CLI_JOB_H
 
@@ -15,18 +15,32 @@ typedef struct Warnings {
 typedef struct Job {
     const Request *request;
     Warnings *warnings;
-    int number;        /* of the picture among those of the request */
-    WeftImage linear;  /* owned, see job_free */
-    WeftImage display; /* owned */
-    WeftRenderInfo info;
+    int number;          /* of the picture among those of the request */
+    Engine engine;       /* TRACE or RASTER */
+    WeftScene *scene;    /* owned, see job_free */
+    WeftRaster *raster;  /* owned; NULL of the path tracer */
+    WeftImage linear;    /* owned, see job_free */
+    WeftImage display;   /* owned */
+    WeftRenderInfo info; /* of the rasteriser: samples, seconds and camera */
+    char driver[128];    /* of OpenGL */
     long long triangles;
     double load_seconds;
     int width, height; /* of the picture, which a crop makes smaller */
     bool interrupted;
 } Job;
 
-/* Makes the picture. An interruption is noted; only one before the first sample is a failure. */
+/* Loads, dresses and lights the scene. */
+WeftResult job_open(Job *job, WeftError *error);
+
+/* Makes the picture through a camera, NULL: the request's. Needs job_open. An interruption is noted; only one
+ * before the first sample is a failure. */
+WeftResult job_draw(Job *job, const char *camera, WeftError *error);
+
+/* Both. */
 WeftResult job_run(Job *job, WeftError *error);
+
+/* Releases the scene, and keeps the picture and what is told of it. */
+void job_close(Job *job);
 void job_free(Job *job);
 
 double job_samples_per_second(const Job *job);

@@ -2,21 +2,28 @@
 #include "compare.h"
 #include "interrupt.h"
 #include "report.h"
+#include "turntable.h"
 #include "verbs.h"
 #include "weft/weft.h"
 
 static void summary(const Job *job) {
     char files[REQUEST_FILES];
+    request_outputs_text(job->request, files);
+    if (job->engine == ENGINE_RASTER) {
+        report(0, "drawn in %.2f s by %s; wrote %s", job->info.render_seconds, job->driver, files);
+        return;
+    }
     report(0, "%s%.4g samples/pixel in %.2f s, %.2f M samples/s; wrote %s",
            job->interrupted ? "interrupted at " : "", job->info.samples_per_pixel, job->info.render_seconds,
-           1e-6 * job_samples_per_second(job), request_outputs_text(job->request, files));
+           1e-6 * job_samples_per_second(job), files);
 }
 
 static int single_run(const Request *request, Warnings *warnings) {
-    Job job = {.request = request, .warnings = warnings};
+    Job job = {.request = request, .warnings = warnings, .engine = request->engine};
     WeftError error = {0};
-    WeftResult result = job_run(&job, &error);
-    if (result == WEFT_OK) result = request_outputs_write(request, &job.linear, &job.display, &error);
+    WeftResult result = request->turntable ? turntable_run(&job, &error) : job_run(&job, &error);
+    if (result == WEFT_OK && !request->turntable)
+        result = request_outputs_write(request, NULL, &job.linear, &job.display, &error);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {
@@ -40,7 +47,7 @@ static int render_run(const Options *options) {
     if (result != 0) return result;
     interrupt_watch();
     Warnings warnings = {.quiet = request.quiet};
-    result = request.dress.count > 1 ? compare_run(&request, &warnings) : single_run(&request, &warnings);
+    result = request_count(&request) > 1 ? compare_run(&request, &warnings) : single_run(&request, &warnings);
     warnings_free(&warnings);
     return result;
 }
@@ -48,7 +55,7 @@ static int render_run(const Options *options) {
 const Verb verb_render = {
     .name = "render",
     .operands = "SCENE -o OUT [options]",
-    .help = "path traces a scene into pictures",
+    .help = "path traces a scene, or draws it with OpenGL, into pictures",
     .operands_least = 1,
     .operands_most = 1,
     .options = request_options,
@@ -68,6 +75,8 @@ const Verb verb_render = {
              "       --set '*.sheen_roughness=0.3'\n"
              "  weft render builtin:cloth -o sheet.png \\\n"
              "       --sheen ashikhmin-neubelt,charlie-neubelt\n"
-             "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n",
+             "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n"
+             "  weft render velvet.glb -o both.png --engine both --light \"sun;-1,-2,-1;3,3,3\"\n"
+             "  weft render velvet.glb -o turn.png --engine raster --turntable 36\n",
     .run = render_run,
 };

@@ -30,10 +30,23 @@ const Option request_options[] = {
         "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a studio]"),
     OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
     OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
+    OPTION_LIST("--light", "LIGHT",
+                "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\" or "
+                "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\", each x,y,z or r,g,b, cones in degrees"),
+    OPTION_NUMBER("--turntable", "COUNT", NULL, 1, 10000,
+                  "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
 
     DRESS_OPTIONS,
 
-    OPTION_HEADING("Sampling"),
+    OPTION_HEADING("Engine"),
+    OPTION_TEXT("--engine", "ENGINE", "trace",
+                "trace, the reference; raster, OpenGL; or both on a sheet, with their difference"),
+    OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
+    OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64,
+                  "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
+
+    OPTION_HEADING("Sampling of the path tracer"),
     OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
                   "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
@@ -92,6 +105,84 @@ static bool read_background(const Options *options, WeftRenderDesc *desc) {
     return good;
 }
 
+/* The next part of a text, up to a semicolon, as numbers. */
+static bool take_numbers(const char **text, int count, float *out) {
+    char part[128];
+    double v[3];
+    size_t size = strcspn(*text, ";");
+    if (size == 0 || size >= sizeof part) return false;
+    memcpy(part, *text, size);
+    part[size] = '\0';
+    *text += size + ((*text)[size] == ';');
+    if (!numbers_parse(part, count, v)) return false;
+    for (int k = 0; k < count; k++) out[k] = (float)v[k];
+    return true;
+}
+
+static bool parse_light(const char *text, WeftLight *light) {
+    static const char *const prefixes[] = {"sun;", "point;", "spot;"};
+    float cone[2] = {0.0f, 45.0f};
+    int kind = 0;
+    while (kind < 3 && strncmp(text, prefixes[kind], strlen(prefixes[kind])) != 0) kind++;
+    if (kind == 3) return false;
+    *light = (WeftLight){.kind = (WeftLightKind)kind};
+    text += strlen(prefixes[kind]);
+    bool good = (kind == 0 || take_numbers(&text, 3, light->position)) &&
+                (kind == 1 || take_numbers(&text, 3, light->direction)) &&
+                take_numbers(&text, 3, light->color);
+    if (good && kind == 2 && *text) good = take_numbers(&text, 2, cone);
+    light->inner = cone[0];
+    light->outer = cone[1];
+    return good && !*text;
+}
+
+static bool read_lights(const Options *options, Request *request) {
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--light", &cursor));) {
+        if (request->light_count == REQUEST_LIGHTS_MOST) {
+            report(WEFT_USAGE, "--light: more than %d", REQUEST_LIGHTS_MOST);
+            return false;
+        }
+        if (!parse_light(text, &request->lights[request->light_count++])) {
+            report(WEFT_USAGE,
+                   "--light: \"%.80s\" is not sun;x,y,z;r,g,b or point;x,y,z;r,g,b or "
+                   "spot;x,y,z;x,y,z;r,g,b;inner,outer",
+                   text);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What goes with a choice of engine, and what does not. */
+static bool read_engine(const Options *options, Request *request) {
+    static const char *const engines[] = {"trace", "raster", "both", NULL}; /* as Engine */
+    static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */
+    int engine = 0, kind = 0;
+    bool good = option_choice(options, "--engine", engines, &engine) &&
+                option_choice(options, "--gl", gl_versions, &kind) &&
+                option_integer(options, "--msaa", &request->msaa) &&
+                option_integer(options, "--turntable", &request->turntable) && read_lights(options, request);
+    request->engine = (Engine)engine;
+    request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
+                                       .shader_dir = option_text(options, "--shader-dir"),
+                                       .threads = request->desc.threads};
+    if (good && request->engine == ENGINE_BOTH && request->dress.count > 1) {
+        report(WEFT_USAGE, "--engine both: %s has several ids already; one option may",
+               request->dress.varied);
+        return false;
+    }
+    if (good && request->turntable && request_count(request) > 1) {
+        report(WEFT_USAGE, "--turntable: turns one picture, not a sheet of several");
+        return false;
+    }
+    return good;
+}
+
+int request_count(const Request *request) {
+    return request->engine == ENGINE_BOTH ? 2 : request->dress.count;
+}
+
 /* What reads as a color is a radiance and never the name of a file. */
 static bool read_env(const Options *options, Request *request) {
     const char *text = option_text(options, "--env");
@@ -146,7 +237,7 @@ bool request_read(const Options *options, Request *request) {
                 option_number(options, "--env-rotation", &request->env_rotation) &&
                 option_number(options, "--env-strength", &request->env_strength) &&
                 option_choice(options, "--tonemap", curves, &request->tonemap) &&
-                dress_read(options, &request->dress);
+                dress_read(options, &request->dress) && read_engine(options, request);
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
 }
@@ -159,7 +250,7 @@ int request_outputs_check(const Request *request) {
     for (const char *path; (path = option_next(options, "-o", &cursor));)
         if (!weft_image_suffix_known(path))
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
-        else if (request->dress.count > 1 && weft_image_suffix_linear(path))
+        else if (request_count(request) > 1 && weft_image_suffix_linear(path))
             return report(WEFT_USAGE, "%s: a sheet of several pictures is for looking at; write a .png",
                           path);
     for (cursor = 0; result == 0;) {
@@ -170,14 +261,28 @@ int request_outputs_check(const Request *request) {
     return result;
 }
 
-WeftResult request_outputs_write(const Request *request, const WeftImage *linear, const WeftImage *display,
-                                 WeftError *error) {
+/* "out.png" and "007" as "out-007.png"; NULL where memory is short. */
+static char *numbered(const char *path, const char *number) {
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    size_t size = strlen(path) + strlen(number) + 2;
+    int stem = dot && (!slash || dot > slash) ? (int)(dot - path) : (int)strlen(path);
+    char *name = malloc(size);
+    if (name) snprintf(name, size, "%.*s-%s%s", stem, path, number, path + stem);
+    return name;
+}
+
+WeftResult request_outputs_write(const Request *request, const char *number, const WeftImage *linear,
+                                 const WeftImage *display, WeftError *error) {
     int cursor = 0;
     WeftError other;
     WeftResult result = WEFT_OK;
     for (const char *path; (path = option_next(request->options, "-o", &cursor));) {
         const WeftImage *image = weft_image_suffix_linear(path) ? linear : display;
-        WeftResult written = weft_image_write(path, image, result == WEFT_OK ? error : &other);
+        char *name = number ? numbered(path, number) : NULL;
+        WeftResult written =
+            number && !name ? (WeftResult)report(WEFT_RESOURCES, "out of memory")
+                            : weft_image_write(name ? name : path, image, result == WEFT_OK ? error : &other);
+        free(name);
         if (result == WEFT_OK) result = written;
     }
     return result;

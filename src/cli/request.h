@@ -3,11 +3,15 @@
 #define WEFT_CLI_REQUEST_H
 
 #include "dress.h"
-#include "weft/render.h"
+#include "weft/raster.h"
 
 enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
 
 extern const Option request_options[];
+
+typedef enum Engine { ENGINE_TRACE, ENGINE_RASTER, ENGINE_BOTH } Engine;
+
+enum { REQUEST_LIGHTS_MOST = 64 };
 
 /* What the command line asks for, checked. */
 typedef struct Request {
@@ -21,7 +25,16 @@ typedef struct Request {
     bool env_is_color;
     float env_color[3];
     bool quiet;
+    Engine engine;
+    WeftRasterDesc raster;
+    int msaa;
+    int turntable; /* pictures around the scene; 0: one */
+    WeftLight lights[REQUEST_LIGHTS_MOST];
+    int light_count;
 } Request;
+
+/* How many pictures stand beside each other. */
+int request_count(const Request *request);
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool request_read(const Options *options, Request *request);
@@ -30,9 +43,10 @@ bool request_read(const Options *options, Request *request);
  * be known of the outputs before hours of rendering. Returns 0, or an exit code after one line. */
 int request_outputs_check(const Request *request);
 
-/* Writes every -o, linear or as displayed; one that fails does not keep the others from being written. */
-WeftResult request_outputs_write(const Request *request, const WeftImage *linear, const WeftImage *display,
-                                 WeftError *error);
+/* Writes every -o, linear or as displayed; one that fails does not keep the others from being written. number
+ * (may be NULL) comes before every suffix. */
+WeftResult request_outputs_write(const Request *request, const char *number, const WeftImage *linear,
+                                 const WeftImage *display, WeftError *error);
 
 /* Their names, comma between, in a buffer of the caller's. */
 enum { REQUEST_FILES = 512 };

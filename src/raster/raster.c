@@ -35,6 +35,7 @@ struct WeftRaster {
     unsigned plain;        /* sampler object: bilinear, no smaller copies */
     Item *solid, *blended; /* meshes in drawing order; one block, solid first */
     WeftError complaint;
+    Camera camera; /* of the last picture */
     double compile_seconds;
     char *shader_dir;
 };
@@ -186,15 +187,14 @@ static WeftResult draw_all(WeftRaster *self, const WeftRasterView *view, WeftErr
 
 WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, WeftError *error) {
     WeftRasterView view = *wanted;
-    Camera camera;
     GlOuter outer;
     set_defaults(self->scene, &view);
     WeftResult result = check_view(&view, error);
     if (result != WEFT_OK) return result;
     float aspect = (float)view.width / (float)view.height;
-    result = camera_find(self->scene, view.camera, aspect, &camera, error);
+    result = camera_find(self->scene, view.camera, aspect, &self->camera, error);
     if (result != WEFT_OK) return result;
-    View seen = view_of(&camera, aspect);
+    View seen = view_of(&self->camera, aspect);
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
     self->complaint = (WeftError){0};
@@ -235,6 +235,7 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .compiled = self->programs.compiled,
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
+    camera_tell(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {
         info.programs += p->name != 0;
         if (p->samplers > info.samplers) info.samplers = p->samplers;

@@ -94,3 +94,13 @@ View view_of(const Camera *camera, float aspect) {
                   .up = vec3_scale(camera->up, half),
                   .orthographic = camera->orthographic};
 }
+
+void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov) {
+    Vec3 middle = vec3_scale(vec3_add(scene->low, scene->high), 0.5f);
+    float depth = fmaxf(vec3_dot(vec3_sub(middle, camera->eye), camera->forward), 1e-3f);
+    Vec3 at = vec3_madd(camera->eye, camera->forward, depth);
+    const float e[3] = {camera->eye.x, camera->eye.y, camera->eye.z}, t[3] = {at.x, at.y, at.z};
+    memcpy(eye, e, sizeof e);
+    memcpy(target, t, sizeof t);
+    *fov = camera->yfov * (180.0f / 3.14159265f);
+}

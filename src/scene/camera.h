@@ -9,6 +9,10 @@
  * height. Fails with WEFT_MESSAGE_CAMERA_NAME. */
 WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out, WeftError *error);
 
+/* A camera as a person would type it: target is the point of its axis beside the scene's middle, fov
+ * vertical, degrees. */
+void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov);
+
 /* The rays of a picture through a camera. */
 typedef struct View {
     Vec3 eye, forward;

@@ -301,16 +301,8 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
 }
 
 WeftRenderInfo weft_render_info(const WeftRender *render) {
-    const Camera *c = &render->camera;
-    Vec3 middle = vec3_scale(vec3_add(render->scene->low, render->scene->high), 0.5f);
-    float depth = max(vec3_dot(vec3_sub(middle, c->eye), c->forward), 1e-3f);
-    Vec3 target =
-        vec3_madd(c->eye, c->forward, depth); /* the point of the view's axis beside the scene's middle */
-    WeftRenderInfo info = {.build_seconds = render->build_seconds,
-                           .render_seconds = render->render_seconds,
-                           .camera_eye = {c->eye.x, c->eye.y, c->eye.z},
-                           .camera_target = {target.x, target.y, target.z},
-                           .camera_fov = c->yfov * (180.0f / PI)};
+    WeftRenderInfo info = {.build_seconds = render->build_seconds, .render_seconds = render->render_seconds};
+    camera_tell(render->scene, &render->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     double samples = 0.0;
     for (int k = 0; k < render->tile_count; k++) {
         int x = k % render->tiles_across * TILE, y = k / render->tiles_across * TILE;
