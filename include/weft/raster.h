@@ -48,6 +48,7 @@ typedef struct WeftRasterView {
     const char *camera; /* as in WeftRenderDesc */
     WeftBackground background;
     float background_color[3];
+    int no_shadows;     /* not 0: lights reach every point that faces them */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
 } WeftRasterView;
 

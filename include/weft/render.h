@@ -44,6 +44,7 @@ typedef struct WeftRenderDesc {
     WeftSampling sampling;
     int pixel_centre; /* not 0: every camera ray goes through the middle of its pixel, no filter */
     int no_roulette;  /* not 0: paths end only at max_depth or where nothing is hit */
+    int no_shadows;   /* not 0: lights reach every point that faces them; to compare with other renderers */
 } WeftRenderDesc;
 
 typedef struct WeftRender WeftRender;

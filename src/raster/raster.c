@@ -32,7 +32,7 @@ struct WeftRaster {
     Programs programs;
     Target target;
     unsigned picture;      /* uniform buffer */
-    unsigned plain;        /* sampler object: bilinear, no smaller copies */
+    bool plain;            /* textures are without their smaller copies */
     Item *solid, *blended; /* meshes in drawing order; one block, solid first */
     WeftError complaint;
     Camera camera; /* of the last picture */
@@ -57,7 +57,6 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
-    glGenSamplers(1, &self->plain);
     return result == WEFT_OK ? gl_check(error, "a scene") : result;
 }
 
@@ -68,7 +67,6 @@ static void release(WeftRaster *self) {
     programs_destroy(&self->programs);
     target_destroy(&self->target);
     glDeleteBuffers(1, &self->picture);
-    glDeleteSamplers(1, &self->plain);
 }
 
 WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
@@ -149,6 +147,9 @@ static void begin(WeftRaster *self, const WeftRasterView *view) {
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glBindVertexArray(self->meshes.vertices);
+    bool plain = view->plain_textures != 0;
+    if (plain != self->plain) textures_filter(&self->textures, plain);
+    self->plain = plain;
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
 }
 
@@ -173,7 +174,6 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const WeftRasterView *vi
     else
         glEnable(GL_CULL_FACE);
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
-    for (int unit = 0; unit < material->group_count; unit++) glBindSampler((GLuint)unit, 0);
     meshes_draw(&self->meshes, mesh);
     return WEFT_OK;
 }

@@ -88,11 +88,12 @@ static const struct {
                ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
 
 /* The engines' tables that the composition names: each takes a while to make. */
-static void put_engines(Text *text, const char *file) {
+static void put_engines(Text *text, const char *file, const char *formula) {
     int which[ENGINE_COUNT], count = 0;
     const char *source = weft_catalogue_text(file);
     for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
-        if (source && strstr(source, engines[k].name)) which[count++] = engines[k].which;
+        if ((source && strstr(source, engines[k].name)) || strstr(formula, engines[k].name))
+            which[count++] = engines[k].which;
     text_engine_tables(text, which, count);
 }
 
@@ -104,15 +105,15 @@ static void put_composition(Text *text, const Choices *choices) {
     int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
     for (int k = 0; k < size; k++)
         if (file[k] == '-') file[k] = '_';
-    put_engines(text, file + strlen("shading/"));
-    text_provide(text, "shading/profile.h");
-    text_include(text, "shading/workflow.h");
-    text_include(text, file);
-    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
     Surface s = full_surface(0.5f);
     int albedo = compose_begin(s, *choices, dir(0.0f, 0.0f, 1.0f)).albedo;
     for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
         if (formulas[k].albedo == albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
+    put_engines(text, file + strlen("shading/"), rows);
+    text_provide(text, "shading/profile.h");
+    text_include(text, "shading/workflow.h");
+    text_include(text, file);
+    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
     text_include(text, "shading/compose.h");
 }

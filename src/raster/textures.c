@@ -206,3 +206,13 @@ void textures_bind(const GlTextures *self, int group, int unit) {
     glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[group]);
 }
+
+void textures_filter(const GlTextures *self, bool plain) {
+    for (int g = 0; g < self->group_count; g++) {
+        GLint magnified;
+        glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[g]);
+        glGetTexParameteriv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, &magnified);
+        glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
+                        plain || magnified == GL_NEAREST ? magnified : GL_LINEAR_MIPMAP_LINEAR);
+    }
+}

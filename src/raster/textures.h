@@ -32,6 +32,9 @@ void textures_destroy(GlTextures *textures);
 /* Of what an input of a material looks up. */
 TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);
 
+/* From now on they are looked up without, or again with, their smaller copies. */
+void textures_filter(const GlTextures *textures, bool plain);
+
 /* Binds a group to a unit. */
 void textures_bind(const GlTextures *textures, int group, int unit);
 

@@ -100,8 +100,8 @@ static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb th
         shadow.direction = vec3_normal_or(to, light.wi);
         shadow.far = d * (1.0f - 1e-4f);
     }
-    ++*rays;
-    if (geometry_occluded(context->geometry, shadow)) return;
+    *rays += context->shadows;
+    if (context->shadows && geometry_occluded(context->geometry, shadow)) return;
     float weight = light.punctual ? 1.0f : mis_weight(context, WEFT_SAMPLING_LIGHT, light.pdf, value.pdf);
     Rgb arriving = {f.r * light.radiance.r, f.g * light.radiance.g, f.b * light.radiance.b};
     add(sum, throughput, arriving, weight / light.pdf);

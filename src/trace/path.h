@@ -25,7 +25,7 @@ typedef struct PathContext {
     const PathMaterial *materials; /* beside the scene's */
     int max_depth;
     WeftSampling sampling;
-    bool roulette;
+    bool roulette, shadows;
 } PathContext;
 
 /* Radiance that comes back along a camera ray whose nearest hit is known; counts rays traced. */

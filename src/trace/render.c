@@ -143,7 +143,8 @@ static WeftResult build(WeftRender *render, WeftError *error) {
                                         .materials = render->materials,
                                         .max_depth = d->max_depth,
                                         .sampling = d->sampling,
-                                        .roulette = !d->no_roulette};
+                                        .roulette = !d->no_roulette,
+                                        .shadows = !d->no_shadows};
     return result;
 }
 
