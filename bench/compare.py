@@ -16,7 +16,6 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WEFT = ROOT / "build/release/weft"
-RELMSE = ROOT / "build/release/bench/bench_relmse"
 CHAIR = ROOT.parent / "shared/data/gltf/SheenChair/SheenChair.gltf"
 STUDIO = ROOT.parent / "shared/data/env/studio_small_03_1k.hdr"
 QUICK = "--quick" in sys.argv
@@ -46,7 +45,8 @@ def cycles(scene, out, common, extra):
 
 
 def relmse(a, b):
-    return float(subprocess.run([RELMSE, a, b], check=True, capture_output=True, text=True).stdout)
+    command = [WEFT, "diff", a, b, "--metric", "relmse", "--json"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["value"]
 
 
 def compare(name, weft_scene, cycles_scene, light, folder):

@@ -13,6 +13,7 @@ typedef struct WeftPanel {
     const WeftImage *image;   /* U8, 3 or 4 channels, shown pixel for pixel; NULL: none */
     const char *title, *note; /* below it: what it shows, and figures */
     float scale;              /* > 0 and no image: the colours of weft_difference_image of this scale */
+    float none, most;         /* of an image of weft_heat_image: its colours below it; the same: not that */
 } WeftPanel;
 
 enum { WEFT_SHEET_PANELS_MAX = 256 };
@@ -44,6 +45,11 @@ WEFT_API WeftResult weft_difference(const WeftImage *image, const WeftImage *ref
  * scale (> 0) and beyond. */
 WEFT_API WeftResult weft_difference_image(const WeftImage *image, const WeftImage *reference, float scale,
                                           WeftImage *out, WeftError *error);
+
+/* A map of one channel, F32, in the colours of what is brighter above, U8 RGB: black at `none`, through red
+ * to yellow at `most` (below or above `none`) and beyond. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_heat_image(const WeftImage *map, float none, float most, WeftImage *out,
+                                    WeftError *error);
 
 #ifdef __cplusplus
 }

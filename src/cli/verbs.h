@@ -4,6 +4,6 @@
 
 #include "options.h"
 
-extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake;
+extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake, verb_diff;
 
 #endif

@@ -1,4 +1,21 @@
-#include "weft/image.h"
+#include "image/difference.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "image/srgb.h"
+#include "weft/render.h"
+
+/* (a - b)^2 / (b^2 + 1e-2) */
+static double relative_square(float image, float reference) {
+    const double b = (double)reference, off = (double)image - b;
+    return off * off / (b * b + 1e-2);
+}
 
 double weft_image_relmse(const WeftImage *a, const WeftImage *b) {
     if (a->type != WEFT_PIXEL_F32 || b->type != WEFT_PIXEL_F32 || a->width != b->width ||
@@ -7,9 +24,230 @@ double weft_image_relmse(const WeftImage *a, const WeftImage *b) {
     const float *image = a->pixels, *reference = b->pixels;
     size_t count = (size_t)a->width * (size_t)a->height * (size_t)a->channels;
     double sum = 0.0;
-    for (size_t i = 0; i < count; i++) {
-        double truth = (double)reference[i], off = (double)image[i] - truth;
-        sum += off * off / (truth * truth + 1e-2);
-    }
+    for (size_t i = 0; i < count; i++) sum += relative_square(image[i], reference[i]);
     return sum / (double)count;
+}
+
+static void relmse_map(const Pair *pair, float *map) {
+    float *const *a = pair->linear[0], *const *b = pair->linear[1];
+    for (size_t i = 0; i < pair_pixels(pair); i++) {
+        double sum = 0.0;
+        for (int c = 0; c < 3; c++) sum += relative_square(a[c][i], b[c][i]);
+        map[i] = (float)fmin(sum / 3.0, (double)FLT_MAX);
+    }
+}
+
+/* Non-negative floats are in the order of their bits: the upper half of the one wanted is found by counting
+ * all, then the lower by counting those that share the upper. */
+bool value_ranked(const float *values, size_t count, size_t rank, float *value) {
+    size_t *counts = alloc_array(1 << 16, sizeof *counts);
+    uint32_t found = 0;
+    if (!counts) return false;
+    for (int shift = 16; shift >= 0; shift -= 16) {
+        memset(counts, 0, (1 << 16) * sizeof *counts);
+        for (size_t i = 0; i < count; i++) {
+            uint32_t bits;
+            memcpy(&bits, &values[i], 4);
+            if (shift == 16 || bits >> 16 == found >> 16) counts[bits >> shift & 0xffff]++;
+        }
+        uint32_t half = 0;
+        for (; half < 0xffff && rank >= counts[half]; half++) rank -= counts[half];
+        found |= half << shift;
+    }
+    memcpy(value, &found, 4);
+    free(counts);
+    return true;
+}
+
+/* From images to pairs. */
+
+/* Not so large that a sum of channels overflows. */
+static float finite(float x) { return isfinite(x) ? fminf(fmaxf(x, -1e37f), 1e37f) : 0.0f; }
+
+/* What the integers of an image mean, as linear values (alpha: as they are); NULL where memory is short. */
+static float *decoding(WeftPixelType type) {
+    const int count = type == WEFT_PIXEL_U8 ? 1 << 8 : 1 << 16;
+    float *values = alloc_array((size_t)count, sizeof *values);
+    for (int k = 0; values && k < count; k++) values[k] = srgb_decode((float)k / (float)(count - 1));
+    return values;
+}
+
+/* Channel c of a pixel. */
+static float channel(const WeftImage *image, const float *decoded, size_t pixel, int c) {
+    const size_t at = pixel * (size_t)image->channels + (size_t)c;
+    const bool alpha = image->channels % 2 == 0 && c == image->channels - 1;
+    if (image->type == WEFT_PIXEL_F32) return finite(((const float *)image->pixels)[at]);
+    if (image->type == WEFT_PIXEL_U8) {
+        const uint8_t byte = ((const uint8_t *)image->pixels)[at];
+        return alpha ? (float)byte / 255.0f : decoded[byte];
+    }
+    const uint16_t word = ((const uint16_t *)image->pixels)[at];
+    return alpha ? (float)word / 65535.0f : decoded[word];
+}
+
+static bool over_black(const WeftImage *image, float *const linear[3]) {
+    float *decoded = image->type == WEFT_PIXEL_F32 ? NULL : decoding(image->type);
+    if (!decoded && image->type != WEFT_PIXEL_F32) return false;
+    const bool grey = image->channels < 3;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        const float alpha = image->channels % 2 ? 1.0f : channel(image, decoded, i, image->channels - 1);
+        for (int c = 0; c < 3; c++) linear[c][i] = finite(alpha * channel(image, decoded, i, grey ? 0 : c));
+    }
+    free(decoded);
+    return true;
+}
+
+/* A linear image as it is shown. Tone curves take colours: grey becomes one first. */
+static WeftResult show(const WeftImage *image, const WeftDiffDesc *desc, WeftImage *out, WeftError *error) {
+    if (image->channels >= 3) return weft_image_tonemap(image, desc->tonemap, desc->exposure, out, error);
+    WeftImage color;
+    const int alpha = image->channels == 2;
+    WeftResult result =
+        weft_image_create(image->width, image->height, 3 + alpha, WEFT_PIXEL_F32, &color, error);
+    if (result != WEFT_OK) return result;
+    const float *from = image->pixels;
+    float *to = color.pixels;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++, from += image->channels) {
+        for (int c = 0; c < 3; c++) *to++ = from[0];
+        if (alpha) *to++ = from[1];
+    }
+    result = weft_image_tonemap(&color, desc->tonemap, desc->exposure, out, error);
+    weft_image_free(&color);
+    return result;
+}
+
+static void pair_free(Pair *pair) { free(pair->linear[0][0]); }
+
+/* shown: linear images are tone-mapped first. */
+static WeftResult pair_make(const WeftDiffDesc *desc, bool shown, Pair *pair, WeftError *error) {
+    const WeftImage *const images[2] = {desc->image, desc->reference};
+    *pair = (Pair){.width = desc->image->width,
+                   .height = desc->image->height,
+                   .threads = desc->threads ? desc->threads : thread_count()};
+    if (pair->threads > WEFT_THREADS_MAX) pair->threads = WEFT_THREADS_MAX;
+    float *planes = alloc_array(pair_pixels(pair), 6 * sizeof *planes);
+    if (!planes) {
+        fail(error, WEFT_MESSAGE_MEMORY, "images to compare", NULL);
+        return WEFT_RESOURCES;
+    }
+    for (int k = 0; k < 6; k++) pair->linear[k / 3][k % 3] = planes + (size_t)k * pair_pixels(pair);
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < 2 && result == WEFT_OK; k++) {
+        WeftImage display = {0};
+        const WeftImage *image = images[k];
+        if (shown && image->type == WEFT_PIXEL_F32) {
+            result = show(image, desc, &display, error);
+            image = &display;
+        }
+        if (result == WEFT_OK && !over_black(image, pair->linear[k]))
+            result = fail(error, WEFT_MESSAGE_MEMORY, "images to compare", NULL);
+        weft_image_free(&display);
+    }
+    if (result != WEFT_OK) pair_free(pair);
+    return result;
+}
+
+/* The comparison. */
+
+static const char *const names[WEFT_METRIC_COUNT] = {"relmse", "flip", "ssim"};
+
+const char *weft_metric_name(WeftMetric metric) {
+    return (unsigned)metric < WEFT_METRIC_COUNT ? names[metric] : "";
+}
+
+static WeftResult check(const WeftDiffDesc *desc, WeftError *error) {
+    const WeftImage *a = desc->image, *b = desc->reference;
+    const float sight = desc->pixels_per_degree;
+    if (!a || !b || !a->pixels || !b->pixels)
+        return fail(error, WEFT_MESSAGE_DESC, "images to compare", "two are needed");
+    if (a->width != b->width || a->height != b->height)
+        return fail(error, WEFT_MESSAGE_DESC, "images to compare", "one is %d x %d pixels, the other %d x %d",
+                    a->width, a->height, b->width, b->height);
+    if ((unsigned)desc->metric >= WEFT_METRIC_COUNT || desc->threads < 0 || !isfinite(desc->exposure) ||
+        (unsigned)desc->tonemap > WEFT_TONEMAP_NONE)
+        return fail(error, WEFT_MESSAGE_DESC, "comparison", "metric %d, %d threads, curve %d, exposure %g",
+                    (int)desc->metric, desc->threads, (int)desc->tonemap, (double)desc->exposure);
+    if (!(sight >= 1.0f && sight <= 500.0f) && (sight < 0.0f || sight > 0.0f || isnan(sight)))
+        return fail(error, WEFT_MESSAGE_DESC, "pixels per degree", "%g is not in 1 .. 500", (double)sight);
+    return WEFT_OK;
+}
+
+/* How bad a value of a map is: 0 is the same. */
+static float badness(WeftMetric metric, float value) {
+    const float off = metric == WEFT_METRIC_SSIM ? 1.0f - value : value;
+    return off > 0.0f ? off : 0.0f;
+}
+
+/* The mean of a map; of ssim without the edge, where there is more than edge. */
+static double map_mean(const Pair *pair, const float *map, WeftMetric metric) {
+    const bool inner =
+        metric == WEFT_METRIC_SSIM && pair->width > 2 * SSIM_RADIUS && pair->height > 2 * SSIM_RADIUS;
+    const int edge = inner ? SSIM_RADIUS : 0;
+    double sum = 0.0;
+    for (int y = edge; y < pair->height - edge; y++)
+        for (int x = edge; x < pair->width - edge; x++)
+            sum += (double)map[(size_t)y * (size_t)pair->width + (size_t)x];
+    return sum / ((double)(pair->width - 2 * edge) * (double)(pair->height - 2 * edge));
+}
+
+/* Fills what out tells of a map; false where memory is short. */
+static bool summarise(const Pair *pair, WeftMetric metric, const float *map, WeftDiff *out) {
+    const size_t count = pair_pixels(pair);
+    float *bad = alloc_array(count, sizeof *bad);
+    size_t worst = 0;
+    if (!bad) return false;
+    for (size_t i = 0; i < count; i++) {
+        bad[i] = badness(metric, map[i]);
+        if (bad[i] > bad[worst]) worst = i;
+    }
+    const bool ranked = value_ranked(bad, count, (count - 1) - (count - 1) / 100, &out->high);
+    free(bad);
+    if (metric == WEFT_METRIC_SSIM) out->high = 1.0f - out->high;
+    out->value = map_mean(pair, map, metric);
+    out->worst = map[worst];
+    out->worst_x = (int)(worst % (size_t)pair->width);
+    out->worst_y = (int)(worst / (size_t)pair->width);
+    return ranked;
+}
+
+static bool make_map(const WeftDiffDesc *desc, const Pair *pair, bool bright, WeftDiff *out, float *map) {
+    const float sight = desc->pixels_per_degree > 0.0f ? desc->pixels_per_degree : 67.0f;
+    switch (desc->metric) {
+    case WEFT_METRIC_FLIP: return flip_map(pair, sight, bright, out, map);
+    case WEFT_METRIC_SSIM: return ssim_map(pair, map);
+    default: relmse_map(pair, map); return true;
+    }
+}
+
+WeftResult weft_diff(const WeftDiffDesc *desc, WeftDiff *out, WeftImage *map, WeftError *error) {
+    *out = (WeftDiff){0};
+    if (map) *map = (WeftImage){0};
+    WeftResult result = check(desc, error);
+    if (result != WEFT_OK) return result;
+    const bool linear = desc->image->type == WEFT_PIXEL_F32 && desc->reference->type == WEFT_PIXEL_F32;
+    const bool shown =
+        !linear || desc->metric == WEFT_METRIC_SSIM || (desc->metric == WEFT_METRIC_FLIP && desc->exposed);
+    Pair pair;
+    WeftImage own = {0};
+    result = pair_make(desc, shown, &pair, error);
+    if (result != WEFT_OK) return result;
+    result = weft_image_create(pair.width, pair.height, 1, WEFT_PIXEL_F32, &own, error);
+    if (result == WEFT_OK &&
+        !(make_map(desc, &pair, !shown, out, own.pixels) && summarise(&pair, desc->metric, own.pixels, out)))
+        result = fail(error, WEFT_MESSAGE_MEMORY, "images to compare", NULL);
+    pair_free(&pair);
+    if (result == WEFT_OK && map)
+        *map = own;
+    else
+        weft_image_free(&own);
+    return result;
+}
+
+double weft_diff_beyond(const WeftImage *map, WeftMetric metric, double limit) {
+    const size_t count = (size_t)map->width * (size_t)map->height;
+    const float *values = map->pixels;
+    size_t beyond = 0;
+    for (size_t i = 0; i < count; i++)
+        beyond += metric == WEFT_METRIC_SSIM ? (double)values[i] < limit : (double)values[i] > limit;
+    return (double)beyond / (double)count;
 }

@@ -89,3 +89,21 @@ WeftResult weft_difference_image(const WeftImage *image, const WeftImage *refere
     }
     return WEFT_OK;
 }
+
+WeftResult weft_heat_image(const WeftImage *map, float none, float most, WeftImage *out, WeftError *error) {
+    *out = (WeftImage){0};
+    if (map->type != WEFT_PIXEL_F32 || map->channels != 1 || !map->pixels)
+        return fail(error, WEFT_MESSAGE_DESC, "map", "F32 of one channel");
+    if (!isfinite(none) || !isfinite(most) || !(fabsf(most - none) > 0.0f))
+        return fail(error, WEFT_MESSAGE_DESC, "scale of a map", "%g to %g", (double)none, (double)most);
+    WeftResult result = weft_image_create(map->width, map->height, 3, WEFT_PIXEL_U8, out, error);
+    if (result != WEFT_OK) return result;
+    const float *value = map->pixels;
+    uint8_t *pixel = out->pixels;
+    for (size_t k = 0; k < pixel_count(map); k++) {
+        float rgb[3];
+        scale_color(fmaxf((value[k] - none) / (most - none), 0.0f), rgb);
+        for (int c = 0; c < 3; c++) *pixel++ = (uint8_t)(rgb[c] * 255.0f + 0.5f);
+    }
+    return WEFT_OK;
+}

@@ -20,6 +20,7 @@ typedef struct Layout {
     double type;                    /* size of titles */
     int column_width, image_height; /* of the largest panel */
     int margin, gap, caption, label;
+    int legend;   /* below labels: the colours of a map */
     bool stacked; /* notes stand below titles: side by side they would not fit */
     bool wrapped; /* a title takes two lines */
     int width, height;
@@ -122,13 +123,18 @@ static bool notes_fit(cairo_t *cairo, const Layout *layout, const WeftSheetDesc 
     return true;
 }
 
+static bool is_map(const WeftPanel *panel) {
+    return panel->image && (panel->none < panel->most || panel->none > panel->most);
+}
+
 static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     enum { NARROWEST = 240 };
     Layout layout = {.columns = desc->columns, .rows = (desc->count + desc->columns - 1) / desc->columns};
-    bool labels = false;
+    bool labels = false, maps = false;
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
         labels |= panel->title || panel->note;
+        maps |= is_map(panel);
         if (!panel->image) continue;
         if (panel->image->width > layout.column_width) layout.column_width = panel->image->width;
         if (panel->image->height > layout.image_height) layout.image_height = panel->image->height;
@@ -141,7 +147,8 @@ static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     layout.gap = (int)lround(0.6 * layout.type);
     layout.caption = desc->caption ? (int)lround(2.1 * layout.type) : 0;
     double lines = 2.1 + (layout.stacked ? 1.2 : 0.0) + (layout.wrapped ? 1.2 : 0.0);
-    layout.label = labels ? (int)lround(lines * layout.type) : 0;
+    layout.legend = maps ? (int)lround(2.4 * layout.type) : 0;
+    layout.label = layout.legend + (labels ? (int)lround(lines * layout.type) : 0);
     double width =
         2.0 * layout.margin + (double)layout.columns * (layout.column_width + layout.gap) - layout.gap;
     double height = 2.0 * layout.margin + layout.caption +
@@ -166,18 +173,41 @@ static void draw_label(cairo_t *cairo, const Layout *layout, const WeftPanel *pa
     write_text(cairo, dim, at, baseline + (layout->stacked ? 1.2 * layout->type : 0.0), room, panel->note);
 }
 
-/* A bar of the scale's colours in the middle of a panel, with numbers at its ends. */
-static void draw_scale(cairo_t *cairo, const Layout *layout, float scale, double x, double y) {
-    double width = 0.7 * layout->column_width, height = 0.9 * layout->type;
-    double left = x + 0.5 * (layout->column_width - width), top = y + 0.5 * (layout->image_height - height);
+/* A bar of the scale's colours from t = low to 1. */
+static void draw_bar(cairo_t *cairo, double left, double top, double width, double height, float low) {
     int steps = (int)width;
     for (int k = 0; k < steps; k++) {
         float rgb[3];
-        scale_color(2.0f * ((float)k + 0.5f) / (float)steps - 1.0f, rgb);
+        scale_color(low + (1.0f - low) * ((float)k + 0.5f) / (float)steps, rgb);
         cairo_set_source_rgb(cairo, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
         cairo_rectangle(cairo, floor(left) + k, floor(top), 1.0, floor(height));
         cairo_fill(cairo);
     }
+}
+
+/* The colours of a map below its label. */
+static void draw_legend(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
+    double width = layout->column_width, height = 0.7 * layout->type;
+    draw_bar(cairo, x, y + 0.5 * layout->type, width, height, 0.0f);
+    for (int k = 0; k < 3; k++) {
+        char number[48];
+        double share = 0.5 * k, value = (double)panel->none + share * (double)(panel->most - panel->none);
+        snprintf(number, sizeof number, "%.4g%s", value,
+                 k == 0                      ? " the same"
+                 : k == 1                    ? ""
+                 : panel->most > panel->none ? " and more"
+                                             : " and less");
+        set_font(cairo, note_size(layout), false);
+        write_text(cairo, bright, x + share * (width - text_width(cairo, number)),
+                   y + height + 1.6 * layout->type, width, number);
+    }
+}
+
+/* A bar in the middle of a panel, with words and numbers at its ends. */
+static void draw_scale(cairo_t *cairo, const Layout *layout, float scale, double x, double y) {
+    double width = 0.7 * layout->column_width, height = 0.9 * layout->type;
+    double left = x + 0.5 * (layout->column_width - width), top = y + 0.5 * (layout->image_height - height);
+    draw_bar(cairo, left, top, width, height, -1.0f);
     const char *const words[3] = {"darker", "same", "brighter"};
     for (int k = 0; k < 3; k++) {
         char number[32];
@@ -230,6 +260,8 @@ static void draw(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc
         int x, y;
         panel_place(layout, k, &x, &y);
         draw_label(cairo, layout, panel, x, y + layout->image_height);
+        if (is_map(panel))
+            draw_legend(cairo, layout, panel, x, y + layout->image_height + layout->label - layout->legend);
         if (!panel->image && panel->scale > 0.0f) draw_scale(cairo, layout, panel->scale, x, y);
     }
 }

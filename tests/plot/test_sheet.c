@@ -263,12 +263,55 @@ static void the_scale_is_drawn(void **state) {
     weft_image_free(&image);
 }
 
+/* A map's colours begin at `none` with black and end at `most`, whichever is larger; so do those of its
+ * legend, which stands below. */
+static void maps_become_heat(void **state) {
+    (void)state;
+    static const float ends[][2] = {{0.0f, 0.5f}, {1.0f, 0.5f}, {-1.0f, 3.0f}};
+    WeftImage map = image_of(300, 40, 1, WEFT_PIXEL_F32), heat;
+    for (size_t t = 0; t < sizeof ends / sizeof *ends; t++) {
+        const float none = ends[t][0], most = ends[t][1];
+        for (int k = 0; k < 300 * 40; k++)
+            ((float *)map.pixels)[k] = none + (most - none) * (1.5f * (float)(k % 300) / 300.0f - 0.25f);
+        assert_int_equal(weft_heat_image(&map, none, most, &heat, NULL), WEFT_OK);
+        const uint8_t *p = heat.pixels;
+        for (int x = 1; x < 300; x++) assert_true(luma(p + 3 * x) >= luma(p + 3 * x - 3));
+        assert_memory_equal(p, p + 3 * 49, 3);
+        assert_memory_equal(p + 3 * 299, p + 3 * 251, 3);
+        assert_true(luma(p) < 24.0f && luma(p + 3 * 299) > 220.0f);
+        WeftPanel panel = {.image = &heat, .title = "a map", .none = none, .most = most};
+        WeftImage with = compose(&(WeftSheetDesc){.panels = &panel, .count = 1, .columns = 1});
+        panel.most = none;
+        WeftImage without = compose(&(WeftSheetDesc){.panels = &panel, .count = 1, .columns = 1});
+        assert_int_equal(with.width, without.width);
+        assert_true(with.height > without.height + 12);
+        int last = 0, x = 0, y = 0;
+        assert_true(find(&with, &heat, &x, &y));
+        for (int row = y + 40; row < with.height; row++)
+            last += memcmp(at(&with, x + 299, row), p + 3 * 299, 3) == 0;
+        assert_true(last > 4);
+        weft_image_free(&heat), weft_image_free(&with), weft_image_free(&without);
+    }
+    const float wrong[][2] = {{0.0f, 0.0f}, {NAN, 1.0f}, {0.0f, INFINITY}};
+    for (int k = 0; k < 3; k++)
+        assert_int_equal(weft_heat_image(&map, wrong[k][0], wrong[k][1], &heat, NULL), WEFT_USAGE);
+    weft_image_free(&map);
+    map = image_of(4, 4, 3, WEFT_PIXEL_F32);
+    assert_int_equal(weft_heat_image(&map, 0.0f, 1.0f, &heat, NULL), WEFT_USAGE);
+    weft_image_free(&map);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_stay_as_they_are),    cmocka_unit_test(what_is_transparent_shows_the_sheet),
-        cmocka_unit_test(labels_stay_in_their_place),   cmocka_unit_test(wrong_sheets_are_refused),
-        cmocka_unit_test(figures_follow_their_formula), cmocka_unit_test(colors_tell_sign_and_size),
-        cmocka_unit_test(the_scale_is_drawn),           cmocka_unit_test(long_titles_take_two_lines),
+        cmocka_unit_test(maps_become_heat),
+        cmocka_unit_test(pictures_stay_as_they_are),
+        cmocka_unit_test(what_is_transparent_shows_the_sheet),
+        cmocka_unit_test(labels_stay_in_their_place),
+        cmocka_unit_test(wrong_sheets_are_refused),
+        cmocka_unit_test(figures_follow_their_formula),
+        cmocka_unit_test(colors_tell_sign_and_size),
+        cmocka_unit_test(the_scale_is_drawn),
+        cmocka_unit_test(long_titles_take_two_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
