@@ -34,9 +34,12 @@ endfunction()
 # embedded.c holds the built-in scene files.
 set(assembly "")
 set(code "typedef int embedded_file_is_not_empty;")
-set(file ${CMAKE_CURRENT_SOURCE_DIR}/scenes/cloth.glb)
-weft_embed(embedded_cloth_glb ${file})
-weft_embedded(embedded ${file})
+set(files "")
+foreach(name cloth sewing)
+  weft_embed(embedded_${name}_glb ${CMAKE_CURRENT_SOURCE_DIR}/scenes/${name}.glb)
+  list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/scenes/${name}.glb)
+endforeach()
+weft_embedded(embedded ${files})
 
 # presets.c holds the material files of scenes/presets, with their names and the line "help" of each.
 file(GLOB files CONFIGURE_DEPENDS scenes/presets/*.json)

@@ -8,14 +8,16 @@ convert.
 """
 
 import argparse
-import json
 import math
-import struct
+import os
 import sys
 
 import bpy
 import numpy as np
 from mathutils import bvhtree
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from parts import Glb, backdrop_part, grid_triangles, smooth_normals, softbox_part, swept_part, unit
 
 CLOTH_SIDE = 1.45  # m
 CLOTH_SHIFT = (0.035, 0.02)  # x and z of its middle before it falls; off the axis, so no two sides fall alike
@@ -66,11 +68,6 @@ def blender(p):
 def gltf(points):
     """From Blender's z-up to glTF's y-up, for an array of points."""
     return np.stack([points[:, 0], points[:, 2], -points[:, 1]], axis=1)
-
-
-def unit(v):
-    v = np.asarray(v, dtype=np.float64)
-    return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
 # ---- the drape: Blender's simulation -------------------------------------------------------------
@@ -184,27 +181,6 @@ def subdivide(grid):
 # ---- parts: dictionaries of glTF attributes and triangles ----------------------------------------
 
 
-def grid_triangles(rows, columns):
-    """Two triangles a cell of a grid stored row by row, split along alternating diagonals."""
-    j, i = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
-    a = (j * columns + i).ravel()
-    b, c, d = a + columns, a + columns + 1, a + 1
-    odd = ((i + j) % 2 == 1).ravel()[:, None]
-    first = np.where(odd, np.stack([a, b, d], 1), np.stack([a, b, c], 1))
-    second = np.where(odd, np.stack([b, c, d], 1), np.stack([a, c, d], 1))
-    return np.stack([first, second], 1).reshape(-1, 3)
-
-
-def smooth_normals(position, index):
-    """Vertex normals: the area-weighted mean of the triangles around."""
-    p = position[index]
-    face = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    normal = np.zeros_like(position)
-    for corner in range(3):
-        np.add.at(normal, index[:, corner], face)
-    return unit(normal)
-
-
 def cloth_part(grid):
     rows, columns, _ = grid.shape
     position = grid.reshape(-1, 3)
@@ -212,18 +188,6 @@ def cloth_part(grid):
     u, v = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
     uv = np.stack([u.ravel(), v.ravel()], 1) * CLOTH_SIDE / UV_SIZE
     return {"POSITION": position, "NORMAL": smooth_normals(position, index), "TEXCOORD_0": uv, "index": index}
-
-
-def swept_part(position, normal, uv):
-    """A part from a grid of points with normals; triangles face along them, empty ones are dropped."""
-    rows, columns, _ = position.shape
-    p, n = position.reshape(-1, 3), normal.reshape(-1, 3)
-    index = grid_triangles(rows, columns)
-    face = np.cross(p[index[:, 1]] - p[index[:, 0]], p[index[:, 2]] - p[index[:, 0]])
-    backwards = np.einsum("ij,ij->i", face, n[index].sum(1)) < 0
-    index[backwards] = index[backwards][:, ::-1]
-    index = index[np.linalg.norm(face, axis=1) > 1e-12]
-    return {"POSITION": p, "NORMAL": n, "TEXCOORD_0": uv.reshape(-1, 2), "index": index}
 
 
 def lathe_part(profile, segments):
@@ -236,8 +200,8 @@ def lathe_part(profile, segments):
     position, normal = radius * ring + y * up, out * ring + above * up
     length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(profile[:, :2], axis=0).T))])
     around = angle * profile[:, 0].max()
-    uv = np.stack(np.broadcast_arrays(around[None, :], length[:, None]), 2) / UV_SIZE
-    return swept_part(position, unit(normal), uv)
+    uv = np.stack(np.broadcast_arrays(around[None, :], length[:, None]), 2)
+    return swept_part(position, unit(normal), uv, UV_SIZE)
 
 
 def arc(radius, y, bevel, start, end, steps=6):
@@ -253,36 +217,6 @@ def plinth_parts(segments=192):
     body = [(0.0, h, 0, 1)] + edges + [(r - depth, gap, 0, -1)]
     foot = [(r - depth, gap, 1, 0), (r - depth, 0.0, 1, 0)]
     return [lathe_part(body, segments), lathe_part(foot, segments)]
-
-
-def floor_part():
-    """A photographer's sweep: floor, quarter round, wall."""
-    t = np.linspace(0, math.pi / 2, 49)
-    z = np.r_[FLOOR_FRONT, FLOOR_BACK - SWEEP_RADIUS * np.sin(t), FLOOR_BACK - SWEEP_RADIUS]
-    y = np.r_[0, SWEEP_RADIUS * (1 - np.cos(t)), WALL_TOP]
-    ny, nz = np.r_[1, np.cos(t), 0], np.r_[0, np.sin(t), 1]
-    x = np.array([-FLOOR_HALF_WIDTH, FLOOR_HALF_WIDTH])
-    grid = np.broadcast_arrays(x[None, :], y[:, None], z[:, None])
-    normal = np.broadcast_arrays(np.zeros((1, 2)), ny[:, None], nz[:, None])
-    length = np.concatenate([[0], np.cumsum(np.hypot(np.diff(z), np.diff(y)))])
-    uv = np.stack(np.broadcast_arrays(x[None, :], length[:, None]), 2) / UV_SIZE
-    return swept_part(np.stack(grid, 2), np.stack(normal, 2), uv)
-
-
-def frame_towards(eye, target):
-    """Right, up and back of something at eye that looks at target."""
-    back = unit(np.subtract(eye, target))
-    right = unit(np.cross([0.0, 1.0, 0.0], back))
-    return right, np.cross(back, right), back
-
-
-def softbox_part():
-    right, up, back = frame_towards(SOFTBOX_CENTRE, SOFTBOX_TARGET)
-    s = np.array([-0.5, 0.5])
-    u, v = np.meshgrid(s, s)
-    position = np.array(SOFTBOX_CENTRE) + SOFTBOX_SIDE * (u[..., None] * right + v[..., None] * up)
-    uv = np.stack([u + 0.5, 0.5 - v], 2)
-    return swept_part(position, np.broadcast_to(-back, position.shape), uv)
 
 
 # ---- checks --------------------------------------------------------------------------------------
@@ -303,70 +237,6 @@ def depth_below(part):
     return float(np.max([ball, plinth, -p[:, 1]]))
 
 
-# ---- glTF ----------------------------------------------------------------------------------------
-
-
-class Glb:
-    """Collects meshes, cameras and nodes; writes them as one binary glTF file."""
-
-    def __init__(self):
-        self.binary = bytearray()
-        self.views, self.accessors, self.meshes, self.nodes, self.cameras = [], [], [], [], []
-
-    def accessor(self, array, kind, target, bounds=False):
-        array = np.ascontiguousarray(array)
-        component = {"float32": 5126, "uint16": 5123, "uint32": 5125}[array.dtype.name]
-        self.binary += bytes(-len(self.binary) % 4)
-        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": array.nbytes,
-                           "target": target})
-        self.binary += array.tobytes()
-        entry = {"bufferView": len(self.views) - 1, "componentType": component,
-                 "count": array.size if kind == "SCALAR" else len(array), "type": kind}
-        if bounds:
-            entry["min"], entry["max"] = array.min(0).tolist(), array.max(0).tolist()
-        self.accessors.append(entry)
-        return len(self.accessors) - 1
-
-    def primitive(self, part, material):
-        index = part["index"].astype(np.uint16 if len(part["POSITION"]) < 65536 else np.uint32).ravel()
-        attributes = {name: self.accessor(part[name].astype(np.float32), kind, 34962, name == "POSITION")
-                      for name, kind in (("POSITION", "VEC3"), ("NORMAL", "VEC3"), ("TEXCOORD_0", "VEC2"))}
-        return {"attributes": attributes, "indices": self.accessor(index, "SCALAR", 34963),
-                "material": list(MATERIALS).index(material)}
-
-    def add_mesh(self, name, parts):
-        self.meshes.append({"name": name, "primitives": [self.primitive(part, name) for part in parts]})
-        self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
-
-    def add_camera(self, name, eye, target, fov):
-        self.cameras.append({"name": name, "type": "perspective", "perspective": {
-            "yfov": math.radians(fov), "aspectRatio": 4 / 3, "znear": 0.05, "zfar": 100.0}})
-        matrix = np.eye(4)
-        matrix[:3, 0], matrix[:3, 1], matrix[:3, 2] = frame_towards(eye, target)
-        matrix[:3, 3] = eye
-        columns = matrix.T.ravel().tolist()
-        self.nodes.append({"name": name, "camera": len(self.cameras) - 1, "matrix": columns})
-
-    def write(self, path):
-        document = {
-            "asset": {"version": "2.0", "generator": "weft scenes/cloth.py",
-                      "copyright": "The weft maintainers, MIT licence"},
-            "extensionsUsed": ["KHR_materials_sheen", "KHR_materials_emissive_strength"],
-            "scene": 0, "scenes": [{"name": "cloth", "nodes": list(range(len(self.nodes)))}],
-            "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
-            "materials": [{"name": name, **content} for name, content in MATERIALS.items()],
-            "accessors": self.accessors, "bufferViews": self.views,
-            "buffers": [{"byteLength": len(self.binary)}],
-        }
-        text = json.dumps(document, separators=(",", ":")).encode()
-        text += b" " * (-len(text) % 4)
-        binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
-        with open(path, "wb") as file:
-            file.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)))
-            file.write(struct.pack("<I4s", len(text), b"JSON") + text)
-            file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
-
-
 def main():
     parser = argparse.ArgumentParser(prog="cloth.py")
     parser.add_argument("output")
@@ -377,13 +247,13 @@ def main():
     cloth = cloth_part(turned(drape(arguments.cells, arguments.frames), CLOTH_TURN))
     print(f"cloth: {len(cloth['index'])} triangles, {crossings(cloth)} crossings, "
           f"deepest {1000 * depth_below(cloth):.1f} mm")
-    glb = Glb()
+    glb = Glb(MATERIALS)
     glb.add_mesh("Cloth", [cloth])
     glb.add_mesh("Plinth", plinth_parts())
-    glb.add_mesh("Floor", [floor_part()])
-    glb.add_mesh("Softbox", [softbox_part()])
+    glb.add_mesh("Floor", [backdrop_part(FLOOR_HALF_WIDTH, FLOOR_FRONT, FLOOR_BACK, SWEEP_RADIUS, WALL_TOP, UV_SIZE)])
+    glb.add_mesh("Softbox", [softbox_part(SOFTBOX_CENTRE, SOFTBOX_TARGET, SOFTBOX_SIDE, SOFTBOX_SIDE)])
     glb.add_camera("Main", CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV)
-    glb.write(arguments.output)
+    glb.write(arguments.output, "cloth", ["KHR_materials_sheen", "KHR_materials_emissive_strength"])
 
 
 main()

@@ -132,17 +132,39 @@ static void sheen_read(const Field *material, Input *inputs) {
                 "sheenRoughnessTexture", A);
 }
 
+/* An input that extras.weft has as a number or, of a colour, as three: radians where it is an angle. */
+static void own_read(const Field *weft, Input *inputs, const char *key, InputId id) {
+    const InputInfo *info = &input_infos[id];
+    bool angle = info->kind == INPUT_ANGLE || info->kind == INPUT_DIRECTION;
+    float unit = angle ? 0.0174532925f : 1.0f;
+    Field field = field_member(weft, key);
+    float low = info->hard_low * unit, high = info->hard_high * unit;
+    if (info->kind == INPUT_COLOR)
+        field_floats(&field, inputs[id].value, 3, low, high);
+    else
+        inputs[id].value[0] = (float)field_number(&field, (double)info->def, (double)low, (double)high);
+}
+
+static const struct {
+    const char *key;
+    InputId id;
+} own[] = {{"sheenDensity", INPUT_sheen_density},   {"dust", INPUT_dust},
+           {"dustColor", INPUT_dust_color},         {"dustRoughness", INPUT_dust_roughness},
+           {"dustFalloff", INPUT_dust_falloff},     {"dustTilt", INPUT_dust_tilt},
+           {"dustDirection", INPUT_dust_direction}, {"dustNoise", INPUT_dust_noise},
+           {"dustScale", INPUT_dust_scale}};
+enum { OWN = sizeof own / sizeof own[0] };
+
 /* extras.weft: what no extension of glTF says. Other extras are for others. */
 static void extras_read(const Field *material, Input *inputs) {
-    static const char *const keys[] = {"sheenDensity", "nap", "napRotation", "napTexture"};
+    static const char *const keys[] = {"nap", "napRotation", "napTexture", "dustTexture"};
     Field extras = field_member(material, "extras");
     if (!json_is_object(extras.json)) return;
     Field weft = field_member(&extras, "weft"), rotation = field_member(&weft, "napRotation"),
           texture = field_member(&weft, "napTexture");
-    const InputInfo *density = &input_infos[INPUT_sheen_density];
-    Field density_field = field_member(&weft, keys[0]);
-    inputs[INPUT_sheen_density].value[0] = (float)field_number(
-        &density_field, (double)density->def, (double)density->hard_low, (double)density->hard_high);
+    Field dust = field_member(&weft, "dustTexture");
+    for (size_t k = 0; k < OWN; k++) own_read(&weft, inputs, own[k].key, own[k].id);
+    texture_read(&dust, &inputs[INPUT_dust], R);
     scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 1.57079633f, "napTexture", B);
     inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
     texture_read(&texture, &inputs[INPUT_nap_direction], 0);
@@ -151,6 +173,7 @@ static void extras_read(const Field *material, Input *inputs) {
     json_object_foreach(weft.json, key, value) {
         bool known = false;
         for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) known |= strcmp(key, keys[k]) == 0;
+        for (size_t k = 0; k < OWN; k++) known |= strcmp(key, own[k].key) == 0;
         if (!known) field_warn(&weft, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", key);
     }
 }

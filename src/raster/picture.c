@@ -54,12 +54,25 @@ static void put_light(const Light *light, float to[4][4]) {
     memcpy(to[3], cone, sizeof cone);
 }
 
-void picture_make(const WeftScene *scene, const View *view, Picture *out) {
+static void put_shadow(const WeftScene *scene, const Shadow *shadow, float clip[16], float eye[4]) {
+    const View *view = &shadow->view;
+    const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
+                            view->orthographic ? shadow->texel : -shadow->texel};
+    put_matrix(scene, view, clip);
+    memcpy(eye, place, sizeof place);
+}
+
+void picture_make(const WeftScene *scene, const View *view, const Shadows *shadows, Picture *out) {
     int lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
+    *out = (Picture){0};
     put_matrix(scene, view, out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
     for (int k = 0; k < lights; k++) put_light(&scene->lights[k], out->lights[k]);
+    for (int k = 0; shadows && k < shadows->count; k++) {
+        put_shadow(scene, &shadows->all[k], out->shadow_clip[k], out->shadow_eye[k]);
+        if (shadows->of_light[k] < lights) out->lights[shadows->of_light[k]][2][3] = (float)k;
+    }
 }

@@ -1,8 +1,9 @@
-/* picture.h - the uniform block that all shaders of a picture share: camera and punctual lights */
+/* picture.h - the uniform block that all shaders of a picture share: camera, punctual lights and
+ * their shadows */
 #ifndef WEFT_RASTER_PICTURE_H
 #define WEFT_RASTER_PICTURE_H
 
-#include "scene/camera.h"
+#include "raster/shadow.h"
 
 enum { PICTURE_LIGHTS_MOST = 64 };
 
@@ -10,10 +11,11 @@ enum { PICTURE_LIGHTS_MOST = 64 };
 typedef struct Picture {
     float to_clip[16]; /* column after column */
     float eye[4], forward[4];
+    float shadow_clip[SHADOWS_MOST][16], shadow_eye[SHADOWS_MOST][4];
     float lights[PICTURE_LIGHTS_MOST][4][4];
 } Picture;
 
-/* What a scene looks like through a view. */
-void picture_make(const WeftScene *scene, const View *view, Picture *out);
+/* What a scene looks like through a view. shadows may be NULL. */
+void picture_make(const WeftScene *scene, const View *view, const Shadows *shadows, Picture *out);
 
 #endif

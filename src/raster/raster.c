@@ -12,6 +12,7 @@
 #include "raster/meshes.h"
 #include "raster/picture.h"
 #include "raster/programs.h"
+#include "raster/shadow.h"
 #include "raster/target.h"
 #include "weft/raster.h"
 
@@ -30,6 +31,7 @@ struct WeftRaster {
     GlTextures textures;
     GlMaterials materials;
     Programs programs;
+    Shadows shadows;
     Target target;
     unsigned picture;      /* uniform buffer */
     bool plain;            /* textures are without their smaller copies */
@@ -54,6 +56,7 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, desc->threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
+    if (result == WEFT_OK) result = shadows_create(scene, &self->shadows, error);
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
@@ -65,6 +68,7 @@ static void release(WeftRaster *self) {
     textures_destroy(&self->textures);
     materials_destroy(&self->materials);
     programs_destroy(&self->programs);
+    shadows_destroy(&self->shadows);
     target_destroy(&self->target);
     glDeleteBuffers(1, &self->picture);
 }
@@ -133,33 +137,47 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     for (int c = 0; c < 3; c++) view->background_color[c] = 0.62f; /* a light grey paper roll */
 }
 
-static void begin(WeftRaster *self, const WeftRasterView *view) {
-    glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
-    glViewport(0, 0, view->width, view->height);
+static void set_picture(WeftRaster *self, const View *view, const Shadows *shadows) {
+    Picture picture;
+    picture_make(self->scene, view, shadows, &picture);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
+    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
+}
+
+/* What every pass starts from. */
+static void set_state(WeftRaster *self) {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glBindVertexArray(self->meshes.vertices);
+}
+
+static void begin(WeftRaster *self, const WeftRasterView *view) {
+    glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
+    glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
     const float *c = view->background_color;
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glBindVertexArray(self->meshes.vertices);
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
+    if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SHADOW_DEPTH);
 }
 
-static WeftResult draw_mesh(WeftRaster *self, int mesh, const WeftRasterView *view, WeftError *error) {
+static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, WeftError *error) {
     int k = self->scene->meshes[mesh].material;
     const GlMaterial *material = &self->materials.all[k];
     WeftError said = {0};
     double start = now();
     int compiled = self->programs.compiled;
-    const Program *program = programs_get(&self->programs, &material->key, &said);
+    const Program *program = programs_get(&self->programs, key, &said);
     if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
     if (said.result != WEFT_OK) self->complaint = said;
     if (!program) {
@@ -178,10 +196,43 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const WeftRasterView *vi
     return WEFT_OK;
 }
 
+/* The key of what a material looks like from a light: where it is. */
+static ShaderKey depth_key(const ShaderKey *key) {
+    ShaderKey depth;
+    memset(&depth, 0, sizeof depth);
+    depth.depth = 1;
+    depth.alpha_mode = key->alpha_mode;
+    for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].like = -1;
+    for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].state = INPUT_ZERO;
+    if (key->alpha_mode == ALPHA_OPAQUE) return depth;
+    depth.colored = key->colored;
+    depth.inputs[INPUT_opacity] = key->inputs[INPUT_opacity];
+    depth.inputs[INPUT_opacity].like = -1;
+    return depth;
+}
+
+/* The maps stay as they are as long as the scene does. */
+static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
+        set_picture(self, &self->shadows.all[k].view, NULL);
+        shadows_begin(&self->shadows, k);
+        for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+            ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
+            result = draw_mesh(self, m, &key, error);
+        }
+    }
+    self->shadows.drawn = result == WEFT_OK;
+    return result;
+}
+
 static WeftResult draw_all(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++)
-        result = draw_mesh(self, m, view, error);
+    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+        ShaderKey key = self->materials.all[self->scene->meshes[m].material].key;
+        key.shadowed = self->shadows.count && !view->no_shadows;
+        result = draw_mesh(self, m, &key, error);
+    }
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
@@ -198,12 +249,12 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
     self->complaint = (WeftError){0};
-    Picture picture;
-    picture_make(self->scene, &seen, &picture);
-    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
-    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
-    result = target_resize(&self->target, view.width, view.height, view.samples, error);
+    set_state(self);
+    if (!view.no_shadows) result = draw_shadows(self, error);
+    if (result == WEFT_OK)
+        result = target_resize(&self->target, view.width, view.height, view.samples, error);
     if (result == WEFT_OK) {
+        set_picture(self, &seen, &self->shadows);
         begin(self, &view);
         result = draw_all(self, &view, error);
         target_resolve(&self->target);

@@ -63,10 +63,11 @@ static void find_slots(const Choices *choices, TextSlot slots[TEXT_SLOTS]) {
     }
 }
 
-/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
+/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others, and dust for its own. */
 static void put_lobes(Text *text, const ShaderKey *key) {
     TextSlot slots[TEXT_SLOTS] = {0};
-    int ids[2 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    if (key->inputs[INPUT_dust].state != INPUT_ZERO) ids[count++] = LOBE_LTC_FIBRE;
     find_slots(&key->choices, slots);
     for (int k = 0; k < TEXT_SLOTS; k++)
         for (int j = 0; j < slots[k].count; j++) ids[count++] = slots[k].lobes[j];
@@ -218,15 +219,32 @@ static void put_surface(Text *text, const ShaderKey *key) {
         text_line(text, "    s.base_color = rgb_mul(s.base_color, rgb(vertex_color.r, vertex_color.g, "
                         "vertex_color.b));\n    s.opacity = s.opacity * vertex_color.a;");
     text_line(text, "    return s;\n}");
-    text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
-              key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
+    text_line(text,
+              "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;\n"
+              "const bool MATERIAL_SHADOWED = %s;",
+              key->unlit ? "true" : "false", key->double_sided ? "true" : "false",
+              key->shadowed ? "true" : "false");
     text_line(text, "\nfloat coverage_of(float opacity) {");
     if (key->alpha_mode == ALPHA_MASK) text_line(text, "    if (opacity < material_more.x) discard;");
     text_line(text, "    return %s;\n}", key->alpha_mode == ALPHA_BLEND ? "clamp(opacity, 0.0, 1.0)" : "1.0");
 }
 
+/* Nothing but what is there: holes and what is less than half there let light through. */
+static void depth_text(const ShaderKey *key, Text *text) {
+    text_include(text, "shading/surface.h");
+    text_include(text, "shading/rgb.h");
+    put_uniforms(text, key);
+    put_surface(text, key);
+    text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;\n}");
+}
+
 void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
     text_begin(text, desc);
+    if (key->depth) {
+        depth_text(key, text);
+        return;
+    }
+    if (key->shadowed) text_define(text, "SHADOWED", "1");
     put_lobes(text, key);
     put_composition(text, &key->choices);
     put_choices(text, &key->choices);

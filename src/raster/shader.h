@@ -23,6 +23,8 @@ typedef struct ShaderInput {
 typedef struct ShaderKey {
     Choices choices;
     ShaderInput inputs[INPUT_COUNT];
+    int depth;    /* only where the surface is: for shadow maps */
+    int shadowed; /* by shadow maps */
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;

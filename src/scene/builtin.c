@@ -2,11 +2,14 @@
 
 #include "scene/spheres.h"
 
-extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[];
+extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[], embedded_sewing_glb[],
+    embedded_sewing_glb_end[];
 
 static const Builtin builtins[] = {
     {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb,
      embedded_cloth_glb_end, NULL},
+    {"sewing", "an old sewing machine that has gathered dust, cloth under its needle", embedded_sewing_glb,
+     embedded_sewing_glb_end, NULL},
     {"spheres", "sheen roughness 0.1 to 1 in five steps, over a dark and a light base", NULL, NULL,
      spheres_make},
 };

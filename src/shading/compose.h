@@ -7,6 +7,8 @@
 
 #include "shading/azimuth.h"
 #include "shading/convert.h"
+#include "shading/dust.h"
+#include "shading/dust_lobe.h"
 #include "shading/lobes/cook_torrance.h"
 #include "shading/lobes/ggx.h"
 #include "shading/lobes/silk.h"
@@ -92,6 +94,22 @@ FN SheenE stack_albedo(Stack m, Dir w) {
     return table_sheen_nap(m.table, w, m.nap, m.at);
 }
 
+/* Dust over all of it, where dust_settle found some. What lies below keeps 1 - E, E of white dust: what dark
+ * dust does not send back it keeps. So a white base under white dust returns what it receives. */
+FN Stack compose_dust(Stack m, Surface s, Dir o) {
+    if (s.dust <= DUST_LEAST) return m;
+    Lobe lobe = lobe_rough(LOBE_LTC_FIBRE, s.dust_roughness);
+    float e_1 = dust_albedo(lobe, o.z), weight = dust_weight(s.dust, e_1, o.z), e = weight * e_1;
+    Stack n = m;
+    n.diffuse = slot_dimmed(m.diffuse, 1.0f - e);
+    n.specular = slot_dimmed(m.specular, 1.0f - e);
+    n.sheen = slot_dimmed(m.sheen, 1.0f - e);
+    n.coat = slot_dimmed(m.coat, 1.0f - e);
+    n.left = m.left * (1.0f - e);
+    n.dust = slot_make(lobe, s.dust_color, s.dust_color, weight, e * rgb_mean(s.dust_color));
+    return n;
+}
+
 /* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
 FN Stack compose_finish(Stack m, TableRef e, Dir o) {
     m.table = e;
@@ -103,28 +121,31 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
         m.diffuse.pick = m.diffuse.pick * keep;
         if (m.layer != LAYER_SEED) m.specular.pick = m.specular.pick * keep;
     }
-    float sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick;
+    float sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick + m.dust.pick;
     /* a floor keeps every lobe reachable, so that no weight is unbounded */
     float most = sum > 0.0f ? 0.9375f / sum : 0.0f, least = 0.015625f, rest = 1.0f;
     m.diffuse.pick = m.diffuse.pick > 0.0f ? most * m.diffuse.pick + least : 0.0f;
     m.specular.pick = m.specular.pick > 0.0f ? most * m.specular.pick + least : 0.0f;
     m.sheen.pick = m.sheen.pick > 0.0f ? most * m.sheen.pick + least : 0.0f;
     m.coat.pick = m.coat.pick > 0.0f ? most * m.coat.pick + least : 0.0f;
-    sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick;
+    m.dust.pick = m.dust.pick > 0.0f ? most * m.dust.pick + least : 0.0f;
+    sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick + m.dust.pick;
     rest = sum > 0.0f ? 1.0f / sum : 0.0f;
     m.diffuse.pick = m.diffuse.pick * rest;
     m.specular.pick = m.specular.pick * rest;
     m.sheen.pick = m.sheen.pick * rest;
     m.coat.pick = m.coat.pick * rest;
+    m.dust.pick = m.dust.pick * rest;
     return m;
 }
 
 /* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E of the sheen's lobe over
- * its first parameter, where the stack without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. */
+ * its first parameter, where the stack without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust
+ * is what lies at this point: dust_settle says. */
 FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
     Surface t = convert_surface(s, c);
     Choices d = convert_choices(c);
-    return compose_finish(compose_choices(compose_begin(t, d, o), t, d), e, o);
+    return compose_finish(compose_dust(compose_choices(compose_begin(t, d, o), t, d), t, o), e, o);
 }
 
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
@@ -156,6 +177,11 @@ FN StackValue stack_value(Stack m, Angles a, Angles coat) {
         LobeValue v = sheen_at(m.sheen.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
         sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
+    }
+    if (m.dust.pick > 0.0f) {
+        LobeValue v = dust_value(m.dust.lobe, a);
+        sum.f_cos = rgb_add(sum.f_cos, slot_f(m.dust, v));
+        sum.pdf = sum.pdf + slot_pdf(m.dust, v);
     }
     sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
     if (m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {

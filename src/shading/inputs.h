@@ -7,8 +7,9 @@
 
 /* P(kind, name, default, low, high, hard_low, hard_high, help): low .. high is the plausible range, beyond
  * which a value is taken with a warning up to the hard range; colours use one number for all three channels.
- * SCALAR is a float, COLOR an Rgb, NORMAL a unit Dir in the tangent frame, DIRECTION an angle in the tangent
- * plane given as the Dir (cos, sin, 0), ANGLE a float in radians. The ranges of angles are in degrees. */
+ * SCALAR is a float, COLOR an Rgb, NORMAL a unit Dir in the tangent frame, DIRECTION an angle in a plane, the
+ * tangent's unless the help names another, given as the Dir (cos, sin, 0), ANGLE a float in radians. The
+ * ranges of angles are in degrees. */
 #define SURFACE_INPUTS(P)                                                                                    \
     P(COLOR, base_color, 0.8f, 0.0f, 1.0f, 0.0f, 1.0f,                                                       \
       "diffuse colour of a dielectric, reflectance of a metal")                                              \
@@ -49,7 +50,18 @@
     P(SCALAR, sheen_density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of the fibres of a sheen that has a density")  \
     P(ANGLE, nap, 0.0f, 0.0f, 45.0f, 0.0f, 90.0f, "how far the fibres of a sheen lean over, degrees")        \
     P(DIRECTION, nap_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f,                                             \
-      "where they lean to: angle from the tangent, degrees")
+      "where they lean to: angle from the tangent, degrees")                                                 \
+    P(SCALAR, dust, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "amount of dust on what looks up, over everything else")   \
+    P(COLOR, dust_color, 0.6f, 0.0f, 1.0f, 0.0f, 1.0f, "colour of the dust")                                 \
+    P(SCALAR, dust_roughness, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "1: grains, less: lint that stands upright")     \
+    P(SCALAR, dust_falloff, 1.0f, 0.5f, 8.0f, 0.1f, 64.0f,                                                   \
+      "how fast it thins as the surface turns away: a power of the cosine")                                  \
+    P(ANGLE, dust_tilt, 0.0f, 0.0f, 90.0f, 0.0f, 180.0f,                                                     \
+      "how far from straight above (+y) it comes, degrees")                                                  \
+    P(DIRECTION, dust_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f,                                            \
+      "from where then: angle from the world's +x to +z, degrees")                                           \
+    P(SCALAR, dust_noise, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "strength of its patches: 0 even, 1 bare between")   \
+    P(SCALAR, dust_scale, 0.05f, 0.001f, 10.0f, 1e-4f, 1e4f, "distance of its largest patches, metres")
 
 /* C(name, help). The value is an index into a list of the catalogue, or CHOICE_AUTO: what the workflow, or
  * the profile, says. So a choice that is made wins over a profile. */

@@ -25,9 +25,10 @@ StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed) {
 }
 
 const Slot *stack_pick(const Stack *stack, float *u) {
-    const Slot *slots[] = {&stack->diffuse, &stack->specular, &stack->sheen, &stack->coat}, *slot = NULL;
+    const Slot *slots[] = {&stack->diffuse, &stack->specular, &stack->sheen, &stack->coat, &stack->dust},
+               *slot = NULL;
     float begin = 0.0f, at = 0.0f;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         if (!(slots[k]->pick > 0.0f)) continue;
         if (slot && *u < at) break;
         slot = slots[k];

@@ -38,7 +38,7 @@ static Rgb let_through(const Stack *stack, Dir w) {
 /* One of the two layers by itself, the picks of what is left scaled to 1. */
 static Stack only(const Stack *stack, bool sheen) {
     Stack m = *stack;
-    m.coat.pick = 0.0f;
+    m.coat.pick = m.dust.pick = 0.0f;
     if (sheen)
         m.diffuse.pick = m.specular.pick = 0.0f;
     else
@@ -47,7 +47,7 @@ static Stack only(const Stack *stack, bool sheen) {
     m.diffuse.pick *= k, m.specular.pick *= k, m.sheen.pick *= k;
     m.color = rgb_grey(0.0f);
     m.layer = LAYER_ADDITIVE;
-    /* slots hold colour times what the coat lets through, which counts once and not at every bounce */
+    /* slots hold colour times what dust and coat let through, which counts once and not at every bounce */
     float back = 1.0f / max(m.left, 1e-6f);
     Slot *slots[] = {&m.diffuse, &m.specular, &m.sheen};
     for (int j = 0; j < 3; j++) {

@@ -1,6 +1,6 @@
-/* stack.h - a material at one point: a coat over a sheen over a specular and a diffuse lobe
+/* stack.h - a material at one point: dust over a coat over a sheen over a specular and a diffuse lobe
  *
- *   f cos = coat + sheen_keep sheen + base_keep (specular + under diffuse)
+ *   f cos = dust + dust_keep (coat + sheen_keep sheen + base_keep (specular + under diffuse))
  *   pdf   = sum pick_k pdf_k,  sum pick_k = 1
  *
  * What a slot weighs and how likely sampling picks it is known from wo alone. What depends on wi too - what
@@ -40,11 +40,11 @@ STRUCT(Slot) {
 #define ALBEDO_MATERIALX 5
 
 STRUCT(Stack) {
-    Slot diffuse, specular, sheen, coat;
+    Slot diffuse, specular, sheen, coat, dust;
     int under;
     Rgb under_f0;
     float under_f90;
-    float left; /* of what comes from below the coat, 1 without one */
+    float left; /* of what comes from below dust and coat, 1 without them */
     int layer, by;
     Rgb color;       /* of the sheen, as the layer rule sees it */
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
@@ -84,12 +84,23 @@ FN Slot slot_make(Lobe lobe, Rgb color, Rgb second, float weight, float share) {
     return s;
 }
 
+/* The same behind what lets that share through. */
+FN Slot slot_dimmed(Slot s, float share) {
+    Slot t = s;
+    t.f0 = rgb_scale(s.f0, share);
+    t.f90 = rgb_scale(s.f90, share);
+    t.sag = rgb_scale(s.sag, share);
+    t.pick = s.pick * share;
+    return t;
+}
+
 FN Stack stack_empty(void) {
     Stack m;
     m.diffuse = slot_empty();
     m.specular = m.diffuse;
     m.sheen = m.diffuse;
     m.coat = m.diffuse;
+    m.dust = m.diffuse;
     m.under = UNDER_NONE;
     m.under_f0 = rgb_grey(0.0f);
     m.under_f90 = 0.0f;

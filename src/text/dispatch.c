@@ -169,6 +169,16 @@ static void put_ids(Text *text, const bool there[LOBE_COUNT]) {
     }
 }
 
+/* What stands for shading/dust_lobe.h where its lobe is not there. */
+static void put_no_dust(Text *text) {
+    if (!text_provide(text, "shading/dust_lobe.h")) return;
+    text_line(text,
+              "\nfloat dust_weight(float dust, float e_1, float cos_o) { return 0.0; }\n"
+              "float dust_albedo(Lobe m, float cos_o) { return 0.0; }\n"
+              "LobeValue dust_value(Lobe m, Angles a) {\n    LobeValue v;\n    v.f = 0.0;\n    v.s = 0.0;\n"
+              "    v.pdf = 0.0;\n    v.tint = tint_none();\n    return v;\n}");
+}
+
 void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     bool there[LOBE_COUNT] = {false};
     int ids[LOBE_COUNT]; /* each once */
@@ -193,4 +203,5 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     put_at(text, ids, count);
     put_second(text, ids, count);
     put_sample(text, ids, count);
+    if (!there[LOBE_LTC_FIBRE]) put_no_dust(text);
 }

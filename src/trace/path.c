@@ -63,6 +63,7 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
                  .handedness = vertex.handedness * side};
     p->frame = frame_of(at, surface, dir_of(wo));
     surface = frame_surface(surface);
+    surface = dust_settle(surface, p->frame.z, dir_of(vertex.position));
     p->wo = to_local(p, wo);
     stack_make(&p->stack, &surface, &known->choices, known->sheen_e, p->wo);
     p->lit = true;

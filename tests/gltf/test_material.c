@@ -166,6 +166,37 @@ static void reads_the_nap(void **state) {
                    WEFT_MESSAGE_GLTF_REFERENCE, "napTexture.index: 0 of 0");
 }
 
+static void reads_the_dust(void **state) {
+    (void)state;
+    enum { R };
+    Reading *reading = read_material(
+        textures(), "'extras':{'weft':{'dust':0.4,'dustTexture':{'index':1},'dustColor':[0.5,0.25,0.125],"
+                    "'dustRoughness':0.7,'dustFalloff':3,'dustTilt':0.5,'dustDirection':-2,'dustNoise':0.9,"
+                    "'dustScale':0.2}}");
+    assert_read(reading);
+    assert_string_equal(reading->warning, "");
+    assert_input(reading, INPUT_dust, 0.4f, 0, 0, R);
+    assert_input(reading, INPUT_dust_color, 0.5f, 0.25f, 0.125f, -1);
+    assert_input(reading, INPUT_dust_roughness, 0.7f, 0, 0, -1);
+    assert_input(reading, INPUT_dust_falloff, 3, 0, 0, -1);
+    assert_input(reading, INPUT_dust_tilt, 0.5f, 0, 0, -1);
+    assert_input(reading, INPUT_dust_direction, -2, 0, 0, -1);
+    assert_input(reading, INPUT_dust_noise, 0.9f, 0, 0, -1);
+    assert_input(reading, INPUT_dust_scale, 0.2f, 0, 0, -1);
+    done(reading);
+    reading = read_material("", "'extras':{'weft':{'dust':7,'dustTilt':-1,'dustScale':-1,'dusst':1}}");
+    assert_read(reading);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED], 3);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
+    assert_input(reading, INPUT_dust, 1, 0, 0, -1);
+    assert_input(reading, INPUT_dust_tilt, 0, 0, 0, -1);
+    assert_input(reading, INPUT_dust_scale, 1e-4f, 0, 0, -1);
+    assert_input(reading, INPUT_dust_color, 0.6f, 0.6f, 0.6f, -1);
+    done(reading);
+    assert_refused(read_material("", "'extras':{'weft':{'dustColor':0.5}}"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "materials[0].extras.weft.dustColor");
+}
+
 static void transforms_textures(void **state) {
     (void)state;
     Reading *reading = read_material(
@@ -371,6 +402,7 @@ int main(void) {
         cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
         cmocka_unit_test(limits_images),       cmocka_unit_test(falls_back),
         cmocka_unit_test(reads_variants),      cmocka_unit_test(reads_the_nap),
+        cmocka_unit_test(reads_the_dust),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include "base/thread.h"
 #include "raster/compute.h"
 #include "shading/choice.h"
+#include "shading/dust.h"
 #include "shading/engine_tables.h"
 #include "shading/lobe_tables.h"
 #include "text/dispatch.h"
@@ -25,6 +26,8 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS
 #define RELATIVE 5e-4
 #define ABSOLUTE 1e-5
 #define TURN     1e-3
+/* So have patches of noise: a place is rounded before it is told how far it lies from the lattice. */
+#define PATCH 1e-4
 /* Only where inputs of the hard range and choices of all kinds are mixed may a few samples be beyond: colours
  * of 1e3 that cancel leave no more digits than they had. */
 #define MIXED_SHARE 1e-4 /* and one where there are few samples */
@@ -34,7 +37,7 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS
 typedef struct Subject {
     const char *body;
     int inputs;                     /* vec4 */
-    const char *answers;            /* a letter each: n a number, d part of a direction */
+    const char *answers;            /* a letter each: n a number, d part of a direction, p of noise */
     void (*put)(Text *, int which); /* declarations */
     void (*fill)(Random *, int which, float row[4 * INPUTS]);
     void (*answer)(int which, const float row[4 * INPUTS], float answers[ANSWERS]);
@@ -175,7 +178,9 @@ static Tally compare(const Subject *subject, int language) {
         double most = 0.0;
         for (size_t k = 0; subject->answers[k]; k++) {
             double c = (double)expected[ANSWERS * s + k], gpu = (double)out[language][k / 4][4 * s + k % 4];
-            double allowed = subject->answers[k] == 'd' ? TURN : RELATIVE * fabs(c) + ABSOLUTE;
+            double allowed = subject->answers[k] == 'd'   ? TURN
+                             : subject->answers[k] == 'p' ? PATCH
+                                                          : RELATIVE * fabs(c) + ABSOLUTE;
             double error = isfinite(gpu) && isfinite(c) ? fabs(gpu - c) / allowed : HUGE_VAL;
             if (error > tally.worst) {
                 tally.worst = error;
@@ -428,7 +433,7 @@ static void layers_agree(void **state) {
 /* A surface and its choices are numbers in a row behind the pair of directions. */
 enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
 enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
-_Static_assert((int)STACK_INPUTS == 17, "the body of stacks_agree reads as many");
+_Static_assert((int)STACK_INPUTS == 20, "the body of stacks_agree reads as many");
 
 /* Functions that make a Surface and Choices of the row. */
 static void put_readers(Text *text) {
@@ -549,8 +554,8 @@ static void stacks_agree(void **state) {
     (void)state;
     static const Subject subject = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
-            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15)
-                ROW(16) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
+            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18)
+                ROW(19) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
                         "lobe_table_charlie_neubelt(), o);\n"
                         "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
                         "    StackValue v = stack_value(m, a, coat);\n"
@@ -570,6 +575,56 @@ static void stacks_agree(void **state) {
     good &= programs_agree(&programs, which, "any choices", MIXED_SHARE);
     free_programs(&programs);
     assert_true(good);
+}
+
+static void put_dust(Text *text, int which) { text_include(text, "shading/dust.h"); }
+
+/* in0: normal, tilt.  in1: place, scale.  in2: direction, falloff, amount.  in3: strength of the noise. */
+static void fill_dust(Random *random, int which, float *row) {
+    Dir n = any_direction(random), to = any_direction(random);
+    float r = 1.0f / sqrtf(max(to.x * to.x + to.y * to.y, 1e-12f));
+    row[0] = n.x, row[1] = random_unit(random) < 0.25f ? -n.z : n.z, row[2] = n.y;
+    row[3] = any_value(random, 0.0f, 1.5f, 0.0f, PI);
+    for (int k = 4; k < 7; k++) row[k] = 2.0f * random_unit(random) - 1.0f;
+    row[7] = any_value(random, 0.02f, 0.1f, 0.02f, 10.0f);
+    row[8] = to.x * r, row[9] = to.y * r;
+    row[10] = any_value(random, 0.5f, 8.0f, 0.1f, 64.0f);
+    row[11] = any_value(random, 0.0f, 1.0f, 0.0f, 1.0f);
+    row[12] = any_value(random, 0.0f, 1.0f, 0.0f, 1.0f);
+}
+
+static void answer_dust(int which, const float *row, float *answers) {
+    Surface s = {.dust = row[11],
+                 .dust_tilt = row[3],
+                 .dust_direction = {row[8], row[9], 0.0f},
+                 .dust_falloff = row[10],
+                 .dust_noise = row[12],
+                 .dust_scale = row[7]};
+    Dir p = dir(row[4], row[5], row[6]);
+    answers[0] = dust_settle(s, dir(row[0], row[1], row[2]), p).dust;
+    answers[1] = dust_noise(p, row[7]);
+    answers[2] = dust_hash(floorf(289.0f * row[12]));
+}
+
+/* The noise has the same patches to 1e-4, the hash below it the same whole numbers. */
+static void dust_agrees(void **state) {
+    (void)state;
+    static const Subject subject = {
+        .body =
+            "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
+            "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
+            "    s.dust_noise = in3.x;\n    s.dust_scale = in1.w;\n    Dir p = dir(in1.x, in1.y, in1.z);\n"
+            "    out0.x = dust_settle(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
+            "    out0.y = dust_noise(p, in1.w);\n"
+            "    out0.z = dust_hash(floor(289.0 * in3.x));\n",
+        .inputs = 4,
+        .answers = "ppn",
+        .put = put_dust,
+        .fill = fill_dust,
+        .answer = answer_dust,
+    };
+    need_gpu();
+    assert_true(agree(&subject, 0, "dust"));
 }
 
 /* E of a tinted lobe, with s, q and e; and of one whose fibres lean, by one tilt and by all. */
@@ -738,10 +793,15 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_agree),  cmocka_unit_test(lobes_are_told_apart),
-        cmocka_unit_test(terms_agree),  cmocka_unit_test(layers_agree),
-        cmocka_unit_test(stacks_agree), cmocka_unit_test(tables_agree),
-        cmocka_unit_test(naps_agree),   cmocka_unit_test(a_wrong_text_is_found),
+        cmocka_unit_test(lobes_agree),
+        cmocka_unit_test(lobes_are_told_apart),
+        cmocka_unit_test(terms_agree),
+        cmocka_unit_test(layers_agree),
+        cmocka_unit_test(stacks_agree),
+        cmocka_unit_test(tables_agree),
+        cmocka_unit_test(naps_agree),
+        cmocka_unit_test(dust_agrees),
+        cmocka_unit_test(a_wrong_text_is_found),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -58,6 +58,12 @@ static void values_have_every_form(void **state) {
     assert_true(fabsf(inputs[INPUT_nap].value[0] - 0.523598776f) < 1e-6f);
     assert_true(fabsf(inputs[INPUT_nap_direction].value[0] + 0.785398163f) < 1e-6f);
     assert_true(inputs[INPUT_sheen_density].value[0] == 2.0f);
+    material_file_free(&file);
+    file = file_of("{\"dust\":0.5,\"dust_color\":\"#ffffff\",\"dust_tilt\":30,\"dust_noise\":1}", 0);
+    inputs = file.material.inputs;
+    assert_true(inputs[INPUT_dust].value[0] == 0.5f && inputs[INPUT_dust_noise].value[0] == 1.0f);
+    near(&inputs[INPUT_dust_color], 1.0f, 1.0f, 1.0f);
+    assert_true(fabsf(inputs[INPUT_dust_tilt].value[0] - 0.523598776f) < 1e-6f);
     /* what the file is silent on has its default */
     const Material plain = material_default("");
     assert_memory_equal(&inputs[INPUT_ior], &plain.inputs[INPUT_ior], sizeof *inputs);

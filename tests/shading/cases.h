@@ -200,6 +200,17 @@ static inline Surface random_surface(Random *random, bool tilt) {
     return s;
 }
 
+/* The same under white dust. */
+static inline Surface dusted(Surface s, float dust) {
+    s.dust = min(dust, 1.0f);
+    s.dust_color = (Rgb){1.0f, 1.0f, 1.0f};
+    s.dust_roughness = 1.0f;
+    s.dust_falloff = 1.0f;
+    s.dust_direction = dir(1.0f, 0.0f, 0.0f);
+    s.dust_scale = 0.05f;
+    return s;
+}
+
 /* Nothing chosen but a sheen and a layer rule. */
 static inline Choices test_choices(int sheen_lobe, int layer) {
     Choices c = choices_unmade();

@@ -95,6 +95,7 @@ static void no_surface_reflects_more_than_it_receives(void **state) {
     for (int k = 0; k < surfaces; k++) {
         Surface surface = random_surface(&random, k % 2);
         if (k % 4 < 2) surface.base_color = surface.specular_color = (Rgb){1.0f, 1.0f, 1.0f};
+        if (k % 5 == 0) surface = dusted(surface, random_unit(&random));
         for (int c = 0; c < 4; c++) {
             double error, cos_o = 0.02 + 0.98 * (double)random_unit(&random);
             Dir o = direction_cos(cos_o, 0.5 + k);

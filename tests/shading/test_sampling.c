@@ -82,6 +82,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
     for (int k = 0; k < (test_long() ? 30 : test_short() ? 3 : 12); k++) {
         fill_albedo(&table, (k % weft_lobe_count()));
         Surface surface = random_surface(&random, k % 2);
+        if (k % 3 == 1) surface = dusted(surface, 0.1f * (float)k);
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
             View view = {

@@ -449,6 +449,24 @@ static void files_inside_files_have_an_end(void **state) {
     assert_non_null(strstr(error.text, "own32.h"));
 }
 
+/* Without its lobe dust is a few lines that say nothing; with it, it is there without a second dispatch. */
+static void dust_comes_with_its_lobe(void **state) {
+    (void)state;
+    for (int there = 0; there < 2; there++) {
+        Text text;
+        text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .tables = true});
+        text_dispatch(&text, (const int[]){LOBE_GGX, LOBE_LAMBERT, LOBE_LTC_FIBRE}, 2 + there);
+        text_lobe_tables(&text);
+        text_engine_tables(&text, NULL, 0);
+        text_include(&text, "shading/compose.h");
+        end_clean(&text, "dust");
+        assert_int_equal(occurrences(text.bytes, "float dust_albedo(Lobe m, float cos_o) {"), 1);
+        assert_int_equal(strstr(text.bytes, "ltc_fibre_eval") != NULL, there);
+        assert_non_null(strstr(text.bytes, "Surface dust_settle(Surface s, Dir n, Dir p) {"));
+        text_free(&text);
+    }
+}
+
 /* A file of the caller's may stand on the dispatch, as registry.h serves C; own lines may take a file's
  * place. */
 static void callers_lines_take_a_files_place(void **state) {
@@ -492,6 +510,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_shading_text_is_refused),
         cmocka_unit_test(endless_text_stops),
         cmocka_unit_test(files_inside_files_have_an_end),
+        cmocka_unit_test(dust_comes_with_its_lobe),
         cmocka_unit_test_setup_teardown(callers_lines_take_a_files_place, NULL, remove_overlay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

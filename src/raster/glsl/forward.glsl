@@ -7,11 +7,15 @@ in highp vec4 vertex_tangent;
 out highp vec4 fragment;
 
 #include "raster/glsl/picture.glsl"
+#ifdef SHADOWED
+#include "raster/glsl/shadow.glsl"
+#endif
 #include "shading/frame.h"
 #include "shading/punctual.h"
 
 Dir dir_of(vec3 v) { return dir(v.x, v.y, v.z); }
 vec3 vec_of(Rgb c) { return vec3(c.r, c.g, c.b); }
+vec3 vec_of_dir(Dir d) { return vec3(d.x, d.y, d.z); }
 
 /* The geometric normal is that of the plane through neighbouring pixels, which faces the eye. */
 Facing fragment_facing(Dir wo) {
@@ -47,6 +51,14 @@ Beam light_beam(int k) {
     return beam;
 }
 
+#ifdef SHADOWED
+float light_reaches(int map, vec3 normal, float cosine) {
+    return shadow_light(map, from_eye, normal, cosine);
+}
+#else
+float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
+#endif
+
 Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
     Rgb sum = rgb_grey(0.0);
     int count = int(forward.w);
@@ -57,7 +69,11 @@ Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
             Angles a = angles_between(o, i), coat = a;
             if (m.coat.pick > 0.0) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
             StackValue v = stack_value(m, a, coat);
-            sum = rgb_add(sum, rgb_mul(v.f_cos, beam.radiance));
+            float reaches = 1.0;
+            int map = int(lights[4 * k + 2].w);
+            if (MATERIAL_SHADOWED && map >= 0)
+                reaches = light_reaches(map, vec_of_dir(at.geometric), dir_dot(beam.wi, at.geometric));
+            sum = rgb_add(sum, rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches));
         }
     }
     return sum;
@@ -73,7 +89,8 @@ void main() {
         sum = rgb_scale(s.emission, gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0);
         Frame f = frame_of(at, s, wo);
         Dir o = frame_to(f, wo);
-        Stack m = surface_stack(frame_surface(s), material_choices(), material_table(), o);
+        s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
+        Stack m = surface_stack(s, material_choices(), material_table(), o);
         sum = rgb_add(sum, punctual_light(m, at, f, o));
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);

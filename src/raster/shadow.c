@@ -1,0 +1,179 @@
+#include "raster/shadow.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+#include "base/fail.h"
+#include "raster/check.h"
+
+typedef struct Box {
+    Vec3 low, high;
+} Box;
+
+static Box box_empty(void) {
+    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+static void box_add(Box *box, Vec3 p) {
+    box->low = vec3(fminf(box->low.x, p.x), fminf(box->low.y, p.y), fminf(box->low.z, p.z));
+    box->high = vec3(fmaxf(box->high.x, p.x), fmaxf(box->high.y, p.y), fmaxf(box->high.z, p.z));
+}
+
+static float box_size(Box box) {
+    return box.low.x > box.high.x ? 0.0f : vec3_length(vec3_sub(box.high, box.low));
+}
+
+static Box mesh_box(const Mesh *mesh) {
+    Box box = box_empty();
+    for (uint32_t k = 0; k < mesh->vertex_count; k++)
+        box_add(&box, vec3_load(mesh->position + 3 * (size_t)k));
+    return box;
+}
+
+/* The box of all meshes smaller than a size, and the largest among them. */
+static Box smaller_box(const WeftScene *scene, float size, float *largest) {
+    Box sum = box_empty();
+    *largest = 0.0f;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        Box box = mesh_box(&scene->meshes[m]);
+        if (!(box_size(box) < size)) continue;
+        *largest = fmaxf(*largest, box_size(box));
+        box_add(&sum, box.low);
+        box_add(&sum, box.high);
+    }
+    return sum;
+}
+
+/* What shadows are looked at on: the scene without its stage, which is a mesh more than so many times as
+ * large as the rest together, such as a floor to the horizon. */
+static Box find_subject(const WeftScene *scene) {
+    const float stage = 4.0f;
+    float largest, next;
+    Box subject = smaller_box(scene, INFINITY, &largest);
+    for (;;) {
+        Box rest = smaller_box(scene, largest, &next);
+        if (!(next > 0.0f) || largest <= stage * box_size(rest)) return subject;
+        subject = rest;
+        largest = next;
+    }
+}
+
+/* Two axes across a direction. */
+static void across(Vec3 forward, Vec3 *right, Vec3 *up) {
+    Vec3 pole = fabsf(forward.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
+    *right = vec3_normal_or(vec3_cross(forward, pole), vec3(1.0f, 0.0f, 0.0f));
+    *up = vec3_cross(*right, forward);
+}
+
+static Shadow of_directional(const Light *light, Box subject) {
+    Vec3 right, up, middle = vec3_scale(vec3_add(subject.low, subject.high), 0.5f);
+    float radius = 0.5f * box_size(subject) + 1e-6f;
+    across(light->direction, &right, &up);
+    return (Shadow){.view = {.eye = middle,
+                             .forward = light->direction,
+                             .across = vec3_scale(right, radius),
+                             .up = vec3_scale(up, radius),
+                             .orthographic = true},
+                    .texel = 2.0f * radius / SHADOW_SIDE};
+}
+
+static Shadow of_spot(const Light *light) {
+    Vec3 right, up;
+    float cosine = fmaxf(light->cos_outer, 0.1f), half = sqrtf(1.0f - cosine * cosine) / cosine * 1.02f;
+    across(light->direction, &right, &up);
+    return (Shadow){.view = {.eye = light->position,
+                             .forward = light->direction,
+                             .across = vec3_scale(right, half),
+                             .up = vec3_scale(up, half)},
+                    .texel = 2.0f * half / SHADOW_SIDE};
+}
+
+static float strength(const Light *light) {
+    return light->kind == LIGHT_POINT
+               ? -1.0f
+               : light->intensity * (light->color[0] + light->color[1] + light->color[2]);
+}
+
+/* The strongest of a kind that is not there yet, or -1. A sun and a spot cannot be compared, so kinds take
+ * turns. */
+static int strongest(const WeftScene *scene, const Shadows *shadows, LightKind kind) {
+    int best = -1;
+    for (int k = 0; k < scene->light_count; k++) {
+        bool there = false;
+        for (int j = 0; j < shadows->count; j++) there |= shadows->of_light[j] == k;
+        if (there || scene->lights[k].kind != kind || !(strength(&scene->lights[k]) > 0.0f)) continue;
+        if (best < 0 || strength(&scene->lights[k]) > strength(&scene->lights[best])) best = k;
+    }
+    return best;
+}
+
+static void choose(const WeftScene *scene, Shadows *self) {
+    Box subject = find_subject(scene);
+    for (int turn = 0, missed = 0; self->count < SHADOWS_MOST && missed < 2; turn++) {
+        LightKind kind = turn % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
+        int k = strongest(scene, self, kind);
+        missed = k < 0 ? missed + 1 : 0;
+        if (k < 0) continue;
+        self->of_light[self->count] = k;
+        self->all[self->count++] =
+            kind == LIGHT_SPOT ? of_spot(&scene->lights[k]) : of_directional(&scene->lights[k], subject);
+    }
+}
+
+static void make_objects(Shadows *self) {
+    glGenTextures(1, &self->texture);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->texture);
+    texture_plain(GL_TEXTURE_2D_ARRAY);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, SHADOW_SIDE, SHADOW_SIDE, self->count, 0,
+                 GL_DEPTH_COMPONENT, GL_FLOAT, NULL);
+    glGenFramebuffers(1, &self->framebuffer);
+    glGenSamplers(1, &self->compare);
+    glSamplerParameteri(self->compare, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(self->compare, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glSamplerParameteri(self->compare, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(self->compare, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(self->compare, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(self->compare, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glGenSamplers(1, &self->plain);
+    glSamplerParameteri(self->plain, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glSamplerParameteri(self->plain, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glSamplerParameteri(self->plain, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(self->plain, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+WeftResult shadows_create(const WeftScene *scene, Shadows *out, WeftError *error) {
+    *out = (Shadows){0};
+    choose(scene, out);
+    if (!out->count) return WEFT_OK;
+    make_objects(out);
+    WeftResult result = gl_check(error, "shadows");
+    if (result != WEFT_OK) shadows_destroy(out);
+    return result;
+}
+
+void shadows_destroy(Shadows *self) {
+    glDeleteTextures(1, &self->texture);
+    glDeleteFramebuffers(1, &self->framebuffer);
+    glDeleteSamplers(1, &self->compare);
+    glDeleteSamplers(1, &self->plain);
+    *self = (Shadows){0};
+}
+
+void shadows_begin(const Shadows *self, int layer) {
+    static const GLenum none = GL_NONE;
+    glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, self->texture, 0, layer);
+    glDrawBuffers(1, &none);
+    glReadBuffer(GL_NONE);
+    glViewport(0, 0, SHADOW_SIDE, SHADOW_SIDE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+void shadows_bind(const Shadows *self, int compare_unit, int plain_unit) {
+    glActiveTexture(GL_TEXTURE0 + (GLenum)compare_unit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->texture);
+    glBindSampler((GLuint)compare_unit, self->compare);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)plain_unit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->texture);
+    glBindSampler((GLuint)plain_unit, self->plain);
+}
