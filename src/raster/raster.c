@@ -12,17 +12,12 @@
 #include "raster/meshes.h"
 #include "raster/picture.h"
 #include "raster/programs.h"
+#include "raster/queue.h"
 #include "raster/shadow.h"
 #include "raster/target.h"
 #include "weft/raster.h"
 
 enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
-
-/* A mesh to draw, and how far away it is. */
-typedef struct Item {
-    int mesh;
-    float depth;
-} Item;
 
 struct WeftRaster {
     const WeftScene *scene;
@@ -33,9 +28,9 @@ struct WeftRaster {
     Programs programs;
     Shadows shadows;
     Target target;
-    unsigned picture;      /* uniform buffer */
-    bool plain;            /* textures are without their smaller copies */
-    Item *solid, *blended; /* meshes in drawing order; one block, solid first */
+    unsigned picture; /* uniform buffer */
+    bool plain;       /* textures are without their smaller copies */
+    Queue queue;
     WeftError complaint;
     Camera camera; /* of the last picture */
     double compile_seconds;
@@ -83,9 +78,9 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->scene = scene;
     WeftResult result = WEFT_OK;
-    self->solid = alloc_array((size_t)scene->mesh_count, sizeof(Item));
+    if (result == WEFT_OK) result = queue_create(scene, &self->queue, error);
     if (desc->shader_dir) self->shader_dir = strdup(desc->shader_dir);
-    if (!self->solid || (desc->shader_dir && !self->shader_dir))
+    if (result == WEFT_OK && desc->shader_dir && !self->shader_dir)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->programs.desc = (TextDesc){language, true, self->shader_dir};
     if (result == WEFT_OK) result = context_create(language, &self->context, error);
@@ -111,7 +106,7 @@ void weft_raster_free(WeftRaster *self) {
         context_leave(self->context, &outer);
     }
     context_destroy(self->context);
-    free(self->solid);
+    queue_destroy(&self->queue);
     free(self->shader_dir);
     free(self);
 }
@@ -226,12 +221,32 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-static WeftResult draw_all(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+/* What the lights make of a key. */
+static void add_lights(const WeftRaster *self, bool shadows, ShaderKey *key) {
+    const WeftScene *scene = self->scene;
+    key->shadowed = shadows && self->shadows.count;
+    key->lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
+    for (int k = 0; k < key->lights && key->lights <= SHADER_LIGHTS; k++) {
+        key->light_kind[k] = (int8_t)scene->lights[k].kind;
+        key->light_map[k] = -1;
+        for (int j = 0; j < self->shadows.count && key->shadowed; j++)
+            if (self->shadows.of_light[j] == k) key->light_map[k] = (int8_t)j;
+    }
+}
+
+static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
-        ShaderKey key = self->materials.all[self->scene->meshes[m].material].key;
-        key.shadowed = self->shadows.count && !view->no_shadows;
-        result = draw_mesh(self, m, &key, error);
+    queue_sort(&self->queue, self->scene, seen);
+    for (int k = 0; k < self->queue.count && result == WEFT_OK; k++) {
+        int mesh = self->queue.order[k];
+        ShaderKey key = self->materials.all[self->scene->meshes[mesh].material].key;
+        add_lights(self, !view->no_shadows, &key);
+        if (k == self->queue.solid) {
+            glEnable(GL_BLEND);
+            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
+            glDepthMask(GL_FALSE);
+        }
+        result = draw_mesh(self, mesh, &key, error);
     }
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
@@ -256,7 +271,7 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     if (result == WEFT_OK) {
         set_picture(self, &seen, &self->shadows);
         begin(self, &view);
-        result = draw_all(self, &view, error);
+        result = draw_all(self, &seen, &view, error);
         target_resolve(&self->target);
     }
     context_leave(self->context, &outer);

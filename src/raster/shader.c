@@ -219,14 +219,24 @@ static void put_surface(Text *text, const ShaderKey *key) {
         text_line(text, "    s.base_color = rgb_mul(s.base_color, rgb(vertex_color.r, vertex_color.g, "
                         "vertex_color.b));\n    s.opacity = s.opacity * vertex_color.a;");
     text_line(text, "    return s;\n}");
-    text_line(text,
-              "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;\n"
-              "const bool MATERIAL_SHADOWED = %s;",
-              key->unlit ? "true" : "false", key->double_sided ? "true" : "false",
-              key->shadowed ? "true" : "false");
+    text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
+              key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
     text_line(text, "\nfloat coverage_of(float opacity) {");
     if (key->alpha_mode == ALPHA_MASK) text_line(text, "    if (opacity < material_more.x) discard;");
     text_line(text, "    return %s;\n}", key->alpha_mode == ALPHA_BLEND ? "clamp(opacity, 0.0, 1.0)" : "1.0");
+}
+
+static void put_lights(Text *text, const ShaderKey *key) {
+    char each[SHADER_LIGHTS * 16 + 128] = "";
+    for (int k = 0; k < key->lights && key->lights <= SHADER_LIGHTS; k++) {
+        size_t used = strlen(each);
+        snprintf(each + used, sizeof each - used, "L(%d, %d, %d) ", k, key->light_kind[k], key->light_map[k]);
+    }
+    if (key->lights > SHADER_LIGHTS)
+        snprintf(each, sizeof each,
+                 "for (int k = 0; k < int(forward.w); k++) { "
+                 "L(k, int(lights[4 * k].w), int(lights[4 * k + 2].w)) }");
+    text_define(text, "EACH_LIGHT(L)", each);
 }
 
 /* Nothing but what is there: holes and what is less than half there let light through. */
@@ -245,6 +255,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
         return;
     }
     if (key->shadowed) text_define(text, "SHADOWED", "1");
+    put_lights(text, key);
     put_lobes(text, key);
     put_composition(text, &key->choices);
     put_choices(text, &key->choices);

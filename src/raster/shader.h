@@ -19,12 +19,17 @@ typedef struct ShaderInput {
     int8_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
+/* Up to so many lights are written out one by one, the fastest way. */
+enum { SHADER_LIGHTS = 8 };
+
 /* Compared byte by byte: zero-initialise. */
 typedef struct ShaderKey {
     Choices choices;
     ShaderInput inputs[INPUT_COUNT];
     int depth;    /* only where the surface is: for shadow maps */
     int shadowed; /* by shadow maps */
+    int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
+    int8_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;

@@ -34,17 +34,19 @@ struct Beam {
     Rgb radiance;
 };
 
-Beam light_beam(int k) {
-    vec4 where = lights[4 * k], along = lights[4 * k + 1], cone = lights[4 * k + 3];
-    vec3 to = where.xyz - eye.xyz - from_eye;
+Beam light_beam(int k, int kind) {
+    vec4 along = lights[4 * k + 1];
+    vec3 to = lights[4 * k].xyz - eye.xyz - from_eye;
     float d2 = dot(to, to), scale = 1.0;
     Beam beam;
     beam.wi = dir_of(-along.xyz);
-    if (where.w > 0.5) {
+    if (kind > 0) {
         scale = d2 > 0.0 ? punctual_distance(d2, along.w) : 0.0;
         beam.wi = dir_normal_or(dir_of(to), beam.wi);
-        if (where.w > 1.5)
-            scale = scale * punctual_cone(-dir_dot(beam.wi, dir_of(along.xyz)), cone.x, cone.y);
+    }
+    if (kind > 1) {
+        vec4 cone = lights[4 * k + 3];
+        scale = scale * punctual_cone(-dir_dot(beam.wi, dir_of(along.xyz)), cone.x, cone.y);
     }
     vec3 c = lights[4 * k + 2].rgb * scale;
     beam.radiance = rgb(c.r, c.g, c.b);
@@ -53,29 +55,29 @@ Beam light_beam(int k) {
 
 #ifdef SHADOWED
 float light_reaches(int map, vec3 normal, float cosine) {
-    return shadow_light(map, from_eye, normal, cosine);
+    return map < 0 ? 1.0 : shadow_light(map, from_eye, normal, cosine);
 }
 #else
 float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
 #endif
 
+/* From light k, which is of that kind and has that shadow map, or -1. */
+Rgb light_from(int k, int kind, int map, Stack m, Facing at, Frame f, Dir o) {
+    Beam beam = light_beam(k, kind);
+    Dir i = frame_to(f, beam.wi);
+    float cosine = dir_dot(beam.wi, at.geometric);
+    if (i.z <= 0.0 || cosine <= 0.0) return rgb_grey(0.0);
+    Angles a = angles_between(o, i), coat = a;
+    if (m.coat.pick > 0.0) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
+    StackValue v = stack_value(m, a, coat);
+    return rgb_scale(rgb_mul(v.f_cos, beam.radiance), light_reaches(map, vec_of_dir(at.geometric), cosine));
+}
+
+/* EACH_LIGHT(L) is L(k, kind, map) for each light. */
+#define ONE_LIGHT(k, kind, map) sum = rgb_add(sum, light_from(k, kind, map, m, at, f, o));
 Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
     Rgb sum = rgb_grey(0.0);
-    int count = int(forward.w);
-    for (int k = 0; k < count; k++) {
-        Beam beam = light_beam(k);
-        Dir i = frame_to(f, beam.wi);
-        if (i.z > 0.0 && dir_dot(beam.wi, at.geometric) > 0.0) {
-            Angles a = angles_between(o, i), coat = a;
-            if (m.coat.pick > 0.0) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
-            StackValue v = stack_value(m, a, coat);
-            float reaches = 1.0;
-            int map = int(lights[4 * k + 2].w);
-            if (MATERIAL_SHADOWED && map >= 0)
-                reaches = light_reaches(map, vec_of_dir(at.geometric), dir_dot(beam.wi, at.geometric));
-            sum = rgb_add(sum, rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches));
-        }
-    }
+    EACH_LIGHT(ONE_LIGHT)
     return sum;
 }
 

@@ -1,0 +1,69 @@
+#include "raster/queue.h"
+
+#include <stdlib.h>
+
+#include "base/fail.h"
+
+static void measure(Queue *self, const WeftScene *scene, int m) {
+    const Mesh *mesh = &scene->meshes[m];
+    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3(-INFINITY, -INFINITY, -INFINITY);
+    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
+        Vec3 p = vec3_load(mesh->position + 3 * (size_t)k);
+        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
+    }
+    if (!mesh->vertex_count) low = high = vec3(0.0f, 0.0f, 0.0f);
+    self->middle[m] = vec3_scale(vec3_add(low, high), 0.5f);
+    self->reach[m] = 0.5f * vec3_length(vec3_sub(high, low));
+}
+
+static bool blends(const WeftScene *scene, int m) {
+    return scene->materials[scene->meshes[m].material].alpha_mode == ALPHA_BLEND;
+}
+
+WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {
+    size_t count = (size_t)scene->mesh_count;
+    *out = (Queue){.order = alloc_array(count, sizeof(int)),
+                   .depth = alloc_array(count, sizeof(float)),
+                   .middle = alloc_array(count, sizeof(Vec3)),
+                   .reach = alloc_array(count, sizeof(float))};
+    if (!out->order || !out->depth || !out->middle || !out->reach) {
+        queue_destroy(out);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
+    for (int m = 0; m < scene->mesh_count; m++) measure(out, scene, m);
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (!blends(scene, m)) out->order[out->count++] = m;
+    out->solid = out->count;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (blends(scene, m)) out->order[out->count++] = m;
+    return WEFT_OK;
+}
+
+void queue_destroy(Queue *self) {
+    free(self->order);
+    free(self->depth);
+    free(self->middle);
+    free(self->reach);
+    *self = (Queue){0};
+}
+
+/* By insertion: the order is nearly that of the picture before. */
+static void sort(Queue *self, int first, int end, float sign) {
+    for (int k = first + 1; k < end; k++) {
+        int mesh = self->order[k], j = k;
+        for (; j > first && sign * self->depth[self->order[j - 1]] > sign * self->depth[mesh]; j--)
+            self->order[j] = self->order[j - 1];
+        self->order[j] = mesh;
+    }
+}
+
+/* Solid meshes by their far ends, which puts a floor last though it begins before all else. */
+void queue_sort(Queue *self, const WeftScene *scene, const View *view) {
+    for (int m = 0; m < self->count; m++) {
+        float depth = vec3_dot(vec3_sub(self->middle[m], view->eye), view->forward);
+        self->depth[m] = blends(scene, m) ? depth : depth + self->reach[m];
+    }
+    sort(self, 0, self->solid, 1.0f);
+    sort(self, self->solid, self->count, -1.0f);
+}
