@@ -148,8 +148,8 @@ FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
     return compose_finish(compose_dust(compose_choices(compose_begin(t, d, o), t, d), t, o), e, o);
 }
 
-/* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
-FN StackValue stack_value(Stack m, Angles a, Angles coat) {
+/* The same as stack_value for some of the slots: what the others do to these stays. */
+FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     SheenE e_i = sheen_e_of(0.0f);
     if (m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f) e_i = stack_albedo(m, a.i);
     bool worn = m.color.r + m.color.g + m.color.b > 0.0f;
@@ -163,33 +163,38 @@ FN StackValue stack_value(Stack m, Angles a, Angles coat) {
     StackValue sum;
     sum.f_cos = rgb_grey(0.0f);
     sum.pdf = 0.0f;
-    if (m.diffuse.pick > 0.0f) {
+    if (only.diffuse && m.diffuse.pick > 0.0f) {
         LobeValue v = diffuse_at(m.diffuse.lobe, a);
         sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(m.diffuse, v));
         sum.pdf = slot_pdf(m.diffuse, v);
     }
-    if (m.specular.pick > 0.0f) {
+    if (only.specular && m.specular.pick > 0.0f) {
         LobeValue v = specular_at(m.specular.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(m.specular, v)));
         sum.pdf = sum.pdf + slot_pdf(m.specular, v);
     }
-    if (m.sheen.pick > 0.0f) {
+    if (only.sheen && m.sheen.pick > 0.0f) {
         LobeValue v = sheen_at(m.sheen.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
         sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
     }
-    if (m.dust.pick > 0.0f) {
+    if (only.dust && m.dust.pick > 0.0f) {
         LobeValue v = dust_value(m.dust.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, slot_f(m.dust, v));
         sum.pdf = sum.pdf + slot_pdf(m.dust, v);
     }
     sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
-    if (m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {
+    if (only.coat && m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {
         LobeValue v = coat_at(m.coat.lobe, coat);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(m.coat, v), coat.i.z));
         sum.pdf = sum.pdf + slot_pdf(m.coat, v);
     }
     return sum;
+}
+
+/* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
+FN StackValue stack_value(Stack m, Angles a, Angles coat) {
+    return stack_value_of(m, slots_of(true, true, true, true, true), a, coat);
 }
 
 #endif

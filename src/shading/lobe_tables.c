@@ -5,6 +5,7 @@
 #include "shading/albedo.h"
 #include "shading/tables/fibre_table.h"
 #include "shading/tables/ltc_fibre.h"
+#include "shading/tables/ltc_ggx.h"
 
 TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 
@@ -30,6 +31,12 @@ static TableRef make_ltc_fibre(void) {
     static float planes[sizeof table_ltc_fibre / sizeof(float)];
     const WeftParamInfo *alpha = &weft_lobe_info(LOBE_FIBRE)->params[0];
     return make_planes(table_ltc_fibre, PLANES(table_ltc_fibre), sqrt(alpha->low), sqrt(alpha->high), planes);
+}
+
+static TableRef make_ltc_ggx(void) {
+    static float planes[sizeof table_ltc_ggx / sizeof(float)];
+    const WeftParamInfo *alpha = &weft_lobe_info(LOBE_GGX)->params[0];
+    return make_planes(table_ltc_ggx, PLANES(table_ltc_ggx), sqrt(alpha->low), sqrt(alpha->high), planes);
 }
 
 static TableRef make_fibre(void) {

@@ -11,8 +11,9 @@
 #define LOBE_TABLES(T)                                                                                       \
     T(charlie_neubelt, 0)                                                                                    \
     T(ltc_fibre, 1)                                                                                          \
-    T(fibre, 2)
-#define LOBE_TABLE_COUNT 3
+    T(fibre, 2)                                                                                              \
+    T(ltc_ggx, 3)
+#define LOBE_TABLE_COUNT 4
 
 /* Read-only after lobe_tables_make, which any number of threads may call at once; whoever makes a Lobe has.
  */

@@ -8,6 +8,7 @@
 #define WEFT_SHADING_LTC_TABLE_H
 
 #include "shading/ltc.h"
+#include "shading/table.h"
 
 /* The planes, in their order: of ltc_of, then what f0 and f90 are multiplied by. */
 #define LTC_Z             0
@@ -67,6 +68,26 @@ FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
                  ltc_table_mixed(t, s, LTC_R), cos_o);
     l.f0 = ltc_table_mixed(t, s, LTC_AMPLITUDE);
     l.f90 = ltc_table_mixed(t, s, LTC_AMPLITUDE_F90);
+    return l;
+}
+
+/* The planes of a level one (weft/ltc.h), where r is 0. */
+#define LTC_LEVEL_E      3
+#define LTC_LEVEL_PLANES 4
+
+FN LtcLobe ltc_table_level(TableRef e, float cos_o, float p) {
+    LtcTable t;
+    t.texels = e.texels;
+    t.rows = e.rows / LTC_LEVEL_PLANES;
+    t.columns = e.columns;
+    t.low = e.low;
+    t.high = e.high;
+    LtcSpot s = ltc_table_spot(t, cos_o, p);
+    LtcLobe l;
+    l.m = ltc_of(ltc_table_mixed(t, s, LTC_Z), ltc_table_mixed(t, s, LTC_Q), ltc_table_mixed(t, s, LTC_B),
+                 0.0f, cos_o);
+    l.f0 = ltc_table_mixed(t, s, LTC_LEVEL_E);
+    l.f90 = 0.0f;
     return l;
 }
 

@@ -56,6 +56,19 @@ STRUCT(Stack) {
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
 };
 
+/* Some of the five. */
+STRUCT(Slots) { bool diffuse, specular, sheen, coat, dust; };
+
+FN Slots slots_of(bool diffuse, bool specular, bool sheen, bool coat, bool dust) {
+    Slots s;
+    s.diffuse = diffuse;
+    s.specular = specular;
+    s.sheen = sheen;
+    s.coat = coat;
+    s.dust = dust;
+    return s;
+}
+
 STRUCT(StackValue) {
     Rgb f_cos; /* f times the cosine of wi */
     float pdf; /* of the mixture, 1/sr */

@@ -28,26 +28,11 @@
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")
 #define LTC_FIBRE_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
-/* The planes of the table; z, q and b are where ltc_table.h has them. */
-#define LTC_FIBRE_E      3
-#define LTC_FIBRE_PLANES 4
-
 STRUCT(LtcFibre){LTC_FIBRE_PARAMS(FIELD)};
 
 FN LtcLobe ltc_fibre_at(LtcFibre m, float cos_o) {
-    TableRef e = lobe_table_ltc_fibre();
-    LtcTable t;
-    t.texels = e.texels;
-    t.rows = e.rows / LTC_FIBRE_PLANES;
-    t.columns = e.columns;
-    t.low = e.low;
-    t.high = e.high;
-    LtcSpot s = ltc_table_spot(t, cos_o, m.alpha);
-    LtcLobe l;
-    l.m = ltc_of(ltc_table_mixed(t, s, LTC_Z), ltc_table_mixed(t, s, LTC_Q), ltc_table_mixed(t, s, LTC_B),
-                 0.0f, cos_o);
-    l.f0 = min(ltc_table_mixed(t, s, LTC_FIBRE_E), 1.0f);
-    l.f90 = 0.0f;
+    LtcLobe l = ltc_table_level(lobe_table_ltc_fibre(), cos_o, m.alpha);
+    l.f0 = min(l.f0, 1.0f);
     return l;
 }
 
