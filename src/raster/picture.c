@@ -3,12 +3,16 @@
 #include <math.h>
 #include <string.h>
 
+/* The nearest depth as a share of the farthest: cameras come close, depths of shadow maps are to be exact. */
+static const float CAMERA_NEAR = 1e-4f, SHADOW_NEAR = 1e-2f;
+
 typedef struct Range {
     float near, far;
 } Range;
 
-/* From the nearest to the farthest corner of the scene's box, along the axis of the view. */
-static Range depth_range(const WeftScene *scene, const View *view) {
+/* From the nearest to the farthest corner of the scene's box, along the axis of the view; with perspective at
+ * least that share of the way. */
+static Range depth_range(const WeftScene *scene, const View *view, float least) {
     float near = INFINITY, far = -INFINITY;
     for (int k = 0; k < 8; k++) {
         Vec3 corner = {k & 1 ? scene->high.x : scene->low.x, k & 2 ? scene->high.y : scene->low.y,
@@ -22,12 +26,11 @@ static Range depth_range(const WeftScene *scene, const View *view) {
     far += margin;
     if (view->orthographic) return (Range){near, far};
     far = fmaxf(far, 1e-5f);
-    return (Range){fmaxf(near, 1e-4f * far), far};
+    return (Range){fmaxf(near, least * far), far};
 }
 
 /* q, from the eye, to clip space: x = q.across / |across|^2, likewise y, w the depth. */
-static void put_matrix(const WeftScene *scene, const View *view, float m[16]) {
-    Range r = depth_range(scene, view);
+static void put_matrix(const View *view, Range r, float m[16]) {
     Vec3 x = vec3_scale(view->across, 1.0f / vec3_dot(view->across, view->across));
     Vec3 y = vec3_scale(view->up, 1.0f / vec3_dot(view->up, view->up)), f = view->forward;
     float span = r.far - r.near;
@@ -54,25 +57,40 @@ static void put_light(const Light *light, float to[4][4]) {
     memcpy(to[3], cone, sizeof cone);
 }
 
-static void put_shadow(const WeftScene *scene, const Shadow *shadow, float clip[16], float eye[4]) {
+static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
+    const float normal[4] = {polygon->normal.x, polygon->normal.y, polygon->normal.z, 0.0f};
+    for (int j = 0; j < polygon->count; j++) {
+        const float corner[4] = {polygon->corners[j].x, polygon->corners[j].y, polygon->corners[j].z, 0.0f};
+        memcpy(out->polygon_corners[k][j], corner, sizeof corner);
+    }
+    memcpy(out->polygon_normals[k], normal, sizeof normal);
+    memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);
+}
+
+static void put_shadow(const WeftScene *scene, const Shadow *shadow, int k, Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
                             view->orthographic ? shadow->texel : -shadow->texel};
-    put_matrix(scene, view, clip);
-    memcpy(eye, place, sizeof place);
+    const float disc[4] = {shadow->radius, sqrtf(vec3_dot(view->across, view->across)), 0.0f, 0.0f};
+    put_matrix(view, depth_range(scene, view, SHADOW_NEAR), out->shadow_clip[k]);
+    memcpy(out->shadow_eye[k], place, sizeof place);
+    memcpy(out->shadow_disc[k], disc, sizeof disc);
 }
 
-void picture_make(const WeftScene *scene, const View *view, const Shadows *shadows, Picture *out) {
+void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
+                  const Shadows *shadows, Picture *out) {
     int lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
     *out = (Picture){0};
-    put_matrix(scene, view, out->to_clip);
+    put_matrix(view, depth_range(scene, view, shadows ? CAMERA_NEAR : SHADOW_NEAR), out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
     for (int k = 0; k < lights; k++) put_light(&scene->lights[k], out->lights[k]);
+    for (int k = 0; polygons && k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
     for (int k = 0; shadows && k < shadows->count; k++) {
-        put_shadow(scene, &shadows->all[k], out->shadow_clip[k], out->shadow_eye[k]);
-        if (shadows->of_light[k] < lights) out->lights[shadows->of_light[k]][2][3] = (float)k;
+        int light = shadows->of_light[k];
+        put_shadow(scene, &shadows->all[k], k, out);
+        if (light >= 0 && light < lights) out->lights[light][2][3] = (float)k;
     }
 }

@@ -5,17 +5,21 @@
 
 #include "raster/shadow.h"
 
-enum { PICTURE_LIGHTS_MOST = 64 };
+enum { PICTURE_LIGHTS_MOST = 64, PICTURE_POLYGONS_MOST = 8 };
 
 /* As glsl/picture.glsl declares it, std140. */
 typedef struct Picture {
     float to_clip[16]; /* column after column */
     float eye[4], forward[4];
-    float shadow_clip[SHADOWS_MOST][16], shadow_eye[SHADOWS_MOST][4];
+    float shadow_clip[SHADOWS_MOST][16], shadow_eye[SHADOWS_MOST][4], shadow_disc[SHADOWS_MOST][4];
     float lights[PICTURE_LIGHTS_MOST][4][4];
+    float polygon_corners[PICTURE_POLYGONS_MOST][LIGHT_CORNERS][4];
+    float polygon_normals[PICTURE_POLYGONS_MOST][4], polygon_radiance[PICTURE_POLYGONS_MOST][4];
 } Picture;
 
-/* What a scene looks like through a view. shadows may be NULL. */
-void picture_make(const WeftScene *scene, const View *view, const Shadows *shadows, Picture *out);
+/* What a scene looks like through a view, lit by at most PICTURE_POLYGONS_MOST polygons. polygons may be
+ * NULL; shadows is NULL of what a light sees. */
+void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
+                  const Shadows *shadows, Picture *out);
 
 #endif

@@ -26,6 +26,7 @@ struct WeftRaster {
     GlTextures textures;
     GlMaterials materials;
     Programs programs;
+    LightPolygons polygons;
     Shadows shadows;
     Target target;
     unsigned picture; /* uniform buffer */
@@ -51,7 +52,9 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, desc->threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
-    if (result == WEFT_OK) result = shadows_create(scene, &self->shadows, error);
+    if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS_MOST))
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK) result = shadows_create(scene, &self->polygons, &self->shadows, error);
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
@@ -107,6 +110,7 @@ void weft_raster_free(WeftRaster *self) {
     }
     context_destroy(self->context);
     queue_destroy(&self->queue);
+    light_polygons_free(&self->polygons);
     free(self->shader_dir);
     free(self);
 }
@@ -134,7 +138,7 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
 
 static void set_picture(WeftRaster *self, const View *view, const Shadows *shadows) {
     Picture picture;
-    picture_make(self->scene, view, shadows, &picture);
+    picture_make(self->scene, view, &self->polygons, shadows, &picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
@@ -182,6 +186,7 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     glUseProgram(program->name);
     glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
+    glActiveTexture(GL_TEXTURE0); /* where whatever is made between draws may bind what it makes */
     if (material->key.double_sided)
         glDisable(GL_CULL_FACE);
     else
@@ -231,6 +236,14 @@ static void add_lights(const WeftRaster *self, bool shadows, ShaderKey *key) {
         key->light_map[k] = -1;
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
             if (self->shadows.of_light[j] == k) key->light_map[k] = (int8_t)j;
+    }
+    key->polygons = self->polygons.count;
+    for (int k = 0; k < key->polygons; k++) {
+        key->polygon_corners[k] = (int8_t)self->polygons.items[k].count;
+        key->polygon_two_sided[k] = self->polygons.items[k].two_sided;
+        key->polygon_map[k] = -1;
+        for (int j = 0; j < self->shadows.count && key->shadowed; j++)
+            if (self->shadows.of_polygon[j] == k) key->polygon_map[k] = (int8_t)j;
     }
 }
 

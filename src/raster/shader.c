@@ -237,6 +237,15 @@ static void put_lights(Text *text, const ShaderKey *key) {
                  "for (int k = 0; k < int(forward.w); k++) { "
                  "L(k, int(lights[4 * k].w), int(lights[4 * k + 2].w)) }");
     text_define(text, "EACH_LIGHT(L)", each);
+    if (!key->polygons) return;
+    char polygons[SHADER_LIGHTS * 24] = "";
+    for (int k = 0; k < key->polygons; k++) {
+        size_t used = strlen(polygons);
+        snprintf(polygons + used, sizeof polygons - used, "L(%d, %d, %s, %d) ", k, key->polygon_corners[k],
+                 key->polygon_two_sided[k] ? "true" : "false", key->polygon_map[k]);
+    }
+    text_define(text, "POLYGONS", "1");
+    text_define(text, "EACH_POLYGON(L)", polygons);
 }
 
 /* Nothing but what is there: holes and what is less than half there let light through. */
@@ -257,6 +266,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     put_lights(text, key);
     put_lobes(text, key);
+    if (key->polygons) text_lobe_tables(text);
     put_composition(text, &key->choices);
     put_choices(text, &key->choices);
     put_uniforms(text, key);

@@ -19,7 +19,7 @@ typedef struct ShaderInput {
     int8_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
-/* Up to so many lights are written out one by one, the fastest way. */
+/* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
 enum { SHADER_LIGHTS = 8 };
 
 /* Compared byte by byte: zero-initialise. */
@@ -30,6 +30,8 @@ typedef struct ShaderKey {
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int8_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
+    int polygons; /* likewise; corners, sides, shadow map */
+    int8_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;

@@ -107,17 +107,49 @@ static int strongest(const WeftScene *scene, const Shadows *shadows, LightKind k
     return best;
 }
 
-static void choose(const WeftScene *scene, Shadows *self) {
-    Box subject = find_subject(scene);
-    for (int turn = 0, missed = 0; self->count < SHADOWS_MOST && missed < 2; turn++) {
+static void add(Shadows *self, Shadow shadow, int light, int polygon) {
+    self->of_light[self->count] = light;
+    self->of_polygon[self->count] = polygon;
+    self->all[self->count++] = shadow;
+}
+
+static void choose_lights(const WeftScene *scene, int most, Box subject, Shadows *self) {
+    for (int turn = 0, missed = 0; self->count < most && missed < 2; turn++) {
         LightKind kind = turn % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
         int k = strongest(scene, self, kind);
         missed = k < 0 ? missed + 1 : 0;
         if (k < 0) continue;
-        self->of_light[self->count] = k;
-        self->all[self->count++] =
-            kind == LIGHT_SPOT ? of_spot(&scene->lights[k]) : of_directional(&scene->lights[k], subject);
+        const Light *light = &scene->lights[k];
+        add(self, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, subject), k, -1);
     }
+}
+
+/* From the middle of the polygon towards the subject, all of which it sees unless it is within. */
+static Shadow of_polygon(const LightPolygon *polygon, Box subject) {
+    Vec3 eye = {0}, right, up, middle = vec3_scale(vec3_add(subject.low, subject.high), 0.5f);
+    for (int k = 0; k < polygon->count; k++)
+        eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
+    Vec3 to = vec3_sub(middle, eye);
+    float distance = vec3_length(to), radius = 0.5f * box_size(subject), most = 6.0f, half = most;
+    bool faces = polygon->two_sided || vec3_dot(to, polygon->normal) > 0.3f * distance;
+    Vec3 forward = faces ? vec3_normal_or(to, polygon->normal) : polygon->normal;
+    if (faces && distance > 1.05f * radius)
+        half = fminf(radius / sqrtf(distance * distance - radius * radius), most);
+    across(forward, &right, &up);
+    return (Shadow){.view = {.eye = eye,
+                             .forward = forward,
+                             .across = vec3_scale(right, half),
+                             .up = vec3_scale(up, half)},
+                    .texel = 2.0f * half / SHADOW_SIDE,
+                    .radius = sqrtf(polygon->area / 3.14159265f)};
+}
+
+static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadows *self) {
+    Box subject = find_subject(scene);
+    int half = SHADOWS_MOST / 2, wanted = polygons->count < half ? polygons->count : half;
+    choose_lights(scene, SHADOWS_MOST - wanted, subject, self);
+    for (int k = 0; k < polygons->count && self->count < SHADOWS_MOST; k++)
+        add(self, of_polygon(&polygons->items[k], subject), -1, k);
 }
 
 static void make_objects(Shadows *self) {
@@ -141,9 +173,10 @@ static void make_objects(Shadows *self) {
     glSamplerParameteri(self->plain, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-WeftResult shadows_create(const WeftScene *scene, Shadows *out, WeftError *error) {
+WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
+                          WeftError *error) {
     *out = (Shadows){0};
-    choose(scene, out);
+    choose(scene, polygons, out);
     if (!out->count) return WEFT_OK;
     make_objects(out);
     WeftResult result = gl_check(error, "shadows");
@@ -176,4 +209,5 @@ void shadows_bind(const Shadows *self, int compare_unit, int plain_unit) {
     glActiveTexture(GL_TEXTURE0 + (GLenum)plain_unit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, self->texture);
     glBindSampler((GLuint)plain_unit, self->plain);
+    glActiveTexture(GL_TEXTURE0);
 }

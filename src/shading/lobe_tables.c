@@ -46,10 +46,18 @@ static TableRef make_fibre(void) {
                        log2(alpha->hard_high), planes);
 }
 
-#define MAKE_TABLE(name, index) lobe_table_refs[index] = make_##name();
-static void make(void) { LOBE_TABLES(MAKE_TABLE) }
-
-void lobe_tables_make(void) {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, make);
+static void make_baked(void) {
+    lobe_table_refs[1] = make_ltc_fibre();
+    lobe_table_refs[2] = make_fibre();
+    lobe_table_refs[3] = make_ltc_ggx();
 }
+
+static void make_computed(void) { lobe_table_refs[0] = make_charlie_neubelt(); }
+
+void lobe_tables_make_for(int id) {
+    static pthread_once_t baked = PTHREAD_ONCE_INIT, computed = PTHREAD_ONCE_INIT;
+    pthread_once(&baked, make_baked);
+    if (id == LOBE_CHARLIE_NEUBELT_NORMALISED) pthread_once(&computed, make_computed);
+}
+
+void lobe_tables_make(void) { lobe_tables_make_for(LOBE_CHARLIE_NEUBELT_NORMALISED); }

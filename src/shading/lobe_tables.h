@@ -20,6 +20,9 @@
 extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 void lobe_tables_make(void);
 
+/* The same of those that a lobe reads, and of all that need no computing. */
+void lobe_tables_make_for(int id);
+
 #define LOBE_TABLE_GET(name, index)                                                                          \
     FN TableRef lobe_table_##name(void) { return lobe_table_refs[index]; }
 LOBE_TABLES(LOBE_TABLE_GET)

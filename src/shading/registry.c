@@ -50,7 +50,7 @@ int weft_lobe_find(const char *id) {
 static const Lobe defaults[LOBE_COUNT] = {WEFT_LOBES(LOBE_DEFAULT)};
 
 Lobe lobe_default(int id) {
-    if (infos[id].traits & TRAIT_TABLE) lobe_tables_make();
+    if (infos[id].traits & TRAIT_TABLE) lobe_tables_make_for(id);
     return defaults[id];
 }
 

@@ -2,6 +2,7 @@
 
 #include "text/dispatch.h"
 
+#include "shading/lobe_tables.h"
 #include "text/number.h"
 #include "text/tables.h"
 
@@ -13,14 +14,17 @@ typedef struct LobeNames {
 #define LOBE_NAMES(id, name, Record, NAME) {#name, #Record, #NAME},
 static const LobeNames names[LOBE_COUNT] = {WEFT_LOBES(LOBE_NAMES)};
 
+static bool has(int id, unsigned trait) { return weft_lobe_info(id)->traits & trait; }
+
 void text_lobe(Text *text, int id) {
     char file[128];
-    if (weft_lobe_info(id)->traits & TRAIT_TABLE) text_lobe_tables(text);
+    if (has(id, TRAIT_TABLE)) {
+        lobe_tables_make_for(id);
+        text_lobe_tables(text);
+    }
     snprintf(file, sizeof file, "shading/lobes/%s.h", names[id].prefix);
     text_include(text, file);
 }
-
-static bool has(int id, unsigned trait) { return weft_lobe_info(id)->traits & trait; }
 
 /* The lobe's record from the array of parameters, in the order of its table: the table itself says the types.
  */
@@ -189,6 +193,8 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     }
     text_include(text, "shading/angles.h");
     text_include(text, "shading/lobe_value.h");
+    for (int k = 0; k < count; k++)
+        lobe_tables_make_for(ids[k]); /* before the first asks for all there are */
     for (int k = 0; k < count; k++) text_lobe(text, ids[k]);
     text_provide(text, "shading/registry.h");
     char most[16];

@@ -20,10 +20,11 @@ static void put_reference(Text *text, const TableRef *e, const char *indent) {
 void text_lobe_tables(Text *text) {
     if (!text_provide(text, "shading/lobe_tables.h")) return;
     text_include(text, "shading/table.h");
-    lobe_tables_make();
+    lobe_tables_make_for(-1);
 #define LOBE_TABLE_NAME(name, index) [index] = #name,
     static const char *const names[LOBE_TABLE_COUNT] = {LOBE_TABLES(LOBE_TABLE_NAME)};
     for (int k = 0; k < LOBE_TABLE_COUNT; k++) {
+        if (!lobe_table_refs[k].texels) continue;
         text_line(text, "\nTableRef lobe_table_%s() {\n    TableRef t;", names[k]);
         put_reference(text, &lobe_table_refs[k], "    ");
         text_line(text, "    return t;\n}");

@@ -7,11 +7,12 @@ in highp vec4 vertex_tangent;
 out highp vec4 fragment;
 
 #include "raster/glsl/picture.glsl"
-#ifdef SHADOWED
-#include "raster/glsl/shadow.glsl"
-#endif
+#include "shading/dust.h"
 #include "shading/frame.h"
 #include "shading/punctual.h"
+#ifdef SHADOWED
+#include "raster/glsl/soft_shadow.glsl"
+#endif
 
 Dir dir_of(vec3 v) { return dir(v.x, v.y, v.z); }
 vec3 vec_of(Rgb c) { return vec3(c.r, c.g, c.b); }
@@ -55,7 +56,7 @@ Beam light_beam(int k, int kind) {
 
 #ifdef SHADOWED
 float light_reaches(int map, vec3 normal, float cosine) {
-    return map < 0 ? 1.0 : shadow_light(map, from_eye, normal, cosine);
+    return map < 0 ? 1.0 : shadow_light(map, normal, cosine);
 }
 #else
 float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
@@ -81,6 +82,21 @@ Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
     return sum;
 }
 
+#ifdef POLYGONS
+#ifdef SHADOWED
+float polygon_reaches(int k, int map, Facing at) {
+    if (map < 0) return 1.0;
+    vec3 n = vec_of_dir(at.geometric), to = normalize(shadow_eye[map].xyz - eye.xyz - from_eye);
+    return soft_shadow(map, n, dot(n, to));
+}
+#else
+float polygon_reaches(int k, int map, Facing at) { return 1.0; }
+#endif
+#include "raster/glsl/polygons.glsl"
+#else
+Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) { return rgb_grey(0.0); }
+#endif
+
 void main() {
     Dir wo = eye.w > 0.5 ? dir_of(-normalize(from_eye)) : dir_of(-forward.xyz);
     Facing at = fragment_facing(wo);
@@ -94,6 +110,7 @@ void main() {
         s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m = surface_stack(s, material_choices(), material_table(), o);
         sum = rgb_add(sum, punctual_light(m, at, f, o));
+        sum = rgb_add(sum, polygon_light(m, at, f, o));
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 }

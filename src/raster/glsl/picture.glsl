@@ -1,11 +1,15 @@
-/* picture.glsl - what all shaders of a picture share: the camera, the punctual lights and their shadows */
+/* picture.glsl - what all shaders of a picture share: the camera, lights and their shadows */
 layout(std140) uniform Picture {
     highp mat4 to_clip; /* from the world, less the eye */
     highp vec4 eye;     /* w: 0 where all rays are parallel */
-    highp vec4 forward; /* of the camera; w: how many lights there are */
+    highp vec4 forward; /* of the camera; w: how many punctual lights there are */
     highp mat4 shadow_clip[4]; /* from the world, less shadow_eye */
     highp vec4 shadow_eye[4];  /* w: width of a texel, m; below 0 of one at distance 1 */
+    highp vec4 shadow_disc[4]; /* radius of the light, m; half the width of the map at distance 1 */
     highp vec4 lights[256]; /* four each: position and kind (0 directional, 1 point, 2 spot); direction that it
                                travels and range; colour times intensity, and shadow map or -1; cosines of the
                                cones */
+    highp vec4 polygon_corners[64]; /* eight each */
+    highp vec4 polygon_normals[8];
+    highp vec4 polygon_radiance[8];
 };

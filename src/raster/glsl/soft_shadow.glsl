@@ -1,0 +1,55 @@
+/* soft_shadow.glsl - how much of a light that has a size reaches a point
+ *
+ * A point of the light that is s from its middle meets the plane at distance b, on its way to a receiver at
+ * distance r, at s (1 - b / r) from the line to the middle: on the map, whose half width at distance 1 is h, at
+ * s (1 / b - 1 / r) / h. So the mean distance b of what is in the way says how far to look. Randima Fernando,
+ * "Percentage-Closer Soft Shadows", SIGGRAPH Sketches 2005. */
+#include "raster/glsl/shadow.glsl"
+
+uniform highp sampler2DArray shadow_depth;
+
+/* Point k of n on a disc, turned by an angle: Helmut Vogel, "A better way to construct the sunflower head",
+ * Mathematical Biosciences 44, 1979. */
+vec2 disc_point(int k, float n, float turn) {
+    float angle = float(k) * 2.39996323 + turn;
+    return sqrt((float(k) + 0.5) / n) * vec2(cos(angle), sin(angle));
+}
+
+/* Jorge Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014. */
+float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
+
+/* How the depth of the plane through a point p from the light, with normal n, changes over the map. There
+ * 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at distance 1; and
+ * depth is linear in 1 / w. */
+vec2 shadow_slope(int map, vec3 p, vec3 n) {
+    mat4 m = shadow_clip[map];
+    float h2 = shadow_disc[map].y * shadow_disc[map].y, through = min(dot(n, p), -1e-3 * length(p));
+    vec2 across = h2 * vec2(dot(n, vec3(m[0].x, m[1].x, m[2].x)), dot(n, vec3(m[0].y, m[1].y, m[2].y)));
+    return m[3].z * across / through;
+}
+
+float soft_shadow(int map, vec3 normal, float cosine) {
+    vec4 at = shadow_place(map, normal, cosine, 2.5);
+    if (at.w <= 0.0 || cosine <= 0.0) return 1.0;
+    vec2 slope = shadow_slope(map, eye.xyz + from_eye - shadow_eye[map].xyz, normal);
+    float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, turn = 6.2831853 * pixel_noise();
+    /* depth = 1/2 + (a + c / w) / 2 */
+    float c = shadow_clip[map][3].z, a = 2.0 * at.z - 1.0 - c / at.w, layer = float(map);
+    float inverse = 0.0, found = 0.0, look = min(size / at.w, 0.1);
+    for (int k = 0; k < 12; k++) {
+        vec2 to = look * disc_point(k, 12.0, turn);
+        float d = texture(shadow_depth, vec3(at.xy + to, layer)).r;
+        float nearer = (2.0 * d - 1.0 - a) / c;
+        if (d < at.z + dot(slope, to) && nearer * at.w > 1.002) {
+            inverse += nearer;
+            found += 1.0;
+        }
+    }
+    if (found < 0.5) return 1.0;
+    float spread = clamp(size * (inverse / found - 1.0 / at.w), 1.0 / 2048.0, 0.1), sum = 0.0;
+    for (int k = 0; k < 20; k++) {
+        vec2 to = spread * disc_point(k, 20.0, turn);
+        sum += texture(shadow_map, vec4(at.xy + to, layer, at.z + dot(slope, to)));
+    }
+    return sum / 20.0;
+}
