@@ -41,6 +41,8 @@ WEFT_API WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterD
 /* raster may be NULL. */
 WEFT_API void weft_raster_free(WeftRaster *raster);
 
+enum { WEFT_RASTER_POLYGONS = 8 };
+
 /* Zero means default, in every member. */
 typedef struct WeftRasterView {
     int width, height;  /* pixels, 1 .. 16384; 0: 960 x 720 */
@@ -48,6 +50,7 @@ typedef struct WeftRasterView {
     const char *camera; /* as in WeftRenderDesc */
     WeftBackground background;
     float background_color[3];
+    int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
     int no_shadows;     /* not 0: lights reach every point that faces them */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
 } WeftRasterView;

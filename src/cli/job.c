@@ -133,6 +133,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     WeftRasterView view = {.width = desc->width,
                            .height = desc->height,
                            .samples = job->request->msaa,
+                           .polygons = job->request->polygons ? job->request->polygons : -1,
                            .camera = camera,
                            .background = desc->background};
     memcpy(view.background_color, desc->background_color, sizeof view.background_color);

@@ -44,6 +44,8 @@ const Option request_options[] = {
     OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
     OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64,
                   "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
+                  "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
 
     OPTION_HEADING("Sampling of the path tracer"),
@@ -162,6 +164,7 @@ static bool read_engine(const Options *options, Request *request) {
     bool good = option_choice(options, "--engine", engines, &engine) &&
                 option_choice(options, "--gl", gl_versions, &kind) &&
                 option_integer(options, "--msaa", &request->msaa) &&
+                option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--turntable", &request->turntable) && read_lights(options, request);
     request->engine = (Engine)engine;
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,

@@ -27,7 +27,7 @@ typedef struct Request {
     bool quiet;
     Engine engine;
     WeftRasterDesc raster;
-    int msaa;
+    int msaa, polygons;
     int turntable; /* pictures around the scene; 0: one */
     WeftLight lights[REQUEST_LIGHTS_MOST];
     int light_count;

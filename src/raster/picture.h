@@ -4,8 +4,9 @@
 #define WEFT_RASTER_PICTURE_H
 
 #include "raster/shadow.h"
+#include "weft/raster.h"
 
-enum { PICTURE_LIGHTS_MOST = 64, PICTURE_POLYGONS_MOST = 8 };
+enum { PICTURE_LIGHTS_MOST = 64, PICTURE_POLYGONS_MOST = WEFT_RASTER_POLYGONS };
 
 /* As glsl/picture.glsl declares it, std140. */
 typedef struct Picture {

@@ -130,6 +130,8 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     if (!view->width) view->width = DEFAULT_WIDTH;
     if (!view->height) view->height = DEFAULT_HEIGHT;
     if (!view->samples) view->samples = DEFAULT_SAMPLES;
+    if (!view->polygons) view->polygons = WEFT_RASTER_POLYGONS;
+    if (view->polygons < 0) view->polygons = 0;
     if (view->background != WEFT_BACKGROUND_AUTO) return;
     bool studio = scene->environment.kind == ENVIRONMENT_STUDIO;
     view->background = studio ? WEFT_BACKGROUND_COLOR : WEFT_BACKGROUND_ENVIRONMENT;
@@ -227,9 +229,9 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
 }
 
 /* What the lights make of a key. */
-static void add_lights(const WeftRaster *self, bool shadows, ShaderKey *key) {
+static void add_lights(const WeftRaster *self, const WeftRasterView *view, ShaderKey *key) {
     const WeftScene *scene = self->scene;
-    key->shadowed = shadows && self->shadows.count;
+    key->shadowed = !view->no_shadows && self->shadows.count;
     key->lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
     for (int k = 0; k < key->lights && key->lights <= SHADER_LIGHTS; k++) {
         key->light_kind[k] = (int8_t)scene->lights[k].kind;
@@ -237,7 +239,7 @@ static void add_lights(const WeftRaster *self, bool shadows, ShaderKey *key) {
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
             if (self->shadows.of_light[j] == k) key->light_map[k] = (int8_t)j;
     }
-    key->polygons = self->polygons.count;
+    key->polygons = view->polygons < self->polygons.count ? view->polygons : self->polygons.count;
     for (int k = 0; k < key->polygons; k++) {
         key->polygon_corners[k] = (int8_t)self->polygons.items[k].count;
         key->polygon_two_sided[k] = self->polygons.items[k].two_sided;
@@ -253,7 +255,7 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     for (int k = 0; k < self->queue.count && result == WEFT_OK; k++) {
         int mesh = self->queue.order[k];
         ShaderKey key = self->materials.all[self->scene->meshes[mesh].material].key;
-        add_lights(self, !view->no_shadows, &key);
+        add_lights(self, view, &key);
         if (k == self->queue.solid) {
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */

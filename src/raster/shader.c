@@ -50,25 +50,43 @@ static void add_lobe(TextSlot *slot, const Slot *from) {
     slot->lobes[slot->count++] = id;
 }
 
-/* The lobes that the slots of a stack of these choices may hold. */
-static void find_slots(const Choices *choices, TextSlot slots[TEXT_SLOTS]) {
+/* Puts in what a key says of inputs that are nothing. */
+static void leave_out(const ShaderKey *key, Surface *s) {
+#define NO_SCALAR(name)    s->name = 0.0f
+#define NO_ANGLE(name)     s->name = 0.0f
+#define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
+#define NO_NORMAL(name)    (void)0
+#define NO_DIRECTION(name) (void)0
+#define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
+    if (key->inputs[INPUT_##name].state == INPUT_ZERO) NO_##kind(name);
+    SURFACE_INPUTS(LEAVE_OUT)
+}
+
+/* What the slots of a stack of this key may hold, and whether a layer rule could do without a sheen. */
+static bool find_slots(const ShaderKey *key, TextSlot slots[TEXT_SLOTS]) {
+    bool worn = true;
     for (int x = 0; x <= 2; x++) {
         Stack m;
         Surface s = full_surface(0.5f * (float)x);
-        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        leave_out(key, &s);
+        stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
         add_lobe(&slots[0], &m.diffuse);
         add_lobe(&slots[1], &m.specular);
         add_lobe(&slots[2], &m.sheen);
         add_lobe(&slots[3], &m.coat);
+        worn &= m.layer != LAYER_SEED;
     }
+    return worn;
 }
 
-/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others, and dust for its own. */
+/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
 static void put_lobes(Text *text, const ShaderKey *key) {
+    static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
+                                                "HAS_COAT(m)"};
     TextSlot slots[TEXT_SLOTS] = {0};
     int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    if (key->inputs[INPUT_dust].state != INPUT_ZERO) ids[count++] = LOBE_LTC_FIBRE;
-    find_slots(&key->choices, slots);
+    bool worn = find_slots(key, slots), dusty = key->inputs[INPUT_dust].state != INPUT_ZERO;
+    if (dusty) ids[count++] = LOBE_LTC_FIBRE;
     for (int k = 0; k < TEXT_SLOTS; k++)
         for (int j = 0; j < slots[k].count; j++) ids[count++] = slots[k].lobes[j];
     char kind[16], tilts[16];
@@ -76,6 +94,9 @@ static void put_lobes(Text *text, const ShaderKey *key) {
     snprintf(tilts, sizeof tilts, "%d", key->table_tilts);
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
+    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], slots[k].count ? "true" : "false");
+    text_define(text, "HAS_DUST(m)", dusty ? "true" : "false");
+    text_define(text, "IS_WORN(m)", worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);
     text_slots(text, slots);
 }
@@ -248,6 +269,19 @@ static void put_lights(Text *text, const ShaderKey *key) {
     text_define(text, "EACH_POLYGON(L)", polygons);
 }
 
+/* Whether a pixel looks another way for another tangent. */
+static bool turns(const ShaderKey *key) {
+    static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
+    TextSlot slots[TEXT_SLOTS] = {0};
+    for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
+        int state = key->inputs[turning[k]].state;
+        bool number = input_infos[turning[k]].kind != INPUT_NORMAL;
+        if (state == INPUT_MAP || (number && state != INPUT_ZERO)) return true;
+    }
+    find_slots(key, slots);
+    return slots[2].count && weft_lobe_info(slots[2].lobes[0])->traits & TRAIT_ANISOTROPIC;
+}
+
 /* Nothing but what is there: holes and what is less than half there let light through. */
 static void depth_text(const ShaderKey *key, Text *text) {
     text_include(text, "shading/surface.h");
@@ -264,6 +298,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
         return;
     }
     if (key->shadowed) text_define(text, "SHADOWED", "1");
+    if (turns(key)) text_define(text, "TURNS", "1");
     put_lights(text, key);
     put_lobes(text, key);
     if (key->polygons) text_lobe_tables(text);

@@ -72,12 +72,12 @@ FN Stack compose_choices(Stack m, Surface s, Choices c) {
         m.at = m.sheen.lobe.params[0];
     }
     if (c.layer_by >= 0) m.by = c.layer_by;
-    if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && m.specular.pick > 0.0f) {
+    if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && HAS_SPECULAR(m)) {
         m.specular.lobe = compose_specular(m.specular.lobe, c);
         m.specular.lobe.params[COOK_TORRANCE_IOR] = compose_ior(s);
         m.specular.lobe.params[COOK_TORRANCE_K] = s.extinction;
     }
-    if (c.diffuse >= 0 && m.diffuse.pick > 0.0f) {
+    if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
         Lobe lobe = lobe_rough(c.diffuse, c.diffuse == LOBE_WRAP ? s.subsurface : s.roughness);
         Rgb color = rgb_scale(m.diffuse.f0, 1.0f / max(m.left, 1e-6f));
         m.diffuse = slot_make(lobe, color, color, m.left, m.diffuse.pick);
@@ -113,7 +113,7 @@ FN Stack compose_dust(Stack m, Surface s, Dir o) {
 /* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
 FN Stack compose_finish(Stack m, TableRef e, Dir o) {
     m.table = e;
-    if (m.sheen.pick > 0.0f) {
+    if (HAS_SHEEN(m)) {
         m.e_o = stack_albedo(m, o);
         m.e_avg = table_sheen_nap_average(e, m.nap, m.at);
         float keep = rgb_mean(stack_keep(m, m.e_o));
@@ -151,8 +151,8 @@ FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
 /* The same as stack_value for some of the slots: what the others do to these stays. */
 FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     SheenE e_i = sheen_e_of(0.0f);
-    if (m.layer >= LAYER_ALBEDO_MIN && m.sheen.pick > 0.0f) e_i = stack_albedo(m, a.i);
-    bool worn = m.color.r + m.color.g + m.color.b > 0.0f;
+    if (m.layer >= LAYER_ALBEDO_MIN && HAS_SHEEN(m)) e_i = stack_albedo(m, a.i);
+    bool worn = IS_WORN(m);
     Rgb keep = worn ? stack_keep(m, e_i) : rgb_grey(1.0f);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
     if (m.layer == LAYER_SEED && worn) {
@@ -163,28 +163,28 @@ FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     StackValue sum;
     sum.f_cos = rgb_grey(0.0f);
     sum.pdf = 0.0f;
-    if (only.diffuse && m.diffuse.pick > 0.0f) {
+    if (only.diffuse && HAS_DIFFUSE(m)) {
         LobeValue v = diffuse_at(m.diffuse.lobe, a);
         sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(m.diffuse, v));
         sum.pdf = slot_pdf(m.diffuse, v);
     }
-    if (only.specular && m.specular.pick > 0.0f) {
+    if (only.specular && HAS_SPECULAR(m)) {
         LobeValue v = specular_at(m.specular.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(m.specular, v)));
         sum.pdf = sum.pdf + slot_pdf(m.specular, v);
     }
-    if (only.sheen && m.sheen.pick > 0.0f) {
+    if (only.sheen && HAS_SHEEN(m)) {
         LobeValue v = sheen_at(m.sheen.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
         sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
     }
-    if (only.dust && m.dust.pick > 0.0f) {
+    if (only.dust && HAS_DUST(m)) {
         LobeValue v = dust_value(m.dust.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, slot_f(m.dust, v));
         sum.pdf = sum.pdf + slot_pdf(m.dust, v);
     }
     sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
-    if (only.coat && m.coat.pick > 0.0f && coat.o.z > 0.0f && coat.i.z > 0.0f) {
+    if (only.coat && HAS_COAT(m) && coat.o.z > 0.0f && coat.i.z > 0.0f) {
         LobeValue v = coat_at(m.coat.lobe, coat);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(m.coat, v), coat.i.z));
         sum.pdf = sum.pdf + slot_pdf(m.coat, v);

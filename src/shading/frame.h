@@ -14,6 +14,10 @@ FN Dir dir_cross(Dir a, Dir b) {
     return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
+FN Dir dir_choose(bool first, Dir a, Dir b) {
+    return dir(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+
 /* a / |a|, or fallback where a has no direction. */
 FN Dir dir_normal_or(Dir a, Dir fallback) {
     float s = dir_dot(a, a);
@@ -47,11 +51,10 @@ FN Dir frame_bent(Dir n, Dir geometric, Dir wo) {
     float cosine = dir_dot(wo, n);
     Dir mirror = dir_add(dir_scale(n, 2.0f * cosine), dir_scale(wo, -1.0f));
     float least = 0.05f * max(dir_dot(wo, geometric), 0.0f) + 1e-4f, below = dir_dot(mirror, geometric);
-    if (cosine > 1e-4f && below >= least) return n;
-    mirror = dir_normal_or(dir_add(mirror, dir_scale(geometric, max(least - below, 0.0f))), geometric);
-    Dir bent = dir_normal_or(dir_add(wo, mirror), geometric);
-    if (dir_dot(wo, bent) > 1e-4f) return bent;
-    return geometric;
+    Dir up = dir_normal_or(dir_add(mirror, dir_scale(geometric, max(least - below, 0.0f))), geometric);
+    Dir bent = dir_normal_or(dir_add(wo, up), geometric);
+    bent = dir_choose(dir_dot(wo, bent) > 1e-4f, bent, geometric);
+    return dir_choose(cosine > 1e-4f && below >= least, n, bent);
 }
 
 /* What a hit or a fragment knows of its surface, seen from the side of the viewer. */
@@ -64,14 +67,12 @@ STRUCT(Facing) {
 
 /* The frame of a surface seen along wo, x along the direction of its anisotropy if it has one. */
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
-    Dir normal = at.normal;
-    if (dir_dot(normal, at.geometric) <= 0.0f) normal = at.geometric; /* damaged normals */
-    Frame f = frame_about(normal, at.tangent, at.handedness);
-    if (s.normal.z < 1.0f) {
-        f = frame_about(frame_bent(frame_from(f, s.normal), at.geometric, wo), f.x, at.handedness);
-    } else if (dir_dot(normal, wo) <= 1e-4f) {
-        f = frame_about(frame_bent(normal, at.geometric, wo), f.x, at.handedness);
-    }
+    bool sound = dir_dot(at.normal, at.geometric) > 0.0f; /* else damaged */
+    Dir normal = dir_choose(sound, at.normal, at.geometric), n = normal;
+    if (s.normal.z < 1.0f) n = frame_from(frame_about(normal, at.tangent, at.handedness), s.normal);
+    bool bend = s.normal.z < 1.0f || dir_dot(normal, wo) <= 1e-4f;
+    n = dir_choose(bend, frame_bent(n, at.geometric, wo), n);
+    Frame f = frame_about(n, at.tangent, at.handedness);
     if (s.anisotropy > 0.0f) f = frame_about(f.z, frame_from(f, s.anisotropy_direction), at.handedness);
     return f;
 }

@@ -74,6 +74,17 @@ STRUCT(StackValue) {
     float pdf; /* of the mixture, 1/sr */
 };
 
+/* Whether a slot holds a lobe, and whether a layer rule has a sheen to see. A shader, which knows what its
+ * slots may hold, says so in place of these: what holds nothing then adds nothing. */
+#ifndef HAS_DIFFUSE
+#define HAS_DIFFUSE(m)  ((m).diffuse.pick > 0.0f)
+#define HAS_SPECULAR(m) ((m).specular.pick > 0.0f)
+#define HAS_SHEEN(m)    ((m).sheen.pick > 0.0f)
+#define HAS_COAT(m)     ((m).coat.pick > 0.0f)
+#define HAS_DUST(m)     ((m).dust.pick > 0.0f)
+#define IS_WORN(m)      ((m).color.r + (m).color.g + (m).color.b > 0.0f)
+#endif
+
 FN Slot slot_empty(void) {
     Slot s;
     s.lobe = lobe_default(LOBE_LAMBERT);
@@ -181,7 +192,7 @@ FN Rgb stack_under(Stack m, Angles a) {
 FN float stack_interface(Stack m, Angles a) {
     float s = schlick_s(min(a.d, min(a.o.z, a.i.z)));
     float f = rgb_max3(rgb_mix(m.specular.f0, m.specular.f90, s)) / max(m.left, 1e-6f);
-    return m.specular.pick > 0.0f ? min(f, 1.0f) : 0.0f;
+    return HAS_SPECULAR(m) ? min(f, 1.0f) : 0.0f;
 }
 
 /* What the sheen leaves of the base, by one channel of its colour. */

@@ -3,7 +3,11 @@
  * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table. */
 in highp vec3 from_eye;
 in highp vec3 vertex_normal;
+#ifdef TURNS
 in highp vec4 vertex_tangent;
+#else
+const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
 out highp vec4 fragment;
 
 #include "raster/glsl/picture.glsl"
@@ -67,11 +71,14 @@ Rgb light_from(int k, int kind, int map, Stack m, Facing at, Frame f, Dir o) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
     float cosine = dir_dot(beam.wi, at.geometric);
-    if (i.z <= 0.0 || cosine <= 0.0) return rgb_grey(0.0);
+    bool lit = i.z > 0.0 && cosine > 0.0;
+    i.z = max(i.z, 1e-6); /* what is not lit is worked out and left out: a branch costs more */
     Angles a = angles_between(o, i), coat = a;
-    if (m.coat.pick > 0.0) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
+    if (HAS_COAT(m)) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
     StackValue v = stack_value(m, a, coat);
-    return rgb_scale(rgb_mul(v.f_cos, beam.radiance), light_reaches(map, vec_of_dir(at.geometric), cosine));
+    float reaches = light_reaches(map, vec_of_dir(at.geometric), cosine);
+    Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
+    return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
 }
 
 /* EACH_LIGHT(L) is L(k, kind, map) for each light. */
