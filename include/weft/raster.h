@@ -27,7 +27,7 @@ typedef enum WeftGl { WEFT_GL_DESKTOP = 0, WEFT_GL_ES } WeftGl;
 typedef struct WeftRasterDesc {
     WeftGl gl;
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
-     * is there. Borrowed. */
+     * is there. It need not be there. Copied. */
     const char *shader_dir;
     int threads; /* for the tables; 0: one a processor */
 } WeftRasterDesc;
@@ -64,6 +64,13 @@ WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *v
  */
 WEFT_API WeftResult weft_raster_image(WeftRaster *raster, WeftImage *out, WeftError *error);
 
+/* Looks whether text in the shader_dir (files .h and .glsl) was made, changed or removed since the last look,
+ * or since the raster was made, and returns how many files were. From then on shaders are compiled anew when
+ * they are next drawn with; one that does not compile leaves the program before it in use, and
+ * WeftRasterInfo.complaint says why until it is mended. Cheap, but it asks the file system about each file:
+ * a few times a second will do. */
+WEFT_API int weft_raster_refresh(WeftRaster *raster);
+
 /* Waits until the driver has done all it was asked to: for timing. */
 WEFT_API void weft_raster_finish(WeftRaster *raster);
 
@@ -75,8 +82,7 @@ typedef struct WeftRasterInfo {
     int samples;        /* a pixel, of the last picture */
     double compile_seconds;
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
-    /* What the compiler says of a text that was changed and is not in use because of it; empty while all is
-     * well. */
+    /* What is wrong with a text that does not compile, from its file and line on; empty while all is well. */
     char complaint[512];
 } WeftRasterInfo;
 

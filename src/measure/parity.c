@@ -77,7 +77,7 @@ static WeftResult run(GlContext *context, const Subject *subject, Arrays *arrays
     text_line(&text, "\nconst int FIRST = %d;", id);
     WeftResult result = text_end(&text, error);
     ComputeDesc desc = {
-        .name = weft_lobe_info(id)->id, .text = text.bytes, .body = body, .inputs = INPUTS, .outputs = 1};
+        .name = weft_lobe_info(id)->id, .text = &text, .body = body, .inputs = INPUTS, .outputs = 1};
     if (result == WEFT_OK) result = compute_create(context, &desc, &compute, error);
     if (result == WEFT_OK) result = compute_tables(compute, text.tables, text.table_count, error);
     if (result == WEFT_OK)

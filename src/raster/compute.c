@@ -36,7 +36,7 @@ static const char *version_line(TextLanguage language) {
 static void put_fragment(Buffer *out, const ComputeDesc *desc, int pass) {
     char line[160];
     int first = pass * TARGETS, last = first + TARGETS < desc->outputs ? first + TARGETS : desc->outputs;
-    buffer_put_text(out, desc->text);
+    buffer_put_text(out, desc->text->bytes);
     buffer_put_text(out, "\nuniform highp sampler2DArray compute_inputs;\n");
     for (int k = first; k < last; k++) {
         snprintf(line, sizeof line, "layout(location = %d) out highp vec4 compute_out%d;\n", k - first, k);
@@ -72,7 +72,8 @@ static WeftResult build_programs(Compute *self, const ComputeDesc *desc, WeftErr
             result = fail(error, WEFT_MESSAGE_MEMORY, desc->name, NULL);
         } else {
             WeftError local = {0};
-            GLuint program = program_create(desc->name, vertex.bytes, fragment.bytes, &local);
+            GLuint program = program_create(desc->name, (ShaderSource){vertex.bytes, NULL},
+                                            (ShaderSource){fragment.bytes, desc->text}, &local);
             self->programs[pass] = program;
             if (!program) {
                 result = local.result;

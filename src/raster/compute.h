@@ -15,8 +15,8 @@ enum { COMPUTE_INPUTS_MAX = 32, COMPUTE_OUTPUTS_MAX = 16 };
 
 typedef struct ComputeDesc {
     const char *name; /* what it is for, in errors */
-    /* A fragment shader in the context's language up to main, from its #version on: the bytes of a Text. */
-    const char *text;
+    /* A fragment shader in the context's language up to main, from its #version on; closed with text_end. */
+    const Text *text;
     /* Statements that read vec4 in0, in1 ... and set vec4 out0, out1 ..., which start as 0. */
     const char *body;
     int inputs, outputs; /* 1 .. COMPUTE_INPUTS_MAX, 1 .. COMPUTE_OUTPUTS_MAX */

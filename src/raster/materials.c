@@ -85,7 +85,7 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
 static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures,
                           Uniforms *uniforms) {
     self->key.choices = material_choices(material);
-    self->key.alpha_mode = material->alpha_mode;
+    self->key.alpha_mode = (int)material->alpha_mode;
     self->key.unlit = material->unlit;
     self->key.double_sided = material->double_sided;
     for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);

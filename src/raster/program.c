@@ -1,35 +1,24 @@
 #include "raster/program.h"
 
-#include <string.h>
-
 #include <epoxy/gl.h>
 
-#include "base/fail.h"
+#include "raster/complaint.h"
 
-/* The first line of the driver's words that is about an error; the first of all where none is. */
-static void fail_log(const char *name, const char *log, WeftError *error) {
-    const char *line = log, *marked = strstr(log, "error");
-    if (!marked) marked = strstr(log, "ERROR");
-    for (const char *c = log; marked && c < marked; c++)
-        if (*c == '\n') line = c + 1;
-    fail(error, WEFT_MESSAGE_GL_COMPILE, name, "%.*s", (int)strcspn(line, "\r\n"), line);
-}
-
-static GLuint compile(GLenum stage, const char *name, const char *text, WeftError *error) {
+static GLuint compile(GLenum stage, const char *name, ShaderSource source, WeftError *error) {
     GLuint shader = glCreateShader(stage);
     GLint done = 0;
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, 1, &source.bytes, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
     if (done) return shader;
     char log[4096] = "";
     glGetShaderInfoLog(shader, sizeof log, NULL, log);
-    fail_log(name, log, error);
+    complain(name, log, source.text, error);
     glDeleteShader(shader);
     return 0;
 }
 
-unsigned program_create(const char *name, const char *vertex, const char *fragment, WeftError *error) {
+unsigned program_create(const char *name, ShaderSource vertex, ShaderSource fragment, WeftError *error) {
     GLuint v = compile(GL_VERTEX_SHADER, name, vertex, error), f = 0, program = 0;
     if (v) f = compile(GL_FRAGMENT_SHADER, name, fragment, error);
     if (f) {
@@ -42,7 +31,7 @@ unsigned program_create(const char *name, const char *vertex, const char *fragme
         if (!done) {
             char log[4096] = "";
             glGetProgramInfoLog(program, sizeof log, NULL, log);
-            fail_log(name, log, error);
+            complain(name, log, NULL, error);
             glDeleteProgram(program);
             program = 0;
         }

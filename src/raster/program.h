@@ -2,11 +2,16 @@
 #ifndef WEFT_RASTER_PROGRAM_H
 #define WEFT_RASTER_PROGRAM_H
 
-#include "weft/result.h"
+#include "text/text.h"
 
-/* A program from whole shaders, in the context that is current; 0 on failure. Fails with
- * WEFT_MESSAGE_GL_COMPILE, whose detail is the first line that the driver says; `name` is what the shader is
- * for. Release with glDeleteProgram. */
-unsigned program_create(const char *name, const char *vertex, const char *fragment, WeftError *error);
+/* A whole shader: what a Text holds, and perhaps lines of the caller's own behind it. */
+typedef struct ShaderSource {
+    const char *bytes;
+    const Text *text; /* which knows the files that its lines come from; may be NULL */
+} ShaderSource;
+
+/* A program in the context that is current; 0 on failure. Fails with WEFT_MESSAGE_GL_COMPILE as complain
+ * does; `name` is what the shader is for. Release with glDeleteProgram. */
+unsigned program_create(const char *name, ShaderSource vertex, ShaderSource fragment, WeftError *error);
 
 #endif

@@ -21,10 +21,10 @@ static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},
                                    {"shadow_map", UNIT_SHADOW},
                                    {"shadow_depth", UNIT_SHADOW_DEPTH}};
 
+/* Leaves the program in use: the one that was may be the one it replaces, and be gone. */
 static void set_units(Program *self) {
     static const int units[UNIT_TABLES] = {0, 1, 2, 3, 4, 5, 6, 7};
-    GLint maps = glGetUniformLocation(self->name, "material_maps"), previous;
-    glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
+    GLint maps = glGetUniformLocation(self->name, "material_maps");
     glUseProgram(self->name);
     self->samplers = 0;
     if (maps >= 0) {
@@ -42,7 +42,6 @@ static void set_units(Program *self) {
         glUniform1i(at, samplers[k].unit);
         self->samplers++;
     }
-    glUseProgram((GLuint)previous);
 }
 
 static void bind_blocks(GLuint program) {
@@ -85,7 +84,8 @@ static void build(Programs *programs, Program *self) {
     shader_vertex_text(&programs->desc, &vertex);
     shader_text(&self->key, &programs->desc, &fragment);
     if (text_end(&vertex, &error) == WEFT_OK && text_end(&fragment, &error) == WEFT_OK)
-        made = program_create("material shader", vertex.bytes, fragment.bytes, &error);
+        made = program_create("material shader", (ShaderSource){vertex.bytes, &vertex},
+                              (ShaderSource){fragment.bytes, &fragment}, &error);
     if (made) tables = make_tables(programs, &fragment, &error);
     text_free(&vertex);
     text_free(&fragment);
@@ -124,6 +124,13 @@ const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError 
 
 void programs_refresh(Programs *programs) {
     for (Program *p = programs->first; p; p = p->next) p->stale = true;
+}
+
+const char *programs_complaint(const Programs *programs) {
+    const char *first = "";
+    for (const Program *p = programs->first; p; p = p->next)
+        if (!p->stale && p->error.result != WEFT_OK) first = p->error.text;
+    return first;
 }
 
 void programs_destroy(Programs *programs) {

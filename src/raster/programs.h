@@ -30,11 +30,16 @@ typedef struct Programs {
 
 /* The program for a key, compiled where it is new or stale. NULL where it has never compiled, with what the
  * compiler says in error; where it did before, that one stays, and error tells all the same: *error is
- * WEFT_OK only where all is well. */
+ * WEFT_OK only where all is well. Compiling changes which program is in use. */
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
 
 /* From now on all are compiled again at their next use. */
 void programs_refresh(Programs *programs);
+
+/* What is wrong with the first of those that did not compile when they were last used; empty while all is
+ * well. */
+const char *programs_complaint(const Programs *programs);
+
 void programs_destroy(Programs *programs);
 
 #endif

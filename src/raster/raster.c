@@ -1,4 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -15,6 +16,7 @@
 #include "raster/queue.h"
 #include "raster/shadow.h"
 #include "raster/target.h"
+#include "raster/watch.h"
 #include "weft/raster.h"
 
 enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
@@ -32,10 +34,10 @@ struct WeftRaster {
     unsigned picture; /* uniform buffer */
     bool plain;       /* textures are without their smaller copies */
     Queue queue;
-    WeftError complaint;
     Camera camera; /* of the last picture */
     double compile_seconds;
     char *shader_dir;
+    Watch watch; /* of it */
 };
 
 static double now(void) {
@@ -86,6 +88,7 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     if (result == WEFT_OK && desc->shader_dir && !self->shader_dir)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->programs.desc = (TextDesc){language, true, self->shader_dir};
+    if (result == WEFT_OK && self->shader_dir) watch_look(&self->watch, self->shader_dir);
     if (result == WEFT_OK) result = context_create(language, &self->context, error);
     GlOuter outer;
     if (result == WEFT_OK && !context_enter(self->context, &outer))
@@ -112,6 +115,7 @@ void weft_raster_free(WeftRaster *self) {
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
     free(self->shader_dir);
+    watch_free(&self->watch);
     free(self);
 }
 
@@ -180,7 +184,6 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     int compiled = self->programs.compiled;
     const Program *program = programs_get(&self->programs, key, &said);
     if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
-    if (said.result != WEFT_OK) self->complaint = said;
     if (!program) {
         if (error) *error = said;
         return said.result;
@@ -278,7 +281,6 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     View seen = view_of(&self->camera, aspect);
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
-    self->complaint = (WeftError){0};
     set_state(self);
     if (!view.no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK)
@@ -304,6 +306,14 @@ WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error)
     return result;
 }
 
+int weft_raster_refresh(WeftRaster *self) {
+    int changes = self->shader_dir ? watch_look(&self->watch, self->shader_dir) : 0;
+    if (!changes) return 0;
+    programs_refresh(&self->programs);
+    self->shadows.drawn = false;
+    return changes;
+}
+
 void weft_raster_finish(WeftRaster *self) {
     GlOuter outer;
     if (!context_enter(self->context, &outer)) return;
@@ -321,6 +331,6 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
         info.programs += p->name != 0;
         if (p->samplers > info.samplers) info.samplers = p->samplers;
     }
-    memcpy(info.complaint, self->complaint.text, sizeof info.complaint);
+    snprintf(info.complaint, sizeof info.complaint, "%s", programs_complaint(&self->programs));
     return info;
 }

@@ -1,22 +1,34 @@
-/* buffer.h - text that grows */
+/* buffer.h - text that grows, and remembers where each of its bytes comes from */
 #ifndef WEFT_TEXT_BUFFER_H
 #define WEFT_TEXT_BUFFER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
+/* A line of a file, from 1 on; file is NULL where there is none. */
+typedef struct Origin {
+    const char *file; /* borrowed */
+    int line;
+} Origin;
+
 /* Zero-initialise. bytes ends with a zero byte that size does not count, and is NULL until something is put.
- */
+ * The owner may make size smaller: what is put next takes the place of the rest. */
 typedef struct Buffer {
     char *bytes;
     size_t size, room;
-    bool failed; /* memory ran out, or the text passed BUFFER_LIMIT; nothing more is put */
+    bool failed;   /* memory ran out, or the text passed BUFFER_LIMIT; nothing more is put */
+    Origin origin; /* of what is put from now on; the owner sets it */
+    struct BufferMark *marks;
+    size_t mark_count, mark_room;
 } Buffer;
 
 enum { BUFFER_LIMIT = 1 << 24 };
 
 void buffer_put(Buffer *buffer, const char *bytes, size_t size);
 void buffer_put_text(Buffer *buffer, const char *text);
+
+/* Where the byte at that place comes from. */
+Origin buffer_origin(const Buffer *buffer, size_t at);
 
 /* Leaves an empty buffer that can be used again. */
 void buffer_free(Buffer *buffer);

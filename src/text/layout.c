@@ -20,7 +20,7 @@ void layout_strip(const char *source, const char *end, Buffer *out) {
             bool block = *next == '*';
             for (next = c + 2;
                  next < end && (block ? next[-1] != '/' || next[-2] != '*' || next < c + 4 : *next != '\n');)
-                next++;
+                out->origin.line += *next++ == '\n';
             had_comment = true;
             buffer_put(out, " ", 1);
             c = next;
@@ -35,6 +35,7 @@ void layout_strip(const char *source, const char *end, Buffer *out) {
             had_comment = false;
             if (out->bytes) out->size = solid;
             if (!drop) buffer_put(out, "\n", 1);
+            out->origin.line++;
             line = out->size;
             c = next;
             continue;
@@ -81,8 +82,15 @@ static const char *find_mark(const char *c, const char *end, const char *marks) 
 
 static bool has_words(const char *c, const char *end) { return token_solid(&c, end).kind != TOKEN_NONE; }
 
+/* What is put from now on comes from the first word at c or behind it. */
+static void set_origin(const Buffer *source, const char *c, Buffer *out) {
+    const char *end = source->bytes + source->size;
+    while (c < end && is_blank(*c)) c++;
+    out->origin = buffer_origin(source, (size_t)(c - source->bytes));
+}
+
 /* struct Name { members }; a line each where there are several. */
-static void put_record(const char *c, const char *end, Buffer *out) {
+static void put_record(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *open = find_mark(c, end, "{"), *close = end;
     while (close > open && *close != '}') close--;
     int count = 0;
@@ -92,17 +100,19 @@ static void put_record(const char *c, const char *end, Buffer *out) {
     for (const char *m = open + 1; m < close;) {
         const char *stop = find_mark(m, close, ";");
         if (has_words(m, stop)) {
+            set_origin(source, m, out);
             if (count > 1) buffer_put_text(out, "    ");
             put_words(m, stop, out);
             buffer_put_text(out, count > 1 ? ";\n" : "; ");
         }
         m = stop + 1;
     }
+    set_origin(source, close, out);
     buffer_put_text(out, "};");
 }
 
 /* enum { A, B = 4, C } as constants; GLSL has no enumerations. */
-static void put_enumeration(const char *c, const char *end, Buffer *out) {
+static void put_enumeration(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *m = find_mark(c, end, "{") + 1, *close = find_mark(m, end, "}");
     char last[64] = "";
     bool first = true;
@@ -111,6 +121,7 @@ static void put_enumeration(const char *c, const char *end, Buffer *out) {
         const char *cursor = m;
         Token name = token_solid(&cursor, stop);
         if (name.kind == TOKEN_NONE) break;
+        set_origin(source, name.at, out);
         buffer_put_text(out, first ? "const int " : "\nconst int ");
         first = false;
         buffer_put(out, name.at, name.size);
@@ -133,8 +144,9 @@ static void put_enumeration(const char *c, const char *end, Buffer *out) {
 }
 
 /* What GLSL has no word for, found before a driver stumbles over it. */
-static const char *wrong_in(const char *c, const char *end) {
+static const char *wrong_in(const Buffer *source, const char *c, const char *end, Buffer *out) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        set_origin(source, token.at, out);
         if (token.kind == TOKEN_STRING) return "a string";
         if (token_is(token, "#") || token_is(token, "##")) return "a # that no directive has";
         if (token_is(token, "\\")) return "a joined line";
@@ -143,24 +155,27 @@ static const char *wrong_in(const char *c, const char *end) {
 }
 
 /* The text as it is, without blanks at line ends. */
-static void put_plain(const char *c, const char *end, Buffer *out) {
+static void put_plain(const Buffer *source, const char *c, const char *end, Buffer *out) {
     while (c < end) {
         const char *stop = find_mark(c, end, "\n"), *solid = stop;
         while (solid > c && is_blank(solid[-1])) solid--;
+        set_origin(source, c, out);
         buffer_put(out, c, (size_t)(solid - c));
         if (stop < end) buffer_put(out, "\n", 1);
         c = stop + 1;
     }
 }
 
-const char *layout_put(const char *source, const char *end, bool *gap, Buffer *out) {
-    for (const char *c = source; c < end;) {
+const char *layout_put(const Buffer *source, bool *gap, Buffer *out) {
+    const char *end = source->bytes + source->size;
+    for (const char *c = source->bytes; c < end;) {
         int newlines = 0;
         for (; c < end && (is_blank(*c) || *c == ';'); c++) newlines += *c == '\n';
         if (c == end) break;
         const char *stop = item_end(c, end), *cursor = c;
-        const char *wrong = wrong_in(c, stop);
+        const char *wrong = wrong_in(source, c, stop, out);
         if (wrong) return wrong;
+        set_origin(source, c, out);
         Token keyword = token_next(&cursor, stop), second = token_solid(&cursor, stop);
         bool type = token_is(keyword, "typedef"), record = token_is(keyword, "struct");
         bool enumeration = token_is(keyword, "enum") || (type && token_is(second, "enum"));
@@ -172,11 +187,11 @@ const char *layout_put(const char *source, const char *end, bool *gap, Buffer *o
         if ((*gap || newlines > 1) && out->size) buffer_put(out, "\n", 1);
         *gap = false;
         if (record)
-            put_record(c, stop - 1, out);
+            put_record(source, c, stop - 1, out);
         else if (enumeration)
-            put_enumeration(c, stop, out);
+            put_enumeration(source, c, stop, out);
         else
-            put_plain(c, stop, out);
+            put_plain(source, c, stop, out);
         buffer_put(out, "\n", 1);
         c = stop;
     }

@@ -5,11 +5,13 @@
 
 #include "text/buffer.h"
 
-/* Appends source without comments, and without the lines that held nothing else. */
+/* Appends source without comments, and without the lines that held nothing else. out->origin is where source
+ * comes from, and moves on with its lines. */
 void layout_strip(const char *source, const char *end, Buffer *out);
 
-/* Appends the declarations and functions of source, in which nothing is left to expand. *gap: a blank line is
- * due before the next. Returns NULL, or what is in the way of GLSL. */
-const char *layout_put(const char *source, const char *end, bool *gap, Buffer *out);
+/* Appends the declarations and functions of source, in which nothing is left to expand, each line with the
+ * origin of its first word. *gap: a blank line is due before the next. Returns NULL, or what is in the way of
+ * GLSL, of which out->origin is then the place. */
+const char *layout_put(const Buffer *source, bool *gap, Buffer *out);
 
 #endif

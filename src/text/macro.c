@@ -195,23 +195,25 @@ static void close_gap(const char **source, const char *end, Buffer *out) {
     *source = next;
 }
 
-void macro_expand(Macros *macros, const char *source, const char *end, Buffer *out) {
-    while (source < end && !out->failed && !*macros->wrong) {
-        Token token = token_next(&source, end);
-        Macro *macro = token.kind == TOKEN_NAME ? find(macros, token) : NULL;
-        size_t before = out->size;
-        bool taken = macro && !macro->busy;
-        if (taken && (macros->depth == DEPTH_MAX || ++macros->steps == STEPS_MAX)) {
-            set_wrong(macros, token, "expands without end");
-            return;
-        }
-        macros->depth++;
-        if (taken && macro->param_count < 0)
-            expand_body(macros, macro, macro->body, macro->end, out);
-        else if (taken)
-            taken = expand_call(macros, macro, &source, end, out);
-        macros->depth--;
-        if (!taken) buffer_put(out, token.at, token.size);
-        if (out->size == before) close_gap(&source, end, out);
+void macro_next(Macros *macros, const char **source, const char *end, Buffer *out) {
+    Token token = token_next(source, end);
+    Macro *macro = token.kind == TOKEN_NAME ? find(macros, token) : NULL;
+    size_t before = out->size;
+    bool taken = macro && !macro->busy;
+    if (taken && (macros->depth == DEPTH_MAX || ++macros->steps == STEPS_MAX)) {
+        set_wrong(macros, token, "expands without end");
+        return;
     }
+    macros->depth++;
+    if (taken && macro->param_count < 0)
+        expand_body(macros, macro, macro->body, macro->end, out);
+    else if (taken)
+        taken = expand_call(macros, macro, source, end, out);
+    macros->depth--;
+    if (!taken) buffer_put(out, token.at, token.size);
+    if (out->size == before) close_gap(source, end, out);
+}
+
+void macro_expand(Macros *macros, const char *source, const char *end, Buffer *out) {
+    while (source < end && !out->failed && !*macros->wrong) macro_next(macros, &source, end, out);
 }

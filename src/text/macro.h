@@ -24,6 +24,9 @@ void macro_define(Macros *macros, const char *definition, size_t size);
 void macro_undefine(Macros *macros, Token name);
 bool macro_defined(const Macros *macros, Token name);
 
+/* Takes one token from [*source, end), or the call that it begins, and appends what that stands for. */
+void macro_next(Macros *macros, const char **source, const char *end, Buffer *out);
+
 /* Appends [source, end) with every macro expanded. */
 void macro_expand(Macros *macros, const char *source, const char *end, Buffer *out);
 

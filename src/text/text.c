@@ -21,6 +21,7 @@ enum { CONDITIONS_MAX = 16, CONDITION_LIMIT = 1024, FILE_LIMIT = 1 << 20, INCLUD
 /* The #if lines around a place. */
 typedef struct Conditions {
     int depth;
+    Origin opened[CONDITIONS_MAX];
     bool on[CONDITIONS_MAX];    /* this branch, and those around it, are taken */
     bool spent[CONDITIONS_MAX]; /* a branch of it was taken, or none may be */
 } Conditions;
@@ -31,8 +32,17 @@ static void fail_memory(Text *text) {
     if (!failed(text)) fail(&text->error, WEFT_MESSAGE_MEMORY, "shader text", NULL);
 }
 
-static void fail_dialect(Text *text, const char *file, const char *what) {
-    if (!failed(text)) fail(&text->error, WEFT_MESSAGE_TEXT_DIALECT, file, "%s", what);
+WeftResult text_fail_at(Origin origin, WeftMessage message, const char *what, WeftError *error) {
+    char place[200];
+    size_t size = strlen(origin.file);
+    const char *file = size < 180 ? origin.file : origin.file + size - 180; /* the line is not to be cut */
+    snprintf(place, sizeof place, "%s:%d", file, origin.line);
+    return fail(error, message, place, "%s", what);
+}
+
+/* Of the place where the text's buffer is. */
+static void fail_dialect(Text *text, const char *what) {
+    if (!failed(text)) text_fail_at(text->buffer.origin, WEFT_MESSAGE_TEXT_DIALECT, what, &text->error);
 }
 
 void text_define(Text *text, const char *name, const char *body) {
@@ -58,6 +68,7 @@ void text_begin(Text *text, const TextDesc *desc) {
 
 void text_line(Text *text, const char *format, ...) {
     if (failed(text)) return;
+    text->buffer.origin = (Origin){0};
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
@@ -110,17 +121,25 @@ static void define_types(Text *text, const char *c, const char *end) {
     }
 }
 
-/* The declarations between two directives. */
-static void put_chunk(Text *text, const char *file, const char *chunk, const char *end) {
+static void check_macros(Text *text) {
+    if (text->macros.short_of_memory) fail_memory(text);
+    if (*text->macros.wrong) fail_dialect(text, text->macros.wrong);
+}
+
+/* The declarations between two directives of source. What a macro stands for comes from where it is called.
+ */
+static void put_chunk(Text *text, const Buffer *source, const char *chunk, const char *end) {
     define_types(text, chunk, end);
     Buffer expanded = {0};
-    macro_expand(&text->macros, chunk, end, &expanded);
-    if (text->macros.short_of_memory || expanded.failed) fail_memory(text);
-    if (*text->macros.wrong) fail_dialect(text, file, text->macros.wrong);
+    while (chunk < end && !expanded.failed && !*text->macros.wrong) {
+        text->buffer.origin = expanded.origin = buffer_origin(source, (size_t)(chunk - source->bytes));
+        macro_next(&text->macros, &chunk, end, &expanded);
+    }
+    if (expanded.failed) fail_memory(text);
+    check_macros(text);
     if (!failed(text) && expanded.bytes) {
-        const char *wrong =
-            layout_put(expanded.bytes, expanded.bytes + expanded.size, &text->gap, &text->buffer);
-        if (wrong) fail_dialect(text, file, wrong);
+        const char *wrong = layout_put(&expanded, &text->gap, &text->buffer);
+        if (wrong) fail_dialect(text, wrong);
     }
     buffer_free(&expanded);
 }
@@ -145,15 +164,15 @@ static bool put_constant(Text *text, const char *c, const char *end) {
     return true;
 }
 
-static bool condition_or(Text *text, const char *file, const char **c, const char *end);
+static bool condition_or(Text *text, const char **c, const char *end);
 
-static bool condition_one(Text *text, const char *file, const char **c, const char *end) {
+static bool condition_one(Text *text, const char **c, const char *end) {
     Token token = token_solid(c, end);
-    if (token_is(token, "!")) return !condition_one(text, file, c, end);
+    if (token_is(token, "!")) return !condition_one(text, c, end);
     if (token.kind == TOKEN_NUMBER) return !token_is(token, "0");
     if (token_is(token, "(")) {
-        bool inner = condition_or(text, file, c, end);
-        if (!token_is(token_solid(c, end), ")")) fail_dialect(text, file, "an #if without its parenthesis");
+        bool inner = condition_or(text, c, end);
+        if (!token_is(token_solid(c, end), ")")) fail_dialect(text, "an #if without its parenthesis");
         return inner;
     }
     if (token_is(token, "defined")) {
@@ -163,7 +182,7 @@ static bool condition_one(Text *text, const char *file, const char **c, const ch
         if (parenthesis) token_solid(c, end);
         return macro_defined(&text->macros, name);
     }
-    fail_dialect(text, file, "an #if of more than defined, !, && and ||");
+    fail_dialect(text, "an #if of more than defined, !, && and ||");
     return false;
 }
 
@@ -175,23 +194,23 @@ static bool take_pair(const char **cursor, const char *end, const char *mark) {
     return true;
 }
 
-static bool condition_and(Text *text, const char *file, const char **c, const char *end) {
-    bool all = condition_one(text, file, c, end);
-    while (take_pair(c, end, "&")) all &= condition_one(text, file, c, end);
+static bool condition_and(Text *text, const char **c, const char *end) {
+    bool all = condition_one(text, c, end);
+    while (take_pair(c, end, "&")) all &= condition_one(text, c, end);
     return all;
 }
 
-static bool condition_or(Text *text, const char *file, const char **c, const char *end) {
-    bool any = condition_and(text, file, c, end);
-    while (take_pair(c, end, "|")) any |= condition_and(text, file, c, end);
+static bool condition_or(Text *text, const char **c, const char *end) {
+    bool any = condition_and(text, c, end);
+    while (take_pair(c, end, "|")) any |= condition_and(text, c, end);
     return any;
 }
 
 /* What a whole #if line says. */
-static bool condition(Text *text, const char *file, const char *c, const char *end) {
-    bool any = end - c < CONDITION_LIMIT && condition_or(text, file, &c, end);
+static bool condition(Text *text, const char *c, const char *end) {
+    bool any = end - c < CONDITION_LIMIT && condition_or(text, &c, end);
     if (token_solid(&c, end).kind != TOKEN_NONE)
-        fail_dialect(text, file, "an #if of more than defined, !, && and ||");
+        fail_dialect(text, "an #if of more than defined, !, && and ||");
     return any;
 }
 
@@ -199,7 +218,7 @@ static bool condition(Text *text, const char *file, const char *c, const char *e
 static void include_line(Text *text, const char *file, const char *c, const char *end) {
     Token name = token_solid(&c, end);
     if (name.kind != TOKEN_STRING || name.size < 3) {
-        fail_dialect(text, file, "includes a header of C");
+        fail_dialect(text, "includes a header of C");
         return;
     }
     char path[256];
@@ -214,17 +233,17 @@ static bool is_on(const Conditions *conditions) {
 }
 
 /* The lines that choose what follows; false where it is none of them. */
-static bool take_condition(Text *text, const char *file, Token word, const char *c, const char *end,
-                           Conditions *conditions) {
+static bool take_condition(Text *text, Token word, const char *c, const char *end, Conditions *conditions) {
     bool negative = token_is(word, "ifndef"), defined = negative || token_is(word, "ifdef");
     if (defined || token_is(word, "if")) {
         if (conditions->depth == CONDITIONS_MAX) {
-            fail_dialect(text, file, "too many #if inside each other");
+            fail_dialect(text, "too many #if inside each other");
             return true;
         }
         bool outer = is_on(conditions);
         bool taken = outer && (defined ? macro_defined(&text->macros, token_solid(&c, end)) != negative
-                                       : condition(text, file, c, end));
+                                       : condition(text, c, end));
+        conditions->opened[conditions->depth] = text->buffer.origin;
         conditions->on[conditions->depth] = taken;
         conditions->spent[conditions->depth++] = taken || !outer;
         return true;
@@ -232,13 +251,13 @@ static bool take_condition(Text *text, const char *file, Token word, const char 
     bool otherwise = token_is(word, "else"), elif = token_is(word, "elif"), close = token_is(word, "endif");
     if (!otherwise && !elif && !close) return false;
     if (conditions->depth == 0) {
-        fail_dialect(text, file, "an #else or #endif without its #if");
+        fail_dialect(text, "an #else or #endif without its #if");
         return true;
     }
     int at = conditions->depth - 1;
     if (close)
         conditions->depth = at;
-    else if ((conditions->on[at] = !conditions->spent[at] && (otherwise || condition(text, file, c, end))))
+    else if ((conditions->on[at] = !conditions->spent[at] && (otherwise || condition(text, c, end))))
         conditions->spent[at] = true;
     return true;
 }
@@ -247,7 +266,7 @@ static bool take_condition(Text *text, const char *file, Token word, const char 
 static void take_directive(Text *text, const char *file, const char *c, const char *end,
                            Conditions *conditions) {
     Token word = token_solid(&c, end);
-    if (take_condition(text, file, word, c, end, conditions) || !is_on(conditions)) return;
+    if (take_condition(text, word, c, end, conditions) || !is_on(conditions)) return;
     if (token_is(word, "include")) {
         include_line(text, file, c, end);
     } else if (token_is(word, "define")) {
@@ -255,7 +274,7 @@ static void take_directive(Text *text, const char *file, const char *c, const ch
     } else if (token_is(word, "undef")) {
         macro_undefine(&text->macros, token_solid(&c, end));
     } else {
-        fail_dialect(text, file, "a directive that shading text does not have");
+        fail_dialect(text, "a directive that shading text does not have");
     }
 }
 
@@ -265,11 +284,11 @@ static const char *line_end(const char *c, const char *end) {
 }
 
 /* source has no comments. */
-static void put_file(Text *text, const char *file, const char *source, const char *end) {
+static void put_file(Text *text, const char *file, const Buffer *source) {
     Conditions conditions = {0};
-    const char *chunk = source;
+    const char *chunk = source->bytes, *end = chunk + source->size;
     text->gap = true;
-    for (const char *line = source, *next; line < end && !failed(text); line = next) {
+    for (const char *line = chunk, *next; line < end && !failed(text); line = next) {
         const char *hash = line;
         while (hash < end && (*hash == ' ' || *hash == '\t')) hash++;
         if (hash == end || *hash != '#') {
@@ -279,54 +298,75 @@ static void put_file(Text *text, const char *file, const char *source, const cha
         }
         const char *stop = line_end(hash, end);
         next = stop < end ? stop + 1 : end;
-        if (is_on(&conditions)) put_chunk(text, file, chunk, line);
+        if (is_on(&conditions)) put_chunk(text, source, chunk, line);
+        text->buffer.origin = buffer_origin(source, (size_t)(hash - source->bytes));
         if (!failed(text)) take_directive(text, file, hash + 1, stop, &conditions);
+        check_macros(text);
         chunk = next;
     }
-    if (is_on(&conditions) && !failed(text)) put_chunk(text, file, chunk, end);
-    if (conditions.depth) fail_dialect(text, file, "an #if without its #endif");
+    if (is_on(&conditions) && !failed(text)) put_chunk(text, source, chunk, end);
+    if (conditions.depth) {
+        text->buffer.origin = conditions.opened[conditions.depth - 1];
+        fail_dialect(text, "an #if without its #endif");
+    }
     text->gap = true;
 }
 
-/* The file's bytes, from the folder or the library; `own` is to be freed. */
-static bool find_file(Text *text, const char *file, const char **bytes, const char **end, FileBytes *own) {
+typedef struct Source {
+    const char *path; /* that a person finds it by */
+    const char *bytes, *end;
+    unsigned char *own; /* to be freed */
+} Source;
+
+static void fail_missing(Text *text, const char *file) {
+    char what[300];
+    snprintf(what, sizeof what, "includes %s, which is not there", file);
+    if (text->depth)
+        fail_dialect(text, what);
+    else
+        fail(&text->error, WEFT_MESSAGE_TEXT_NAME, file, NULL);
+}
+
+/* The file, from the folder or the library. */
+static bool find_file(Text *text, const char *file, Source *out) {
     char path[1024];
     struct stat status;
+    FileBytes read;
     if (text->desc.folder &&
         (size_t)snprintf(path, sizeof path, "%s/%s", text->desc.folder, file) < sizeof path &&
         (stat(path, &status) == 0 || (errno != ENOENT && errno != ENOTDIR))) {
-        if (file_read(path, FILE_LIMIT, own, &text->error) != WEFT_OK) return false;
-        *bytes = (const char *)own->data;
-        *end = *bytes + own->size;
+        if (file_read(path, FILE_LIMIT, &read, &text->error) != WEFT_OK) return false;
+        const char *bytes = (const char *)read.data;
+        *out = (Source){arena_text(&text->macros.arena, path), bytes, bytes + read.size, read.data};
+        if (!out->path) fail_memory(text);
         return true;
     }
     for (const CatalogueFile *k = catalogue_files; k->name; k++)
         if (strcmp(k->name, file) == 0) {
-            *bytes = k->bytes;
-            *end = k->end;
+            *out = (Source){k->name, k->bytes, k->end, NULL};
             return true;
         }
-    fail(&text->error, WEFT_MESSAGE_TEXT_NAME, file, NULL);
+    fail_missing(text, file);
     return false;
 }
 
 void text_include(Text *text, const char *file) {
     if (!include_first(text, file)) return;
     if (text->depth == INCLUDES_MAX) {
-        fail_dialect(text, file, "too many files inside each other");
+        fail(&text->error, WEFT_MESSAGE_TEXT_DIALECT, file, "too many files inside each other");
         return;
     }
-    const char *bytes, *end;
-    FileBytes own = {0};
-    if (!find_file(text, file, &bytes, &end, &own)) return;
-    Buffer stripped = {0};
-    layout_strip(bytes, end, &stripped);
-    free(own.data);
+    Source source;
+    if (!find_file(text, file, &source)) return;
+    Buffer stripped = {.origin = {source.path, 1}};
+    text->buffer.origin = stripped.origin;
+    layout_strip(source.bytes, source.end, &stripped);
+    free(source.own);
     text->depth++;
     if (stripped.failed)
         fail_memory(text);
-    else if (stripped.bytes)
-        put_file(text, file, stripped.bytes, stripped.bytes + stripped.size);
+    else if (stripped.bytes && !failed(text))
+        put_file(text, file, &stripped);
     text->depth--;
     buffer_free(&stripped);
 }
@@ -350,6 +390,14 @@ WeftResult text_end(Text *text, WeftError *error) {
     text->bytes = text->buffer.bytes;
     text->size = text->buffer.size;
     return WEFT_OK;
+}
+
+Origin text_origin(const Text *text, int line) {
+    const char *c = text->buffer.bytes;
+    while (c && --line > 0) c = (c = strchr(c, '\n')) ? c + 1 : NULL;
+    if (!c || !*c || line < 0) return (Origin){0};
+    while (*c == ' ') c++;
+    return buffer_origin(&text->buffer, (size_t)(c - text->buffer.bytes));
 }
 
 void text_free(Text *text) {

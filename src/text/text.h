@@ -9,7 +9,8 @@
  *
  * The texts are those of src/shading when the library was built. What they include is put in its place, once;
  * comments, the branches for C and the macros are gone: tables of parameters are members, enumerations
- * constants. A failure stays in the Text: later calls do nothing, and text_end returns it.
+ * constants. Of each line the Text knows the line that it was made from. A failure stays in the Text: later
+ * calls do nothing, and text_end returns it.
  *
  * A Text belongs to one thread at a time; two of them share nothing. */
 #ifndef WEFT_TEXT_TEXT_H
@@ -62,7 +63,8 @@ typedef struct Text {
 void text_begin(Text *text, const TextDesc *desc);
 
 /* A file of the catalogue by its name ("shading/lobes/ggx.h") and what it includes, except what the text has
- * already. Fails with WEFT_MESSAGE_TEXT_NAME, or _TEXT_DIALECT where the file is not shading text. */
+ * already. Fails with WEFT_MESSAGE_TEXT_NAME, or _TEXT_DIALECT with file and line where it is not
+ * shading text. */
 void text_include(Text *text, const char *file);
 
 /* From here on an include of that file is nothing: the caller's own lines take its place. False where the
@@ -78,6 +80,14 @@ __attribute__((format(printf, 2, 3))) void text_line(Text *text, const char *for
 /* Adds a table and returns its layer, the Table of shading/table.h; -1 where there are TEXT_TABLES_MAX, which
  * is a failure too (WEFT_MESSAGE_DESC). */
 int text_table(Text *text, TextTable table);
+
+/* The file and line that a line of the text comes from, both counted from 1; lines that a macro stands for
+ * come from where it is called. The file is a name of the catalogue, behind the folder where it was found
+ * there. NULL of lines that the caller made, and where there is no such line. Valid until text_free. */
+Origin text_origin(const Text *text, int line);
+
+/* Fails with "FILE:LINE: what the message says: what"; the file must not be NULL. */
+WeftResult text_fail_at(Origin origin, WeftMessage message, const char *what, WeftError *error);
 
 /* Sets text->bytes and size, or returns what went wrong first. */
 WeftResult text_end(Text *text, WeftError *error);

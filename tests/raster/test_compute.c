@@ -34,8 +34,7 @@ static WeftResult create(GlContext *context, const char *lines, const char *body
     assert_int_equal(text_end(&text, NULL), WEFT_OK);
     WeftResult result = compute_create(
         context,
-        &(ComputeDesc){
-            .name = "a test", .text = text.bytes, .body = body, .inputs = inputs, .outputs = outputs},
+        &(ComputeDesc){.name = "a test", .text = &text, .body = body, .inputs = inputs, .outputs = outputs},
         out, error);
     text_free(&text);
     return result;

@@ -116,7 +116,7 @@ static void make_program(void *user, int language, int thread) {
     subject->put(&text, programs->which);
     if (text_end(&text, error) == WEFT_OK) {
         ComputeDesc desc = {.name = programs->name,
-                            .text = text.bytes,
+                            .text = &text,
                             .body = subject->body,
                             .inputs = subject->inputs,
                             .outputs = ((int)strlen(subject->answers) + 3) / 4};

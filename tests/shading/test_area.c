@@ -316,7 +316,7 @@ static void compare_on(TextLanguage language) {
     begin_text(&text, language);
     assert_int_equal(text_end(&text, &error), WEFT_OK);
     ComputeDesc desc = {
-        .name = "a polygon light", .text = text.bytes, .body = body, .inputs = GPU_INPUTS, .outputs = 1};
+        .name = "a polygon light", .text = &text, .body = body, .inputs = GPU_INPUTS, .outputs = 1};
     if (compute_create(context, &desc, &compute, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(compute_tables(compute, text.tables, text.table_count, &error), WEFT_OK);
     const float *ins[GPU_INPUTS];

@@ -366,17 +366,21 @@ static void what_is_no_shading_text_is_refused(void **state) {
     (void)state;
     static const struct {
         const char *source, *why;
+        int line;
     } wrong[] = {
-        {"#include <math.h>\n", "includes a header of C"},
-        {"const char *s = \"text\";\n", "a string"},
-        {"#if 1 + 1\n#endif\n", "an #if of more"},
-        {"#if 1\nfloat a;\n", "an #if without its #endif"},
-        {"#endif\n", "without its #if"},
-        {"#pragma once\n", "a directive"},
-        {"#define F(a, b) a\nfloat x = F(1);\n", "F is called with"},
-        {"#define F(a...) a\n", "F has parameters"},
-        {"typedef struct Own { float x; } Own;\n", "a record not made with STRUCT"},
-        {"float a = \\ 1.0;\n", "a joined line"},
+        {"#include <math.h>\n", "includes a header of C", 1},
+        {"/* one\n * two */\n\n#include \"shading/none.h\"\n", "includes shading/none.h, which is not there",
+         4},
+        {"const char *s =\n    \"text\";\n", "a string", 2},
+        {"float a;\n#if 1 + 1\n#endif\n", "an #if of more", 2},
+        {"\n#if 1\nfloat a;\n", "an #if without its #endif", 2},
+        {"float a;\n\n#endif\n", "without its #if", 3},
+        {"#pragma once\n", "a directive", 1},
+        {"#define F(a, b) a\nfloat a;\nfloat x = F(1);\nfloat b;\n", "F is called with", 3},
+        {"float a;\n#define F(a...) a\nfloat b;\n", "F has parameters", 2},
+        {"float a;\ntypedef struct Own { float x; } Own;\n", "a record not made with STRUCT", 2},
+        {"float f(float x) {\n    return x;\n}\nfloat g(float x) {\n    return \\ 1.0;\n}\n", "a joined line",
+         5},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char out[4096];
@@ -384,6 +388,9 @@ static void what_is_no_shading_text_is_refused(void **state) {
         if (flatten(wrong[k].source, out, &error) != WEFT_INPUT) fail_msg("taken: %s", wrong[k].source);
         assert_int_equal(error.message, WEFT_MESSAGE_TEXT_DIALECT);
         if (!strstr(error.text, wrong[k].why)) fail_msg("%s: %s", wrong[k].source, error.text);
+        char place[160];
+        snprintf(place, sizeof place, "%s/shading/own.h:%d: ", overlay, wrong[k].line);
+        if (strncmp(error.text, place, strlen(place)) != 0) fail_msg("not at %s: %s", place, error.text);
     }
     Text text;
     WeftError error = {0};
@@ -467,6 +474,127 @@ static void dust_comes_with_its_lobe(void **state) {
     }
 }
 
+/* The files and lines that a text's lines come from are these, in words; "-" for none. */
+static void assert_origins(const Text *text, const char *const *expected) {
+    int lines = occurrences(text->bytes, "\n");
+    for (int k = 1; k <= lines + 1; k++) {
+        char origin[256] = "-";
+        Origin found = text_origin(text, k);
+        bool blank = false;
+        const char *c = text->bytes;
+        for (int n = 1; n < k && c; n++) c = strchr(c, '\n') + 1;
+        blank = *c == '\n';
+        if (blank) continue;
+        if (found.file) snprintf(origin, sizeof origin, "%s:%d", found.file, found.line);
+        if (!*expected) fail_msg("line %d is one too many: %.60s", k, c);
+        if (strcmp(origin, *expected) != 0)
+            fail_msg("line %d, \"%.*s\": %s, not %s", k, (int)strcspn(c, "\n"), c, origin, *expected);
+        expected++;
+    }
+    assert_null(*expected);
+}
+
+/* Through comments, blank and joined lines, macros, conditions, records, enumerations and includes. */
+static void lines_know_where_they_come_from(void **state) {
+    (void)state;
+    char inner[256], own[256], places[32][280];
+    const char *expected[32];
+    write_overlay("inner.h", "/* two\n   lines */ float before;\n\n#define ROWS(P) P(a) \\\n    P(b)\n");
+    write_overlay("own.h",                               /* line */
+                  "/* own.h - what it is\n"              /*  1 */
+                  " *\n"                                 /*  2 */
+                  " * more */\n"                         /*  3 */
+                  "\n\n"                                 /*  4 */
+                  "#include \"shading/inner.h\"\n"       /*  6 */
+                  "#define ROW(name) float name;\n"      /*  7 */
+                  "STRUCT(Own) {\n"                      /*  8 */
+                  "    /* of the table */\n"             /*  9 */
+                  "    ROWS(ROW)\n"                      /* 10 */
+                  "    float c; // one more\n"           /* 11 */
+                  "};\n"                                 /* 12 */
+                  "enum { ONE,\n"                        /* 13 */
+                  "       /* then */ TWO };\n"           /* 14 */
+                  "#define LONG(x) ((x) * \\\n"          /* 15 */
+                  "    (x))\n"                           /* 16 */
+                  "#define HALF 0.5f\n"                  /* 17 */
+                  "#ifdef NOT_THERE\n"                   /* 18 */
+                  "float wrong;\n"                       /* 19 */
+                  "#else\n"                              /* 20 */
+                  "FN float own_f(Own m,\n"              /* 21 */
+                  "               float x) { /* it\n"    /* 22 */
+                  "        goes on */\n"                 /* 23 */
+                  "\n"                                   /* 24 */
+                  "    float y = LONG(x) * /* here */\n" /* 25 */
+                  "              LONG(m.a\n"             /* 26 */
+                  "                   + 1.0f);\n"        /* 27 */
+                  "    /* the line\n     * below */\n"   /* 28 */
+                  "    return y + LONG(x);\r\n"          /* 30 */
+                  "}\n"                                  /* 31 */
+                  "#endif\n");                           /* 32 */
+    static const char *const in_order[] = {"-",  "i2", "8",  "10", "10", "11", "12", "13", "14", "17", "21",
+                                           "22", "25", "25", "26", "26", "26", "26", "30", "30", "31", "-"};
+    enum { COUNT = sizeof in_order / sizeof in_order[0] };
+    Text text;
+    snprintf(inner, sizeof inner, "%s/shading/inner.h", overlay);
+    snprintf(own, sizeof own, "%s/shading/own.h", overlay);
+    for (int k = 0; k < COUNT; k++) {
+        const char *c = in_order[k];
+        bool included = *c == 'i';
+        snprintf(places[k], sizeof places[k], *c == '-' ? "-" : "%s:%s", included ? inner : own,
+                 c + included);
+        expected[k] = places[k];
+    }
+    expected[COUNT] = "-"; /* there is no such line */
+    expected[COUNT + 1] = NULL;
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .folder = overlay});
+    text_include(&text, "shading/own.h");
+    text_line(&text, "float mine;");
+    assert_int_equal(text_end(&text, NULL), WEFT_OK);
+    assert_origins(&text, expected);
+    assert_null(text_origin(&text, 0).file);
+    assert_null(text_origin(&text, -1).file);
+    assert_null(text_origin(&text, 1000000).file);
+    text_free(&text);
+}
+
+/* The only line of a file that holds these words; 0 where there is none or another. */
+static int only_line_with(const char *bytes, const char *words, size_t size) {
+    int line = 1, found = 0;
+    for (const char *c = bytes; *c; line += *c++ == '\n')
+        if (strncmp(c, words, size) == 0) {
+            if (found) return 0;
+            found = line;
+        }
+    return found;
+}
+
+/* Whatever stands in a text as it does in its file is where the text says. */
+static void catalogue_lines_are_found_again(void **state) {
+    (void)state;
+    Text text;
+    int ids[LOBE_COUNT], count = gpu_lobes(ids), line = 1, found = 0;
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .tables = true});
+    text_dispatch(&text, ids, count);
+    text_engine_tables(&text, NULL, 0);
+    text_include(&text, "shading/compose.h");
+    end_clean(&text, "lobes");
+    for (const char *c = text.bytes; *c; line++) {
+        size_t size = strcspn(c, "\n"), blank = strspn(c, " ");
+        Origin origin = text_origin(&text, line);
+        const CatalogueFile *file = catalogue_files;
+        while (origin.file && strcmp(file->name, origin.file) != 0) file++;
+        int only =
+            origin.file && size > blank + 20 ? only_line_with(file->bytes, c + blank, size - blank) : 0;
+        if (only && only != origin.line)
+            fail_msg("%s:%d, not %d: %.*s", origin.file, origin.line, only, (int)size, c);
+        found += only > 0;
+        c += size + 1;
+    }
+    text_free(&text);
+    print_message("%d of %d lines\n", found, line);
+    assert_true(found > 500);
+}
+
 /* A file of the caller's may stand on the dispatch, as registry.h serves C; own lines may take a file's
  * place. */
 static void callers_lines_take_a_files_place(void **state) {
@@ -510,6 +638,8 @@ int main(void) {
         cmocka_unit_test(what_is_no_shading_text_is_refused),
         cmocka_unit_test(endless_text_stops),
         cmocka_unit_test(files_inside_files_have_an_end),
+        cmocka_unit_test(lines_know_where_they_come_from),
+        cmocka_unit_test(catalogue_lines_are_found_again),
         cmocka_unit_test(dust_comes_with_its_lobe),
         cmocka_unit_test_setup_teardown(callers_lines_take_a_files_place, NULL, remove_overlay),
     };
