@@ -1,0 +1,391 @@
+/* What a renderer on the GPU owes its user: pictures with holes, glass and background as told, both kinds of
+ * OpenGL alike, polygon lights as the path tracer has them; steady frames that make nothing; texts that any
+ * compiler takes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+#include <epoxy/gl.h>
+
+#include "trace/scenes.h"
+
+#include "raster/context.h"
+#include "raster/shader.h"
+#include "shading/choice.h"
+
+enum { SIDE = 96 };
+static bool no_gl;
+
+static void need_gl(void) {
+    if (no_gl) skip();
+}
+
+static WeftRaster *raster_of(const WeftScene *scene, WeftGl gl) {
+    WeftRaster *raster;
+    WeftError error;
+    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = 2}, &raster, NULL, &error) !=
+        WEFT_OK)
+        fail_msg("%s", error.text);
+    return raster;
+}
+
+static void draw(WeftRaster *raster, const WeftRasterView *view) {
+    WeftError error;
+    if (weft_raster_draw(raster, view, &error) != WEFT_OK) fail_msg("%s", error.text);
+}
+
+static WeftImage picture_of(const WeftScene *scene, WeftGl gl, const WeftRasterView *view) {
+    WeftImage image;
+    WeftError error;
+    WeftRaster *raster = raster_of(scene, gl);
+    draw(raster, view);
+    if (weft_raster_image(raster, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_raster_free(raster);
+    return image;
+}
+
+static const float *pixel(const WeftImage *image, int x, int y) {
+    return (const float *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+}
+
+/* A square of one unlit colour in the left half of the picture, one behind it that fills all of it. */
+static WeftScene *two_squares(AlphaMode mode, float opacity) {
+    WeftScene *scene = test_scene();
+    Material *front = test_material(scene, 1.0f);
+    front->unlit = true;
+    front->alpha_mode = mode;
+    front->inputs[INPUT_opacity].value[0] = opacity;
+    test_quad(scene, vec3(-1.0f, -1.0f, 0.5f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 2.0f, 0.0f));
+    test_material(scene, 0.25f)->unlit = true;
+    test_quad(scene, vec3(-3.0f, -3.0f, -1.0f), vec3(6.0f, 0.0f, 0.0f), vec3(0.0f, 6.0f, 0.0f));
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    return scene;
+}
+
+static const WeftRasterView front_view = {
+    .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,3;0,0,0;30"};
+
+static void alpha_is_as_told(void **state) {
+    (void)state;
+    need_gl();
+    const struct {
+        AlphaMode mode;
+        float opacity, left;
+    } cases[] = {{ALPHA_OPAQUE, 0.25f, 1.0f},
+                 {ALPHA_MASK, 0.25f, 0.25f},
+                 {ALPHA_MASK, 0.75f, 1.0f},
+                 {ALPHA_BLEND, 0.25f, 0.25f + 0.25f * 0.75f}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        WeftScene *scene = two_squares(cases[k].mode, cases[k].opacity);
+        WeftImage image = picture_of(scene, k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP, &front_view);
+        assert_float_equal(pixel(&image, SIDE / 4, SIDE / 2)[1], cases[k].left, 2e-3f);
+        assert_float_equal(pixel(&image, 3 * SIDE / 4, SIDE / 2)[1], 0.25f, 2e-3f);
+        weft_image_free(&image);
+        weft_scene_free(scene);
+    }
+}
+
+/* One square alone: what is behind it has the alpha and the colour that were asked for. */
+static void background_is_as_told(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f)->unlit = true;
+    test_quad(scene, vec3(-0.3f, -0.3f, 0.0f), vec3(0.6f, 0.0f, 0.0f), vec3(0.0f, 0.6f, 0.0f));
+    scene_bounds(scene);
+    test_environment(scene, 0.125f);
+    WeftRasterView view = front_view;
+    view.background = WEFT_BACKGROUND_TRANSPARENT;
+    WeftImage image = picture_of(scene, WEFT_GL_DESKTOP, &view);
+    assert_float_equal(pixel(&image, 2, 2)[3], 0.0f, 0.0f);
+    assert_float_equal(pixel(&image, SIDE / 2, SIDE / 2)[3], 1.0f, 0.0f);
+    assert_float_equal(pixel(&image, SIDE / 2, SIDE / 2)[0], 0.5f, 1e-3f);
+    weft_image_free(&image);
+    view.background = WEFT_BACKGROUND_COLOR;
+    view.background_color[1] = 0.75f;
+    image = picture_of(scene, WEFT_GL_ES, &view);
+    assert_float_equal(pixel(&image, 2, 2)[1], 0.75f, 1e-3f);
+    assert_float_equal(pixel(&image, 2, 2)[3], 1.0f, 0.0f);
+    weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
+/* Row 0 is the top and column 0 the left, as in every image. */
+static void pictures_are_upright(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f)->unlit = true;
+    test_quad(scene, vec3(-0.7f, 0.2f, 0.0f), vec3(0.3f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));
+    scene_bounds(scene);
+    WeftRasterView view = front_view;
+    view.background = WEFT_BACKGROUND_TRANSPARENT;
+    WeftImage image = picture_of(scene, WEFT_GL_DESKTOP, &view);
+    assert_float_equal(pixel(&image, SIDE / 5, SIDE / 4)[3], 1.0f, 0.0f);
+    assert_float_equal(pixel(&image, SIDE / 5, 3 * SIDE / 4)[3], 0.0f, 0.0f);
+    assert_float_equal(pixel(&image, 4 * SIDE / 5, SIDE / 4)[3], 0.0f, 0.0f);
+    weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
+/* A sphere and a floor under a quad that shines, without shadows. */
+static WeftScene *under_a_lamp(void) {
+    WeftScene *scene = test_scene();
+    Material *ball = test_material(scene, 0.4f);
+    test_color(ball, INPUT_sheen_color, 0.6f);
+    ball->inputs[INPUT_sheen_roughness].value[0] = 0.5f;
+    ball->inputs[INPUT_specular].value[0] = 1.0f;
+    test_sphere(scene, vec3(0.0f, 0.0f, 0.0f), 0.5f);
+    test_material(scene, 0.5f);
+    test_quad(scene, vec3(-2.0f, -0.5f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    Material *lamp = test_material(scene, 0.0f);
+    lamp->double_sided = false;
+    test_color(lamp, INPUT_emission, 5.0f);
+    test_quad(scene, vec3(-0.9f, 1.2f, -0.5f), vec3(0.8f, 0.0f, 0.0f), vec3(0.0f, 0.3f, 0.9f));
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    return scene;
+}
+
+static void polygons_light_as_the_path_tracer_has_it(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = under_a_lamp();
+    WeftRasterView view = {.width = SIDE,
+                           .height = SIDE,
+                           .samples = 1,
+                           .camera = "0,0.9,3;0,0,0;32",
+                           .background = WEFT_BACKGROUND_COLOR,
+                           .no_shadows = 1};
+    WeftImage image = picture_of(scene, WEFT_GL_DESKTOP, &view), reference;
+    WeftRender *render;
+    WeftError error;
+    WeftRenderDesc desc = {.width = SIDE,
+                           .height = SIDE,
+                           .max_depth = 1,
+                           .camera = view.camera,
+                           .background = WEFT_BACKGROUND_COLOR,
+                           .sampling = WEFT_SAMPLING_LIGHT,
+                           .pixel_centre = 1,
+                           .no_shadows = 1,
+                           .no_roulette = 1};
+    assert_int_equal(weft_render_create(scene, &desc, &render, &error), WEFT_OK);
+    assert_int_equal(weft_render_run(render, 256, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_image(render, &reference, &error), WEFT_OK);
+    weft_render_free(render);
+    double off = 0.0, sum = 0.0;
+    const float *a = image.pixels, *b = reference.pixels;
+    for (int k = 0; k < SIDE * SIDE; k++)
+        for (int c = 0; c < 3; c++) {
+            double x = (double)a[4 * k + c], y = (double)b[4 * k + c];
+            assert_true(isfinite(x) && x >= 0.0);
+            if (y > 4.0) continue; /* the lamp itself */
+            off += fabs(x - y);
+            sum += y;
+        }
+    print_message("polygon light: %.2f %% from the path tracer, noise and outlines among it\n",
+                  100.0 * off / sum);
+    assert_true(sum > 100.0);
+    assert_true(off < 0.04 * sum);
+    weft_image_free(&image);
+    weft_image_free(&reference);
+    weft_scene_free(scene);
+}
+
+/* The driver's calls that make something, counted. */
+static int made;
+static PFNGLGENTEXTURESPROC gen_textures;
+static PFNGLGENBUFFERSPROC gen_buffers;
+static PFNGLGENFRAMEBUFFERSPROC gen_framebuffers;
+static PFNGLGENRENDERBUFFERSPROC gen_renderbuffers;
+static PFNGLGENSAMPLERSPROC gen_samplers;
+static PFNGLGENVERTEXARRAYSPROC gen_vertices;
+static PFNGLCREATEPROGRAMPROC create_program;
+static PFNGLBUFFERDATAPROC buffer_data;
+static PFNGLTEXIMAGE3DPROC tex_image;
+
+static void count_textures(GLsizei n, GLuint *names) {
+    made += n;
+    gen_textures(n, names);
+}
+static void count_buffers(GLsizei n, GLuint *names) {
+    made += n;
+    gen_buffers(n, names);
+}
+static void count_framebuffers(GLsizei n, GLuint *names) {
+    made += n;
+    gen_framebuffers(n, names);
+}
+static void count_renderbuffers(GLsizei n, GLuint *names) {
+    made += n;
+    gen_renderbuffers(n, names);
+}
+static void count_samplers(GLsizei n, GLuint *names) {
+    made += n;
+    gen_samplers(n, names);
+}
+static void count_vertices(GLsizei n, GLuint *names) {
+    made += n;
+    gen_vertices(n, names);
+}
+static GLuint count_program(void) {
+    made++;
+    return create_program();
+}
+static void count_data(GLenum target, GLsizeiptr size, const void *data, GLenum usage) {
+    made++;
+    buffer_data(target, size, data, usage);
+}
+static void count_image(GLenum target, GLint level, GLint format, GLsizei w, GLsizei h, GLsizei d,
+                        GLint border, GLenum of, GLenum type, const void *data) {
+    made++;
+    tex_image(target, level, format, w, h, d, border, of, type, data);
+}
+
+#define COUNTED(C)                                                                                           \
+    C(gen_textures, epoxy_glGenTextures, count_textures)                                                     \
+    C(gen_buffers, epoxy_glGenBuffers, count_buffers)                                                        \
+    C(gen_framebuffers, epoxy_glGenFramebuffers, count_framebuffers)                                         \
+    C(gen_renderbuffers, epoxy_glGenRenderbuffers, count_renderbuffers)                                      \
+    C(gen_samplers, epoxy_glGenSamplers, count_samplers)                                                     \
+    C(gen_vertices, epoxy_glGenVertexArrays, count_vertices)                                                 \
+    C(create_program, epoxy_glCreateProgram, count_program)                                                  \
+    C(buffer_data, epoxy_glBufferData, count_data)                                                           \
+    C(tex_image, epoxy_glTexImage3D, count_image)
+#define COUNT(kept, call, counting)         kept = call, call = counting;
+#define STOP_COUNTING(kept, call, counting) call = kept;
+
+static void steady_frames_make_nothing(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = under_a_lamp();
+    WeftError error;
+    const WeftLight light = {.direction = {0.0f, -1.0f, -0.5f}, .color = {1.0f, 1.0f, 1.0f}};
+    assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
+    WeftRaster *raster = raster_of(scene, WEFT_GL_DESKTOP);
+    COUNTED(COUNT)
+    draw(raster, &front_view);
+    int first = made;
+    made = 0;
+    for (int k = 0; k < 20; k++) {
+        char camera[64];
+        snprintf(camera, sizeof camera, "%g,0.5,3;0,0,0;30", 0.1 * k);
+        WeftRasterView view = front_view;
+        view.camera = camera;
+        draw(raster, &view);
+    }
+    COUNTED(STOP_COUNTING)
+    assert_true(first > 3); /* the first picture made its target and programs: the counters count */
+    assert_int_equal(made, 0);
+    assert_true(weft_raster_info(raster).samplers <= 16);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+static void descriptors_are_checked(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = two_squares(ALPHA_OPAQUE, 1.0f);
+    WeftRaster *raster = raster_of(scene, WEFT_GL_DESKTOP), *none;
+    WeftError error;
+    WeftImage image;
+    const WeftRasterView wrong[] = {{.width = -1}, {.height = 100000}, {.samples = -4}, {.background = 77}};
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+        assert_int_equal(weft_raster_draw(raster, &wrong[k], &error), WEFT_USAGE);
+    assert_int_equal(weft_raster_draw(raster, &(WeftRasterView){.camera = "nobody"}, &error), WEFT_USAGE);
+    assert_int_equal(weft_raster_image(raster, &image, &error), WEFT_USAGE); /* nothing was drawn */
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.gl = 9}, &none, NULL, &error), WEFT_USAGE);
+    assert_null(none);
+    weft_raster_free(raster);
+    weft_raster_free(NULL);
+    weft_scene_free(scene);
+    scene = test_scene();
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){0}, &none, NULL, &error), WEFT_INPUT);
+    weft_scene_free(scene);
+}
+
+/* Whole shaders, of every workflow, profile and sheen, with all kinds of light, by a compiler that knows
+ * these versions and nothing newer. */
+static void put_shader(const char *folder, int number, const ShaderKey *key, TextLanguage language) {
+    char path[96];
+    Text text;
+    WeftError error;
+    shader_text(key, &(TextDesc){.language = language, .tables = true}, &text);
+    if (text_end(&text, &error) != WEFT_OK) fail_msg("%s", error.text);
+    snprintf(path, sizeof path, "%s/%03d-%d.frag", folder, number, (int)language);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text.bytes, stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+    text_free(&text);
+}
+
+static ShaderKey whole_key(void) {
+    ShaderKey key;
+    memset(&key, 0, sizeof key);
+    key.choices = choices_unmade();
+    for (int k = 0; k < INPUT_COUNT; k++) key.inputs[k].like = -1;
+    key.inputs[INPUT_base_color].state = key.inputs[INPUT_normal].state = INPUT_MAP;
+    key.inputs[INPUT_normal].slot = 1;
+    key.shadowed = key.lights = key.polygons = key.colored = 1;
+    key.polygon_corners[0] = 4;
+    key.light_kind[0] = 2;
+    return key;
+}
+
+static void shaders_are_of_their_version(void **state) {
+    (void)state;
+    if (system("command -v glslangValidator >/dev/null 2>&1") != 0) {
+        print_message("glslangValidator is not installed\n");
+        skip();
+    }
+    char folder[] = "/tmp/weft-test-raster-XXXXXX", command[256];
+    assert_non_null(mkdtemp(folder));
+    static const ChoiceId kinds[] = {CHOICE_workflow, CHOICE_profile, CHOICE_sheen_lobe};
+    bool all = getenv("WEFT_TEST_LONG") != NULL;
+    int number = 0;
+    for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++)
+        for (int k = 0; choice_id(kinds[kind], k); k += all ? 1 : 3) {
+            ShaderKey key = whole_key();
+            if (kinds[kind] == CHOICE_sheen_lobe && weft_lobe_info(k)->traits & WEFT_LOBE_REFERENCE) continue;
+            if (kinds[kind] == CHOICE_workflow) key.choices.workflow = k;
+            if (kinds[kind] == CHOICE_profile) key.choices.profile = k;
+            if (kinds[kind] == CHOICE_sheen_lobe) key.choices.sheen_lobe = k;
+            put_shader(folder, number, &key, TEXT_GLSL_330);
+            put_shader(folder, number++, &key, TEXT_GLSL_ES_300);
+        }
+    snprintf(
+        command, sizeof command,
+        "cd %s && s=0; for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { s=1; echo $f; grep -v "
+        "'^$' log | head -5; }; done; exit $s",
+        folder);
+    int status = system(command);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    assert_int_equal(status, 0);
+}
+
+static int begin(void **state) {
+    (void)state;
+    GlContext *context;
+    WeftError error;
+    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
+    if (no_gl) print_message("%s\n", error.text);
+    if (!no_gl) context_destroy(context);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_is_as_told),
+                                       cmocka_unit_test(background_is_as_told),
+                                       cmocka_unit_test(pictures_are_upright),
+                                       cmocka_unit_test(polygons_light_as_the_path_tracer_has_it),
+                                       cmocka_unit_test(steady_frames_make_nothing),
+                                       cmocka_unit_test(descriptors_are_checked),
+                                       cmocka_unit_test(shaders_are_of_their_version)};
+    return cmocka_run_group_tests(tests, begin, NULL);
+}
