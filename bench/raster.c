@@ -1,0 +1,134 @@
+/* raster.c - what a frame of the raster engine takes: milliseconds for each sheen lobe on builtin:cloth under
+ * one directional light and the environment, and nanoseconds a pixel over the bare base
+ *
+ *   bench_raster [--quick]
+ *
+ * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
+ * that of a frame whose draw calls do nothing. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <epoxy/gl.h>
+
+#include "weft/weft.h"
+
+enum { LOBES_MOST = 64 };
+
+typedef struct Size {
+    int width, height;
+} Size;
+
+typedef struct Entry {
+    const char *name;
+    WeftScene *scene;
+    WeftRaster *raster;
+    double best; /* s a frame */
+} Entry;
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void check(WeftResult result, const WeftError *error) {
+    if (result == WEFT_OK) return;
+    fprintf(stderr, "bench_raster: %s\n", error->text);
+    exit(1);
+}
+
+/* builtin:cloth under a sun and the studio; without a name no material has a sheen. */
+static Entry entry_of(const char *lobe) {
+    Entry entry = {.name = lobe ? lobe : "no sheen", .best = 1e9};
+    WeftError error;
+    const WeftLight sun = {.direction = {-1.0f, -2.0f, -1.0f}, .color = {3.0f, 3.0f, 3.0f}};
+    check(weft_scene_load("builtin:cloth", &entry.scene, NULL, &error), &error);
+    check(weft_scene_add_light(entry.scene, &sun, &error), &error);
+    check(
+        weft_scene_set(entry.scene, lobe ? "*.sheen_lobe" : "*.sheen_color", lobe ? lobe : "0", NULL, &error),
+        &error);
+    check(weft_raster_create(entry.scene, &(WeftRasterDesc){0}, &entry.raster, NULL, &error), &error);
+    return entry;
+}
+
+static WeftRasterView view_of(Size size) {
+    return (WeftRasterView){.width = size.width,
+                            .height = size.height,
+                            .samples = 1,
+                            .camera = "0",
+                            .polygons = -1,
+                            .no_shadows = 1};
+}
+
+static double frame(WeftRaster *raster, const WeftRasterView *view) {
+    WeftError error;
+    double start = now();
+    check(weft_raster_draw(raster, view, &error), &error);
+    weft_raster_finish(raster);
+    return now() - start;
+}
+
+static void measure(Entry *entries, int count, Size size, int rounds, int frames) {
+    const WeftRasterView view = view_of(size);
+    for (int k = 0; k < count; k++) {
+        entries[k].best = 1e9;
+        frame(entries[k].raster, &view); /* compiles */
+    }
+    for (int round = 0; round < rounds; round++)
+        for (int k = 0; k < count; k++)
+            for (int f = 0; f < frames; f++) {
+                double t = frame(entries[k].raster, &view);
+                if (t < entries[k].best) entries[k].best = t;
+            }
+    printf("\n%d x %d\nlobe                          ms a frame   frames/s   ns a pixel over no sheen\n",
+           size.width, size.height);
+    for (int k = 0; k < count; k++)
+        printf("%-28s %10.2f %10.1f %12.2f\n", entries[k].name, 1e3 * entries[k].best, 1.0 / entries[k].best,
+               1e9 * (entries[k].best - entries[0].best) / ((double)size.width * size.height));
+}
+
+static void no_draw(GLenum mode, GLsizei count, GLenum type, const void *indices) {}
+static void no_clear(GLbitfield mask) {}
+static void no_blit(GLint a, GLint b, GLint c, GLint d, GLint e, GLint f, GLint g, GLint h, GLbitfield mask,
+                    GLenum filter) {}
+static void no_data(GLenum target, GLintptr offset, GLsizeiptr size, const void *data) {}
+
+/* A frame whose calls that cost the driver much do nothing. */
+static void measure_processor(WeftRaster *raster) {
+    enum { FRAMES = 2000 };
+    const WeftRasterView view = view_of((Size){1280, 720});
+    WeftError error;
+    epoxy_glDrawElements = no_draw;
+    epoxy_glClear = no_clear;
+    epoxy_glBlitFramebuffer = no_blit;
+    epoxy_glBufferSubData = no_data;
+    double start = now();
+    for (int k = 0; k < FRAMES; k++) check(weft_raster_draw(raster, &view, &error), &error);
+    printf("\nprocessor's own part of a frame: %.3f ms\n", 1e3 * (now() - start) / FRAMES);
+}
+
+int main(int argc, char **argv) {
+    bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
+    static Entry entries[LOBES_MOST];
+    int count = 0;
+    entries[count++] = entry_of(NULL);
+    for (int k = 0; weft_lobe_info(k) && count < LOBES_MOST; k++) {
+        const WeftLobeInfo *info = weft_lobe_info(k);
+        if (info->traits & WEFT_LOBE_REFERENCE || (quick && strncmp(info->id, "charlie", 7) != 0)) continue;
+        entries[count++] = entry_of(info->id);
+    }
+    printf("builtin:cloth, a directional light and the environment, one sample a pixel, by %s\n",
+           weft_raster_info(entries[0].raster).driver);
+    measure(entries, count, (Size){1280, 720}, quick ? 2 : 4, 4);
+    measure(entries, count, (Size){3840, 2160}, 1, 2);
+    measure_processor(entries[0].raster);
+    for (int k = 0; k < count; k++) {
+        weft_raster_free(entries[k].raster);
+        weft_scene_free(entries[k].scene);
+    }
+    return 0;
+}
