@@ -29,7 +29,12 @@ typedef struct WeftRasterDesc {
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
      * is there. It need not be there. Copied. */
     const char *shader_dir;
-    int threads; /* for the tables; 0: one a processor */
+    int threads;  /* for the tables; 0: one a processor */
+    int no_cache; /* not 0: the filtered environment is neither read from the user's cache nor written */
+    /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
+     * other than 0 stops. */
+    WeftProgress progress;
+    void *user;
 } WeftRasterDesc;
 
 /* Uploads the scene, which must outlive the raster and not change meanwhile. Shaders are compiled when they
@@ -43,6 +48,15 @@ WEFT_API void weft_raster_free(WeftRaster *raster);
 
 enum { WEFT_RASTER_POLYGONS = 8 };
 
+/* How the light of the environment meets a lobe (docs/environment.md has their errors). */
+typedef enum WeftAmbient {
+    WEFT_AMBIENT_BEST = 0,   /* for each lobe the one that is nearest to the path tracer */
+    WEFT_AMBIENT_IRRADIANCE, /* irradiance times albedo, the cheapest */
+    WEFT_AMBIENT_MIRROR,     /* one look-up where a mirror would look, as engines do */
+    WEFT_AMBIENT_FITTED,     /* lamps for what is bright, and a few look-ups fitted to the lobe */
+    WEFT_AMBIENT_NONE        /* no light from the environment */
+} WeftAmbient;
+
 /* Zero means default, in every member. */
 typedef struct WeftRasterView {
     int width, height;  /* pixels, 1 .. 16384; 0: 960 x 720 */
@@ -50,6 +64,7 @@ typedef struct WeftRasterView {
     const char *camera; /* as in WeftRenderDesc */
     WeftBackground background;
     float background_color[3];
+    WeftAmbient ambient;
     int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
     int no_shadows;     /* not 0: lights reach every point that faces them */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */

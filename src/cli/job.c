@@ -133,6 +133,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     WeftRasterView view = {.width = desc->width,
                            .height = desc->height,
                            .samples = job->request->msaa,
+                           .ambient = job->request->ambient,
                            .polygons = job->request->polygons ? job->request->polygons : -1,
                            .camera = camera,
                            .background = desc->background};

@@ -44,6 +44,10 @@ const Option request_options[] = {
     OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
     OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64,
                   "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_TEXT(
+        "--ambient", "STRATEGY", "best",
+        "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
+        "lobe, or none"),
     OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
@@ -160,13 +164,17 @@ static bool read_lights(const Options *options, Request *request) {
 static bool read_engine(const Options *options, Request *request) {
     static const char *const engines[] = {"trace", "raster", "both", NULL}; /* as Engine */
     static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */
-    int engine = 0, kind = 0;
+    static const char *const ambients[] = {"best",   "irradiance", "mirror",
+                                           "fitted", "none",       NULL}; /* as WeftAmbient */
+    int engine = 0, kind = 0, ambient = 0;
     bool good = option_choice(options, "--engine", engines, &engine) &&
                 option_choice(options, "--gl", gl_versions, &kind) &&
+                option_choice(options, "--ambient", ambients, &ambient) &&
                 option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--turntable", &request->turntable) && read_lights(options, request);
     request->engine = (Engine)engine;
+    request->ambient = (WeftAmbient)ambient;
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
                                        .shader_dir = option_text(options, "--shader-dir"),
                                        .threads = request->desc.threads};

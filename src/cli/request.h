@@ -28,6 +28,7 @@ typedef struct Request {
     Engine engine;
     WeftRasterDesc raster;
     int msaa, polygons;
+    WeftAmbient ambient;
     int turntable; /* pictures around the scene; 0: one */
     WeftLight lights[REQUEST_LIGHTS_MOST];
     int light_count;

@@ -17,7 +17,7 @@ typedef struct Sampler {
 
 static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},
                                    {"environment_cube", UNIT_ENVIRONMENT},
-                                   {"environment_map", UNIT_ENVIRONMENT_MAP},
+                                   {"environment_rest", UNIT_ENVIRONMENT_REST},
                                    {"shadow_map", UNIT_SHADOW},
                                    {"shadow_depth", UNIT_SHADOW_DEPTH}};
 
@@ -48,6 +48,8 @@ static void bind_blocks(GLuint program) {
     GLuint picture = glGetUniformBlockIndex(program, "Picture");
     GLuint material = glGetUniformBlockIndex(program, "Material");
     if (picture != GL_INVALID_INDEX) glUniformBlockBinding(program, picture, BLOCK_PICTURE);
+    GLuint environment = glGetUniformBlockIndex(program, "Environment");
+    if (environment != GL_INVALID_INDEX) glUniformBlockBinding(program, environment, BLOCK_ENVIRONMENT);
     if (material != GL_INVALID_INDEX) glUniformBlockBinding(program, material, BLOCK_MATERIAL);
 }
 
@@ -82,7 +84,7 @@ static void build(Programs *programs, Program *self) {
     WeftError error = {0};
     GLuint made = 0, tables = 0;
     shader_vertex_text(&programs->desc, &vertex);
-    shader_text(&self->key, &programs->desc, &fragment);
+    shader_text(&self->key, &programs->desc, &programs->fits, &fragment);
     if (text_end(&vertex, &error) == WEFT_OK && text_end(&fragment, &error) == WEFT_OK)
         made = program_create("material shader", (ShaderSource){vertex.bytes, &vertex},
                               (ShaderSource){fragment.bytes, &fragment}, &error);
@@ -140,4 +142,23 @@ void programs_destroy(Programs *programs) {
         free(p);
     }
     programs->first = NULL;
+    fits_destroy(&programs->fits);
+}
+
+unsigned programs_background(const Programs *programs, WeftError *error) {
+    Text vertex, fragment;
+    GLuint made = 0;
+    shader_background_text(&programs->desc, &vertex, &fragment);
+    if (text_end(&vertex, error) == WEFT_OK && text_end(&fragment, error) == WEFT_OK)
+        made = program_create("background", (ShaderSource){vertex.bytes, &vertex},
+                              (ShaderSource){fragment.bytes, &fragment}, error);
+    text_free(&vertex);
+    text_free(&fragment);
+    if (made) {
+        bind_blocks(made);
+        glUseProgram(made);
+        glUniform1i(glGetUniformLocation(made, "environment_map"), UNIT_BACKGROUND);
+        glUseProgram(0);
+    }
+    return made;
 }

@@ -8,8 +8,16 @@
 #include "scene/sheen_tables.h"
 
 /* Texture units and uniform blocks of every program: a material's maps come first. */
-enum { UNIT_TABLES = 8, UNIT_ENVIRONMENT, UNIT_ENVIRONMENT_MAP, UNIT_SHADOW, UNIT_SHADOW_DEPTH, UNIT_COUNT };
-enum { BLOCK_PICTURE, BLOCK_MATERIAL };
+enum {
+    UNIT_TABLES = 8,
+    UNIT_ENVIRONMENT,
+    UNIT_ENVIRONMENT_REST,
+    UNIT_BACKGROUND,
+    UNIT_SHADOW,
+    UNIT_SHADOW_DEPTH,
+    UNIT_COUNT
+};
+enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
 
 typedef struct Program {
     struct Program *next;
@@ -24,6 +32,7 @@ typedef struct Program {
 typedef struct Programs {
     Program *first;
     TextDesc desc;             /* of all texts */
+    Fits fits;                 /* for their light from the environment */
     const SheenTables *sheens; /* of the scene: behind each program's own tables */
     int compiled;              /* so far */
 } Programs;
@@ -32,6 +41,10 @@ typedef struct Programs {
  * compiler says in error; where it did before, that one stays, and error tells all the same: *error is
  * WEFT_OK only where all is well. Compiling changes which program is in use. */
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
+
+/* The program that draws the environment behind everything; 0 on failure, with what the compiler says in
+ * error. Release with glDeleteProgram. */
+unsigned programs_background(const Programs *programs, WeftError *error);
 
 /* From now on all are compiled again at their next use. */
 void programs_refresh(Programs *programs);

@@ -1,4 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 #include "base/fail.h"
 #include "raster/check.h"
 #include "raster/context.h"
+#include "raster/environment.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
 #include "raster/picture.h"
@@ -28,6 +30,9 @@ struct WeftRaster {
     GlTextures textures;
     GlMaterials materials;
     Programs programs;
+    GlEnvironment environment;
+    unsigned background; /* program, 0 until it is needed */
+    bool shines;         /* the environment does */
     LightPolygons polygons;
     Shadows shadows;
     Target target;
@@ -46,6 +51,34 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+typedef struct Watched {
+    WeftProgress progress;
+    void *user;
+} Watched;
+
+static bool on_progress(void *user, float done) {
+    const Watched *watched = user;
+    return watched->progress && watched->progress(watched->user, (double)done) != 0;
+}
+
+static bool environment_shines(const Environment *e) {
+    bool color = e->color[0] > 0.0f || e->color[1] > 0.0f || e->color[2] > 0.0f;
+    return e->strength > 0.0f && (e->kind != ENVIRONMENT_CONSTANT || color);
+}
+
+static WeftResult upload_environment(WeftRaster *self, const WeftRasterDesc *desc, const WeftLog *log,
+                                     WeftError *error) {
+    Watched watched = {desc->progress, desc->user};
+    const EnvironmentHow how = {.language = context_language(self->context),
+                                .folder = self->shader_dir,
+                                .no_cache = desc->no_cache != 0,
+                                .progress = on_progress,
+                                .user = &watched};
+    self->shines = environment_shines(&self->scene->environment);
+    if (!self->shines) return WEFT_OK;
+    return environment_create(&self->scene->environment, &how, &self->environment, log, error);
+}
+
 static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const WeftLog *log, WeftError *error) {
     const WeftScene *scene = self->scene;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -57,6 +90,8 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS_MOST))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = shadows_create(scene, &self->polygons, &self->shadows, error);
+    if (result == WEFT_OK) result = upload_environment(self, desc, log, error);
+    self->programs.fits.threads = desc->threads;
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
@@ -69,6 +104,8 @@ static void release(WeftRaster *self) {
     materials_destroy(&self->materials);
     programs_destroy(&self->programs);
     shadows_destroy(&self->shadows);
+    environment_destroy(&self->environment);
+    glDeleteProgram(self->background);
     target_destroy(&self->target);
     glDeleteBuffers(1, &self->picture);
 }
@@ -125,6 +162,8 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
                     view->height, SIDE_MAX);
     if (view->samples < 1 || view->samples > 64)
         return fail(error, WEFT_MESSAGE_DESC, "samples", "%d", view->samples);
+    if ((unsigned)view->ambient > WEFT_AMBIENT_NONE)
+        return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
     if ((unsigned)view->background > WEFT_BACKGROUND_COLOR)
         return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
     return WEFT_OK;
@@ -167,12 +206,22 @@ static void begin(WeftRaster *self, const WeftRasterView *view) {
     glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
     glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
+    const Environment *e = &self->scene->environment;
     const float *c = view->background_color;
+    float constant[3];
+    for (int k = 0; k < 3; k++) constant[k] = e->color[k] * e->strength;
+    if (view->background == WEFT_BACKGROUND_ENVIRONMENT && e->kind == ENVIRONMENT_CONSTANT) {
+        color = true;
+        c = constant;
+    }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
+    if (self->shines)
+        environment_bind(&self->environment, UNIT_ENVIRONMENT, UNIT_ENVIRONMENT_REST, BLOCK_ENVIRONMENT);
+    glActiveTexture(GL_TEXTURE0);
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SHADOW_DEPTH);
 }
 
@@ -242,6 +291,8 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
             if (self->shadows.of_light[j] == k) key->light_map[k] = (int8_t)j;
     }
+    bool ambient = self->shines && view->ambient != WEFT_AMBIENT_NONE;
+    key->ambient = ambient ? (int)view->ambient + 1 : 0;
     key->polygons = view->polygons < self->polygons.count ? view->polygons : self->polygons.count;
     for (int k = 0; k < key->polygons; k++) {
         key->polygon_corners[k] = (int8_t)self->polygons.items[k].count;
@@ -252,10 +303,37 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
     }
 }
 
+/* Where nothing was drawn; behind what blends. */
+static WeftResult draw_background(WeftRaster *self, WeftError *error) {
+    const Environment *e = &self->scene->environment;
+    WeftError said = {0};
+    if (!self->background) self->background = programs_background(&self->programs, &said);
+    if (!self->background) {
+        if (error) *error = said;
+        return said.result;
+    }
+    glUseProgram(self->background);
+    glUniform4f(glGetUniformLocation(self->background, "background_place"), cosf(e->rotation),
+                sinf(e->rotation), e->strength, 0.0f);
+    glActiveTexture(GL_TEXTURE0 + UNIT_BACKGROUND);
+    glBindTexture(GL_TEXTURE_2D, self->environment.map);
+    glActiveTexture(GL_TEXTURE0);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    return WEFT_OK;
+}
+
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
+    bool behind = view->background == WEFT_BACKGROUND_ENVIRONMENT && self->environment.map;
     queue_sort(&self->queue, self->scene, seen);
-    for (int k = 0; k < self->queue.count && result == WEFT_OK; k++) {
+    for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
+        if (k == self->queue.solid && behind) result = draw_background(self, error);
+        if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
         ShaderKey key = self->materials.all[self->scene->meshes[mesh].material].key;
         add_lights(self, view, &key);

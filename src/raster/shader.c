@@ -3,6 +3,8 @@
 
 #include "raster/shader.h"
 
+#include "raster/environment.h"
+
 #include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/engine_tables.h"
@@ -42,12 +44,21 @@ static Surface full_surface(float x) {
     return s;
 }
 
-static void add_lobe(TextSlot *slot, const Slot *from) {
+/* What the slots of a key may hold: ids, and the first lobe of each with its parameters. */
+typedef struct KeySlots {
+    TextSlot slots[TEXT_SLOTS];
+    Lobe lobes[TEXT_SLOTS];
+    bool worn; /* a layer rule could do without a sheen */
+} KeySlots;
+
+static void add_lobe(KeySlots *self, int slot, const Slot *from) {
+    TextSlot *to = &self->slots[slot];
     int id = from->lobe.id;
     if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->pick > 0.0f)) return;
-    for (int k = 0; k < slot->count; k++)
-        if (slot->lobes[k] == id) return;
-    slot->lobes[slot->count++] = id;
+    for (int k = 0; k < to->count; k++)
+        if (to->lobes[k] == id) return;
+    if (!to->count) self->lobes[slot] = from->lobe;
+    to->lobes[to->count++] = id;
 }
 
 /* Puts in what a key says of inputs that are nothing. */
@@ -62,43 +73,40 @@ static void leave_out(const ShaderKey *key, Surface *s) {
     SURFACE_INPUTS(LEAVE_OUT)
 }
 
-/* What the slots of a stack of this key may hold, and whether a layer rule could do without a sheen. */
-static bool find_slots(const ShaderKey *key, TextSlot slots[TEXT_SLOTS]) {
-    bool worn = true;
+static KeySlots find_slots(const ShaderKey *key) {
+    KeySlots found = {.worn = true};
     for (int x = 0; x <= 2; x++) {
         Stack m;
         Surface s = full_surface(0.5f * (float)x);
         leave_out(key, &s);
         stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-        add_lobe(&slots[0], &m.diffuse);
-        add_lobe(&slots[1], &m.specular);
-        add_lobe(&slots[2], &m.sheen);
-        add_lobe(&slots[3], &m.coat);
-        worn &= m.layer != LAYER_SEED;
+        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
+        for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
+        found.worn &= m.layer != LAYER_SEED;
     }
-    return worn;
+    return found;
 }
 
+static bool is_dusty(const ShaderKey *key) { return key->inputs[INPUT_dust].state != INPUT_ZERO; }
+
 /* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
-static void put_lobes(Text *text, const ShaderKey *key) {
+static void put_lobes(Text *text, const ShaderKey *key, const KeySlots *found) {
     static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
                                                 "HAS_COAT(m)"};
-    TextSlot slots[TEXT_SLOTS] = {0};
     int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    bool worn = find_slots(key, slots), dusty = key->inputs[INPUT_dust].state != INPUT_ZERO;
-    if (dusty) ids[count++] = LOBE_LTC_FIBRE;
+    if (is_dusty(key)) ids[count++] = LOBE_LTC_FIBRE;
     for (int k = 0; k < TEXT_SLOTS; k++)
-        for (int j = 0; j < slots[k].count; j++) ids[count++] = slots[k].lobes[j];
+        for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
     char kind[16], tilts[16];
     snprintf(kind, sizeof kind, "%d", key->table_kind);
     snprintf(tilts, sizeof tilts, "%d", key->table_tilts);
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
-    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], slots[k].count ? "true" : "false");
-    text_define(text, "HAS_DUST(m)", dusty ? "true" : "false");
-    text_define(text, "IS_WORN(m)", worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
+    text_define(text, "HAS_DUST(m)", is_dusty(key) ? "true" : "false");
+    text_define(text, "IS_WORN(m)", found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);
-    text_slots(text, slots);
+    text_slots(text, found->slots);
 }
 
 #define ENGINE_NAME(name)                                                                                    \
@@ -193,6 +201,13 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
     snprintf(value, sizeof value, "material_%s", name);
     snprintf(map, sizeof map, "map_%s", input_infos[input->like >= 0 ? input->like : k].name);
     bool mapped = input->state == INPUT_MAP;
+    if (k == INPUT_occlusion) { /* its number is the strength of the map */
+        if (mapped)
+            text_line(text, "    s.occlusion = mix(1.0, %s.%c, %s.x);", map, "rgba"[input->channel], value);
+        else
+            text_line(text, "    s.occlusion = 1.0;");
+        return;
+    }
     switch (input_infos[k].kind) {
     case INPUT_SCALAR:
     case INPUT_ANGLE:
@@ -270,16 +285,14 @@ static void put_lights(Text *text, const ShaderKey *key) {
 }
 
 /* Whether a pixel looks another way for another tangent. */
-static bool turns(const ShaderKey *key) {
+static bool turns(const ShaderKey *key, const KeySlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
-    TextSlot slots[TEXT_SLOTS] = {0};
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
         int state = key->inputs[turning[k]].state;
         bool number = input_infos[turning[k]].kind != INPUT_NORMAL;
         if (state == INPUT_MAP || (number && state != INPUT_ZERO)) return true;
     }
-    find_slots(key, slots);
-    return slots[2].count && weft_lobe_info(slots[2].lobes[0])->traits & TRAIT_ANISOTROPIC;
+    return found->slots[2].count && weft_lobe_info(found->lobes[2].id)->traits & TRAIT_ANISOTROPIC;
 }
 
 /* Nothing but what is there: holes and what is less than half there let light through. */
@@ -291,18 +304,52 @@ static void depth_text(const ShaderKey *key, Text *text) {
     text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;\n}");
 }
 
-void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
+/* One slot's table: that of its lobe, or where it holds none any that is there. */
+static void put_ambient_slot(Text *text, const char *slot, const AmbientFit *fit, int strategy) {
+    AmbientTable t = ambient_table(fit, strategy);
+    int sides = t.turning ? AMBIENT_SIDES : 1;
+    int layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns});
+    text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, layer, slot,
+              t.rows, slot, t.columns);
+    text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot,
+              number(t.low).text, slot, number(t.high).text, slot, t.strategy);
+    text_line(text, "    t.%s.focus = %s;\n    t.%s.second = %s;\n    t.%s.turning = %s;", slot,
+              t.focus ? "true" : "false", slot, t.second ? "true" : "false", slot,
+              t.turning ? "true" : "false");
+}
+
+static void put_ambient(Text *text, const ShaderKey *key, const KeySlots *found, Fits *fits) {
+    static const char *const names[TEXT_SLOTS] = {"diffuse", "specular", "sheen", "coat"};
+    const Lobe plain = lobe_default(LOBE_LAMBERT), dust = lobe_default(LOBE_LTC_FIBRE);
+    environment_text(text);
+    text_include(text, "shading/ambient.h");
+    text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
+    for (int k = 0; k <= TEXT_SLOTS; k++) {
+        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
+        const Lobe *lobe = !there ? &plain : k < TEXT_SLOTS ? &found->lobes[k] : &dust;
+        const AmbientFit *fit = fits_get(fits, lobe);
+        if (!fit) return;
+        put_ambient_slot(text, k < TEXT_SLOTS ? names[k] : "dust", fit,
+                         key->ambient > 1 ? key->ambient - 2 : ambient_strategy(lobe->id));
+    }
+    text_line(text, "    return t;\n}");
+    text_define(text, "AMBIENT", "1");
+}
+
+void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text) {
     text_begin(text, desc);
     if (key->depth) {
         depth_text(key, text);
         return;
     }
+    const KeySlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
-    if (turns(key)) text_define(text, "TURNS", "1");
+    if (turns(key, &found)) text_define(text, "TURNS", "1");
     put_lights(text, key);
-    put_lobes(text, key);
+    put_lobes(text, key, &found);
     if (key->polygons) text_lobe_tables(text);
     put_composition(text, &key->choices);
+    if (key->ambient) put_ambient(text, key, &found, fits);
     put_choices(text, &key->choices);
     put_uniforms(text, key);
     put_table(text, key);
@@ -313,4 +360,12 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
 void shader_vertex_text(const TextDesc *desc, Text *text) {
     text_begin(text, &(TextDesc){.language = desc->language, .folder = desc->folder});
     text_include(text, "raster/glsl/vertex.glsl");
+}
+
+void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment) {
+    const TextDesc plain = {.language = desc->language, .folder = desc->folder};
+    text_begin(vertex, &plain);
+    text_include(vertex, "raster/glsl/screen.glsl");
+    text_begin(fragment, &plain);
+    text_include(fragment, "raster/glsl/behind.glsl");
 }

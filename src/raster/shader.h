@@ -4,6 +4,7 @@
 #ifndef WEFT_RASTER_SHADER_H
 #define WEFT_RASTER_SHADER_H
 
+#include "raster/fits.h"
 #include "scene/scene.h"
 #include "shading/surface.h"
 #include "shading/table.h"
@@ -30,6 +31,7 @@ typedef struct ShaderKey {
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int8_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
+    int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */
     int8_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int alpha_mode, unlit, double_sided, colored;
@@ -37,8 +39,12 @@ typedef struct ShaderKey {
 } ShaderKey;
 
 /* Puts the fragment shader into text, which the caller ends and frees. Behind the tables that the text names,
- * weft_tables is to hold those of the scene's sheens. */
-void shader_text(const ShaderKey *key, const TextDesc *desc, Text *text);
+ * weft_tables is to hold those of the scene's sheens. fits must outlive what the text's tables are uploaded
+ * to. */
+void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text);
+
+/* What is behind everything: the environment. */
+void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment);
 
 /* The vertex shader likewise. */
 void shader_vertex_text(const TextDesc *desc, Text *text);

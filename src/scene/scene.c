@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "scene/cubemap.h"
 #include "scene/environment.h"
 
 WeftScene *scene_create(const char *name) {
@@ -98,10 +99,15 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
 WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,
                                            WeftError *error) {
     WeftImage raw, linear;
-    WeftResult result = weft_image_read(path, &raw, log, error);
-    if (result != WEFT_OK) return result;
-    result = weft_image_convert_f32(&raw, 1, &linear, error);
-    weft_image_free(&raw);
+    WeftResult result;
+    if (cubemap_named(path)) {
+        result = cubemap_read(path, &linear, log, error);
+    } else {
+        result = weft_image_read(path, &raw, log, error);
+        if (result != WEFT_OK) return result;
+        result = weft_image_convert_f32(&raw, 1, &linear, error);
+        weft_image_free(&raw);
+    }
     if (result != WEFT_OK) return result;
     weft_image_free(&scene->environment.image);
     scene->environment.image = linear;

@@ -141,6 +141,9 @@ __attribute__((noinline)) float lobe_second(Lobe lobe, float f0, float f90);
 /* A wi for (u, v) in [0, 1)^2. It may lie below the horizon: that is no sample. */
 __attribute__((noinline)) Dir lobe_sample(const Lobe *lobe, Dir o, float u, float v);
 
+/* The dialect's way to say it; in GLSL it is lobe_sample itself. */
+static inline Dir lobe_sample_at(Lobe lobe, Dir o, float u, float v) { return lobe_sample(&lobe, o, u, v); }
+
 /* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
 __attribute__((noinline)) float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
 

@@ -310,11 +310,13 @@ static void descriptors_are_checked(void **state) {
 
 /* Whole shaders, of every workflow, profile and sheen, with all kinds of light, by a compiler that knows
  * these versions and nothing newer. */
+static Fits fits;
+
 static void put_shader(const char *folder, int number, const ShaderKey *key, TextLanguage language) {
     char path[96];
     Text text;
     WeftError error;
-    shader_text(key, &(TextDesc){.language = language, .tables = true}, &text);
+    shader_text(key, &(TextDesc){.language = language, .tables = true}, &fits, &text);
     if (text_end(&text, &error) != WEFT_OK) fail_msg("%s", error.text);
     snprintf(path, sizeof path, "%s/%03d-%d.frag", folder, number, (int)language);
     FILE *stream = fopen(path, "wb");
@@ -331,7 +333,7 @@ static ShaderKey whole_key(void) {
     for (int k = 0; k < INPUT_COUNT; k++) key.inputs[k].like = -1;
     key.inputs[INPUT_base_color].state = key.inputs[INPUT_normal].state = INPUT_MAP;
     key.inputs[INPUT_normal].slot = 1;
-    key.shadowed = key.lights = key.polygons = key.colored = 1;
+    key.shadowed = key.lights = key.polygons = key.colored = key.ambient = 1;
     key.polygon_corners[0] = 4;
     key.light_kind[0] = 2;
     return key;
@@ -366,6 +368,7 @@ static void shaders_are_of_their_version(void **state) {
     int status = system(command);
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
+    fits_destroy(&fits);
     assert_int_equal(status, 0);
 }
 

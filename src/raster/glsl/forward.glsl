@@ -104,6 +104,14 @@ float polygon_reaches(int k, int map, Facing at) { return 1.0; }
 Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) { return rgb_grey(0.0); }
 #endif
 
+#ifdef AMBIENT
+Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) {
+    return stack_ambient(m, o, material_ambient(), f, occlusion);
+}
+#else
+Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) { return rgb_grey(0.0); }
+#endif
+
 void main() {
     Dir wo = eye.w > 0.5 ? dir_of(-normalize(from_eye)) : dir_of(-forward.xyz);
     Facing at = fragment_facing(wo);
@@ -118,6 +126,7 @@ void main() {
         Stack m = surface_stack(s, material_choices(), material_table(), o);
         sum = rgb_add(sum, punctual_light(m, at, f, o));
         sum = rgb_add(sum, polygon_light(m, at, f, o));
+        sum = rgb_add(sum, ambient_light_of(m, f, o, s.occlusion));
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 }

@@ -1,0 +1,385 @@
+/* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
+ *
+ *   bench_ambient [--lamps N] [--quick] MAP.hdr ...
+ *
+ * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
+ * first over roughness 0.1 .. 1 together, then the roughness with the greatest. The reference is multiple
+ * importance sampling between the lobe's sampler and the map's radiance; the strategies run as the shader has
+ * them, with the sums of ambient_source.h over all texels. `base` is a white dielectric, f0 0.04: lambert
+ * under ggx. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "base/thread.h"
+#include "scene/ambient.h"
+#include "scene/scene.h"
+#include "shading/albedo.h"
+#include "shading/ambient_table.h"
+#include "shading/material_stack.h"
+
+enum { LEVELS = 16, AZIMUTHS = 12, SIDES = 2, PIXELS = LEVELS * AZIMUTHS * SIDES, ROUGHNESSES = 10 };
+enum { LOBE_DRAWS = 2048, MAP_DRAWS = 2048, CELLS_WIDTH = 256, CELLS_HEIGHT = 128 };
+enum { BASE = LOBE_COUNT, SUBJECTS };
+
+/* A pixel of the sphere: its frame, x towards wo for round lobes; and how much of the picture it is. */
+typedef struct Pixel {
+    Vec3 x, y, z;
+    Dir o;
+    double weight;
+} Pixel;
+
+static Pixel pixels[PIXELS];
+
+static void make_pixels(void) {
+    const Vec3 eyes[SIDES] = {{0.0f, 0.0f, 1.0f}, {-0.787f, 0.344f, -0.492f}};
+    int k = 0;
+    for (int side = 0; side < SIDES; side++)
+        for (int level = 0; level < LEVELS; level++)
+            for (int turn = 0; turn < AZIMUTHS; turn++) {
+                float u = ((float)level + 0.5f) / LEVELS, z = u * sqrt(u), s = sqrt(1.0f - z * z);
+                float phi = 6.2831853f * ((float)turn + 0.37f * (float)level) / AZIMUTHS;
+                Vec3 eye = vec3_normal_or(eyes[side], eyes[0]), up = vec3(0.0f, 1.0f, 0.0f);
+                Vec3 right = vec3_normal_or(vec3_cross(up, eye), up), over = vec3_cross(eye, right);
+                Pixel *p = &pixels[k++];
+                p->z = vec3_madd(vec3_madd(vec3_scale(eye, z), right, s * cos(phi)), over, s * sin(phi));
+                p->x = vec3_normal_or(vec3_cross(up, p->z), right);
+                p->y = vec3_cross(p->z, p->x);
+                p->o = dir(vec3_dot(eye, p->x), vec3_dot(eye, p->y), z);
+                p->weight = (double)(z * 1.5f * sqrt(u));
+            }
+}
+
+static Vec3 to_world(const Pixel *p, Dir w) {
+    return vec3_madd(vec3_madd(vec3_scale(p->x, w.x), p->y, w.y), p->z, w.z);
+}
+static Dir to_local(const Pixel *p, Vec3 w) {
+    return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z));
+}
+
+/* One map, with its density for sampling. */
+typedef struct Map {
+    const char *name;
+    Environment environment;
+    WeftImage cells, small;
+    AmbientParts parts;
+    double density[CELLS_WIDTH * CELLS_HEIGHT]; /* 1/sr */
+    Vec3 draws[MAP_DRAWS];
+} Map;
+
+static double map_pdf(const Map *map, Vec3 d) {
+    int x = (int)((0.5f + atan2f(d.x, -d.z) / 6.2831853f) * CELLS_WIDTH);
+    int y = (int)(acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / 3.14159265f * CELLS_HEIGHT);
+    x = x < 0 ? 0 : x < CELLS_WIDTH ? x : CELLS_WIDTH - 1;
+    y = y < CELLS_HEIGHT ? y : CELLS_HEIGHT - 1;
+    return map->density[y * CELLS_WIDTH + x];
+}
+
+/* By luminance of the cell and its neighbours, which interpolation mixes in, and 2 % of it everywhere. */
+static void prepare_draws(Map *map) {
+    static double sums[CELLS_WIDTH * CELLS_HEIGHT];
+    const float *p = map->cells.pixels;
+    double total = 0.0, mean = 0.0;
+    int count = CELLS_WIDTH * CELLS_HEIGHT;
+    for (int k = 0; k < 3 * count; k++) mean += (double)p[k] / (3 * count);
+    for (int k = 0; k < count; k++) {
+        double sum = 0.02 * mean;
+        for (int n = 0; n < 9; n++) {
+            int x = (k % CELLS_WIDTH + n % 3 + CELLS_WIDTH - 1) % CELLS_WIDTH,
+                y = k / CELLS_WIDTH + n / 3 - 1;
+            y = y < 0 ? 0 : y < CELLS_HEIGHT ? y : CELLS_HEIGHT - 1;
+            const float *c = p + 3 * (y * CELLS_WIDTH + x);
+            sum += (double)(c[0] + c[1] + c[2]) / 27.0;
+        }
+        map->density[k] = sum;
+        total += sum * (sin)(3.14159265 * (k / CELLS_WIDTH + 0.5) / CELLS_HEIGHT) * 19.7392088 / count;
+        sums[k] = total;
+    }
+    for (int k = 0; k < count; k++) map->density[k] /= total;
+    for (int n = 0, k = 0; n < MAP_DRAWS; n++) {
+        double u = (n + unit_double(hash64((uint64_t)n + 9))) / MAP_DRAWS * total;
+        while (k < count - 1 && sums[k] < u) k++;
+        double a = unit_double(hash64((uint64_t)n * 7 + 123)),
+               b = unit_double(hash64((uint64_t)n * 13 + 765));
+        double row = k / CELLS_WIDTH, top = (cos)((float)(3.14159265 * row / CELLS_HEIGHT));
+        double z = top + ((double)(cos)((float)(3.14159265 * (row + 1) / CELLS_HEIGHT)) - top) * b;
+        map->draws[n] = latlong_direction((k % CELLS_WIDTH + a) / CELLS_WIDTH, acos(z) / 3.14159265358979);
+    }
+}
+
+/* What ambient.h asks for, in a pixel's frame. */
+typedef struct Look {
+    const Map *map;
+    const Pixel *pixel;
+} Look;
+
+enum { LOOKS = 128, REST_LEVELS = 4, REST_WIDTH = 64, REST_HEIGHT = 32 };
+static const float rest_kappas[REST_LEVELS] = {50.0f, 12.5f, 3.125f, 0.0f};
+static WeftImage rests[16][REST_LEVELS]; /* of each map, filtered */
+
+/* Every texel of the filtered image is the mean of all of the other. */
+static void filter_rest(const WeftImage *from, float kappa, WeftImage *to) {
+    if (weft_image_create(REST_WIDTH, REST_HEIGHT, 3, WEFT_PIXEL_F32, to, NULL) != WEFT_OK) exit(4);
+    int n = from->width * from->height;
+    const float *p = from->pixels;
+    Vec3 *directions = calloc((size_t)n, sizeof *directions);
+    if (!directions) exit(4);
+    for (int j = 0; j < n; j++)
+        directions[j] =
+            latlong_direction((j % from->width + 0.5) / from->width, (j / from->width + 0.5) / from->height);
+    for (int k = 0; k < REST_WIDTH * REST_HEIGHT; k++) {
+        Vec3 d = latlong_direction((k % REST_WIDTH + 0.5) / REST_WIDTH, (k / REST_WIDTH + 0.5) / REST_HEIGHT);
+        double sum[3] = {0.0}, all = 0.0;
+        for (int j = 0; j < n; j++) {
+            float mu = vec3_dot(d, directions[j]), y = directions[j].y;
+            double w = (double)(kappa > 0.0f ? exp(kappa * (mu - 1.0f)) : max(mu, 0.0f));
+            w *= (double)sqrt(1.0f - y * y);
+            all += w;
+            for (int c = 0; c < 3; c++) sum[c] += w * (double)p[3 * j + c];
+        }
+        for (int c = 0; c < 3; c++) ((float *)to->pixels)[3 * k + c] = (float)(sum[c] / all);
+    }
+    free(directions);
+}
+
+static Rgb look_up(const WeftImage *image, Vec3 d) {
+    float c[3];
+    latlong_at(image, d, c);
+    return rgb(c[0], c[1], c[2]);
+}
+
+/* By drawing from exp(kappa (mu - 1)). */
+static Rgb look_about(const WeftImage *image, Vec3 z, float kappa) {
+    Vec3 x = vec3_normal_or(vec3_cross(z, vec3(0.3f, 0.5f, 0.8f)), z), y = vec3_cross(z, x);
+    Rgb sum = rgb_grey(0.0f);
+    for (int k = 0; k < LOOKS; k++) {
+        float u = ((float)k + 0.5f) / LOOKS, phi = 6.2831853f * 0.618033989f * (float)k;
+        float t = min(-(logf)(u + (1.0f - u) * (expf)(-2.0f * kappa)) / kappa, 2.0f),
+              s = sqrt(t * (2.0f - t));
+        Vec3 d = vec3_madd(vec3_madd(vec3_scale(z, 1.0f - t), x, s * cos(phi)), y, s * sin(phi));
+        sum = rgb_add(sum, look_up(image, d));
+    }
+    return rgb_scale(sum, 1.0f / LOOKS);
+}
+static Rgb look_radiance(const void *user, Dir w, float kappa) {
+    const Look *look = user;
+    const WeftImage *image = kappa < 40.0f ? &look->map->small : &look->map->environment.image;
+    return look_about(image, to_world(look->pixel, w), kappa);
+}
+static Rgb look_irradiance(const void *user, Dir w) {
+    const Look *look = user;
+    float p[AMBIENT_TERMS], c[3] = {0.0f, 0.0f, 0.0f};
+    ambient_polynomials(to_world(look->pixel, w), p);
+    for (int k = 0; k < AMBIENT_TERMS; k++)
+        for (int j = 0; j < 3; j++) c[j] += look->map->parts.terms[k][j] * p[k];
+    return rgb(max(c[0], 0.0f), max(c[1], 0.0f), max(c[2], 0.0f));
+}
+static Map *maps;
+static Rgb look_rest(const void *user, Dir w, float kappa) {
+    const Look *look = user;
+    Vec3 d = to_world(look->pixel, w);
+    for (int k = 0; k < REST_LEVELS; k++)
+        if (!(kappa < rest_kappas[k]) && !(kappa > rest_kappas[k]))
+            return look_up(&rests[look->map - maps][k], d);
+    return look_about(&look->map->parts.rest, d, min(kappa, 200.0f));
+}
+static AmbientLight look_light(const void *user, int k) {
+    const Look *look = user;
+    const AmbientLamp *lamp = &look->map->parts.lamps[k];
+    return (AmbientLight){to_local(look->pixel, lamp->direction),
+                          rgb(lamp->color[0], lamp->color[1], lamp->color[2])};
+}
+
+/* What is looked at. */
+static Stack subject_stack(int subject, float roughness, Dir o) {
+    Stack m;
+    if (subject == BASE) {
+        Surface s = {
+            .base_color = {0.8f, 0.8f, 0.8f}, .roughness = roughness, .specular = 1.0f, .sheen = 1.0f};
+        Choices c = choices_unmade();
+        s.specular_color = rgb_grey(1.0f);
+        s.reflectance = 0.46f; /* f0 0.04 */
+        s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
+        stack_make(&m, &s, &c, (TableRef){.kind = TABLE_NONE}, o);
+        return m;
+    }
+    m = stack_empty();
+    Rgb white = rgb_grey(1.0f);
+    m.sheen = slot_make(lobe_rough(subject, roughness), white, white, 1.0f, 1.0f);
+    m.sheen.pick = 1.0f;
+    return m;
+}
+
+static const char *only; /* this subject alone */
+
+static bool used(int subject) {
+    if (only && strcmp(only, subject == BASE ? "base" : weft_lobe_info(subject)->id) != 0) return false;
+    return subject == BASE || (subject != LOBE_BURLEY_COAT && subject != LOBE_COOK_TORRANCE &&
+                               !(weft_lobe_info(subject)->traits & TRAIT_REFERENCE));
+}
+
+typedef struct Draw2 {
+    Dir i;
+    float f, pdf;
+} Draw2;
+
+static double (*results)[ROUGHNESSES][AMBIENT_STRATEGIES][16][2]; /* sum of differences, of the reference */
+static int map_count, lamp_count = AMBIENT_LAMPS, step = 1;
+
+static float radical(uint32_t k) {
+    float x = 0.0f;
+    for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
+        if (k & 1) x += place;
+    return x;
+}
+
+static Rgb reference(const Map *map, const Pixel *p, const Stack *m, const Draw2 *draws, int count) {
+    double sum[3] = {0.0};
+    for (int k = 0; k < count; k++) {
+        float c[3];
+        Vec3 d = to_world(p, draws[k].i);
+        latlong_at(&map->environment.image, d, c);
+        double w = (double)draws[k].f / (LOBE_DRAWS * (double)draws[k].pdf + MAP_DRAWS * map_pdf(map, d));
+        for (int j = 0; j < 3; j++) sum[j] += w * (double)c[j];
+    }
+    for (int k = 0; k < MAP_DRAWS; k++) {
+        float c[3];
+        Dir i = to_local(p, map->draws[k]);
+        if (!(i.z > 0.0f)) continue;
+        StackValue x = stack_eval(m, p->o, i, 0);
+        latlong_at(&map->environment.image, map->draws[k], c);
+        double w = (double)x.f_cos.g / (LOBE_DRAWS * (double)x.pdf + MAP_DRAWS * map_pdf(map, map->draws[k]));
+        for (int j = 0; j < 3; j++) sum[j] += w * (double)c[j];
+    }
+    return rgb((float)sum[0], (float)sum[1], (float)sum[2]);
+}
+
+static const AmbientFit *fit_of(const AmbientFit *fits, int lobe) { return &fits[lobe]; }
+static AmbientFit *fits;
+
+static void measure(void *user, int item, int thread) {
+    (void)user, (void)thread;
+    int subject = item / ROUGHNESSES, r = item % ROUGHNESSES;
+    if (!used(subject) || r % step != step - 1) return;
+    Draw2 *draws = alloc_array(LOBE_DRAWS, sizeof *draws);
+    for (int n = 0; n < PIXELS; n++) {
+        const Pixel *p = &pixels[n];
+        Stack m = subject_stack(subject, 0.1f * (float)(r + 1), p->o);
+        int count = 0;
+        for (int k = 0; k < LOBE_DRAWS; k++) {
+            Dir i = stack_sample(&m, p->o, ((float)k + 0.5f) / LOBE_DRAWS, radical((uint32_t)k));
+            if (!(i.z > 0.0f)) continue;
+            StackValue x = stack_eval(&m, p->o, i, 0);
+            if (x.pdf > 0.0f) draws[count++] = (Draw2){i, x.f_cos.g, x.pdf};
+        }
+        for (int k = 0; k < map_count; k++) {
+            Look look = {&maps[k], p};
+            AmbientSourceCalls calls = {look_radiance,
+                                        look_irradiance,
+                                        look_rest,
+                                        look_light,
+                                        &look,
+                                        maps[k].parts.lamp_count,
+                                        maps[k].parts.lamp_kappa};
+            Rgb truth = reference(&maps[k], p, &m, draws, count);
+            for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
+                if (getenv("FIT") && s != 2) continue;
+                AmbientTable none = ambient_table(fit_of(fits, LOBE_LAMBERT), s);
+                AmbientTables tables = {none, none, none, none, none};
+                if (m.diffuse.pick > 0.0f) tables.diffuse = ambient_table(fit_of(fits, m.diffuse.lobe.id), s);
+                if (m.specular.pick > 0.0f)
+                    tables.specular = ambient_table(fit_of(fits, m.specular.lobe.id), s);
+                if (m.sheen.pick > 0.0f) tables.sheen = ambient_table(fit_of(fits, m.sheen.lobe.id), s);
+                Rgb got = stack_ambient(m, p->o, tables, &calls, 1.0f);
+                double *sum = results[subject][r][s][k];
+                sum[0] +=
+                    p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));
+                sum[1] += p->weight * (double)(truth.r + truth.g + truth.b);
+            }
+        }
+    }
+    free(draws);
+}
+
+static void print_results(void) {
+    static const char *const names[AMBIENT_STRATEGIES] = {"irradiance", "mirror", "fitted", "sampled"};
+    printf("| lobe |");
+    for (int k = 0; k < map_count; k++)
+        for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %s, %s |", maps[k].name, names[s]);
+    printf(" default |\n|---|");
+    for (int k = 0; k <= map_count * AMBIENT_STRATEGIES; k++) printf("---|");
+    printf("\n");
+    for (int subject = 0; subject < SUBJECTS; subject++) {
+        if (!used(subject)) continue;
+        printf("| %s |", subject == BASE ? "base" : weft_lobe_info(subject)->id);
+        for (int k = 0; k < map_count; k++)
+            for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
+                double off = 0.0, all = 0.0, worst = 0.0, at = 0.0;
+                for (int r = 0; r < ROUGHNESSES; r++) {
+                    const double *sum = results[subject][r][s][k];
+                    if (!(sum[1] > 0.0)) continue;
+                    off += sum[0], all += sum[1];
+                    if (sum[0] / sum[1] > worst) worst = sum[0] / sum[1], at = 0.1 * (r + 1);
+                }
+                printf(" %.1f (%.1f at %.1f) |", 100.0 * off / all, 100.0 * worst, at);
+            }
+        printf(" %s |\n", names[subject == BASE ? AMBIENT_FITTED : ambient_strategy(subject)]);
+    }
+}
+
+static bool load(Map *map, const char *path) {
+    WeftError error;
+    WeftScene *scene = scene_create("ambient");
+    if (!scene || weft_scene_set_environment_file(scene, path, NULL, &error) != WEFT_OK) {
+        fprintf(stderr, "bench_ambient: %s\n", scene ? error.text : "out of memory");
+        return false;
+    }
+    const char *slash = strrchr(path, '/');
+    map->name = slash ? slash + 1 : path;
+    map->environment = scene->environment; /* stays until the end */
+    if (latlong_resize(&map->environment.image, CELLS_WIDTH, CELLS_HEIGHT, &map->cells, &error) != WEFT_OK ||
+        latlong_resize(&map->environment.image, AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, &map->small,
+                       &error) != WEFT_OK ||
+        ambient_split(&map->environment, lamp_count, &map->parts, &error) != WEFT_OK)
+        return false;
+    for (int level = 0; level < REST_LEVELS; level++)
+        filter_rest(&map->parts.rest, rest_kappas[level], &rests[map - maps][level]);
+    prepare_draws(map);
+    return true;
+}
+
+int main(int argc, char **argv) {
+    maps = calloc(16, sizeof *maps);
+    fits = calloc(LOBE_COUNT, sizeof *fits);
+    results = calloc(SUBJECTS, sizeof *results);
+    if (!maps || !fits || !results) return 4;
+    for (int k = 1; k < argc; k++) {
+        if (strcmp(argv[k], "--quick") == 0)
+            step = 3;
+        else if (strcmp(argv[k], "--lamps") == 0 && k + 1 < argc)
+            lamp_count = atoi(argv[++k]);
+        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc)
+            only = argv[++k];
+        else if (map_count < 16 && !load(&maps[map_count++], argv[k]))
+            return 3;
+    }
+    make_pixels();
+    for (int lobe = 0; lobe < LOBE_COUNT; lobe++) {
+        Lobe at = lobe_default(lobe);
+        float a = lobe_rough(lobe, 0.1f).params[0], b = lobe_rough(lobe, 1.0f).params[0];
+        if (used(lobe) || lobe == LOBE_LAMBERT || lobe == LOBE_GGX)
+            ambient_fit(&fits[lobe], &at, min(a, b), max(a, b), 0);
+    }
+    parallel_for(0, SUBJECTS * ROUGHNESSES, measure, NULL);
+    if (getenv("PER"))
+        for (int q = 0; q < SUBJECTS; q++)
+            if (used(q))
+                for (int k = 0; k < map_count; k++) {
+                    for (int r = 0; r < ROUGHNESSES; r++)
+                        printf(" %.1f", 100 * results[q][r][2][k][0] / results[q][r][2][k][1]);
+                    printf("\n");
+                }
+    print_results();
+    return 0;
+}

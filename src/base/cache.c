@@ -1,0 +1,55 @@
+#include "base/cache.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+
+uint64_t cache_hash(uint64_t hash, const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    for (size_t k = 0; k < size; k++) hash = (hash ^ bytes[k]) * 0x100000001b3u;
+    return hash;
+}
+
+static bool cache_folder(char *folder, size_t size) {
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    if (cache && cache[0] == '/') return (size_t)snprintf(folder, size, "%s/weft", cache) < size;
+    return home && home[0] == '/' && (size_t)snprintf(folder, size, "%s/.cache/weft", home) < size;
+}
+
+bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix) {
+    char folder[CACHE_PATH_SIZE - 64];
+    if (!cache_folder(folder, sizeof folder)) return false;
+    snprintf(path, CACHE_PATH_SIZE, "%s/%016llx.%s", folder, (unsigned long long)key, suffix);
+    return true;
+}
+
+/* Makes a folder and those it is in. What fails here fails again, with a reason, when the file is opened. */
+static void make_folders(char *path) {
+    for (char *c = path + 1; *c; c++)
+        if (*c == '/') {
+            *c = 0;
+            mkdir(path, 0700);
+            *c = '/';
+        }
+}
+
+void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
+    char path[CACHE_PATH_SIZE];
+    OutputFile file;
+    if (!cache_path(path, key, suffix)) {
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, "$HOME", "it is no absolute path");
+        return;
+    }
+    make_folders(path);
+    bool written = output_open(&file, path, NULL) == WEFT_OK;
+    if (written && fwrite(data, 1, size, file.stream) != size) {
+        output_discard(&file);
+        written = false;
+    } else if (written) {
+        written = output_commit(&file, NULL) == WEFT_OK;
+    }
+    if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written");
+}

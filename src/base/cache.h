@@ -1,0 +1,26 @@
+/* cache.h - files in the user's cache, named by what they were made from */
+#ifndef WEFT_BASE_CACHE_H
+#define WEFT_BASE_CACHE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "weft/result.h"
+
+enum { CACHE_PATH_SIZE = 4096 };
+
+/* FNV-1a: Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, 1991. Start from CACHE_HASH. */
+#define CACHE_HASH 0xcbf29ce484222325u
+uint64_t cache_hash(uint64_t hash, const void *data, size_t size);
+
+/* $XDG_CACHE_HOME/weft/KEY.suffix, or ~/.cache/weft/KEY.suffix, as the XDG Base Directory Specification has
+ * it (freedesktop.org, version 0.8, 2021): a path that is not absolute does not count. False where the user
+ * has none, or it is too long. */
+bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix);
+
+/* Writes a file of the cache, complete or not at all, and the folders it is in. What fails is a warning
+ * (WEFT_MESSAGE_CACHE_IGNORED). */
+void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);
+
+#endif

@@ -1,0 +1,426 @@
+#include "raster/environment.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <epoxy/gl.h>
+
+#include "base/cache.h"
+#include "base/fail.h"
+#include "base/file.h"
+#include "image/half.h"
+#include "raster/check.h"
+#include "raster/program.h"
+
+/* Raised whenever the same pixels would give other cubes. */
+enum { FILTER = 1 };
+
+enum { SOURCE_WIDTH = 512, SOURCE_LEVELS = 5 };
+
+static const unsigned char magic[8] = {'w', 'e', 'f', 't', '-', 'e', 'n', 'v'};
+
+/* The block Environment, as the shader has it. */
+typedef struct Block {
+    float place[4], terms[AMBIENT_TERMS][4], lamps[2 * AMBIENT_LAMPS_MAX][4];
+} Block;
+
+/* One level of a cube, and where it comes from. */
+typedef struct Level {
+    bool rest;
+    int level, side;
+    int source;  /* level of the source texture */
+    float kappa; /* 0: the cosine */
+} Level;
+
+enum { LEVELS = ENVIRONMENT_LEVELS + ENVIRONMENT_REST_LEVELS };
+
+/* Texels of the source are about 0.7 of the width 1 / sqrt(kappa) that they are asked for: a sum over such
+ * steps is the integral to far below 1e-6 (Poisson's formula), and what the steps blur is taken off kappa. */
+static Level level_at(int k) {
+    if (k >= ENVIRONMENT_LEVELS) {
+        int m = k - ENVIRONMENT_LEVELS;
+        float kappa = m == ENVIRONMENT_REST_LEVELS - 1 ? 0.0f : ldexpf(ENVIRONMENT_REST_KAPPA, -2 * m);
+        return (Level){true, m, ENVIRONMENT_REST_SIDE >> m, 0, kappa};
+    }
+    int source = k < SOURCE_LEVELS ? k : SOURCE_LEVELS - 1;
+    return (Level){false, k, ENVIRONMENT_SIDE >> k, source, ldexpf(ENVIRONMENT_KAPPA, -2 * k)};
+}
+
+/* kappa to filter by, so that a look-up has that of the level: a source texel of height a is a box of
+ * variance a^2 / 12 along each axis, and interpolation between texels b apart a tent of b^2 / 6, which on a
+ * face of n by n is at the mean b^2 = 4 pi / (6 n^2). */
+static float sharpened(const Level *level) {
+    const float pi = 3.14159265f;
+    float a = pi / (level->rest ? AMBIENT_REST_WIDTH / 2 : (float)(SOURCE_WIDTH / 2 >> level->source));
+    float b2 = 4.0f * pi / (6.0f * (float)(level->side * level->side));
+    return 1.0f / (1.0f / level->kappa - a * a / 12.0f - b2 / 6.0f);
+}
+
+static size_t level_texels(const Level *level) { return 6 * (size_t)level->side * (size_t)level->side; }
+
+/* Axes of the faces in the order of the driver: towards the right, down, and out. */
+static const float faces[6][9] = {{0, 0, -1, 0, -1, 0, 1, 0, 0}, {0, 0, 1, 0, -1, 0, -1, 0, 0},
+                                  {1, 0, 0, 0, 0, 1, 0, 1, 0},   {1, 0, 0, 0, 0, -1, 0, -1, 0},
+                                  {1, 0, 0, 0, -1, 0, 0, 0, 1},  {-1, 0, 0, 0, -1, 0, 0, 0, -1}};
+
+static void put(unsigned char *to, uint64_t value, int bytes) {
+    for (int k = 0; k < bytes; k++) to[k] = (unsigned char)(value >> 8 * k);
+}
+static uint64_t get(const unsigned char *from, int bytes) {
+    uint64_t value = 0;
+    for (int k = 0; k < bytes; k++) value |= (uint64_t)from[k] << 8 * k;
+    return value;
+}
+
+bool environment_unpack(const unsigned char *data, size_t size, uint64_t key, uint16_t *texels) {
+    if (size != ENVIRONMENT_FILE || memcmp(data, magic, sizeof magic) != 0 || get(data + 8, 8) != key)
+        return false;
+    if (get(data + size - 8, 8) != cache_hash(CACHE_HASH, data, size - 8)) return false;
+    for (size_t k = 0; k < 3 * (size_t)ENVIRONMENT_TEXELS; k++) {
+        texels[k] = (uint16_t)get(data + 16 + 2 * k, 2);
+        if (texels[k] > 0x7bffu) return false; /* negative, infinite or no number */
+    }
+    return true;
+}
+
+static bool read_cache(uint64_t key, uint16_t *texels, const WeftLog *log) {
+    char path[CACHE_PATH_SIZE];
+    FileBytes file;
+    WeftError error;
+    struct stat status;
+    if (!cache_path(path, key, "env") || stat(path, &status) != 0) return false;
+    if (file_read(path, ENVIRONMENT_FILE, &file, &error) != WEFT_OK) {
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "%s", weft_message_text(error.message));
+        return false;
+    }
+    bool good = environment_unpack(file.data, file.size, key, texels);
+    free(file.data);
+    if (!good) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it is damaged");
+    return good;
+}
+
+static void write_cache(uint64_t key, const uint16_t *texels, const WeftLog *log) {
+    unsigned char *data = alloc_array(ENVIRONMENT_FILE, 1);
+    if (!data) return;
+    memcpy(data, magic, sizeof magic);
+    put(data + 8, key, 8);
+    for (size_t k = 0; k < 3 * (size_t)ENVIRONMENT_TEXELS; k++) put(data + 16 + 2 * k, texels[k], 2);
+    put(data + ENVIRONMENT_FILE - 8, cache_hash(CACHE_HASH, data, ENVIRONMENT_FILE - 8), 8);
+    cache_write(key, "env", data, ENVIRONMENT_FILE, log);
+    free(data);
+}
+
+/* All that the cubes depend on: the pixels, or the colour; the number of lamps; the filter. */
+static uint64_t cubes_key(const Environment *e, int lamps) {
+    const int sizes[] = {
+        FILTER, (int)e->kind == ENVIRONMENT_CONSTANT, e->image.width, e->image.height, e->image.channels,
+        lamps};
+    uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
+    if (e->kind == ENVIRONMENT_CONSTANT) return cache_hash(hash, e->color, sizeof e->color);
+    return cache_hash(hash, e->image.pixels,
+                      (size_t)e->image.width * (size_t)e->image.height * (size_t)e->image.channels *
+                          sizeof(float));
+}
+
+static void upload_source(const WeftImage *image, int level) {
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *rgba = alloc_array(count, 4 * sizeof *rgba);
+    const float *p = image->pixels;
+    for (size_t k = 0; rgba && k < count; k++) {
+        memcpy(rgba + 4 * k, p + 3 * k, 3 * sizeof *p);
+        rgba[4 * k + 3] = 1.0f;
+    }
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA32F, image->width, image->height, 0, GL_RGBA, GL_FLOAT, rgba);
+    free(rgba);
+}
+
+/* The image in halving sizes, for texelFetch alone. */
+static WeftResult make_source(const Environment *e, unsigned *texture, WeftError *error) {
+    WeftImage now = {0}, next;
+    WeftResult result = WEFT_OK;
+    glGenTextures(1, texture);
+    glBindTexture(GL_TEXTURE_2D, *texture);
+    texture_plain(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, SOURCE_LEVELS - 1);
+    for (int level = 0; level < SOURCE_LEVELS && result == WEFT_OK; level++) {
+        result = latlong_resize(level ? &now : &e->image, SOURCE_WIDTH >> level, SOURCE_WIDTH / 2 >> level,
+                                &next, error);
+        if (result != WEFT_OK) break;
+        weft_image_free(&now);
+        now = next;
+        upload_source(&now, level);
+    }
+    weft_image_free(&now);
+    return result;
+}
+
+static unsigned make_rest_source(const WeftImage *rest) {
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    texture_plain(GL_TEXTURE_2D);
+    upload_source(rest, 0);
+    return texture;
+}
+
+static unsigned make_cube(int side, int levels, const uint16_t *texels) {
+    GLuint cube;
+    glGenTextures(1, &cube);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, cube);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    uint16_t *rgba = texels ? alloc_array((size_t)side * (size_t)side, 4 * sizeof *rgba) : NULL;
+    for (int level = 0; level < levels; level++)
+        for (GLuint face = 0; face < 6; face++) {
+            int n = side >> level;
+            for (size_t k = 0; rgba && k < (size_t)n * (size_t)n; k++, texels += 3) {
+                memcpy(rgba + 4 * k, texels, 3 * sizeof *texels);
+                rgba[4 * k + 3] = 0x3c00; /* 1 */
+            }
+            glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA16F, n, n, 0, GL_RGBA,
+                         GL_HALF_FLOAT, rgba);
+        }
+    free(rgba);
+    return cube;
+}
+
+/* As it is seen: 16-bit floats, filtered. */
+static WeftResult make_map(const WeftImage *image, unsigned *map, WeftError *error) {
+    size_t count = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    uint16_t *rgba = alloc_array(count, 4 * sizeof *rgba);
+    GLint most = 0;
+    if (!rgba) return fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
+    const float *p = image->pixels;
+    for (size_t k = 0; k < 4 * count; k++) {
+        size_t c = k % 4;
+        rgba[k] =
+            c == 3 ? (uint16_t)0x3c00 : half_bits(fmaxf(p[k / 4 * channels + (channels >= 3 ? c : 0)], 0.0f));
+    }
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    glGenTextures(1, map);
+    glBindTexture(GL_TEXTURE_2D, *map);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, image->width, image->height, 0, GL_RGBA, GL_HALF_FLOAT, rgba);
+    free(rgba);
+    if (image->width > most || image->height > most)
+        return fail(error, WEFT_MESSAGE_GL_MEMORY, "an environment", "the driver takes up to %d texels",
+                    most);
+    return gl_check(error, "an environment");
+}
+
+static const char vertex_body[] =
+    "void main() {\n"
+    "    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));\n"
+    "    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);\n}\n";
+
+static unsigned make_program(const EnvironmentHow *how, WeftError *error) {
+    Text vertex, fragment;
+    TextDesc desc = {.language = how->language, .folder = how->folder};
+    unsigned program = 0;
+    text_begin(&vertex, &desc);
+    text_line(&vertex, "%s", vertex_body);
+    text_begin(&fragment, &desc);
+    text_include(&fragment, "raster/glsl/environment_filter.glsl");
+    if (text_end(&vertex, error) == WEFT_OK && text_end(&fragment, error) == WEFT_OK)
+        program = program_create("environment filter", (ShaderSource){vertex.bytes, &vertex},
+                                 (ShaderSource){fragment.bytes, &fragment}, error);
+    text_free(&vertex);
+    text_free(&fragment);
+    return program;
+}
+
+/* Draws one level, and takes it back for the cache. */
+static void filter_level(unsigned program, const Level *level, unsigned cube, unsigned source,
+                         uint16_t *texels) {
+    float kappa = level->kappa > 0.0f ? sharpened(level) : 0.0f;
+    /* a three-thousandth of the weight is beyond: exp(kappa (cos(reach) - 1)) */
+    float least = kappa > 0.0f ? fmaxf(1.0f - 8.0f / kappa, -1.0f) : 0.0f;
+    size_t count = (size_t)level->side * (size_t)level->side;
+    float *rgba = texels ? alloc_array(count, 4 * sizeof *rgba) : NULL;
+    glViewport(0, 0, level->side, level->side);
+    glBindTexture(GL_TEXTURE_2D, source);
+    glUniform4f(glGetUniformLocation(program, "how"), (float)level->side, (float)level->source, kappa, least);
+    glUniform1f(glGetUniformLocation(program, "reach"), acosf(least));
+    for (GLuint face = 0; face < 6; face++) {
+        glUniformMatrix3fv(glGetUniformLocation(program, "face"), 1, GL_FALSE, faces[face]);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face,
+                               cube, level->level);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        if (!rgba) continue;
+        glReadPixels(0, 0, level->side, level->side, GL_RGBA, GL_FLOAT, rgba);
+        for (size_t k = 0; k < count; k++)
+            for (size_t c = 0; c < 3; c++) *texels++ = half_bits(fmaxf(rgba[4 * k + c], 0.0f));
+    }
+    free(rgba);
+}
+
+static bool stopped(const EnvironmentHow *how, float done) {
+    return how->progress && how->progress(how->user, done);
+}
+
+/* Both cubes; texels may be NULL. */
+static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *how, unsigned source,
+                             unsigned rest, uint16_t *texels, WeftError *error) {
+    GLuint framebuffer, vertices;
+    unsigned program = make_program(how, error);
+    if (!program) return error ? error->result : WEFT_RESOURCES;
+    WeftResult result = WEFT_OK;
+    glGenFramebuffers(1, &framebuffer);
+    glGenVertexArrays(1, &vertices);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glBindVertexArray(vertices);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glUseProgram(program);
+    glUniform1i(glGetUniformLocation(program, "source"), 0);
+    for (int k = 0; k < LEVELS && result == WEFT_OK; k++) {
+        Level level = level_at(k);
+        filter_level(program, &level, level.rest ? self->rest : self->cube, level.rest ? rest : source,
+                     texels);
+        if (texels) texels += 3 * level_texels(&level);
+        glFinish();
+        if (stopped(how, 0.2f + 0.75f * (float)(k + 1) / LEVELS)) result = WEFT_INTERRUPTED;
+    }
+    if (result == WEFT_OK) result = gl_check(error, "an environment");
+    glUseProgram(0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glBindVertexArray(0);
+    glDeleteVertexArrays(1, &vertices);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteProgram(program);
+    return result;
+}
+
+static WeftResult filter_cubes(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
+                               uint16_t *texels, WeftError *error) {
+    Environment plain = *environment;
+    unsigned source = 0, rest = make_rest_source(&self->parts.rest);
+    self->cube = make_cube(ENVIRONMENT_SIDE, ENVIRONMENT_LEVELS, NULL);
+    self->rest = make_cube(ENVIRONMENT_REST_SIDE, ENVIRONMENT_REST_LEVELS, NULL);
+    if (plain.kind == ENVIRONMENT_CONSTANT) plain.image = self->parts.rest; /* which is that colour */
+    WeftResult result = make_source(&plain, &source, error);
+    if (result == WEFT_OK && stopped(how, 0.2f)) result = WEFT_INTERRUPTED;
+    if (result == WEFT_OK) result = filter_all(self, how, source, rest, texels, error);
+    glDeleteTextures(1, &source);
+    glDeleteTextures(1, &rest);
+    return result;
+}
+
+static WeftResult make_cubes(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
+                             int lamps, const WeftLog *log, WeftError *error) {
+    uint64_t key = how->no_cache ? 0 : cubes_key(environment, lamps);
+    uint16_t *texels = how->no_cache ? NULL : alloc_array(3 * (size_t)ENVIRONMENT_TEXELS, sizeof *texels);
+    WeftResult result = WEFT_OK;
+    self->cached = texels && read_cache(key, texels, log);
+    if (self->cached) {
+        Level first = level_at(ENVIRONMENT_LEVELS);
+        size_t rest = (size_t)ENVIRONMENT_TEXELS;
+        for (int k = ENVIRONMENT_LEVELS; k < LEVELS; k++) {
+            Level level = level_at(k);
+            rest -= level_texels(&level);
+        }
+        self->cube = make_cube(ENVIRONMENT_SIDE, ENVIRONMENT_LEVELS, texels);
+        self->rest = make_cube(first.side, ENVIRONMENT_REST_LEVELS, texels + 3 * rest);
+        result = gl_check(error, "an environment");
+    } else {
+        result = filter_cubes(self, environment, how, texels, error);
+        if (result == WEFT_OK && texels) write_cache(key, texels, log);
+    }
+    free(texels);
+    return result;
+}
+
+static void make_buffer(GlEnvironment *self) {
+    Block block = {{1.0f, 0.0f, 1.0f, (float)self->parts.lamp_count}, {{0.0f}}, {{0.0f}}};
+    for (int k = 0; k < AMBIENT_TERMS; k++) memcpy(block.terms[k], self->parts.terms[k], 3 * sizeof(float));
+    for (int k = 0; k < self->parts.lamp_count; k++) {
+        const AmbientLamp *lamp = &self->parts.lamps[k];
+        const float d[3] = {lamp->direction.x, lamp->direction.y, lamp->direction.z};
+        memcpy(block.lamps[2 * k], d, sizeof d);
+        memcpy(block.lamps[2 * k + 1], lamp->color, sizeof lamp->color);
+    }
+    block.terms[0][3] = self->parts.lamp_kappa;
+    glGenBuffers(1, &self->buffer);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+}
+
+WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
+                              const WeftLog *log, WeftError *error) {
+    int lamps = how->lamps ? how->lamps > 0 ? how->lamps : 0 : AMBIENT_LAMPS;
+    WeftError local = {0};
+    *out = (GlEnvironment){0};
+    glActiveTexture(GL_TEXTURE0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    WeftResult result = ambient_split(environment, lamps, &out->parts, &local);
+    if (result == WEFT_OK && stopped(how, 0.1f)) result = WEFT_INTERRUPTED;
+    if (result == WEFT_OK) result = make_cubes(out, environment, how, lamps, log, &local);
+    if (result == WEFT_OK && environment->kind != ENVIRONMENT_CONSTANT)
+        result = make_map(&environment->image, &out->map, &local);
+    weft_image_free(&out->parts.rest);
+    if (result == WEFT_OK) {
+        make_buffer(out);
+        environment_place(out, environment->rotation, environment->strength);
+        result = gl_check(&local, "an environment");
+    }
+    if (result == WEFT_OK) return WEFT_OK;
+    environment_destroy(out);
+    if (error) *error = local;
+    return result;
+}
+
+void environment_destroy(GlEnvironment *self) {
+    glDeleteTextures(1, &self->cube);
+    glDeleteTextures(1, &self->rest);
+    glDeleteTextures(1, &self->map);
+    glDeleteBuffers(1, &self->buffer);
+    ambient_free(&self->parts);
+    *self = (GlEnvironment){0};
+}
+
+void environment_place(const GlEnvironment *self, float rotation, float strength) {
+    const float place[4] = {cosf(rotation), sinf(rotation), strength, (float)self->parts.lamp_count};
+    glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
+}
+
+void environment_text(Text *text) {
+    text_provide(text, "shading/ambient_source.h");
+    text_define(text, "AmbientSource", "Frame");
+    text_define(text, "lobe_sample_at", "lobe_sample");
+    text_include(text, "raster/glsl/environment.glsl");
+}
+
+void environment_program(unsigned program, int cube, int rest, int block) {
+    GLint previous, at;
+    GLuint index = glGetUniformBlockIndex(program, "Environment");
+    glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
+    glUseProgram(program);
+    if ((at = glGetUniformLocation(program, "environment_cube")) >= 0) glUniform1i(at, cube);
+    if ((at = glGetUniformLocation(program, "environment_rest")) >= 0) glUniform1i(at, rest);
+    if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, (GLuint)block);
+    glUseProgram((GLuint)previous);
+}
+
+void environment_bind(const GlEnvironment *self, int cube, int rest, int block) {
+    glActiveTexture(GL_TEXTURE0 + (GLenum)cube);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, self->cube);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)rest);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, self->rest);
+    glBindBufferBase(GL_UNIFORM_BUFFER, (GLuint)block, self->buffer);
+    glActiveTexture(GL_TEXTURE0);
+}

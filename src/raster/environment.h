@@ -1,0 +1,73 @@
+/* environment.h - the environment of a scene in the driver's memory, filtered for shading/ambient.h
+ *
+ *   environment_text(&text);                          before it includes shading/ambient.h
+ *   environment_program(program, cube, rest, block);  once a program: its units and its block's binding
+ *   environment_place(env, rotation, strength);       when that changes; nothing is filtered again
+ *   environment_bind(env, cube, rest, block);         once a frame
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_ENVIRONMENT_H
+#define WEFT_RASTER_ENVIRONMENT_H
+
+#include "scene/ambient.h"
+#include "text/text.h"
+
+enum {
+    ENVIRONMENT_LEVELS = 7,
+    ENVIRONMENT_SIDE = 256,
+    ENVIRONMENT_REST_LEVELS = 4,
+    ENVIRONMENT_REST_SIDE = 64
+};
+
+/* kappa of level m of the cube is ENVIRONMENT_KAPPA / 4^m, and its faces are ENVIRONMENT_SIDE / 2^m wide. */
+#define ENVIRONMENT_KAPPA 3200.0f
+
+/* The same of the rest; its last level is weighted by the cosine. */
+#define ENVIRONMENT_REST_KAPPA 50.0f
+
+typedef struct GlEnvironment {
+    AmbientParts parts; /* but for `rest`, which is gone */
+    unsigned cube, rest;
+    unsigned map;    /* the image as it is, for environment_background; 0 where it is one colour */
+    unsigned buffer; /* uniform block Environment */
+    bool cached;     /* the cubes came from the cache */
+} GlEnvironment;
+
+/* Zero-initialise. */
+typedef struct EnvironmentHow {
+    TextLanguage language; /* of the context */
+    const char *folder;    /* TextDesc.folder; may be NULL */
+    int lamps;             /* 0: AMBIENT_LAMPS; below 0: none, all light is the rest's */
+    bool no_cache;
+    bool (*progress)(void *user, float done); /* between steps, done in [0, 1]; true to stop. May be NULL */
+    void *user;
+} EnvironmentHow;
+
+/* Filters the cubes or takes them from the user's cache, where a file is named by the hash of the pixels;
+ * what cannot be read or written there is a warning (WEFT_MESSAGE_CACHE_IGNORED). Its rotation and strength
+ * are those of `environment`. Leaves framebuffer 0 bound and no program in use. Zero on failure:
+ * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED. */
+WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
+                              const WeftLog *log, WeftError *error);
+void environment_destroy(GlEnvironment *environment);
+
+/* Radians about +y and a factor on all radiance. */
+void environment_place(const GlEnvironment *environment, float rotation, float strength);
+
+/* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes two samplers. */
+void environment_text(Text *text);
+
+/* Texture units, and the binding of the uniform block; of a program that lacks them nothing is asked. */
+void environment_program(unsigned program, int cube, int rest, int block);
+void environment_bind(const GlEnvironment *environment, int cube, int rest, int block);
+
+/* The bytes of a file of the cache: "weft-env", the key, RGB of all texels of both cubes as 16-bit floats,
+ * and the hash of all that. `texels` has room for ENVIRONMENT_TEXELS times three. */
+enum {
+    ENVIRONMENT_TEXELS = 6 * (256 * 256 + 128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4) +
+                         6 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8),
+    ENVIRONMENT_FILE = 8 + 8 + 6 * ENVIRONMENT_TEXELS + 8
+};
+bool environment_unpack(const unsigned char *data, size_t size, uint64_t key, uint16_t *texels);
+
+#endif

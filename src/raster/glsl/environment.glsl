@@ -1,0 +1,75 @@
+/* environment.glsl - the light around a scene, for shading/ambient.h: filtered cubes, terms and lamps
+ *
+ * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted by
+ * exp(3200 / 4^m (mu - 1)); Of environment_rest level m holds that of what the
+ * lamps leave by exp(50 / 4^m (mu - 1)), the last by the cosine; the first of the terms has ambient_lamp_kappa in w. Both are of the image as it is,
+ * terms and lamps too. */
+#include "shading/frame.h"
+#include "shading/rgb.h"
+
+uniform highp samplerCube environment_cube;
+uniform highp samplerCube environment_rest;
+layout(std140) uniform Environment {
+    highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lamps */
+    highp vec4 environment_terms[18]; /* irradiance over pi, see scene/ambient.h */
+    highp vec4 environment_lamps[32]; /* two each: direction, irradiance */
+};
+
+struct AmbientLight {
+    Dir w;
+    Rgb color;
+};
+
+/* From the image to the world, and back. */
+vec3 environment_world(vec3 d) {
+    return vec3(d.x * environment_place.x + d.z * environment_place.y, d.y,
+                d.z * environment_place.x - d.x * environment_place.y);
+}
+vec3 environment_image(Frame f, Dir w) {
+    Dir d = frame_from(f, w);
+    return vec3(d.x * environment_place.x - d.z * environment_place.y, d.y,
+                d.x * environment_place.y + d.z * environment_place.x);
+}
+
+Rgb environment_rgb(vec3 c) {
+    return rgb(c.r * environment_place.z, c.g * environment_place.z, c.b * environment_place.z);
+}
+
+Rgb ambient_radiance(Frame f, Dir w, float kappa) {
+    float level = 0.5 * (11.6438562 - log2(max(kappa, 0.25)));
+    return environment_rgb(textureLod(environment_cube, environment_image(f, w), max(level, 0.0)).rgb);
+}
+
+Rgb ambient_rest(Frame f, Dir w, float kappa) {
+    float level = kappa > 0.0 ? clamp(0.5 * log2(50.0 / max(kappa, 0.25)), 0.0, 2.0) : 3.0;
+    return environment_rgb(textureLod(environment_rest, environment_image(f, w), level).rgb);
+}
+
+float ambient_lamp_kappa(Frame f) { return environment_terms[0].w; }
+
+Rgb ambient_irradiance(Frame f, Dir w) {
+    vec3 n = environment_image(f, w), s = n * n;
+    float d = s.x - s.y, q = 7.0 * s.z - 1.0, r = 7.0 * s.z - 3.0;
+    vec3 c = environment_terms[0].rgb + environment_terms[1].rgb * n.x + environment_terms[2].rgb * n.y +
+             environment_terms[3].rgb * n.z + environment_terms[4].rgb * (n.x * n.y) +
+             environment_terms[5].rgb * (n.y * n.z) + environment_terms[6].rgb * (n.z * n.x) +
+             environment_terms[7].rgb * d + environment_terms[8].rgb * (3.0 * s.z - 1.0) +
+             environment_terms[9].rgb * (n.x * n.y * d) +
+             environment_terms[10].rgb * (n.y * n.z * (3.0 * s.x - s.y)) +
+             environment_terms[11].rgb * (n.x * n.y * q) + environment_terms[12].rgb * (n.y * n.z * r) +
+             environment_terms[13].rgb * (s.z * (35.0 * s.z - 30.0) + 3.0) +
+             environment_terms[14].rgb * (n.z * n.x * r) + environment_terms[15].rgb * (d * q) +
+             environment_terms[16].rgb * (n.z * n.x * (s.x - 3.0 * s.y)) +
+             environment_terms[17].rgb * (s.x * (s.x - 3.0 * s.y) - s.y * (3.0 * s.x - s.y));
+    return environment_rgb(max(c, vec3(0.0)));
+}
+
+int ambient_count(Frame f) { return int(environment_place.w); }
+
+AmbientLight ambient_light(Frame f, int k) {
+    vec3 d = environment_world(environment_lamps[2 * k].xyz);
+    AmbientLight l;
+    l.w = frame_to(f, dir(d.x, d.y, d.z));
+    l.color = environment_rgb(environment_lamps[2 * k + 1].rgb);
+    return l;
+}

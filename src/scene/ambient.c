@@ -1,0 +1,282 @@
+#include "scene/ambient.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/random.h"
+
+static const double pi = 3.14159265358979323846;
+
+enum { SPLIT_WIDTH = 256, ROUNDS = 24, STARTS = 4 };
+
+Vec3 latlong_direction(double u, double v) {
+    double phi = (u - 0.5) * 2.0 * pi, theta = v * pi;
+    return vec3((float)(sin(theta) * sin(phi)), (float)cos(theta), (float)(-sin(theta) * cos(phi)));
+}
+
+/* Texel (x, y) as three colours; grey where there are fewer. */
+static void texel(const WeftImage *image, int x, int y, float color[3]) {
+    const float *p = (const float *)image->pixels +
+                     ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+    for (int c = 0; c < 3; c++) color[c] = fmaxf(p[image->channels >= 3 ? c : 0], 0.0f);
+}
+
+void latlong_at(const WeftImage *image, Vec3 d, float color[3]) {
+    float x = (0.5f + atan2f(d.x, -d.z) / (float)(2.0 * pi)) * (float)image->width - 0.5f;
+    float y = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / (float)pi * (float)image->height - 0.5f;
+    int x0 = (int)floorf(x), y0 = (int)floorf(y);
+    float fx = x - (float)x0, fy = y - (float)y0;
+    color[0] = color[1] = color[2] = 0.0f;
+    for (int k = 0; k < 4; k++) {
+        float c[3], w = (k & 1 ? fx : 1.0f - fx) * (k & 2 ? fy : 1.0f - fy);
+        int column = (x0 + (k & 1) + image->width) % image->width, row = y0 + (k >> 1);
+        texel(image, column, row < 0 ? 0 : row < image->height ? row : image->height - 1, c);
+        for (int j = 0; j < 3; j++) color[j] += w * c[j];
+    }
+}
+
+static void grow(const WeftImage *image, WeftImage *out) {
+    float *p = out->pixels;
+    for (int y = 0; y < out->height; y++)
+        for (int x = 0; x < out->width; x++, p += 3)
+            latlong_at(image, latlong_direction((x + 0.5) / out->width, (y + 0.5) / out->height), p);
+}
+
+static bool shrink(const WeftImage *image, WeftImage *out) {
+    size_t w = (size_t)out->width, h = (size_t)out->height;
+    float *solid = alloc_array(w * h, sizeof *solid), *p = out->pixels;
+    if (!solid) return false;
+    for (int y = 0; y < image->height; y++) {
+        float c[3], weight = (float)sin(pi * (y + 0.5) / image->height);
+        size_t row = (size_t)y * h / (size_t)image->height * w;
+        for (int x = 0; x < image->width; x++) {
+            size_t k = row + (size_t)x * w / (size_t)image->width;
+            texel(image, x, y, c);
+            for (size_t j = 0; j < 3; j++) p[3 * k + j] += weight * c[j];
+            solid[k] += weight;
+        }
+    }
+    for (size_t k = 0; k < 3 * w * h; k++) p[k] /= solid[k / 3];
+    free(solid);
+    return true;
+}
+
+WeftResult latlong_resize(const WeftImage *image, int width, int height, WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(width, height, 3, WEFT_PIXEL_F32, out, error);
+    if (result != WEFT_OK) return result;
+    if (width > image->width || height > image->height) {
+        grow(image, out);
+    } else if (!shrink(image, out)) {
+        weft_image_free(out);
+        return fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
+    }
+    return WEFT_OK;
+}
+
+void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]) {
+    float x = n.x, y = n.y, z = n.z, x2 = x * x, y2 = y * y, z2 = z * z;
+    const float all[AMBIENT_TERMS] = {1.0f,
+                                      x,
+                                      y,
+                                      z,
+                                      x * y,
+                                      y * z,
+                                      z * x,
+                                      x2 - y2,
+                                      3.0f * z2 - 1.0f,
+                                      x * y * (x2 - y2),
+                                      y * z * (3.0f * x2 - y2),
+                                      x * y * (7.0f * z2 - 1.0f),
+                                      y * z * (7.0f * z2 - 3.0f),
+                                      z2 * (35.0f * z2 - 30.0f) + 3.0f,
+                                      z * x * (7.0f * z2 - 3.0f),
+                                      (x2 - y2) * (7.0f * z2 - 1.0f),
+                                      z * x * (x2 - 3.0f * y2),
+                                      x2 * (x2 - 3.0f * y2) - y2 * (3.0f * x2 - y2)};
+    memcpy(p, all, sizeof all);
+}
+
+/* Squares of the factors that make the polynomials orthonormal, times 4 pi; and the cosine's Legendre
+ * coefficient of each degree over pi. */
+static const double squares[AMBIENT_TERMS] = {1.0,      3.0,      3.0,      3.0,       15.0,      15.0,
+                                              15.0,     15.0 / 4, 5.0 / 4,  315.0 / 4, 315.0 / 8, 45.0 / 4,
+                                              45.0 / 8, 9.0 / 64, 45.0 / 8, 45.0 / 16, 315.0 / 8, 315.0 / 64};
+static double cosine(int k) { return k < 1 ? 1.0 : k < 4 ? 2.0 / 3 : k < 9 ? 1.0 / 4 : -1.0 / 24; }
+
+static void add_terms(AmbientParts *parts, double sums[AMBIENT_TERMS][3]) {
+    for (int k = 0; k < AMBIENT_TERMS; k++)
+        for (int c = 0; c < 3; c++)
+            parts->terms[k][c] = (float)(sums[k][c] * squares[k] / (4.0 * pi) * cosine(k));
+}
+
+static double luminance(const float *p) {
+    return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+}
+
+/* The brighter part of a texel: where it comes from and how much it is. */
+typedef struct Spark {
+    Vec3 direction;
+    float color[3], energy; /* irradiance on what faces it; its luminance */
+} Spark;
+
+typedef struct Sparks {
+    Spark *list;
+    int count;
+    double energy;
+} Sparks;
+
+/* Takes from `image` what goes to the lamps, and sums the terms of both. */
+static void take_sparks(WeftImage *image, Sparks *sparks, AmbientParts *parts) {
+    double sums[AMBIENT_TERMS][3] = {{0.0}}, mean = 0.0, all = 0.0;
+    float *p = image->pixels;
+    for (int y = 0; y < image->height; y++) {
+        double solid =
+            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        for (int x = 0; x < image->width; x++, p += 3) {
+            Vec3 d = latlong_direction((x + 0.5) / image->width, (y + 0.5) / image->height);
+            float polynomials[AMBIENT_TERMS];
+            ambient_polynomials(d, polynomials);
+            for (int k = 0; k < AMBIENT_TERMS; k++)
+                for (int c = 0; c < 3; c++) sums[k][c] += solid * (double)(p[c] * polynomials[k]);
+            mean += solid * luminance(p);
+            all += solid;
+        }
+    }
+    add_terms(parts, sums);
+    double clip = AMBIENT_CLIP * mean / all;
+    p = image->pixels;
+    for (int y = 0; y < image->height; y++) {
+        double solid =
+            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        for (int x = 0; x < image->width; x++, p += 3) {
+            double l = luminance(p), part = l > clip ? clip / l : 1.0;
+            if (!(part < 1.0)) continue;
+            Spark *spark = &sparks->list[sparks->count++];
+            spark->direction = latlong_direction((x + 0.5) / image->width, (y + 0.5) / image->height);
+            for (int c = 0; c < 3; c++) {
+                spark->color[c] = (float)((double)p[c] * (1.0 - part) * solid);
+                p[c] = (float)((double)p[c] * part);
+            }
+            spark->energy = (float)(l * (1.0 - part) * solid);
+            sparks->energy += (double)spark->energy;
+        }
+    }
+}
+
+static int nearest(const Vec3 *centres, int count, Vec3 d, float *cosine_to) {
+    int best = 0;
+    *cosine_to = -2.0f;
+    for (int k = 0; k < count; k++) {
+        float c = vec3_dot(centres[k], d);
+        if (c > *cosine_to) best = k, *cosine_to = c;
+    }
+    return best;
+}
+
+/* First centres: each a spark by its energy times the squared distance to those before it. David Arthur,
+ * Sergei Vassilvitskii, "k-means++: The Advantages of Careful Seeding", SODA 2007. */
+static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres) {
+    uint64_t stream = stream_start(start, 1);
+    for (int k = 0; k < count; k++) {
+        double total = 0.0, at = 0.0;
+        for (int pass = 0; pass < 2; pass++) {
+            at = pass ? unit_double(stream_next(&stream)) * total : 0.0;
+            for (int n = 0; n < sparks->count; n++) {
+                float c = 1.0f;
+                if (k) nearest(centres, k, sparks->list[n].direction, &c);
+                double weight = (double)sparks->list[n].energy * (k ? fmax(2.0 - 2.0 * (double)c, 0.0) : 1.0);
+                if (!pass)
+                    total += weight;
+                else if ((at -= weight) <= 0.0 || n == sparks->count - 1) {
+                    centres[k] = sparks->list[n].direction;
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/* Stuart Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on Information Theory 28(2), 1982. The
+ * sum of energy times squared distance that is left. */
+static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp *lamps) {
+    double left = 0.0;
+    for (int round = 0; round < ROUNDS; round++) {
+        Vec3 sums[AMBIENT_LAMPS_MAX] = {{0.0f, 0.0f, 0.0f}};
+        memset(lamps, 0, (size_t)count * sizeof *lamps);
+        left = 0.0;
+        for (int n = 0; n < sparks->count; n++) {
+            float c;
+            const Spark *spark = &sparks->list[n];
+            int k = nearest(centres, count, spark->direction, &c);
+            sums[k] = vec3_madd(sums[k], spark->direction, spark->energy);
+            left += (double)spark->energy * (2.0 - 2.0 * (double)c);
+            for (int j = 0; j < 3; j++) lamps[k].color[j] += spark->color[j];
+        }
+        for (int k = 0; k < count; k++) {
+            centres[k] = vec3_normal_or(sums[k], centres[k]);
+            lamps[k].direction = centres[k];
+        }
+    }
+    return left;
+}
+
+/* The best of some starts with so many lamps. */
+static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
+    double best = INFINITY;
+    for (int start = 0; start < STARTS; start++) {
+        Vec3 centres[AMBIENT_LAMPS_MAX];
+        AmbientLamp lamps[AMBIENT_LAMPS_MAX];
+        seed(sparks, count, (uint64_t)start, centres);
+        double left = settle(sparks, count, centres, lamps);
+        if (left >= best) continue;
+        best = left;
+        parts->lamp_kappa = (float)log2(2.0 * sparks->energy / fmax(left, 1e-6 * sparks->energy));
+        parts->lamp_count = 0;
+        for (int k = 0; k < count; k++) {
+            const float *c = lamps[k].color;
+            if (c[0] + c[1] + c[2] > 0.0f) parts->lamps[parts->lamp_count++] = lamps[k];
+        }
+    }
+}
+
+/* As few as are enough. */
+static void find_lamps(const Sparks *sparks, int most, AmbientParts *parts) {
+    if (!sparks->count || !(sparks->energy > 0.0)) return;
+    for (int count = 2; count <= most && parts->lamp_kappa < AMBIENT_LAMP_KAPPA; count++)
+        find_some(sparks, count, parts);
+}
+
+static WeftResult constant_image(const float color[3], WeftImage *out, WeftError *error) {
+    WeftResult result =
+        weft_image_create(AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, 3, WEFT_PIXEL_F32, out, error);
+    float *p = out->pixels;
+    for (int k = 0; result == WEFT_OK && k < out->width * out->height * 3; k++) p[k] = color[k % 3];
+    return result;
+}
+
+WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts *out, WeftError *error) {
+    WeftImage image;
+    *out = (AmbientParts){0};
+    WeftResult result =
+        environment->kind == ENVIRONMENT_CONSTANT
+            ? constant_image(environment->color, &image, error)
+            : latlong_resize(&environment->image, SPLIT_WIDTH, SPLIT_WIDTH / 2, &image, error);
+    if (result != WEFT_OK) return result;
+    Sparks sparks = {.list = alloc_array((size_t)image.width * (size_t)image.height, sizeof(Spark))};
+    if (sparks.list) {
+        take_sparks(&image, &sparks, out);
+        find_lamps(&sparks, lamps < AMBIENT_LAMPS_MAX ? lamps : AMBIENT_LAMPS_MAX, out);
+        result = latlong_resize(&image, AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, &out->rest, error);
+    } else {
+        result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
+    }
+    free(sparks.list);
+    weft_image_free(&image);
+    return result;
+}
+
+void ambient_free(AmbientParts *parts) {
+    weft_image_free(&parts->rest);
+    *parts = (AmbientParts){0};
+}

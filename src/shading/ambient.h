@@ -1,0 +1,449 @@
+/* ambient.h - what a material reflects of an environment
+ *
+ * Of a lobe with colour 1, f cos_i against the light L of all directions, by one of four strategies:
+ *
+ *   irradiance   E(cos_o) ambient_irradiance(n)
+ *   mirror       E(cos_o) ambient_radiance(r, kappa),  r: wo mirrored at the normal, kappa: of the lobe as
+ *                wide as it is at normal incidence. The way of Brian Karis, "Real Shading in Unreal Engine
+ * 4", SIGGRAPH 2013 course; engines filter sheens so too fitted       sum over lamps of f cos_i + sum_k w_k
+ * ambient_rest(axis_k) for a broad lobe; for one that is less so, with one look-up of the rest, E(cos_o)
+ * ambient_rest(axis, kappa); and for one too narrow for the lamps E(cos_o) (mean of ambient_radiance(axis,
+ * kappa) with a wider one for the tail of the lobe). The axis is the lobe's mean direction sampled      lamps
+ * as before, and of the rest, or for a narrow lobe of all, the mean over some of the lobe's own samples of f
+ * cos_i / pdf L(i, kappa), kappa by their density: Jaroslav Krivanek, Mark Colbert, "Real-time Shading with
+ * Filtered Importance Sampling", Computer Graphics Forum 27(4), 2008. For lobes that are far from round
+ *
+ * Why lamps: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
+ * lamps for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
+ * 2005 posters, meet the material as any light does, with all that depends on wi; and what they leave is so
+ * even that six wide look-ups of it are enough:
+ *
+ *   k   axis: angle to the normal, azimuth from that of wo     weight of the directions
+ *   0   the normal                                             cosine
+ *   1   60 degrees, 45 and -45 degrees                         kappa 3.125
+ *   2   60 degrees, 180 degrees                                kappa 12.5
+ *   3   80 degrees, 135 and -135 degrees                       kappa 12.5
+ *
+ *   w_k(cos_o, parameter) >= 0 and sum w_k = E(cos_o), from a table that ambient_table.h makes of any lobe.
+ * The E of a sheen that has a table of its own is taken from there, where it is mixed with more care.
+ *
+ * Occlusion is the part of the cosine-weighted sky that is seen, taken for a cone about the normal, as in
+ * Jorge Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", SIGGRAPH 2016
+ * course: whatever comes from outside of it, a sheen's light first of all, is not seen.
+ *
+ * Departures: of lobes that are brushed or lean, tables know wo along, across and against that, and take what
+ * comes back to lie evenly about the plane of wo; lamps have them as they are. What the lamps leave meets a
+ * layer rule that depends on wi with E on cosine average. */
+#ifndef WEFT_SHADING_AMBIENT_H
+#define WEFT_SHADING_AMBIENT_H
+
+#include "shading/ambient_source.h"
+#include "shading/compose.h"
+
+#define AMBIENT_IRRADIANCE 0
+#define AMBIENT_MIRROR     1
+#define AMBIENT_FITTED     2
+#define AMBIENT_SAMPLED    3
+#define AMBIENT_STRATEGIES 4
+
+#define AMBIENT_SAMPLES 16
+
+/* Planes of a table, `rows` rows each: w_0 .. w_3 of the first colour; the sine of the angle of the lobe's
+ * mean direction, which is above 0 on the side of wo, log2 of its kappa, and its tail, 0 of a Gaussian and 1
+ * of ggx; w_0 .. w_3 of the second colour. */
+#define AMBIENT_PLANE_AXIS   4
+#define AMBIENT_PLANE_KAPPA  5
+#define AMBIENT_PLANE_TAIL   6
+#define AMBIENT_PLANE_SECOND 7
+#define AMBIENT_PLANES       11
+
+/* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From an eighth of
+ * the lamps' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
+ * stand for. Each is the middle of a range in which one goes over into the other, AMBIENT_BLEND to both
+ * sides. */
+#define AMBIENT_CLOSE 4.0f
+#define AMBIENT_FINER 2.0f
+#define AMBIENT_BLEND 1.0f
+
+/* The table of one slot's lobe: nodes uniform in the root of its first parameter and in y with cos_o =
+ * (1 - (1 - y)^2)^2. */
+STRUCT(AmbientTable) {
+    Table texels;
+    int rows, columns; /* of a plane; rows: 1 where the parameter is held */
+    float low, high;   /* roots of the parameter in the first and the last row */
+    bool focus;        /* somewhere it is not broad */
+    bool second;       /* it has a second colour */
+    bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
+    int strategy;
+};
+
+STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
+
+/* Where a cosine and a parameter fall, and of a lobe that turns the heading (nap.h): between across, and
+ * along or against, by its square. */
+STRUCT(AmbientSpot) {
+    int row, column, side; /* side: the first plane of along or of against */
+    float x, y, z;
+};
+
+FN AmbientSpot ambient_spot(AmbientTable t, float cos_o, float heading, float p) {
+    AmbientSpot s;
+    s.side = heading < 0.0f ? 2 * AMBIENT_PLANES : 0;
+    s.z = heading * heading;
+    float y_o = 1.0f - sqrt(max(1.0f - sqrt(max(cos_o, 0.0f)), 0.0f)), x = y_o * to_float(t.columns - 1);
+    float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
+    s.column = to_int(left);
+    s.x = clamp(x - left, 0.0f, 1.0f);
+    s.row = 0;
+    s.y = 0.0f;
+    if (t.rows > 1) {
+        float y = (sqrt(max(p, 0.0f)) - t.low) / (t.high - t.low) * to_float(t.rows - 1);
+        float top = clamp(floor(y), 0.0f, to_float(t.rows - 2));
+        s.row = to_int(top);
+        s.y = clamp(y - top, 0.0f, 1.0f);
+    }
+    return s;
+}
+
+FN float ambient_plane(AmbientTable t, AmbientSpot s, int plane) {
+    int row = plane * t.rows + s.row;
+    float a = mix(table_texel(t.texels, t.columns, row, s.column),
+                  table_texel(t.texels, t.columns, row, s.column + 1), s.x);
+    if (t.rows < 2) return a;
+    float b = mix(table_texel(t.texels, t.columns, row + 1, s.column),
+                  table_texel(t.texels, t.columns, row + 1, s.column + 1), s.x);
+    return mix(a, b, s.y);
+}
+
+FN float ambient_entry(AmbientTable t, AmbientSpot s, int plane) {
+    if (!t.turning) return ambient_plane(t, s, plane);
+    return mix(ambient_plane(t, s, AMBIENT_PLANES + plane), ambient_plane(t, s, s.side + plane), s.z);
+}
+
+STRUCT(AmbientWeights) { float a, b, c, d; };
+
+FN AmbientWeights ambient_weights(AmbientTable t, AmbientSpot s, int plane) {
+    AmbientWeights w;
+    w.a = ambient_entry(t, s, plane);
+    w.b = ambient_entry(t, s, plane + 1);
+    w.c = ambient_entry(t, s, plane + 2);
+    w.d = ambient_entry(t, s, plane + 3);
+    return w;
+}
+FN float ambient_sum(AmbientWeights w) { return w.a + w.b + w.c + w.d; }
+
+/* From wo, and from the frame of the lobe to that of the source. */
+STRUCT(AmbientView) {
+    Dir o;         /* in the lobe's frame */
+    float tx, ty;  /* the azimuth of wo */
+    float heading; /* from that of the lobe */
+    Dir x, y, z;   /* the lobe's frame */
+    float occlusion;
+};
+
+FN AmbientView ambient_view(Dir o, Dir x, Dir y, Dir z, float occlusion) {
+    AmbientView v;
+    float s = sqrt(o.x * o.x + o.y * o.y), r = 1.0f / max(s, 1e-6f);
+    v.o = o;
+    v.tx = s > 1e-6f ? o.x * r : 1.0f;
+    v.ty = s > 1e-6f ? o.y * r : 0.0f;
+    v.heading = v.tx;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    v.occlusion = occlusion;
+    return v;
+}
+
+/* Whether a direction of that cosine is seen through the occlusion. With x = cos^2, over which
+ * cosine-weighted directions are even, a ramp from b^2 to 2 b - b^2, b = 1 - occlusion, has the mean
+ * `occlusion`: a cone with a soft rim. */
+FN float ambient_visible(float occlusion, float cos_i) {
+    float b = 1.0f - occlusion, x = max(cos_i, 0.0f) * max(cos_i, 0.0f);
+    return occlusion >= 1.0f ? 1.0f : clamp((x - b * b) / max(2.0f * b * occlusion, 1e-4f), 0.0f, 1.0f);
+}
+
+/* A direction of the lobe's frame. */
+FN Dir ambient_out(AmbientView v, Dir w) {
+    return dir(w.x * v.x.x + w.y * v.y.x + w.z * v.z.x, w.x * v.x.y + w.y * v.y.y + w.z * v.z.y,
+               w.x * v.x.z + w.y * v.y.z + w.z * v.z.z);
+}
+/* One with x towards wo. */
+FN Dir ambient_turn(AmbientView v, Dir w) {
+    return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z);
+}
+
+FN Rgb ambient_rest_at(AmbientSource s, AmbientView v, Dir w, float kappa) {
+    return rgb_scale(ambient_rest(s, ambient_out(v, ambient_turn(v, w)), kappa),
+                     ambient_visible(v.occlusion, w.z));
+}
+
+/* What the two colours of a lobe are multiplied by. */
+STRUCT(AmbientPair) { Rgb first, second; };
+
+/* The look-ups of what the lamps leave; one that no colour asks for is not made. */
+FN AmbientPair ambient_mixed(AmbientSource s, AmbientView v, AmbientWeights f, AmbientWeights g) {
+    AmbientPair p;
+    Rgb l = rgb_scale(ambient_rest(s, v.z, 0.0f), v.occlusion);
+    p.first = rgb_scale(l, f.a);
+    p.second = rgb_scale(l, g.a);
+    if (f.b + g.b > 0.0f) {
+        l = rgb_add(ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f),
+                    ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f));
+        p.first = rgb_add(p.first, rgb_scale(l, 0.5f * f.b));
+        p.second = rgb_add(p.second, rgb_scale(l, 0.5f * g.b));
+    }
+    if (f.c + g.c > 0.0f) {
+        l = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f);
+        p.first = rgb_add(p.first, rgb_scale(l, f.c));
+        p.second = rgb_add(p.second, rgb_scale(l, g.c));
+    }
+    if (f.d + g.d > 0.0f) {
+        l = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f),
+                    ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f));
+        p.first = rgb_add(p.first, rgb_scale(l, 0.5f * f.d));
+        p.second = rgb_add(p.second, rgb_scale(l, 0.5f * g.d));
+    }
+    return p;
+}
+
+/* One look-up for a whole lobe. */
+FN AmbientPair ambient_one(AmbientView v, Rgb radiance, Dir w, AmbientWeights f, AmbientWeights g) {
+    AmbientPair p;
+    Rgb l = rgb_scale(radiance, ambient_visible(v.occlusion, w.z));
+    p.first = rgb_scale(l, ambient_sum(f));
+    p.second = rgb_scale(l, ambient_sum(g));
+    return p;
+}
+FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
+    AmbientPair p;
+    p.first = rgb_mix(a.first, b.first, t);
+    p.second = rgb_mix(a.second, b.second, t);
+    return p;
+}
+
+/* Of facets by ggx the part beyond 1 - mu = t is 1 / (1 + t ln 2 / kappa) where half is within kappa; this is
+ * near 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
+FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
+    if (tail <= 0.0f) return ambient_radiance(s, w, kappa);
+    return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
+                   ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
+}
+
+/* 0 below, 1 above, and smooth between. */
+FN float ambient_beyond(float log2_kappa, float edge) {
+    float x = clamp(0.5f + 0.5f * (log2_kappa - edge) / AMBIENT_BLEND, 0.0f, 1.0f);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+/* A sample stands for the solid angle 1 / (n pdf); exp(kappa (mu - 1)) has that of 2 pi / kappa, and twice
+ * it, by the paper, keeps neighbours together. The sum is made E, which the table knows better. */
+FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float narrow, float known) {
+    AmbientPair p;
+    float e = 0.0f, n = to_float(AMBIENT_SAMPLES);
+    p.first = rgb_grey(0.0f);
+    p.second = p.first;
+    for (int k = 0; k < AMBIENT_SAMPLES; k++) {
+        float golden = to_float(k) * 0.618033989f + 0.25f;
+        Dir i = lobe_sample_at(lobe, v.o, (to_float(k) + 0.5f) / n, golden - floor(golden));
+        if (i.z > 0.0f) {
+            LobeValue x = lobe_at(lobe, angles_between(v.o, i));
+            float w = x.f * i.z / max(x.pdf * n, 1e-20f), kappa = clamp(PI * n * x.pdf, 0.5f, 1e4f);
+            Dir out_i = ambient_out(v, i);
+            Rgb l = rgb_grey(0.0f);
+            if (narrow < 1.0f) l = ambient_rest(s, out_i, kappa);
+            if (narrow > 0.0f) l = rgb_mix(l, ambient_radiance(s, out_i, kappa), narrow);
+            l = rgb_scale(l, w * ambient_visible(v.occlusion, i.z));
+            p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
+            p.second = rgb_add(p.second, rgb_scale(l, x.s));
+            e = e + w;
+        }
+    }
+    p.first = rgb_scale(p.first, known / max(e, 1e-20f));
+    p.second = rgb_scale(p.second, known / max(e, 1e-20f));
+    return p;
+}
+
+/* Of one slot: what its colours are multiplied by, and the part of it that the lamps are to light. */
+STRUCT(AmbientSlot) {
+    AmbientPair of;
+    float lamps, e; /* e: what the table has for E */
+};
+
+FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Lobe lobe) {
+    AmbientSlot a;
+    float p = lobe.params[0];
+    AmbientSpot spot = ambient_spot(t, v.o.z, v.heading, p);
+    AmbientWeights f = ambient_weights(t, spot, 0), g;
+    g.a = 0.0f;
+    g.b = 0.0f;
+    g.c = 0.0f;
+    g.d = 0.0f;
+    if (t.second) g = ambient_weights(t, spot, AMBIENT_PLANE_SECOND);
+    a.lamps = 0.0f;
+    a.e = ambient_sum(f) + ambient_sum(g);
+    if (t.strategy == AMBIENT_IRRADIANCE) {
+        Rgb l = rgb_scale(ambient_irradiance(s, v.z), v.occlusion);
+        a.of.first = rgb_scale(l, ambient_sum(f));
+        a.of.second = rgb_scale(l, ambient_sum(g));
+        return a;
+    }
+    if (t.strategy == AMBIENT_MIRROR) {
+        Dir r = dir(-v.o.x, -v.o.y, v.o.z);
+        float kappa = exp2(ambient_entry(t, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_PLANE_KAPPA));
+        a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), kappa), r, f, g);
+        return a;
+    }
+    a.lamps = 1.0f;
+    if (!t.focus && t.strategy == AMBIENT_FITTED) {
+        a.of = ambient_mixed(s, v, f, g);
+        return a;
+    }
+    float log2_kappa = ambient_entry(t, spot, AMBIENT_PLANE_KAPPA);
+    float x = clamp(ambient_entry(t, spot, AMBIENT_PLANE_AXIS), -1.0f, 1.0f);
+    float close = ambient_beyond(log2_kappa, AMBIENT_CLOSE);
+    float narrow = ambient_beyond(log2_kappa, ambient_lamp_kappa(s) - AMBIENT_FINER),
+          kappa = exp2(log2_kappa);
+    Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
+    a.lamps = 1.0f - narrow;
+    if (t.strategy == AMBIENT_SAMPLED) {
+        a.of = ambient_drawn(s, v, lobe, narrow, a.e);
+        return a;
+    }
+    a.of.first = rgb_grey(0.0f);
+    a.of.second = a.of.first;
+    if (close < 1.0f) a.of = ambient_mixed(s, v, f, g);
+    if (close > 0.0f && narrow < 1.0f)
+        a.of = ambient_pair_mix(a.of, ambient_one(v, ambient_rest(s, out_axis, kappa), axis, f, g), close);
+    if (narrow > 0.0f) {
+        Rgb l = ambient_tailed(s, out_axis, kappa, ambient_entry(t, spot, AMBIENT_PLANE_TAIL));
+        a.of = ambient_pair_mix(a.of, ambient_one(v, l, axis, f, g), narrow);
+    }
+    return a;
+}
+
+/* The colours of a slot against that. Where F enters squared (slot_f's sag) and where colour is no factor,
+ * the share and the tint are those of the whole lobe. */
+FN float ambient_channel(SheenE e, float f0, float f90, float sag, float first, float second) {
+    if (e.tint.s > 0.0f) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
+    return f0 * first + f90 * second - sag * first * second / max(first + second, 1e-30f);
+}
+FN Rgb ambient_colored(Slot s, SheenE e, AmbientPair p) {
+    return rgb(ambient_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
+               ambient_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
+               ambient_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b));
+}
+
+/* Cosine average of schlick_s at the least of wi . h, cos_o and cos_i, which is the lesser of the cosines:
+ * (1 - z)^5 for the cosines z below cos_o, (1 - cos_o)^5 above. */
+FN float ambient_schlick_least(float cos_o) {
+    float q = 1.0f - cos_o, q2 = q * q, q5 = q2 * q2 * q;
+    return q5 * (1.0f - cos_o * cos_o) + 2.0f * ((1.0f - q5 * q) / 6.0f - (1.0f - q5 * q2) / 7.0f);
+}
+
+/* The same at wi . h: own fit, within 0.001. */
+FN float ambient_schlick_half(float cos_o) {
+    float q2 = (1.0f - cos_o) * (1.0f - cos_o);
+    return q2 * (0.02f + 0.008f * q2);
+}
+
+/* What the interface leaves for the diffuse lobe, on cosine average over wi. */
+FN Rgb ambient_under(Stack m, float cos_o) {
+    Rgb f = rgb_grey(0.0f);
+    if (m.under == UNDER_HALF || m.under == UNDER_GAUSSIAN)
+        f = rgb_mix(m.under_f0, rgb_grey(m.under_f90), ambient_schlick_half(cos_o));
+    if (m.under == UNDER_LEAST)
+        f = rgb_grey(rgb_max3(rgb_mix(m.under_f0, rgb_grey(m.under_f90), ambient_schlick_least(cos_o))));
+    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+}
+FN float ambient_interface(Stack m, float cos_o) {
+    float s = ambient_schlick_least(cos_o);
+    float f = rgb_max3(rgb_mix(m.specular.f0, m.specular.f90, s)) / max(m.left, 1e-6f);
+    return HAS_SPECULAR(m) ? min(f, 1.0f) : 0.0f;
+}
+
+/* A slot as the lamps see it. */
+FN Slot ambient_lit(Slot s, float lamps) {
+    Slot t = s;
+    t.f0 = rgb_scale(s.f0, lamps);
+    t.f90 = rgb_scale(s.f90, lamps);
+    t.sag = rgb_scale(s.sag, lamps);
+    return t;
+}
+
+FN Rgb ambient_lamps(Stack m, Slots only, Dir o, AmbientSource s, float occlusion) {
+    Rgb sum = rgb_grey(0.0f);
+    int count = ambient_count(s);
+    for (int k = 0; k < count; k++) {
+        AmbientLight l = ambient_light(s, k);
+        float seen = l.w.z > 0.0f ? ambient_visible(occlusion, l.w.z) : 0.0f;
+        if (seen > 0.0f) {
+            Angles a = angles_between(o, l.w), coat = a;
+            if (only.coat) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, l.w));
+            sum = rgb_add(sum, rgb_scale(rgb_mul(l.color, stack_value_of(m, only, a, coat).f_cos), seen));
+        }
+    }
+    return sum;
+}
+
+/* What a stack reflects towards wo, its tables being those of its lobes. occlusion: the part of the
+ * cosine-weighted sky that is seen, in [0, 1]. */
+FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occlusion) {
+    Rgb sum = rgb_grey(0.0f), over = rgb_grey(1.0f);
+    Stack lit = m;
+    Slots only = slots_of(false, false, false, false, false);
+    AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
+                                 clamp(occlusion, 0.0f, 1.0f));
+    bool worn = IS_WORN(m);
+    Rgb keep = worn ? stack_keep(m, m.e_avg) : rgb_grey(1.0f);
+    Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
+    if (m.layer == LAYER_SEED && worn) {
+        over = rgb_grey(1.0f - ambient_interface(m, o.z));
+        diffuse = rgb_mul(keep, over);
+        keep = rgb_grey(1.0f);
+    }
+    SheenE plain = sheen_e_of(0.0f);
+    if (HAS_DIFFUSE(m)) {
+        AmbientSlot a = ambient_slot(t.diffuse, s, v, m.diffuse.lobe);
+        sum = rgb_mul(diffuse, ambient_colored(m.diffuse, plain, a.of));
+        lit.diffuse = ambient_lit(m.diffuse, a.lamps);
+        only.diffuse = a.lamps > 0.0f;
+    }
+    if (HAS_SPECULAR(m)) {
+        AmbientSlot a = ambient_slot(t.specular, s, v, m.specular.lobe);
+        sum = rgb_add(sum, rgb_mul(keep, ambient_colored(m.specular, plain, a.of)));
+        only.specular = a.lamps > 0.0f;
+        if (only.specular) lit.specular = ambient_lit(m.specular, a.lamps);
+    }
+    if (HAS_SHEEN(m)) {
+        AmbientView along = v;
+        if (m.nap.tilt > 0.0f) along.heading = v.tx * m.nap.x + v.ty * m.nap.y;
+        AmbientSlot a = ambient_slot(t.sheen, s, along, m.sheen.lobe);
+        float known = m.e_o.e > 0.0f && m.albedo == ALBEDO_TABLE ? m.e_o.e / max(a.e, 1e-20f) : 1.0f;
+        Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
+        sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known));
+        lit.sheen = ambient_lit(m.sheen, a.lamps);
+        only.sheen = a.lamps > 0.0f;
+    }
+    if (HAS_COAT(m)) {
+        Dir oc = stack_to_coat(m, o);
+        if (oc.z > 0.0f) {
+            AmbientView c = ambient_view(oc, m.coat_x, m.coat_y, m.coat_z, v.occlusion);
+            AmbientSlot a = ambient_slot(t.coat, s, c, m.coat.lobe);
+            sum = rgb_add(sum, ambient_colored(m.coat, plain, a.of));
+            lit.coat = ambient_lit(m.coat, a.lamps);
+            only.coat = a.lamps > 0.0f;
+        }
+    }
+    if (HAS_DUST(m)) {
+        AmbientSlot a = ambient_slot(t.dust, s, v, m.dust.lobe);
+        sum = rgb_add(sum, ambient_colored(m.dust, plain, a.of));
+        lit.dust = ambient_lit(m.dust, a.lamps);
+        only.dust = a.lamps > 0.0f;
+    }
+    if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
+        sum = rgb_add(sum, ambient_lamps(lit, only, o, s, v.occlusion));
+    return sum;
+}
+
+#endif

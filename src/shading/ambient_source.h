@@ -1,0 +1,44 @@
+/* ambient_source.h - the light of an environment, as a material asks for it, for callers in C
+ *
+ *   ambient_radiance(s, w, kappa)  radiance about w: mean of L(i) weighted by exp(kappa (i . w - 1))
+ *   ambient_irradiance(s, w)       mean of L(i) weighted by max(i . w, 0)
+ *   ambient_light(s, k)            lamp k of those that stand for the brightest of L, 0 <= k <
+ * ambient_count(s) ambient_rest(s, w, kappa)      what the lamps leave of L, weighted likewise, kappa at most
+ * 200; or, where kappa is 0, by max(i . w, 0)
+ *
+ *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for, on
+ * average
+ *
+ * Directions are unit, in the shading frame (angles.h). So L = rest + lamps, and radiance and irradiance are
+ * of L. In GLSL a source is a number that says nothing, and whoever draws provides these functions in this
+ * file's place (raster/environment.h). */
+#ifndef WEFT_SHADING_AMBIENT_SOURCE_H
+#define WEFT_SHADING_AMBIENT_SOURCE_H
+
+#include "shading/rgb.h"
+
+STRUCT(AmbientLight) {
+    Dir w;
+    Rgb color; /* irradiance on a surface that faces it */
+};
+
+typedef struct AmbientSourceCalls {
+    Rgb (*radiance)(const void *user, Dir w, float kappa);
+    Rgb (*irradiance)(const void *user, Dir w);
+    Rgb (*rest)(const void *user, Dir w, float kappa);
+    AmbientLight (*light)(const void *user, int k);
+    const void *user;
+    int count;
+    float lamp_kappa;
+} AmbientSourceCalls;
+
+typedef const AmbientSourceCalls *AmbientSource;
+
+FN Rgb ambient_radiance(AmbientSource s, Dir w, float kappa) { return s->radiance(s->user, w, kappa); }
+FN Rgb ambient_irradiance(AmbientSource s, Dir w) { return s->irradiance(s->user, w); }
+FN Rgb ambient_rest(AmbientSource s, Dir w, float kappa) { return s->rest(s->user, w, kappa); }
+FN int ambient_count(AmbientSource s) { return s->count; }
+FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
+FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
+
+#endif

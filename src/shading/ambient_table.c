@@ -1,0 +1,271 @@
+#include "shading/ambient_table.h"
+
+#include "base/thread.h"
+
+/* Wanted: w >= 0 that makes least, on average over environments, the square of
+ *
+ *   integral of L (f cos - sum_k w_k G_k)
+ *
+ * An environment turned at random has E[L(x) L(y)] = sum_l (2l + 1) / (4 pi) C_l P_l(x . y), so that is
+ *
+ *   w^T A w - 2 w^T b + const,   b_k = integral of f cos S_k(i . axis_k),  A_jk = sum_l C_l a_jl a_kl Q_l
+ *   S_k(mu) = sum_l (2l + 1) / (4 pi) C_l a_kl P_l(mu),                    Q_l = (2l + 1) / (4 pi) P_l(axes)
+ *
+ * with a_kl the Legendre coefficients of G_k about its axis. C_l falls as (l + 1)^-2.5: Ron Dror, Alan
+ * Willsky, Edward Adelson, "Statistical Characterization of Real-World Illumination", Journal of Vision 4(9),
+ * 2004, find powers between 2 and 3. */
+enum { BANDS = 24, GRAIN = 256, KERNELS = 3, ATOMS = 4, SAMPLES = 1024 };
+
+typedef struct Kernel {
+    double a[BANDS];
+    double s[GRAIN + 1]; /* S over mu, even from -1 to 1 */
+} Kernel;
+
+typedef struct Atom {
+    int kernel, axes; /* with two axes each has half of the weight */
+    Dir axis[2];
+} Atom;
+
+typedef struct Fitter {
+    Kernel kernels[KERNELS];
+    double a[ATOMS][ATOMS];
+    AmbientFit *fit;
+} Fitter;
+
+/* As ambient_mixed looks them up. */
+static const Atom atoms[ATOMS] = {
+    {2, 1, {{0.0f, 0.0f, 1.0f}}},
+    {1, 2, {{0.612372436f, 0.612372436f, 0.5f}, {0.612372436f, -0.612372436f, 0.5f}}},
+    {0, 1, {{-0.866025404f, 0.0f, 0.5f}}},
+    {0, 2, {{-0.696364240f, 0.696364240f, 0.173648178f}, {-0.696364240f, -0.696364240f, 0.173648178f}}}};
+
+/* P_0 .. P_(BANDS - 1) of mu. */
+static void legendre(double mu, double p[BANDS]) {
+    p[0] = 1.0;
+    p[1] = mu;
+    for (int l = 2; l < BANDS; l++) p[l] = ((2 * l - 1) * mu * p[l - 1] - (l - 1) * p[l - 2]) / l;
+}
+
+static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
+
+/* As ambient_rest weighs. */
+static const double kappas[KERNELS] = {12.5, 3.125, 0.0};
+static double weight_at(double kappa, double mu) {
+    return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
+}
+
+static void make_kernel(Kernel *kernel, double kappa) {
+    enum { STEPS = 2000 };
+    double p[BANDS], sum = 0.0;
+    for (int k = 0; k < STEPS; k++) {
+        double mu = 2.0 * (k + 0.5) / STEPS - 1.0, w = weight_at(kappa, mu);
+        legendre(mu, p);
+        sum += w;
+        for (int l = 0; l < BANDS; l++) kernel->a[l] += w * p[l];
+    }
+    for (int l = 0; l < BANDS; l++) kernel->a[l] /= sum;
+    for (int k = 0; k <= GRAIN; k++) {
+        legendre(2.0 * k / GRAIN - 1.0, p);
+        for (int l = 0; l < BANDS; l++) kernel->s[k] += band_weight(l) * kernel->a[l] * p[l];
+    }
+}
+
+static double kernel_at(const Kernel *kernel, double mu) {
+    double x = fmin(fmax(0.5 * (mu + 1.0), 0.0), 1.0) * GRAIN;
+    int k = x < GRAIN - 1 ? (int)x : GRAIN - 1;
+    return kernel->s[k] + (kernel->s[k + 1] - kernel->s[k]) * (x - k);
+}
+
+static double product(const Fitter *fitter, const Atom *x, const Atom *y) {
+    double p[BANDS], sum = 0.0;
+    for (int j = 0; j < x->axes; j++)
+        for (int k = 0; k < y->axes; k++) {
+            legendre((double)dir_dot(x->axis[j], y->axis[k]), p);
+            for (int l = 0; l < BANDS; l++)
+                sum +=
+                    band_weight(l) * fitter->kernels[x->kernel].a[l] * fitter->kernels[y->kernel].a[l] * p[l];
+        }
+    return sum / (x->axes * y->axes);
+}
+
+/* What a lobe sends on from one wo, as weighted directions with x towards wo. */
+typedef struct Cloud {
+    int count;
+    Dir i[SAMPLES];
+    float w[2][SAMPLES]; /* of the first colour and of the second */
+    double e[2];
+} Cloud;
+
+/* The bits of k mirrored behind the point, for Hammersley's points. J. M. Hammersley, "Monte Carlo Methods
+ * for Solving Multivariable Problems", 1960. */
+static float mirrored(uint32_t k) {
+    float x = 0.0f;
+    for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
+        if (k & 1) x += place;
+    return x;
+}
+
+/* Seen at that azimuth. */
+static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimuth) {
+    float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), ty = sin(azimuth);
+    Dir o = dir(s * tx, s * ty, cos_o);
+    cloud->count = 0;
+    cloud->e[0] = cloud->e[1] = 0.0;
+    for (int k = 0; k < SAMPLES; k++) {
+        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)k));
+        if (!(i.z > 0.0f)) continue;
+        LobeValue value = lobe_value(lobe, angles_between(o, i));
+        if (!(value.pdf > 0.0f)) continue;
+        float w = value.f * i.z / (value.pdf * SAMPLES);
+        int n = cloud->count++;
+        cloud->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
+        cloud->w[0][n] = w * (1.0f - value.s);
+        cloud->w[1][n] = w * value.s;
+        for (int c = 0; c < 2; c++) cloud->e[c] += (double)cloud->w[c][n];
+    }
+}
+
+/* The least of w^T A w - 2 w^T b over w >= 0, one after the other until none moves; then their sum is made e.
+ * C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23, has the problem. */
+static void solve(const Fitter *fitter, const double b[ATOMS], double e, double w[ATOMS]) {
+    double sum = 0.0, moved = 1.0;
+    for (int k = 0; k < ATOMS; k++) w[k] = e / ATOMS;
+    for (int round = 0; round < 2000 && moved > 1e-9 * e; round++) {
+        moved = 0.0;
+        for (int k = 0; k < ATOMS; k++) {
+            double rest = b[k];
+            for (int j = 0; j < ATOMS; j++) rest -= j == k ? 0.0 : fitter->a[k][j] * w[j];
+            double x = fmax(rest / fitter->a[k][k], 0.0);
+            moved = fmax(moved, fabs(x - w[k]));
+            w[k] = x;
+        }
+    }
+    for (int k = 0; k < ATOMS; k++) sum += w[k];
+    for (int k = 0; k < ATOMS; k++) w[k] = sum > 0.0 ? w[k] * e / sum : e / ATOMS;
+}
+
+/* 1 - mu about the axis within which that part of the cloud is. */
+static double cloud_within(const Cloud *cloud, Dir axis, double part) {
+    enum { BINS = 96 }; /* four an octave, from 2^-22 up */
+    double bins[BINS] = {0}, all = 0.0, sum = 0.0;
+    for (int n = 0; n < cloud->count; n++) {
+        double t = fmax(1.0 - (double)dir_dot(axis, cloud->i[n]), 0x1p-22);
+        double w = (double)cloud->w[0][n] + (double)cloud->w[1][n];
+        int bin = (int)(4.0f * (log2((float)t) + 22.0f));
+        bins[bin < BINS - 1 ? bin : BINS - 1] += w;
+        all += w;
+    }
+    int k = 0;
+    while (k < BINS - 1 && sum + bins[k] < part * all) sum += bins[k++];
+    double rest = bins[k] > 0.0 ? (part * all - sum) / bins[k] : 0.0;
+    return (double)exp2((float)(0.25 * (k + rest) - 22.0));
+}
+
+/* A node of a plane. */
+static float *entry(AmbientFit *fit, int side, int plane, int row, int column) {
+    return &fit->texels[(side * AMBIENT_PLANES + plane) * fit->rows + row][column];
+}
+
+/* Half of what exp(kappa (mu - 1)) weighs is within kappa (1 - mu) = ln 2, and three quarters within twice
+ * that, of ggx within thrice. */
+static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int side) {
+    double half = cloud_within(cloud, axis, 0.5), more = cloud_within(cloud, axis, 0.75);
+    *entry(fit, side, AMBIENT_PLANE_AXIS, row, column) = axis.x;
+    *entry(fit, side, AMBIENT_PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
+    *entry(fit, side, AMBIENT_PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
+}
+
+static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int side) {
+    AmbientFit *fit = fitter->fit;
+    Lobe lobe = fit->lobe;
+    float root = fit->root_low, y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1);
+    float x = 1.0f - y * y;
+    if (fit->rows > 1) root = mix(root, fit->root_high, (float)row / (AMBIENT_ROWS - 1));
+    if (weft_lobe_info(lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
+    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)side * 0.5f * PI);
+    Dir mean = dir(0.0f, 0.0f, 1e-20f);
+    double b[2][ATOMS] = {{0.0}};
+    for (int n = 0; n < cloud->count; n++) {
+        float w = cloud->w[0][n] + cloud->w[1][n];
+        mean = dir(mean.x + w * cloud->i[n].x, mean.y, mean.z + w * cloud->i[n].z);
+        for (int k = 0; k < ATOMS; k++) {
+            double s = 0.0;
+            for (int j = 0; j < atoms[k].axes; j++)
+                s += kernel_at(&fitter->kernels[atoms[k].kernel],
+                               (double)dir_dot(atoms[k].axis[j], cloud->i[n]));
+            for (int c = 0; c < 2; c++) b[c][k] += (double)cloud->w[c][n] * s / atoms[k].axes;
+        }
+    }
+    float r = 1.0f / sqrt(mean.x * mean.x + mean.z * mean.z);
+    Dir axis = dir(mean.x * r, 0.0f, mean.z * r);
+    for (int c = 0; c < 2; c++) {
+        double w[ATOMS];
+        solve(fitter, b[c], cloud->e[c], w);
+        for (int k = 0; k < ATOMS; k++)
+            *entry(fit, side, (c ? AMBIENT_PLANE_SECOND : 0) + k, row, column) = (float)w[k];
+    }
+    fit_width(fit, cloud, axis, row, column, side);
+}
+
+static void fit_column(void *user, int column, int thread) {
+    (void)thread;
+    const Fitter *fitter = user;
+    Cloud cloud;
+    for (int side = 0; side < (fitter->fit->turning ? AMBIENT_SIDES : 1); side++)
+        for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
+}
+
+void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->id);
+    Fitter fitter = {.fit = fit};
+    fit->lobe = *lobe;
+    int azimuth = lobe_param(lobe->id, "azimuth"), tilt = lobe_param(lobe->id, "tilt");
+    if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
+    fit->turning = (info->traits & TRAIT_ANISOTROPIC) && (tilt < 0 || lobe->params[tilt] > 0.0f);
+    fit->low = low;
+    fit->high = high;
+    if (info->param_count > 0) {
+        low = clamp(low, info->params[0].hard_low, info->params[0].hard_high);
+        high = clamp(high, info->params[0].hard_low, info->params[0].hard_high);
+    }
+    fit->root_low = sqrt(low);
+    fit->root_high = sqrt(high);
+    fit->rows = info->param_count > 0 && low < high ? AMBIENT_ROWS : 1;
+    for (int k = 0; k < KERNELS; k++) make_kernel(&fitter.kernels[k], kappas[k]);
+    for (int j = 0; j < ATOMS; j++)
+        for (int k = 0; k < ATOMS; k++) fitter.a[j][k] = product(&fitter, &atoms[j], &atoms[k]);
+    parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
+    fit->focus = false;
+    for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
+        for (int row = 0; row < fit->rows; row++)
+            for (int column = 0; column < AMBIENT_COLUMNS; column++)
+                fit->focus = fit->focus || *entry(fit, side, AMBIENT_PLANE_KAPPA, row, column) >
+                                               AMBIENT_CLOSE - AMBIENT_BLEND;
+}
+
+static bool same(float a, float b) { return !(a < b) && !(a > b); }
+
+bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high) {
+    if (fit->lobe.id != lobe->id) return false;
+    for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
+        if (k != lobe_param(lobe->id, "azimuth") && !same(fit->lobe.params[k], lobe->params[k])) return false;
+    return same(fit->low, low) && same(fit->high, high);
+}
+
+AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
+    bool second = (weft_lobe_info(fit->lobe.id)->traits & TRAIT_TWO_COLORS) != 0;
+    return (AmbientTable){.texels = fit->texels[0],
+                          .rows = fit->rows,
+                          .columns = AMBIENT_COLUMNS,
+                          .low = fit->root_low,
+                          .high = fit->root_high,
+                          .focus = fit->focus,
+                          .second = second,
+                          .turning = fit->turning,
+                          .strategy = strategy};
+}
+
+int ambient_strategy(int lobe) {
+    (void)lobe;
+    return AMBIENT_FITTED;
+}

@@ -1,0 +1,35 @@
+/* ambient_table.h - tables of any lobe for ambient.h, made from its eval and its sampler */
+#ifndef WEFT_SHADING_AMBIENT_TABLE_H
+#define WEFT_SHADING_AMBIENT_TABLE_H
+
+#include "shading/ambient.h"
+
+enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16, AMBIENT_SIDES = 3 };
+
+/* The planes of ambient.h over cos_o and one parameter. */
+typedef struct AmbientFit {
+    Lobe lobe; /* its parameter 0 says nothing */
+    int rows;
+    float low, high; /* the range asked for */
+    float root_low, root_high;
+    bool focus;   /* some node is not broad */
+    bool turning; /* there are planes for AMBIENT_SIDES headings */
+    float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
+} AmbientFit;
+
+/* Fills the table for a lobe as its parameter 0 runs over low .. high (equal: one row), the others as given:
+ * the weights that bring sum_k w_k G_k nearest to f cos_i, both convolved with what an environment's two
+ * points have in common (the source says what that is). Not for lobes with TRAIT_REFERENCE. Runs on `threads`
+ * threads (0: all); the same numbers on any number of them. */
+void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
+
+/* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
+bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
+
+/* The table for ambient.h to read; the fit must outlive it. */
+AmbientTable ambient_table(const AmbientFit *fit, int strategy);
+
+/* The strategy with the least error for that lobe (docs/environment.md). */
+int ambient_strategy(int lobe);
+
+#endif

@@ -1,0 +1,298 @@
+/* Light of an environment in C, over all lobes: under even light every strategy returns E; weights are not
+ * negative; a far lamp gives what f says; sharp light is met within a few hundredths; occlusion takes what it
+ * says; layers and coats leave what they should */
+#include "cases.h"
+
+#include "scene/ambient.h"
+#include "shading/ambient_table.h"
+
+/* An environment that is even, with a lamp or two. */
+typedef struct Even {
+    float radiance;
+    int count;
+    AmbientLight lamps[2];
+} Even;
+
+static Rgb even_about(const void *user, Dir w, float kappa) {
+    (void)w, (void)kappa;
+    return rgb_grey(((const Even *)user)->radiance);
+}
+static Rgb even_irradiance(const void *user, Dir w) { return even_about(user, w, 0.0f); }
+static AmbientLight even_lamp(const void *user, int k) { return ((const Even *)user)->lamps[k]; }
+
+static AmbientSourceCalls even_calls(const Even *even) {
+    return (AmbientSourceCalls){even_about, even_irradiance, even_about, even_lamp, even, even->count, 6.0f};
+}
+
+static bool asked(int lobe) { return !(weft_lobe_info(lobe)->traits & TRAIT_REFERENCE); }
+
+/* Where roughness 0.1 and 1 are. */
+static void fit(AmbientFit *to, int id) {
+    Lobe lobe = lobe_default(id);
+    float a = lobe_rough(id, 0.1f).params[0], b = lobe_rough(id, 1.0f).params[0];
+    ambient_fit(to, &lobe, min(a, b), max(a, b), 0);
+}
+
+static AmbientTables all_tables(AmbientTable t) { return (AmbientTables){t, t, t, t, t}; }
+
+static Stack one_lobe(Lobe lobe) {
+    Stack m = stack_empty();
+    m.sheen = slot_make(lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f, 1.0f);
+    m.sheen.pick = 1.0f;
+    return m;
+}
+
+/* What the table has for E is E, at nodes and between them, and no weight takes light away. */
+static void even_light_returns_albedo(void **state) {
+    (void)state;
+    static AmbientFit table;
+    Even even = {.radiance = 1.0f};
+    AmbientSourceCalls calls = even_calls(&even);
+    for (int id = 0; id < LOBE_COUNT; id++) {
+        if (!asked(id)) continue;
+        fit(&table, id);
+        int sides = table.turning ? AMBIENT_SIDES : 1;
+        for (int plane = 0; plane < sides * AMBIENT_PLANES; plane++)
+            for (int row = 0; row < table.rows; row++)
+                for (int column = 0; column < AMBIENT_COLUMNS; column++) {
+                    int k = plane % AMBIENT_PLANES;
+                    if (k < 4 || k >= AMBIENT_PLANE_SECOND)
+                        assert_true(table.texels[plane * table.rows + row][column] >= 0.0f);
+                }
+        for (int k = 0; k < 12; k++) {
+            Lobe lobe = lobe_rough(id, 0.35f + 0.2f * (float)(k % 4));
+            Dir o = direction_cos(0.15 + 0.28 * (double)(k / 4), 0.0);
+            if (weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC && k % 2) o = dir(o.y, o.x, o.z);
+            Albedo e = albedo_quadrature(&lobe, o, 1e-3);
+            for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
+                Rgb got =
+                    stack_ambient(one_lobe(lobe), o, all_tables(ambient_table(&table, s)), &calls, 1.0f);
+                float off = abs(got.r - (e.f0 + e.f90));
+                /* E of fibres as good as appears near grazing at low alpha: rows are far apart there */
+                if (off > 0.01f * (e.f0 + e.f90) + 0.009f)
+                    fail_msg("%s, strategy %d, cosine %g: %g for %g", weft_lobe_info(id)->id, s, (double)o.z,
+                             (double)got.r, (double)(e.f0 + e.f90));
+            }
+        }
+    }
+}
+
+/* Where there is nothing but lamps, a broad lobe is f itself. */
+static void lamps_are_met_as_lights_are(void **state) {
+    (void)state;
+    static AmbientFit table;
+    Even even = {.count = 2};
+    even.lamps[0] = (AmbientLight){direction(0.6, 1.0), rgb(2.0f, 1.0f, 0.5f)};
+    even.lamps[1] = (AmbientLight){direction(1.4, 4.0), rgb(0.1f, 0.3f, 3.0f)};
+    AmbientSourceCalls calls = even_calls(&even);
+    Lobe lobe = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, 0.5f);
+    fit(&table, lobe.id);
+    AmbientTables tables = all_tables(ambient_table(&table, AMBIENT_FITTED));
+    Dir o = direction(0.9, 0.2);
+    float f[2];
+    for (int k = 0; k < 2; k++)
+        f[k] = lobe_eval(&lobe, angles_between(o, even.lamps[k].w)) * even.lamps[k].w.z;
+    Rgb got = stack_ambient(one_lobe(lobe), o, tables, &calls, 1.0f);
+    assert_float_equal(got.r, 2.0f * f[0] + 0.1f * f[1], 1e-6);
+    assert_float_equal(got.g, f[0] + 0.3f * f[1], 1e-6);
+    assert_float_equal(got.b, 0.5f * f[0] + 3.0f * f[1], 1e-6);
+    /* a crease shuts the one that is low out first */
+    got = stack_ambient(one_lobe(lobe), o, tables, &calls, 0.6f);
+    assert_float_equal(got.r, 2.0f * f[0], 1e-6);
+}
+
+/* The cosine-weighted mean of what is seen is the occlusion, and more is never seen less of. */
+static void occlusion_takes_what_it_says(void **state) {
+    (void)state;
+    for (int k = 0; k <= 20; k++) {
+        enum { STEPS = 20000 };
+        float occlusion = (float)k / 20.0f, before = 0.0f;
+        double mean = 0.0;
+        for (int n = 0; n < STEPS; n++) {
+            float x = ((float)n + 0.5f) / STEPS, seen = ambient_visible(occlusion, sqrt(x));
+            assert_true(seen >= before - 1e-6f && seen <= 1.0f);
+            before = seen;
+            mean += (double)seen / STEPS;
+        }
+        assert_float_equal((float)mean, occlusion, 2e-4);
+    }
+}
+
+/* The integral of a stack over the hemisphere: in even light, what ambient light must be. */
+static Rgb whole(const Stack *m, Dir o) {
+    enum { RINGS = 96, TURNS = 128 };
+    double sum[3] = {0.0};
+    for (int k = 0; k < RINGS * TURNS; k++) {
+        double u = (k / TURNS + 0.5) / RINGS, theta = 1.57079632679 * u;
+        Dir i = direction(theta, 6.28318530718 * (k % TURNS + 0.5) / TURNS);
+        double solid = (sin)(theta)*1.57079632679 / RINGS * 6.28318530718 / TURNS;
+        Rgb f = stack_eval(m, o, i, 0).f_cos;
+        sum[0] += solid * (double)f.r, sum[1] += solid * (double)f.g, sum[2] += solid * (double)f.b;
+    }
+    return rgb((float)sum[0], (float)sum[1], (float)sum[2]);
+}
+
+static void layers_leave_what_they_should(void **state) {
+    (void)state;
+    static AmbientFit diffuse, specular, sheen;
+    static AlbedoTable albedo;
+    Even even = {.radiance = 1.0f};
+    AmbientSourceCalls calls = even_calls(&even);
+    Lobe velvet = lobe_default(LOBE_CHARLIE_CONTY_KULLA);
+    albedo_table_fill(&albedo, &velvet, 0.1f, 1.0f, 0);
+    fit(&diffuse, LOBE_LAMBERT);
+    fit(&specular, LOBE_GGX);
+    fit(&sheen, LOBE_CHARLIE_CONTY_KULLA);
+    AmbientTables tables = {ambient_table(&diffuse, AMBIENT_FITTED), ambient_table(&specular, AMBIENT_FITTED),
+                            ambient_table(&sheen, AMBIENT_FITTED), ambient_table(&specular, AMBIENT_FITTED),
+                            ambient_table(&diffuse, AMBIENT_FITTED)};
+    for (int layer = 0; layer < LAYER_COUNT; layer++)
+        for (int k = 0; k < 6; k++) {
+            Surface s = {
+                .base_color = {0.7f, 0.4f, 0.1f}, .roughness = 0.6f, .specular = 1.0f, .sheen = 1.0f};
+            Choices c = choices_unmade();
+            s.sheen_color = rgb(0.4f, 0.6f, 0.8f);
+            s.sheen_roughness = k % 2 ? 0.8f : 0.5f;
+            s.specular_color = rgb_grey(1.0f);
+            s.reflectance = 0.46f;
+            s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
+            c.layer = layer;
+            Stack m;
+            Dir o = direction_cos(0.2 + 0.35 * (double)(k / 2), 0.3);
+            stack_make(&m, &s, &c, albedo_table_ref(&albedo), o);
+            Rgb truth = whole(&m, o), got = stack_ambient(m, o, tables, &calls, 1.0f);
+            if (layer == LAYER_STOCHASTIC) continue; /* its bounces are the path tracer's */
+            float off = abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b);
+            float all = truth.r + truth.g + truth.b;
+            /* rules min and max meet E(wi) on average alone */
+            float most = layer == LAYER_ALBEDO_MIN || layer == LAYER_ALBEDO_MAX ? 0.06f : 0.03f;
+            if (!(off < most * all))
+                fail_msg("layer %d, cosine %g: %.2f %%", layer, (double)o.z, (double)(100.0f * off / all));
+        }
+}
+
+/* Sums over the texels of a small sharp map. */
+enum { WIDTH = 48, HEIGHT = 24 };
+typedef struct Sharp {
+    AmbientParts parts;
+    WeftImage image;
+    Vec3 x, y, z; /* the frame that is asked in */
+} Sharp;
+
+static Rgb sharp_mean(const WeftImage *image, Vec3 d, float kappa) {
+    double sum[3] = {0.0}, all = 0.0;
+    const float *p = image->pixels;
+    for (int k = 0; k < image->width * image->height; k++) {
+        double v = (k / image->width + 0.5) / image->height;
+        Vec3 i = latlong_direction((k % image->width + 0.5) / image->width, v);
+        float mu = vec3_dot(d, i);
+        double w = (sin)(v * TEST_PI) * (double)(kappa > 0.0f ? exp(kappa * (mu - 1.0f)) : max(mu, 0.0f));
+        all += w;
+        for (int c = 0; c < 3; c++) sum[c] += w * (double)p[3 * k + c];
+    }
+    return rgb((float)(sum[0] / all), (float)(sum[1] / all), (float)(sum[2] / all));
+}
+static Vec3 sharp_world(const Sharp *s, Dir w) {
+    return vec3_madd(vec3_madd(vec3_scale(s->x, w.x), s->y, w.y), s->z, w.z);
+}
+static Dir sharp_local(const Sharp *s, Vec3 w) {
+    return dir(vec3_dot(w, s->x), vec3_dot(w, s->y), vec3_dot(w, s->z));
+}
+static Rgb sharp_radiance(const void *user, Dir w, float kappa) {
+    const Sharp *s = user;
+    return sharp_mean(&s->image, sharp_world(s, w), kappa);
+}
+static Rgb sharp_irradiance(const void *user, Dir w) { return sharp_radiance(user, w, 0.0f); }
+static Rgb sharp_rest(const void *user, Dir w, float kappa) {
+    const Sharp *s = user;
+    return sharp_mean(&s->parts.rest, sharp_world(s, w), kappa);
+}
+static AmbientLight sharp_lamp(const void *user, int k) {
+    const Sharp *s = user;
+    const AmbientLamp *lamp = &s->parts.lamps[k];
+    return (AmbientLight){sharp_local(s, lamp->direction),
+                          rgb(lamp->color[0], lamp->color[1], lamp->color[2])};
+}
+
+/* A grey room with two windows and a warm lamp. */
+static void make_sharp(Sharp *s) {
+    assert_int_equal(weft_image_create(WIDTH, HEIGHT, 3, WEFT_PIXEL_F32, &s->image, NULL), WEFT_OK);
+    float *p = s->image.pixels;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++, p += 3) {
+            float room = 0.1f + 0.1f * (float)(x % 7 < 3) + 0.01f * (float)y;
+            bool window = (x > 8 && x < 12 && y > 5 && y < 9) || (x > 30 && x < 33 && y > 8 && y < 12);
+            bool lamp = x == 20 && y == 4;
+            p[0] = room + (window ? 5.0f : lamp ? 40.0f : 0.0f);
+            p[1] = room + (window ? 6.0f : lamp ? 25.0f : 0.0f);
+            p[2] = room + (window ? 8.0f : lamp ? 10.0f : 0.0f);
+        }
+    Environment e = {.kind = ENVIRONMENT_IMAGE, .image = s->image, .strength = 1.0f};
+    assert_int_equal(ambient_split(&e, AMBIENT_LAMPS, &s->parts, NULL), WEFT_OK);
+}
+
+/* Over a sphere: the reference sums f over the texels, each in 4 by 4 parts. */
+static double sphere_error(Sharp *s, const AmbientFit *table, int strategy) {
+    AmbientSourceCalls calls = {sharp_radiance,      sharp_irradiance,   sharp_rest, sharp_lamp, s,
+                                s->parts.lamp_count, s->parts.lamp_kappa};
+    double off = 0.0, all = 0.0;
+    for (int n = 0; n < 24; n++) {
+        float z = 0.15f + 0.033f * (float)n, side = sqrt(1.0f - z * z), turn = 2.4f * (float)n;
+        Vec3 eye = {0.0f, 0.0f, 1.0f};
+        s->z = vec3(side * cos(turn), side * sin(turn), z);
+        s->x = vec3_normal_or(vec3_madd(eye, s->z, -z), eye);
+        s->y = vec3_cross(s->z, s->x);
+        Lobe lobe = lobe_rough(table->lobe.id, 0.4f + 0.3f * (float)(n % 3));
+        Dir o = sharp_local(s, eye);
+        double truth[3] = {0.0};
+        for (int k = 0; k < 16 * WIDTH * HEIGHT; k++) {
+            double v = (k / (4 * WIDTH) + 0.5) / (4 * HEIGHT);
+            Dir i = sharp_local(s, latlong_direction((k % (4 * WIDTH) + 0.5) / (4 * WIDTH), v));
+            if (!(i.z > 0.0f)) continue;
+            const float *p =
+                (const float *)s->image.pixels + 3 * (k / (16 * WIDTH) * WIDTH + k % (4 * WIDTH) / 4);
+            double w = (double)(lobe_eval(&lobe, angles_between(o, i)) * i.z) * (sin)(v * TEST_PI);
+            for (int c = 0; c < 3; c++) truth[c] += w * (double)p[c];
+        }
+        Rgb got = stack_ambient(one_lobe(lobe), o, all_tables(ambient_table(table, strategy)), &calls, 1.0f);
+        const float values[3] = {got.r, got.g, got.b};
+        for (int c = 0; c < 3; c++) {
+            truth[c] *= 2.0 * TEST_PI * TEST_PI / (16.0 * WIDTH * HEIGHT);
+            off += (double)z * fabs((double)values[c] - truth[c]);
+            all += (double)z * truth[c];
+        }
+    }
+    return off / all;
+}
+
+static void sharp_light_is_met(void **state) {
+    (void)state;
+    static const int lobes[] = {LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT,
+                                LOBE_BURLEY_SHEEN,    LOBE_CHARLIE_NEUBELT,
+                                LOBE_CHARLIE_KHRONOS, LOBE_EXPONENTIAL_LIT,
+                                LOBE_PATRY,           LOBE_LTC_FIBRE,
+                                LOBE_THREADS,         LOBE_FIBRE};
+    static AmbientFit table;
+    Sharp s = {0};
+    make_sharp(&s);
+    assert_true(s.parts.lamp_count > 2 && s.parts.lamp_count <= AMBIENT_LAMPS);
+    for (size_t k = 0; k < sizeof lobes / sizeof lobes[0]; k++) {
+        if (test_short() && k % 3) continue;
+        fit(&table, lobes[k]);
+        double fitted = sphere_error(&s, &table, AMBIENT_FITTED),
+               plain = sphere_error(&s, &table, AMBIENT_IRRADIANCE);
+        if (!(fitted < 0.05)) fail_msg("%s: %.1f %%", weft_lobe_info(lobes[k])->id, 100.0 * fitted);
+        /* what a matt surface gets is already right */
+        if (k > 1) assert_true(fitted < plain);
+    }
+    ambient_free(&s.parts);
+    weft_image_free(&s.image);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(even_light_returns_albedo), cmocka_unit_test(lamps_are_met_as_lights_are),
+        cmocka_unit_test(occlusion_takes_what_it_says), cmocka_unit_test(layers_leave_what_they_should),
+        cmocka_unit_test(sharp_light_is_met)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
