@@ -29,8 +29,9 @@ typedef struct WeftRasterDesc {
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
      * is there. It need not be there. Copied. */
     const char *shader_dir;
-    int threads;  /* for the tables; 0: one a processor */
-    int no_cache; /* not 0: the filtered environment is neither read from the user's cache nor written */
+    int threads;   /* for the tables; 0: one a processor */
+    int occlusion; /* rays a vertex, to find in the background what it sees of the sky, up to 4096; 0: none */
+    int no_cache;  /* not 0: the filtered environment is neither read from the user's cache nor written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
      * other than 0 stops. */
     WeftProgress progress;
@@ -74,6 +75,9 @@ typedef struct WeftRasterView {
  * is no earlier program to draw with: see WeftRasterInfo. Fails with WEFT_MESSAGE_DESC, _CAMERA_NAME,
  * _GL_COMPILE, _TEXT_DIALECT, _GL_MEMORY, _GL_CONTEXT. */
 WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *view, WeftError *error);
+
+/* Waits for what is made in the background: the next picture has it. Fails with WEFT_MESSAGE_GL_MEMORY. */
+WEFT_API WeftResult weft_raster_settle(WeftRaster *raster, WeftError *error);
 
 /* The picture drawn last: F32 RGBA, linear Rec. 709 radiance, straight alpha. Release with weft_image_free.
  */

@@ -48,6 +48,8 @@ const Option request_options[] = {
         "--ambient", "STRATEGY", "best",
         "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
         "lobe, or none"),
+    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
+                  "raster: look at the sky from each vertex along so many rays, for what lies in creases"),
     OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
@@ -166,18 +168,20 @@ static bool read_engine(const Options *options, Request *request) {
     static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */
     static const char *const ambients[] = {"best",   "irradiance", "mirror",
                                            "fitted", "none",       NULL}; /* as WeftAmbient */
-    int engine = 0, kind = 0, ambient = 0;
+    int engine = 0, kind = 0, ambient = 0, occlusion = 0;
     bool good = option_choice(options, "--engine", engines, &engine) &&
                 option_choice(options, "--gl", gl_versions, &kind) &&
                 option_choice(options, "--ambient", ambients, &ambient) &&
                 option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--polygons", &request->polygons) &&
+                option_integer(options, "--occlusion", &occlusion) &&
                 option_integer(options, "--turntable", &request->turntable) && read_lights(options, request);
     request->engine = (Engine)engine;
     request->ambient = (WeftAmbient)ambient;
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
                                        .shader_dir = option_text(options, "--shader-dir"),
-                                       .threads = request->desc.threads};
+                                       .threads = request->desc.threads,
+                                       .occlusion = occlusion};
     if (good && request->engine == ENGINE_BOTH && request->dress.count > 1) {
         report(WEFT_USAGE, "--engine both: %s has several ids already; one option may",
                request->dress.varied);

@@ -86,8 +86,21 @@ WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error
     for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++)
         result = upload(out->attributes[a], scene, a, vertices, error);
     glBindVertexArray(0);
+    glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
+    out->vertex_count = (uint32_t)vertices;
     if (result != WEFT_OK) meshes_destroy(out);
     return result;
+}
+
+WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
+    glGenBuffers(1, &self->occlusion);
+    glBindVertexArray(self->vertices);
+    glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * self->vertex_count * sizeof(float)), values,
+                 GL_STATIC_DRAW);
+    glVertexAttribPointer(AT_OCCLUSION, 2, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(AT_OCCLUSION);
+    return gl_check(error, "occlusion");
 }
 
 void meshes_destroy(GlMeshes *self) {
@@ -95,6 +108,7 @@ void meshes_destroy(GlMeshes *self) {
         glDeleteVertexArrays(1, &self->vertices);
         glDeleteBuffers(AT_COUNT, self->attributes);
         glDeleteBuffers(1, &self->index);
+        glDeleteBuffers(1, &self->occlusion);
     }
     free(self->first);
     *self = (GlMeshes){0};

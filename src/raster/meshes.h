@@ -7,11 +7,21 @@
 #include "scene/scene.h"
 
 /* Locations of the attributes in every vertex shader. */
-enum { AT_POSITION, AT_NORMAL, AT_TANGENT, AT_TEXCOORD, AT_COLOR = AT_TEXCOORD + 2, AT_COUNT };
+enum {
+    AT_POSITION,
+    AT_NORMAL,
+    AT_TANGENT,
+    AT_TEXCOORD,
+    AT_COLOR = AT_TEXCOORD + 2,
+    AT_COUNT,
+    AT_OCCLUSION = AT_COUNT /* not of a file: meshes_occlusion */
+};
 
 typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
+    unsigned occlusion; /* buffer, 0 until there is one */
+    uint32_t vertex_count;
     uint32_t *first; /* a mesh's first index; mesh_count + 1 entries, owned */
 } GlMeshes;
 
@@ -19,6 +29,9 @@ typedef struct GlMeshes {
  */
 WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
+
+/* Gives each vertex what its front and its back see of the sky; 1 until then. */
+WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
 
 /* Draws the triangles of one mesh; the vertex array must be bound. */
 void meshes_draw(const GlMeshes *meshes, int mesh);

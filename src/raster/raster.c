@@ -13,6 +13,7 @@
 #include "raster/environment.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
+#include "raster/occlusion.h"
 #include "raster/picture.h"
 #include "raster/programs.h"
 #include "raster/queue.h"
@@ -31,8 +32,9 @@ struct WeftRaster {
     GlMaterials materials;
     Programs programs;
     GlEnvironment environment;
-    unsigned background; /* program, 0 until it is needed */
-    bool shines;         /* the environment does */
+    unsigned background;  /* program, 0 until it is needed */
+    bool shines;          /* the environment does */
+    Occlusion *occlusion; /* NULL where none is wanted, or once it is uploaded */
     LightPolygons polygons;
     Shadows shadows;
     Target target;
@@ -115,6 +117,8 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     *out = NULL;
     if ((unsigned)desc->gl > WEFT_GL_ES) return fail(error, WEFT_MESSAGE_DESC, "gl", "%d", (int)desc->gl);
     TextLanguage language = desc->gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
+    if (desc->occlusion < 0 || desc->occlusion > 4096)
+        return fail(error, WEFT_MESSAGE_DESC, "occlusion", "%d", desc->occlusion);
     if (!scene->mesh_count) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
     WeftRaster *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -134,6 +138,8 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
         result = upload(self, desc, log, error);
         context_leave(self->context, &outer);
     }
+    if (result == WEFT_OK && desc->occlusion)
+        result = occlusion_start(scene, desc->occlusion, desc->threads, &self->occlusion, error);
     if (result == WEFT_OK)
         *out = self;
     else
@@ -149,6 +155,7 @@ void weft_raster_free(WeftRaster *self) {
         context_leave(self->context, &outer);
     }
     context_destroy(self->context);
+    occlusion_free(self->occlusion);
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
     free(self->shader_dir);
@@ -347,6 +354,25 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
+/* Uploads what the background has made. */
+static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
+    const float *values = self->occlusion ? occlusion_values(self->occlusion, wait) : NULL;
+    if (!values) return WEFT_OK;
+    WeftResult result = meshes_occlusion(&self->meshes, values, error);
+    occlusion_free(self->occlusion);
+    self->occlusion = NULL;
+    return result;
+}
+
+WeftResult weft_raster_settle(WeftRaster *self, WeftError *error) {
+    GlOuter outer;
+    if (!context_enter(self->context, &outer))
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
+    WeftResult result = take_occlusion(self, true, error);
+    context_leave(self->context, &outer);
+    return result;
+}
+
 WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, WeftError *error) {
     WeftRasterView view = *wanted;
     GlOuter outer;
@@ -360,7 +386,8 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
     set_state(self);
-    if (!view.no_shadows) result = draw_shadows(self, error);
+    result = take_occlusion(self, false, error);
+    if (result == WEFT_OK && !view.no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK)
         result = target_resize(&self->target, view.width, view.height, view.samples, error);
     if (result == WEFT_OK) {

@@ -7,6 +7,7 @@ layout(location = 2) in highp vec4 at_tangent;
 layout(location = 3) in highp vec2 at_texcoord_0;
 layout(location = 4) in highp vec2 at_texcoord_1;
 layout(location = 5) in highp vec4 at_color;
+layout(location = 6) in highp vec2 at_occlusion;
 
 out highp vec3 from_eye;
 out highp vec3 vertex_normal;
@@ -14,6 +15,7 @@ out highp vec4 vertex_tangent;
 out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
 out highp vec4 vertex_color;
+out highp vec2 vertex_occlusion;
 
 void main() {
     from_eye = at_position - eye.xyz;
@@ -22,5 +24,6 @@ void main() {
     texcoord_0 = at_texcoord_0;
     texcoord_1 = at_texcoord_1;
     vertex_color = at_color;
+    vertex_occlusion = at_occlusion;
     gl_Position = to_clip * vec4(from_eye, 1.0);
 }

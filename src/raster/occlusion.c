@@ -1,0 +1,114 @@
+#define _POSIX_C_SOURCE 200809L
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "raster/occlusion.h"
+
+#include "base/fail.h"
+#include "base/thread.h"
+#include "shading/frame.h"
+#include "shading/warp.h"
+#include "trace/geometry.h"
+
+enum { BLOCK = 256 }; /* vertices in one go */
+
+struct Occlusion {
+    const WeftScene *scene;
+    Geometry *geometry;
+    float *values;
+    uint32_t *first; /* vertex of a mesh */
+    int rays, threads;
+    atomic_int stop, done;
+    bool joined;
+    pthread_t thread;
+};
+
+static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
+
+/* The part of the sky above n that a point sees: directions by Christophe Schlick's grid of the golden ratio,
+ * turned for each vertex so that neighbours do not err alike. */
+static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t turn) {
+    Frame frame = frame_about(dir_of(n), dir(0.0f, 0.0f, 0.0f), 1.0f);
+    Vec3 from = vec3_madd(p, n, reach);
+    int seen = 0;
+    for (int k = 0; k < self->rays; k++) {
+        float u = ((float)k + 0.5f) / (float)self->rays;
+        float v = (float)k * 0.618033989f + (float)(turn * 2654435769u >> 8) * 0x1p-24f;
+        Dir d = frame_from(frame, warp_cosine(u, v - floor(v)));
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};
+        seen += !geometry_occluded(self->geometry, ray);
+    }
+    return (float)seen / (float)self->rays;
+}
+
+static void look(void *user, int item, int thread) {
+    Occlusion *self = user;
+    const WeftScene *scene = self->scene;
+    uint32_t count = self->first[scene->mesh_count], begin = (uint32_t)item * BLOCK;
+    uint32_t end = count - begin < BLOCK ? count : begin + BLOCK;
+    float reach = 1e-4f * vec3_length(vec3_sub(scene->high, scene->low));
+    int m = 0;
+    for (uint32_t k = begin; k < end && !atomic_load(&self->stop); k++) {
+        while (self->first[m + 1] <= k) m++;
+        const Mesh *mesh = &scene->meshes[m];
+        size_t at = 3 * (size_t)(k - self->first[m]);
+        float *to = self->values + 2 * (size_t)k;
+        to[0] = to[1] = 1.0f;
+        if (!mesh->normal) continue;
+        Vec3 p = vec3_load(mesh->position + at), n = vec3_load(mesh->normal + at);
+        to[0] = seen_from(self, p, n, reach, k);
+        if (scene->materials[mesh->material].double_sided)
+            to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k);
+    }
+}
+
+static void *work(void *user) {
+    Occlusion *self = user;
+    uint32_t count = self->first[self->scene->mesh_count];
+    parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
+    atomic_store(&self->done, 1);
+    return NULL;
+}
+
+WeftResult occlusion_start(const WeftScene *scene, int rays, int threads, Occlusion **out, WeftError *error) {
+    *out = NULL;
+    Occlusion *self = alloc_array(1, sizeof *self);
+    if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    self->scene = scene;
+    self->rays = rays;
+    self->threads = threads ? threads : thread_count();
+    self->joined = true;
+    self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
+    for (int m = 0; self->first && m < scene->mesh_count; m++)
+        self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
+    if (self->first) self->values = alloc_array(self->first[scene->mesh_count], 2 * sizeof(float));
+    WeftResult result = WEFT_OK;
+    if (!self->values) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK) result = geometry_create(scene, self->threads, &self->geometry, error);
+    if (result == WEFT_OK) {
+        self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
+        if (self->joined) work(self); /* no thread to be had: now, then */
+        *out = self;
+        return WEFT_OK;
+    }
+    occlusion_free(self);
+    return result;
+}
+
+const float *occlusion_values(Occlusion *self, bool wait) {
+    if (!wait && !atomic_load(&self->done)) return NULL;
+    if (!self->joined) pthread_join(self->thread, NULL);
+    self->joined = true;
+    return self->values;
+}
+
+void occlusion_free(Occlusion *self) {
+    if (!self) return;
+    atomic_store(&self->stop, 1);
+    if (!self->joined) pthread_join(self->thread, NULL);
+    geometry_free(self->geometry);
+    free(self->values);
+    free(self->first);
+    free(self);
+}
