@@ -313,24 +313,35 @@ static void put_ambient_slot(Text *text, const char *slot, const AmbientFit *fit
               t.rows, slot, t.columns);
     text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot,
               number(t.low).text, slot, number(t.high).text, slot, t.strategy);
-    text_line(text, "    t.%s.focus = %s;\n    t.%s.second = %s;\n    t.%s.turning = %s;", slot,
-              t.focus ? "true" : "false", slot, t.second ? "true" : "false", slot,
-              t.turning ? "true" : "false");
+    text_line(text,
+              "    t.%s.focus = %s;\n    t.%s.second = %s;\n    t.%s.turning = %s;\n"
+              "    t.%s.lossless = %s;",
+              slot, t.focus ? "true" : "false", slot, t.second ? "true" : "false", slot,
+              t.turning ? "true" : "false", slot, t.lossless ? "true" : "false");
 }
 
 static void put_ambient(Text *text, const ShaderKey *key, const KeySlots *found, Fits *fits) {
-    static const char *const names[TEXT_SLOTS] = {"diffuse", "specular", "sheen", "coat"};
-    const Lobe plain = lobe_default(LOBE_LAMBERT), dust = lobe_default(LOBE_LTC_FIBRE);
+    static const char *const names[TEXT_SLOTS + 1] = {"diffuse", "specular", "sheen", "coat", "dust"};
+    Lobe lobes[TEXT_SLOTS + 1];
+    int strategies[TEXT_SLOTS + 1];
+    bool same = true;
+    for (int k = 0; k <= TEXT_SLOTS; k++) {
+        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
+        lobes[k] = lobe_default(there && k == TEXT_SLOTS ? LOBE_LTC_FIBRE : LOBE_LAMBERT);
+        if (there && k < TEXT_SLOTS) lobes[k] = found->lobes[k];
+        strategies[k] = key->ambient > 1 ? key->ambient - 2 : ambient_strategy(lobes[k].id);
+        same &= strategies[k] == strategies[0];
+    }
+    char strategy[16];
+    snprintf(strategy, sizeof strategy, "%d", strategies[0]);
+    if (same) text_define(text, "AMBIENT_STRATEGY(t)", strategy);
     environment_text(text);
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k <= TEXT_SLOTS; k++) {
-        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
-        const Lobe *lobe = !there ? &plain : k < TEXT_SLOTS ? &found->lobes[k] : &dust;
-        const AmbientFit *fit = fits_get(fits, lobe);
+        const AmbientFit *fit = fits_get(fits, &lobes[k]);
         if (!fit) return;
-        put_ambient_slot(text, k < TEXT_SLOTS ? names[k] : "dust", fit,
-                         key->ambient > 1 ? key->ambient - 2 : ambient_strategy(lobe->id));
+        put_ambient_slot(text, names[k], fit, strategies[k]);
     }
     text_line(text, "    return t;\n}");
     text_define(text, "AMBIENT", "1");

@@ -50,6 +50,11 @@
 
 #define AMBIENT_SAMPLES 16
 
+/* A shader whose slots all have one strategy says so in place of this. */
+#ifndef AMBIENT_STRATEGY
+#define AMBIENT_STRATEGY(t) (t).strategy
+#endif
+
 /* Planes of a table, `rows` rows each: w_0 .. w_3 of the first colour; the sine of the angle of the lobe's
  * mean direction, which is above 0 on the side of wo, log2 of its kappa, and its tail, 0 of a Gaussian and 1
  * of ggx; w_0 .. w_3 of the second colour. */
@@ -57,7 +62,8 @@
 #define AMBIENT_PLANE_KAPPA  5
 #define AMBIENT_PLANE_TAIL   6
 #define AMBIENT_PLANE_SECOND 7
-#define AMBIENT_PLANES       11
+#define AMBIENT_PLANE_E      11 /* sums of the weights of the first colour and, behind it, of the second */
+#define AMBIENT_PLANES       13
 
 /* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From an eighth of
  * the lamps' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
@@ -75,6 +81,7 @@ STRUCT(AmbientTable) {
     float low, high;   /* roots of the parameter in the first and the last row */
     bool focus;        /* somewhere it is not broad */
     bool second;       /* it has a second colour */
+    bool lossless;     /* E is 1 everywhere */
     bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
     int strategy;
 };
@@ -276,28 +283,31 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Lobe
     AmbientSlot a;
     float p = lobe.params[0];
     AmbientSpot spot = ambient_spot(t, v.o.z, v.heading, p);
+    a.lamps = 0.0f;
+    if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
+        float first = t.lossless ? 1.0f : ambient_entry(t, spot, AMBIENT_PLANE_E), second = 0.0f;
+        if (t.second) second = ambient_entry(t, spot, AMBIENT_PLANE_E + 1);
+        Rgb l = rgb_scale(ambient_irradiance(s, v.z), v.occlusion);
+        a.e = first + second;
+        a.of.first = rgb_scale(l, first);
+        a.of.second = rgb_scale(l, second);
+        return a;
+    }
     AmbientWeights f = ambient_weights(t, spot, 0), g;
     g.a = 0.0f;
     g.b = 0.0f;
     g.c = 0.0f;
     g.d = 0.0f;
     if (t.second) g = ambient_weights(t, spot, AMBIENT_PLANE_SECOND);
-    a.lamps = 0.0f;
     a.e = ambient_sum(f) + ambient_sum(g);
-    if (t.strategy == AMBIENT_IRRADIANCE) {
-        Rgb l = rgb_scale(ambient_irradiance(s, v.z), v.occlusion);
-        a.of.first = rgb_scale(l, ambient_sum(f));
-        a.of.second = rgb_scale(l, ambient_sum(g));
-        return a;
-    }
-    if (t.strategy == AMBIENT_MIRROR) {
+    if (AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
         Dir r = dir(-v.o.x, -v.o.y, v.o.z);
         float kappa = exp2(ambient_entry(t, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_PLANE_KAPPA));
         a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), kappa), r, f, g);
         return a;
     }
     a.lamps = 1.0f;
-    if (!t.focus && t.strategy == AMBIENT_FITTED) {
+    if (!t.focus && AMBIENT_STRATEGY(t) == AMBIENT_FITTED) {
         a.of = ambient_mixed(s, v, f, g);
         return a;
     }
@@ -308,7 +318,7 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Lobe
           kappa = exp2(log2_kappa);
     Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
     a.lamps = 1.0f - narrow;
-    if (t.strategy == AMBIENT_SAMPLED) {
+    if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
         a.of = ambient_drawn(s, v, lobe, narrow, a.e);
         return a;
     }
@@ -420,8 +430,12 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
         if (m.nap.tilt > 0.0f) along.heading = v.tx * m.nap.x + v.ty * m.nap.y;
-        AmbientSlot a = ambient_slot(t.sheen, s, along, m.sheen.lobe);
-        float known = m.e_o.e > 0.0f && m.albedo == ALBEDO_TABLE ? m.e_o.e / max(a.e, 1e-20f) : 1.0f;
+        bool own =
+            m.albedo == ALBEDO_TABLE && m.table.kind != TABLE_NONE; /* E of the stack is the better one */
+        AmbientTable table = t.sheen;
+        table.lossless = t.sheen.lossless || (own && !t.sheen.second);
+        AmbientSlot a = ambient_slot(table, s, along, m.sheen.lobe);
+        float known = own ? m.e_o.e / max(a.e, 1e-20f) : 1.0f;
         Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
         sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known));
         lit.sheen = ambient_lit(m.sheen, a.lamps);

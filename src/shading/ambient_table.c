@@ -201,6 +201,7 @@ static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, in
     for (int c = 0; c < 2; c++) {
         double w[ATOMS];
         solve(fitter, b[c], cloud->e[c], w);
+        *entry(fit, side, AMBIENT_PLANE_E + c, row, column) = (float)cloud->e[c];
         for (int k = 0; k < ATOMS; k++)
             *entry(fit, side, (c ? AMBIENT_PLANE_SECOND : 0) + k, row, column) = (float)w[k];
     }
@@ -252,6 +253,17 @@ bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, floa
     return same(fit->low, low) && same(fit->high, high);
 }
 
+/* Whether nothing is lost, whatever wo. */
+static bool is_flat(const AmbientFit *fit) {
+    for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
+        for (int row = 0; row < fit->rows; row++)
+            for (int column = 0; column < AMBIENT_COLUMNS; column++) {
+                const float *plane = fit->texels[(side * AMBIENT_PLANES + AMBIENT_PLANE_E) * fit->rows + row];
+                if (fabsf(plane[column] - 1.0f) > 1e-4f) return false;
+            }
+    return true;
+}
+
 AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
     bool second = (weft_lobe_info(fit->lobe.id)->traits & TRAIT_TWO_COLORS) != 0;
     return (AmbientTable){.texels = fit->texels[0],
@@ -261,6 +273,7 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .high = fit->root_high,
                           .focus = fit->focus,
                           .second = second,
+                          .lossless = !second && is_flat(fit),
                           .turning = fit->turning,
                           .strategy = strategy};
 }

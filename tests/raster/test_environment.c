@@ -107,7 +107,8 @@ static int draw(TextLanguage language, const GlEnvironment *env, Text *text, con
         "0.0, 1.0);\n    Dir d = dir(s * cos(a), y, s * sin(a));\n    vec3 c = vec3(0.0);");
     text_line(text, "%s\n    fragment = vec4(c, 1.0);\n}", lines);
     if (text_end(text, &error) != WEFT_OK) fail_msg("%s", error.text);
-    GLuint program = program_create("a test", vertex, text->bytes, &error);
+    GLuint program =
+        program_create("a test", (ShaderSource){vertex, NULL}, (ShaderSource){text->bytes, text}, &error);
     if (!program) fail_msg("%s\n%s", error.text, text->bytes);
     glGenVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
