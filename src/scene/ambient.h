@@ -30,7 +30,8 @@ typedef struct AmbientParts {
     WeftImage rest; /* F32 RGB lat-long, AMBIENT_REST_WIDTH by half of that or less; owned */
 } AmbientParts;
 
-/* As many lamps as are enough, but at most `lamps`: 0, or 2 .. AMBIENT_LAMPS_MAX. Release with ambient_free. Fails with WEFT_MESSAGE_MEMORY.
+/* As many lamps as are enough, but at most `lamps`: 0, or 2 .. AMBIENT_LAMPS_MAX. Release with ambient_free.
+ * Fails with WEFT_MESSAGE_MEMORY.
  */
 WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts *out, WeftError *error);
 void ambient_free(AmbientParts *parts);

@@ -4,8 +4,8 @@
 
 #include "text/text.h"
 
-/* The functions of shading/lobe_tables.h, whose place this takes, for the tables that are made by now; those that
- * are baked always are. text_lobe calls it where it must. */
+/* The functions of shading/lobe_tables.h, whose place this takes, for the tables that are made by now; those
+ * that are baked always are. text_lobe calls it where it must. */
 void text_lobe_tables(Text *text);
 
 /* Defines the function of shading/engine_tables.h for those tables; any other is TABLE_NONE there, so E is 0.
