@@ -53,7 +53,8 @@ static Level level_at(int k) {
  * face of n by n is at the mean b^2 = 4 pi / (6 n^2). */
 static float sharpened(const Level *level) {
     const float pi = 3.14159265f;
-    float a = pi / (level->rest ? AMBIENT_REST_WIDTH / 2 : (float)(SOURCE_WIDTH / 2 >> level->source));
+    int width = level->rest ? AMBIENT_REST_WIDTH : SOURCE_WIDTH >> level->source;
+    float a = 2.0f * pi / (float)width;
     float b2 = 4.0f * pi / (6.0f * (float)(level->side * level->side));
     return 1.0f / (1.0f / level->kappa - a * a / 12.0f - b2 / 6.0f);
 }

@@ -31,8 +31,10 @@ static InputState state_of(const Input *input, InputKind kind) {
 }
 
 static bool same_texel(const Input *a, const Input *b) {
-    return a->texture == b->texture && a->texcoord == b->texcoord &&
-           memcmp(a->transform, b->transform, sizeof a->transform) == 0;
+    bool same = a->texture == b->texture && a->texcoord == b->texcoord;
+    for (int k = 0; k < 6; k++)
+        same &= !(a->transform[k] < b->transform[k]) && !(a->transform[k] > b->transform[k]);
+    return same;
 }
 
 static bool is_color(const Material *material, int k) {
@@ -47,13 +49,13 @@ static void add_map(GlMaterial *self, const GlTextures *textures, const Material
     int slot = 0;
     while (slot < self->group_count && self->groups[slot] != at.group) slot++;
     if (slot == self->group_count) self->groups[self->group_count++] = at.group;
-    to->slot = (int8_t)slot;
-    to->channel = (int8_t)input->channel;
-    to->texcoord = (int8_t)input->texcoord;
+    to->slot = (int16_t)slot;
+    to->channel = (int16_t)input->channel;
+    to->texcoord = (int16_t)input->texcoord;
     for (int j = k - 1; j >= 0; j--)
         if (material->inputs[j].texture && self->key.inputs[j].like < 0 &&
             is_color(material, j) == is_color(material, k) && same_texel(&material->inputs[j], input))
-            to->like = (int8_t)j;
+            to->like = (int16_t)j;
     for (int row = 0; row < 2; row++)
         for (int c = 0; c < 3; c++) uniforms->places[k][row][c] = input->transform[3 * row + c];
     uniforms->places[k][0][3] = (float)at.layer;
@@ -63,7 +65,7 @@ static void add_input(GlMaterial *self, const GlTextures *textures, const Materi
                       Uniforms *uniforms) {
     const Input *input = &material->inputs[k];
     InputKind kind = input_infos[k].kind;
-    self->key.inputs[k].state = (int8_t)state_of(input, kind);
+    self->key.inputs[k].state = (int16_t)state_of(input, kind);
     self->key.inputs[k].like = -1;
     for (int c = 0; c < 3; c++) uniforms->inputs[k][c] = input->value[c];
     if (kind == INPUT_DIRECTION) {

@@ -107,7 +107,7 @@ static void build(Programs *programs, Program *self) {
 
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
     Program *p = programs->first;
-    while (p && memcmp(&p->key, key, sizeof *key) != 0) p = p->next;
+    while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
     if (!p) {
         p = alloc_array(1, sizeof *p);
         if (!p) {

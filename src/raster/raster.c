@@ -293,20 +293,20 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
     key->shadowed = !view->no_shadows && self->shadows.count;
     key->lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
     for (int k = 0; k < key->lights && key->lights <= SHADER_LIGHTS; k++) {
-        key->light_kind[k] = (int8_t)scene->lights[k].kind;
+        key->light_kind[k] = (int16_t)scene->lights[k].kind;
         key->light_map[k] = -1;
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
-            if (self->shadows.of_light[j] == k) key->light_map[k] = (int8_t)j;
+            if (self->shadows.of_light[j] == k) key->light_map[k] = (int16_t)j;
     }
     bool ambient = self->shines && view->ambient != WEFT_AMBIENT_NONE;
     key->ambient = ambient ? (int)view->ambient + 1 : 0;
     key->polygons = view->polygons < self->polygons.count ? view->polygons : self->polygons.count;
     for (int k = 0; k < key->polygons; k++) {
-        key->polygon_corners[k] = (int8_t)self->polygons.items[k].count;
+        key->polygon_corners[k] = (int16_t)self->polygons.items[k].count;
         key->polygon_two_sided[k] = self->polygons.items[k].two_sided;
         key->polygon_map[k] = -1;
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
-            if (self->shadows.of_polygon[j] == k) key->polygon_map[k] = (int8_t)j;
+            if (self->shadows.of_polygon[j] == k) key->polygon_map[k] = (int16_t)j;
     }
 }
 

@@ -15,9 +15,9 @@
 typedef enum InputState { INPUT_VALUE, INPUT_ZERO, INPUT_ONE, INPUT_MAP } InputState;
 
 typedef struct ShaderInput {
-    int8_t state;
-    int8_t slot, channel, texcoord; /* of a map: sampler, channel of a number, UV set */
-    int8_t like;                    /* the earlier input whose texel this is, or -1 */
+    int16_t state;
+    int16_t slot, channel, texcoord; /* of a map: sampler, channel of a number, UV set */
+    int16_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
 /* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
@@ -30,10 +30,10 @@ typedef struct ShaderKey {
     int depth;    /* only where the surface is: for shadow maps */
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
-    int8_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
+    int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */
-    int8_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
+    int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;

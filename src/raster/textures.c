@@ -160,6 +160,20 @@ static WeftResult fill_groups(GlTextures *self, const Plan *plan, WeftError *err
     return gl_check(error, "textures");
 }
 
+static WeftResult upload(GlTextures *self, Plan *plan, const WeftLog *log, WeftError *error) {
+    const char *name = plan->scene->name;
+    if (make_plan(plan) > TEXTURE_SLOTS) {
+        plan->one_size = true;
+        if (make_plan(plan) > TEXTURE_SLOTS)
+            return fail(error, WEFT_MESSAGE_GL_MEMORY, name,
+                        "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
+        warn(log, WEFT_MESSAGE_TEXTURES_SCALED, name, NULL);
+    }
+    self->group_count = plan->count;
+    glGenTextures(plan->count, self->groups);
+    return fill_groups(self, plan, error);
+}
+
 WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLog *log, WeftError *error) {
     *out = (GlTextures){0};
     if (!scene->texture_count) return WEFT_OK;
@@ -170,22 +184,9 @@ WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLo
     plan.groups = alloc_array(count, sizeof(Group));
     out->places = plan.places = alloc_array(count, sizeof(TexturePlace));
     out->groups = alloc_array(count, sizeof(GLuint));
-    WeftResult result = WEFT_OK;
-    if (!plan.groups || !plan.places || !out->groups) {
-        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    } else if (make_plan(&plan) > TEXTURE_SLOTS) {
-        plan.one_size = true;
-        if (make_plan(&plan) > TEXTURE_SLOTS)
-            result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name,
-                          "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
-        else
-            warn(log, WEFT_MESSAGE_TEXTURES_SCALED, scene->name, NULL);
-    }
-    if (result == WEFT_OK) {
-        out->group_count = plan.count;
-        glGenTextures(plan.count, out->groups);
-        result = fill_groups(out, &plan, error);
-    }
+    bool held = plan.groups && plan.places && out->groups;
+    WeftResult result =
+        held ? upload(out, &plan, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(plan.groups);
     if (result != WEFT_OK) textures_destroy(out);
     return result;

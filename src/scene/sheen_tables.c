@@ -82,6 +82,18 @@ static WeftResult find_table(SheenTables *self, const Material *material, int th
     return WEFT_OK;
 }
 
+/* worn: by some mesh. */
+static WeftResult find_all(SheenTables *self, const WeftScene *scene, bool *worn, int threads,
+                           WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int m = 0; m < scene->mesh_count; m++) worn[scene->meshes[m].material] = true;
+    for (int k = 0; k < scene->material_count && result == WEFT_OK; k++) {
+        self->index[k] = -1;
+        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->index[k], error);
+    }
+    return result;
+}
+
 WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error) {
     size_t count = (size_t)scene->material_count;
     SheenTables *self = alloc_array(1, sizeof *self);
@@ -90,17 +102,9 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
         self->tables = alloc_array(count, sizeof(AlbedoTable *));
         self->index = alloc_array(count, sizeof(int));
     }
-    WeftResult result = WEFT_OK;
-    if (!worn || !self || !self->tables || !self->index)
-        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int m = 0; m < scene->mesh_count && result == WEFT_OK; m++) {
-        const Mesh *mesh = &scene->meshes[m];
-        worn[mesh->material] = true;
-    }
-    for (size_t k = 0; k < count && result == WEFT_OK; k++) {
-        self->index[k] = -1;
-        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->index[k], error);
-    }
+    bool held = worn && self && self->tables && self->index;
+    WeftResult result = held ? find_all(self, scene, worn, threads, error)
+                             : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(worn);
     if (result == WEFT_OK)
         *out = self;

@@ -1,0 +1,103 @@
+/* `weft render` with the raster engine: its options, sheets of both, turntables, lights; and what is refused
+ */
+#include "run.h"
+
+#include <jansson.h>
+
+#define TINY "--width=48", "--height=36"
+
+/* Skips where there is no OpenGL. */
+static void need_gl(void) {
+    Ran ran = run_with(
+        NULL, LIST("render", "builtin:spheres", TINY, "-o", "probe.png", "--engine=raster", "--quiet"));
+    bool none = ran.code != 0 && strstr(ran.err, "OpenGL");
+    if (none) print_message("%s", ran.err);
+    if (!none && ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+    ran_free(&ran);
+    if (none) skip();
+}
+
+static void raster_draws(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran =
+        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "--engine",
+                            "raster", "--gl=es", "--json", "--light", "sun;-1,-2,-1;3,3,3", "--polygons=0",
+                            "--occlusion=4", "--ambient=irradiance", "--crop=10,5,20,15"));
+    if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+    json_t *all = json_loads(ran.out, 0, NULL);
+    assert_non_null(all);
+    assert_string_equal(json_string_value(json_object_get(all, "engine")), "raster");
+    assert_true(strlen(json_string_value(json_object_get(all, "driver"))) > 3);
+    json_decref(all);
+    ran_free(&ran);
+}
+
+static void both_stand_side_by_side(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "both.png", "--engine=both",
+                                  "--spp=4", "--json"));
+    if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+    json_t *all = json_loads(ran.out, 0, NULL);
+    assert_int_equal(json_array_size(all), 2);
+    json_t *difference = json_object_get(json_array_get(all, 1), "difference");
+    assert_true(json_number_value(json_object_get(difference, "relmse")) > 0.0);
+    json_decref(all);
+    ran_free(&ran);
+}
+
+static void turntables_number_their_pictures(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = run_with(
+        NULL, LIST("render", "builtin:spheres", TINY, "-o", "turn.png", "--engine=raster", "--turntable=3"));
+    if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+    ran_free(&ran);
+    for (int k = 0; k < 3; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "turn-%03d.png", k);
+        assert_int_equal(access(name, R_OK), 0);
+    }
+    assert_true(access("turn-003.png", R_OK) != 0);
+    assert_true(access("turn.png", R_OK) != 0);
+    ran =
+        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "one.png", "--turntable=2", "--spp=1"));
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    assert_int_equal(access("one-001.png", R_OK), 0);
+}
+
+static void refuses(const char *const *arguments, const char *words) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 2 || !strstr(ran.err, words)) fail_msg("exit %d: %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
+static void what_makes_no_sense_is_refused(void **state) {
+    (void)state;
+    static const char *const lights[] = {"sun",
+                                         "moon;1,2,3;1,1,1",
+                                         "sun;1,2;1,1,1",
+                                         "point;1,2,3",
+                                         "spot;0,0,0;0,1,0;1,1,1;9",
+                                         "sun;1,2,3;1,1,1;4",
+                                         "sun;0,0,x;1,1,1"};
+    for (size_t k = 0; k < sizeof lights / sizeof lights[0]; k++)
+        refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", lights[k]), "--light");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "sun;0,0,0;1,1,1"), "light");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=vulkan"), "--engine");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--ambient=dark"), "--ambient");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"),
+            "both");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.exr", "--engine=both"), "sheet");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--turntable=3"),
+            "--turntable");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(raster_draws), cmocka_unit_test(both_stand_side_by_side),
+        cmocka_unit_test(turntables_number_their_pictures), cmocka_unit_test(what_makes_no_sense_is_refused)};
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}
