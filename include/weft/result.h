@@ -37,7 +37,7 @@ typedef enum WeftResult {
     M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr .npy)")                \
     M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA HDR EXR NPY)")                   \
     M(IMAGE_SIZE, INPUT, "claims more pixels than can be meant")                                             \
-    M(CUBEMAP, INPUT, "is no cubemap of posx negx ... or px nx ...")                                         \
+    M(CUBEMAP, INPUT, "is not a cubemap whose six faces are named as posx or px")                            \
     M(IMAGE_DAMAGED, INPUT, "is damaged")                                                                    \
     M(IMAGE_UNSUPPORTED, INPUT, "uses an image feature that is not supported")                               \
     M(IMAGE_REPAIRED, WARNING, "was repaired")                                                               \

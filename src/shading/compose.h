@@ -118,6 +118,10 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
         m.e_avg = table_sheen_nap_average(e, m.nap, m.at);
         float keep = rgb_mean(stack_keep(m, m.e_o));
         m.sheen.pick = m.layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m.sheen.pick * m.e_o.e, 1e-3f);
+        if (m.layer == LAYER_MULTIPLICATIVE) {
+            m.sheen.f0 = rgb_grey(0.0f);
+            m.sheen.f90 = m.sheen.f0;
+        }
         m.diffuse.pick = m.diffuse.pick * keep;
         if (m.layer != LAYER_SEED) m.specular.pick = m.specular.pick * keep;
     }

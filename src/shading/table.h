@@ -170,7 +170,12 @@ FN SheenE table_sheen(TableRef m, float cos_o, float p) {
     if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
     return sheen_e_tinted(e, table_map(m, 1, at), table_map(m, 2, at), table_map(m, 3, at));
 }
-FN float table_albedo(TableRef m, float cos_o, float p) { return table_sheen(m, cos_o, p).e; }
+/* E of any table, the sheen's or not. */
+FN float table_albedo(TableRef m, float cos_o, float p) {
+    if (m.kind == TABLE_LINEAR) return table_linear(m, cos_o, p);
+    if (m.kind == TABLE_NONE) return 0.0f;
+    return table_roots(m, cos_o, p);
+}
 
 /* Where the maps for headings begin. */
 FN int table_headings(TableRef m) { return SHEEN_KIND(m) == TABLE_TINTED ? 4 : 1; }
