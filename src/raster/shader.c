@@ -80,6 +80,7 @@ static KeySlots find_slots(const ShaderKey *key) {
         Surface s = full_surface(0.5f * (float)x);
         leave_out(key, &s);
         stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
         const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
         for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
         found.worn &= m.layer != LAYER_SEED;
