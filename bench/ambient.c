@@ -1,12 +1,12 @@
 /* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
  *
- *   bench_ambient [--lamps N] [--quick] MAP.hdr ...
+ *   bench_ambient [--lamps N] [--quick] [--only LOBE] [--tables] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
  * first over roughness 0.1 .. 1 together, then the roughness with the greatest. The reference is multiple
  * importance sampling between the lobe's sampler and the map's radiance; the strategies run as the shader has
- * them, with the sums of ambient_source.h over all texels. `base` is a white dielectric, f0 0.04: lambert
- * under ggx. */
+ * them, with the sums of ambient_source.h over all texels. --tables holds none of them. `base` is a white
+ * dielectric, f0 0.04: lambert under ggx. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +21,7 @@
 
 enum { LEVELS = 16, AZIMUTHS = 12, SIDES = 2, PIXELS = LEVELS * AZIMUTHS * SIDES, ROUGHNESSES = 10 };
 enum { LOBE_DRAWS = 2048, MAP_DRAWS = 2048, CELLS_WIDTH = 256, CELLS_HEIGHT = 128 };
+enum { SMALL_WIDTH = 128 };
 enum { BASE = LOBE_COUNT, SUBJECTS };
 
 /* A pixel of the sphere: its frame, x towards wo for round lobes; and how much of the picture it is. */
@@ -31,6 +32,7 @@ typedef struct Pixel {
 } Pixel;
 
 static Pixel pixels[PIXELS];
+static struct Map *maps;
 
 static void make_pixels(void) {
     const Vec3 eyes[SIDES] = {{0.0f, 0.0f, 1.0f}, {-0.787f, 0.344f, -0.492f}};
@@ -114,34 +116,7 @@ typedef struct Look {
     const Pixel *pixel;
 } Look;
 
-enum { LOOKS = 128, REST_LEVELS = 4, REST_WIDTH = 64, REST_HEIGHT = 32 };
-static const float rest_kappas[REST_LEVELS] = {50.0f, 12.5f, 3.125f, 0.0f};
-static WeftImage rests[16][REST_LEVELS]; /* of each map, filtered */
-
-/* Every texel of the filtered image is the mean of all of the other. */
-static void filter_rest(const WeftImage *from, float kappa, WeftImage *to) {
-    if (weft_image_create(REST_WIDTH, REST_HEIGHT, 3, WEFT_PIXEL_F32, to, NULL) != WEFT_OK) exit(4);
-    int n = from->width * from->height;
-    const float *p = from->pixels;
-    Vec3 *directions = calloc((size_t)n, sizeof *directions);
-    if (!directions) exit(4);
-    for (int j = 0; j < n; j++)
-        directions[j] =
-            latlong_direction((j % from->width + 0.5) / from->width, (j / from->width + 0.5) / from->height);
-    for (int k = 0; k < REST_WIDTH * REST_HEIGHT; k++) {
-        Vec3 d = latlong_direction((k % REST_WIDTH + 0.5) / REST_WIDTH, (k / REST_WIDTH + 0.5) / REST_HEIGHT);
-        double sum[3] = {0.0}, all = 0.0;
-        for (int j = 0; j < n; j++) {
-            float mu = vec3_dot(d, directions[j]), y = directions[j].y;
-            double w = (double)(kappa > 0.0f ? exp(kappa * (mu - 1.0f)) : max(mu, 0.0f));
-            w *= (double)sqrt(1.0f - y * y);
-            all += w;
-            for (int c = 0; c < 3; c++) sum[c] += w * (double)p[3 * j + c];
-        }
-        for (int c = 0; c < 3; c++) ((float *)to->pixels)[3 * k + c] = (float)(sum[c] / all);
-    }
-    free(directions);
-}
+enum { LOOKS = 128 };
 
 static Rgb look_up(const WeftImage *image, Vec3 d) {
     float c[3];
@@ -175,14 +150,11 @@ static Rgb look_irradiance(const void *user, Dir w) {
         for (int j = 0; j < 3; j++) c[j] += look->map->parts.terms[k][j] * p[k];
     return rgb(max(c[0], 0.0f), max(c[1], 0.0f), max(c[2], 0.0f));
 }
-static Map *maps;
 static Rgb look_rest(const void *user, Dir w, float kappa) {
     const Look *look = user;
-    Vec3 d = to_world(look->pixel, w);
-    for (int k = 0; k < REST_LEVELS; k++)
-        if (!(kappa < rest_kappas[k]) && !(kappa > rest_kappas[k]))
-            return look_up(&rests[look->map - maps][k], d);
-    return look_about(&look->map->parts.rest, d, min(kappa, 200.0f));
+    float c[3];
+    ambient_rest_about(&look->map->parts, to_world(look->pixel, w), kappa, c);
+    return rgb(c[0], c[1], c[2]);
 }
 static AmbientLight look_light(const void *user, int k) {
     const Look *look = user;
@@ -255,14 +227,49 @@ static Rgb reference(const Map *map, const Pixel *p, const Stack *m, const Draw2
     return rgb((float)sum[0], (float)sum[1], (float)sum[2]);
 }
 
-static const AmbientFit *fit_of(const AmbientFit *fits, int lobe) { return &fits[lobe]; }
-static AmbientFit *fits;
+static AmbientFit *fits; /* of each lobe */
+static bool tables_only; /* nothing is held */
+
+/* The tables of one subject, held where a shader would hold them. */
+typedef struct Held {
+    AmbientWeights polynomials[3 * AMBIENT_HELD];
+    AmbientFit fit;
+} Held;
+
+static AmbientTable table_of(Held *held, int slot, const Lobe *lobe) {
+    AmbientTable t = ambient_table(&fits[lobe->id], AMBIENT_FITTED);
+    if (tables_only) return t;
+    ambient_fit(&held->fit, lobe, lobe->params[0], lobe->params[0], 1);
+    ambient_hold(&held->fit, held->polynomials + slot * AMBIENT_HELD);
+    t.focus = held->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
+    t.turning = held->fit.turning;
+    t.lossless = false;
+    t.held = slot * AMBIENT_HELD;
+    return t;
+}
+
+static AmbientTables tables_of(Held *held, const Stack *m) {
+    AmbientTable none = ambient_table(&fits[LOBE_LAMBERT], AMBIENT_FITTED);
+    AmbientTables tables = {none, none, none, none, none};
+    if (m->diffuse.pick > 0.0f) tables.diffuse = table_of(held, 0, &m->diffuse.lobe);
+    if (m->specular.pick > 0.0f) tables.specular = table_of(held, 1, &m->specular.lobe);
+    if (m->sheen.pick > 0.0f) tables.sheen = table_of(held, 2, &m->sheen.lobe);
+    return tables;
+}
+
+static AmbientTables by_strategy(AmbientTables t, int strategy) {
+    t.diffuse.strategy = t.specular.strategy = t.sheen.strategy = strategy;
+    return t;
+}
 
 static void measure(void *user, int item, int thread) {
     (void)user, (void)thread;
     int subject = item / ROUGHNESSES, r = item % ROUGHNESSES;
     if (!used(subject) || r % step != step - 1) return;
     Draw2 *draws = alloc_array(LOBE_DRAWS, sizeof *draws);
+    Held *held = alloc_array(1, sizeof *held);
+    Stack some = subject_stack(subject, 0.1f * (float)(r + 1), dir(0.0f, 0.0f, 1.0f));
+    AmbientTables tables = tables_of(held, &some);
     for (int n = 0; n < PIXELS; n++) {
         const Pixel *p = &pixels[n];
         Stack m = subject_stack(subject, 0.1f * (float)(r + 1), p->o);
@@ -281,17 +288,11 @@ static void measure(void *user, int item, int thread) {
                                         look_light,
                                         &look,
                                         maps[k].parts.lamp_count,
-                                        maps[k].parts.lamp_kappa};
+                                        maps[k].parts.lamp_kappa,
+                                        held->polynomials};
             Rgb truth = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                if (getenv("FIT") && s != 2) continue;
-                AmbientTable none = ambient_table(fit_of(fits, LOBE_LAMBERT), s);
-                AmbientTables tables = {none, none, none, none, none};
-                if (m.diffuse.pick > 0.0f) tables.diffuse = ambient_table(fit_of(fits, m.diffuse.lobe.id), s);
-                if (m.specular.pick > 0.0f)
-                    tables.specular = ambient_table(fit_of(fits, m.specular.lobe.id), s);
-                if (m.sheen.pick > 0.0f) tables.sheen = ambient_table(fit_of(fits, m.sheen.lobe.id), s);
-                Rgb got = stack_ambient(m, p->o, tables, &calls, 1.0f);
+                Rgb got = stack_ambient(m, p->o, by_strategy(tables, s), &calls, 1.0f);
                 double *sum = results[subject][r][s][k];
                 sum[0] +=
                     p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));
@@ -299,6 +300,7 @@ static void measure(void *user, int item, int thread) {
             }
         }
     }
+    free(held);
     free(draws);
 }
 
@@ -339,12 +341,10 @@ static bool load(Map *map, const char *path) {
     map->name = slash ? slash + 1 : path;
     map->environment = scene->environment; /* stays until the end */
     if (latlong_resize(&map->environment.image, CELLS_WIDTH, CELLS_HEIGHT, &map->cells, &error) != WEFT_OK ||
-        latlong_resize(&map->environment.image, AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, &map->small,
-                       &error) != WEFT_OK ||
+        latlong_resize(&map->environment.image, SMALL_WIDTH, SMALL_WIDTH / 2, &map->small, &error) !=
+            WEFT_OK ||
         ambient_split(&map->environment, lamp_count, &map->parts, &error) != WEFT_OK)
         return false;
-    for (int level = 0; level < REST_LEVELS; level++)
-        filter_rest(&map->parts.rest, rest_kappas[level], &rests[map - maps][level]);
     prepare_draws(map);
     return true;
 }
@@ -357,6 +357,8 @@ int main(int argc, char **argv) {
     for (int k = 1; k < argc; k++) {
         if (strcmp(argv[k], "--quick") == 0)
             step = 3;
+        else if (strcmp(argv[k], "--tables") == 0)
+            tables_only = true;
         else if (strcmp(argv[k], "--lamps") == 0 && k + 1 < argc)
             lamp_count = atoi(argv[++k]);
         else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc)
@@ -372,14 +374,6 @@ int main(int argc, char **argv) {
             ambient_fit(&fits[lobe], &at, min(a, b), max(a, b), 0);
     }
     parallel_for(0, SUBJECTS * ROUGHNESSES, measure, NULL);
-    if (getenv("PER"))
-        for (int q = 0; q < SUBJECTS; q++)
-            if (used(q))
-                for (int k = 0; k < map_count; k++) {
-                    for (int r = 0; r < ROUGHNESSES; r++)
-                        printf(" %.1f", 100 * results[q][r][2][k][0] / results[q][r][2][k][1]);
-                    printf("\n");
-                }
     print_results();
     return 0;
 }

@@ -15,37 +15,32 @@
 #include "raster/program.h"
 
 /* Raised whenever the same pixels would give other cubes. */
-enum { FILTER = 1 };
+enum { FILTER = 2 };
 
 enum { SOURCE_WIDTH = 512, SOURCE_LEVELS = 5 };
 
 static const unsigned char magic[8] = {'w', 'e', 'f', 't', '-', 'e', 'n', 'v'};
 
+/* Degree 3 of irradiance is nothing and not sent. */
+enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
+
 /* The block Environment, as the shader has it. */
 typedef struct Block {
-    float place[4], terms[AMBIENT_TERMS][4], lamps[2 * AMBIENT_LAMPS_MAX][4];
+    float place[4], terms[IRRADIANCE_TERMS][4], rest[AMBIENT_REST_TERMS][4], lamps[2 * AMBIENT_LAMPS_MAX][4];
 } Block;
 
 /* One level of a cube, and where it comes from. */
 typedef struct Level {
-    bool rest;
     int level, side;
-    int source;  /* level of the source texture */
-    float kappa; /* 0: the cosine */
+    int source; /* level of the source texture */
+    float kappa;
 } Level;
-
-enum { LEVELS = ENVIRONMENT_LEVELS + ENVIRONMENT_REST_LEVELS };
 
 /* Texels of the source are about 0.7 of the width 1 / sqrt(kappa) that they are asked for: a sum over such
  * steps is the integral to far below 1e-6 (Poisson's formula), and what the steps blur is taken off kappa. */
 static Level level_at(int k) {
-    if (k >= ENVIRONMENT_LEVELS) {
-        int m = k - ENVIRONMENT_LEVELS;
-        float kappa = m == ENVIRONMENT_REST_LEVELS - 1 ? 0.0f : ldexpf(ENVIRONMENT_REST_KAPPA, -2 * m);
-        return (Level){true, m, ENVIRONMENT_REST_SIDE >> m, 0, kappa};
-    }
     int source = k < SOURCE_LEVELS ? k : SOURCE_LEVELS - 1;
-    return (Level){false, k, ENVIRONMENT_SIDE >> k, source, ldexpf(ENVIRONMENT_KAPPA, -2 * k)};
+    return (Level){k, ENVIRONMENT_SIDE >> k, source, ldexpf(ENVIRONMENT_KAPPA, -2 * k)};
 }
 
 /* kappa to filter by, so that a look-up has that of the level: a source texel of height a is a box of
@@ -53,8 +48,7 @@ static Level level_at(int k) {
  * face of n by n is at the mean b^2 = 4 pi / (6 n^2). */
 static float sharpened(const Level *level) {
     const float pi = 3.14159265f;
-    int width = level->rest ? AMBIENT_REST_WIDTH : SOURCE_WIDTH >> level->source;
-    float a = 2.0f * pi / (float)width;
+    float a = 2.0f * pi / (float)(SOURCE_WIDTH >> level->source);
     float b2 = 4.0f * pi / (6.0f * (float)(level->side * level->side));
     return 1.0f / (1.0f / level->kappa - a * a / 12.0f - b2 / 6.0f);
 }
@@ -113,11 +107,10 @@ static void write_cache(uint64_t key, const uint16_t *texels, const WeftLog *log
     free(data);
 }
 
-/* All that the cubes depend on: the pixels, or the colour; the number of lamps; the filter. */
-static uint64_t cubes_key(const Environment *e, int lamps) {
-    const int sizes[] = {
-        FILTER, (int)e->kind == ENVIRONMENT_CONSTANT, e->image.width, e->image.height, e->image.channels,
-        lamps};
+/* All that the cube depends on: the pixels, or the colour; and the filter. */
+static uint64_t cube_key(const Environment *e) {
+    const int sizes[] = {FILTER, (int)e->kind == ENVIRONMENT_CONSTANT, e->image.width, e->image.height,
+                         e->image.channels};
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
     if (e->kind == ENVIRONMENT_CONSTANT) return cache_hash(hash, e->color, sizeof e->color);
     return cache_hash(hash, e->image.pixels,
@@ -158,16 +151,7 @@ static WeftResult make_source(const Environment *e, unsigned *texture, WeftError
     return result;
 }
 
-static unsigned make_rest_source(const WeftImage *rest) {
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    texture_plain(GL_TEXTURE_2D);
-    upload_source(rest, 0);
-    return texture;
-}
-
-static unsigned make_cube(int side, int levels, const uint16_t *texels) {
+static unsigned make_cube(const uint16_t *texels) {
     GLuint cube;
     glGenTextures(1, &cube);
     glBindTexture(GL_TEXTURE_CUBE_MAP, cube);
@@ -175,11 +159,12 @@ static unsigned make_cube(int side, int levels, const uint16_t *texels) {
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, levels - 1);
-    uint16_t *rgba = texels ? alloc_array((size_t)side * (size_t)side, 4 * sizeof *rgba) : NULL;
-    for (int level = 0; level < levels; level++)
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, ENVIRONMENT_LEVELS - 1);
+    uint16_t *rgba =
+        texels ? alloc_array((size_t)ENVIRONMENT_SIDE * ENVIRONMENT_SIDE, 4 * sizeof *rgba) : NULL;
+    for (int level = 0; level < ENVIRONMENT_LEVELS; level++)
         for (GLuint face = 0; face < 6; face++) {
-            int n = side >> level;
+            int n = ENVIRONMENT_SIDE >> level;
             for (size_t k = 0; rgba && k < (size_t)n * (size_t)n; k++, texels += 3) {
                 memcpy(rgba + 4 * k, texels, 3 * sizeof *texels);
                 rgba[4 * k + 3] = 0x3c00; /* 1 */
@@ -242,9 +227,9 @@ static unsigned make_program(const EnvironmentHow *how, WeftError *error) {
 /* Draws one level, and takes it back for the cache. */
 static void filter_level(unsigned program, const Level *level, unsigned cube, unsigned source,
                          uint16_t *texels) {
-    float kappa = level->kappa > 0.0f ? sharpened(level) : 0.0f;
+    float kappa = sharpened(level);
     /* a three-thousandth of the weight is beyond: exp(kappa (cos(reach) - 1)) */
-    float least = kappa > 0.0f ? fmaxf(1.0f - 8.0f / kappa, -1.0f) : 0.0f;
+    float least = fmaxf(1.0f - 8.0f / kappa, -1.0f);
     size_t count = (size_t)level->side * (size_t)level->side;
     float *rgba = texels ? alloc_array(count, 4 * sizeof *rgba) : NULL;
     glViewport(0, 0, level->side, level->side);
@@ -268,9 +253,9 @@ static bool stopped(const EnvironmentHow *how, float done) {
     return how->progress && how->progress(how->user, done);
 }
 
-/* Both cubes; texels may be NULL. */
+/* texels may be NULL. */
 static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *how, unsigned source,
-                             unsigned rest, uint16_t *texels, WeftError *error) {
+                             uint16_t *texels, WeftError *error) {
     GLuint framebuffer, vertices;
     unsigned program = make_program(how, error);
     if (!program) return error ? error->result : WEFT_RESOURCES;
@@ -287,13 +272,12 @@ static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *ho
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "source"), 0);
-    for (int k = 0; k < LEVELS && result == WEFT_OK; k++) {
+    for (int k = 0; k < ENVIRONMENT_LEVELS && result == WEFT_OK; k++) {
         Level level = level_at(k);
-        filter_level(program, &level, level.rest ? self->rest : self->cube, level.rest ? rest : source,
-                     texels);
+        filter_level(program, &level, self->cube, source, texels);
         if (texels) texels += 3 * level_texels(&level);
         glFinish();
-        if (stopped(how, 0.2f + 0.75f * (float)(k + 1) / LEVELS)) result = WEFT_INTERRUPTED;
+        if (stopped(how, 0.2f + 0.75f * (float)(k + 1) / ENVIRONMENT_LEVELS)) result = WEFT_INTERRUPTED;
     }
     if (result == WEFT_OK) result = gl_check(error, "an environment");
     glUseProgram(0);
@@ -305,39 +289,39 @@ static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *ho
     return result;
 }
 
-static WeftResult filter_cubes(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
-                               uint16_t *texels, WeftError *error) {
-    Environment plain = *environment;
-    unsigned source = 0, rest = make_rest_source(&self->parts.rest);
-    self->cube = make_cube(ENVIRONMENT_SIDE, ENVIRONMENT_LEVELS, NULL);
-    self->rest = make_cube(ENVIRONMENT_REST_SIDE, ENVIRONMENT_REST_LEVELS, NULL);
-    if (plain.kind == ENVIRONMENT_CONSTANT) plain.image = self->parts.rest; /* which is that colour */
-    WeftResult result = make_source(&plain, &source, error);
-    if (result == WEFT_OK && stopped(how, 0.2f)) result = WEFT_INTERRUPTED;
-    if (result == WEFT_OK) result = filter_all(self, how, source, rest, texels, error);
-    glDeleteTextures(1, &source);
-    glDeleteTextures(1, &rest);
+/* A picture of the one colour there is. */
+static WeftResult constant_image(const float color[3], WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(2, 1, 3, WEFT_PIXEL_F32, out, error);
+    for (int k = 0; result == WEFT_OK && k < 6; k++) ((float *)out->pixels)[k] = color[k % 3];
     return result;
 }
 
-static WeftResult make_cubes(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
-                             int lamps, const WeftLog *log, WeftError *error) {
-    uint64_t key = how->no_cache ? 0 : cubes_key(environment, lamps);
+static WeftResult filter_cube(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
+                              uint16_t *texels, WeftError *error) {
+    Environment plain = *environment;
+    unsigned source = 0;
+    bool one = plain.kind == ENVIRONMENT_CONSTANT;
+    WeftResult result = one ? constant_image(plain.color, &plain.image, error) : WEFT_OK;
+    self->cube = make_cube(NULL);
+    if (result == WEFT_OK) result = make_source(&plain, &source, error);
+    if (one) weft_image_free(&plain.image);
+    if (result == WEFT_OK && stopped(how, 0.2f)) result = WEFT_INTERRUPTED;
+    if (result == WEFT_OK) result = filter_all(self, how, source, texels, error);
+    glDeleteTextures(1, &source);
+    return result;
+}
+
+static WeftResult find_cube(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
+                            const WeftLog *log, WeftError *error) {
+    uint64_t key = how->no_cache ? 0 : cube_key(environment);
     uint16_t *texels = how->no_cache ? NULL : alloc_array(3 * (size_t)ENVIRONMENT_TEXELS, sizeof *texels);
     WeftResult result = WEFT_OK;
     self->cached = texels && read_cache(key, texels, log);
     if (self->cached) {
-        Level first = level_at(ENVIRONMENT_LEVELS);
-        size_t rest = (size_t)ENVIRONMENT_TEXELS;
-        for (int k = ENVIRONMENT_LEVELS; k < LEVELS; k++) {
-            Level level = level_at(k);
-            rest -= level_texels(&level);
-        }
-        self->cube = make_cube(ENVIRONMENT_SIDE, ENVIRONMENT_LEVELS, texels);
-        self->rest = make_cube(first.side, ENVIRONMENT_REST_LEVELS, texels + 3 * rest);
+        self->cube = make_cube(texels);
         result = gl_check(error, "an environment");
     } else {
-        result = filter_cubes(self, environment, how, texels, error);
+        result = filter_cube(self, environment, how, texels, error);
         if (result == WEFT_OK && texels) write_cache(key, texels, log);
     }
     free(texels);
@@ -345,8 +329,12 @@ static WeftResult make_cubes(GlEnvironment *self, const Environment *environment
 }
 
 static void make_buffer(GlEnvironment *self) {
-    Block block = {{1.0f, 0.0f, 1.0f, (float)self->parts.lamp_count}, {{0.0f}}, {{0.0f}}};
-    for (int k = 0; k < AMBIENT_TERMS; k++) memcpy(block.terms[k], self->parts.terms[k], 3 * sizeof(float));
+    Block block = {.place = {1.0f, 0.0f, 1.0f, (float)self->parts.lamp_count}};
+    for (int k = 0; k < IRRADIANCE_TERMS; k++)
+        memcpy(block.terms[k], self->parts.terms[k < DEGREE_3 ? k : k - DEGREE_3 + DEGREE_4],
+               3 * sizeof(float));
+    for (int k = 0; k < AMBIENT_REST_TERMS; k++)
+        memcpy(block.rest[k], self->parts.rest_terms[k], 3 * sizeof(float));
     for (int k = 0; k < self->parts.lamp_count; k++) {
         const AmbientLamp *lamp = &self->parts.lamps[k];
         const float d[3] = {lamp->direction.x, lamp->direction.y, lamp->direction.z};
@@ -369,10 +357,9 @@ WeftResult environment_create(const Environment *environment, const EnvironmentH
     if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     WeftResult result = ambient_split(environment, lamps, &out->parts, &local);
     if (result == WEFT_OK && stopped(how, 0.1f)) result = WEFT_INTERRUPTED;
-    if (result == WEFT_OK) result = make_cubes(out, environment, how, lamps, log, &local);
+    if (result == WEFT_OK) result = find_cube(out, environment, how, log, &local);
     if (result == WEFT_OK && environment->kind != ENVIRONMENT_CONSTANT)
         result = make_map(&environment->image, &out->map, &local);
-    weft_image_free(&out->parts.rest);
     if (result == WEFT_OK) {
         make_buffer(out);
         environment_place(out, environment->rotation, environment->strength);
@@ -386,10 +373,8 @@ WeftResult environment_create(const Environment *environment, const EnvironmentH
 
 void environment_destroy(GlEnvironment *self) {
     glDeleteTextures(1, &self->cube);
-    glDeleteTextures(1, &self->rest);
     glDeleteTextures(1, &self->map);
     glDeleteBuffers(1, &self->buffer);
-    ambient_free(&self->parts);
     *self = (GlEnvironment){0};
 }
 
@@ -406,22 +391,19 @@ void environment_text(Text *text) {
     text_include(text, "raster/glsl/environment.glsl");
 }
 
-void environment_program(unsigned program, int cube, int rest, int block) {
+void environment_program(unsigned program, int cube, int block) {
     GLint previous, at;
     GLuint index = glGetUniformBlockIndex(program, "Environment");
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
     glUseProgram(program);
     if ((at = glGetUniformLocation(program, "environment_cube")) >= 0) glUniform1i(at, cube);
-    if ((at = glGetUniformLocation(program, "environment_rest")) >= 0) glUniform1i(at, rest);
     if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, (GLuint)block);
     glUseProgram((GLuint)previous);
 }
 
-void environment_bind(const GlEnvironment *self, int cube, int rest, int block) {
+void environment_bind(const GlEnvironment *self, int cube, int block) {
     glActiveTexture(GL_TEXTURE0 + (GLenum)cube);
     glBindTexture(GL_TEXTURE_CUBE_MAP, self->cube);
-    glActiveTexture(GL_TEXTURE0 + (GLenum)rest);
-    glBindTexture(GL_TEXTURE_CUBE_MAP, self->rest);
     glBindBufferBase(GL_UNIFORM_BUFFER, (GLuint)block, self->buffer);
     glActiveTexture(GL_TEXTURE0);
 }

@@ -1,9 +1,9 @@
 /* environment.h - the environment of a scene in the driver's memory, filtered for shading/ambient.h
  *
  *   environment_text(&text);                          before it includes shading/ambient.h
- *   environment_program(program, cube, rest, block);  once a program: its units and its block's binding
+ *   environment_program(program, cube, block);        once a program: its unit and its block's binding
  *   environment_place(env, rotation, strength);       when that changes; nothing is filtered again
- *   environment_bind(env, cube, rest, block);         once a frame
+ *   environment_bind(env, cube, block);               once a frame
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_ENVIRONMENT_H
@@ -12,25 +12,17 @@
 #include "scene/ambient.h"
 #include "text/text.h"
 
-enum {
-    ENVIRONMENT_LEVELS = 7,
-    ENVIRONMENT_SIDE = 256,
-    ENVIRONMENT_REST_LEVELS = 4,
-    ENVIRONMENT_REST_SIDE = 64
-};
+enum { ENVIRONMENT_LEVELS = 7, ENVIRONMENT_SIDE = 256 };
 
 /* kappa of level m of the cube is ENVIRONMENT_KAPPA / 4^m, and its faces are ENVIRONMENT_SIDE / 2^m wide. */
 #define ENVIRONMENT_KAPPA 3200.0f
 
-/* The same of the rest; its last level is weighted by the cosine. */
-#define ENVIRONMENT_REST_KAPPA 50.0f
-
 typedef struct GlEnvironment {
-    AmbientParts parts; /* but for `rest`, which is gone */
-    unsigned cube, rest;
+    AmbientParts parts;
+    unsigned cube;
     unsigned map;    /* the image as it is, for environment_background; 0 where it is one colour */
     unsigned buffer; /* uniform block Environment */
-    bool cached;     /* the cubes came from the cache */
+    bool cached;     /* the cube came from the cache */
 } GlEnvironment;
 
 /* Zero-initialise. */
@@ -43,7 +35,7 @@ typedef struct EnvironmentHow {
     void *user;
 } EnvironmentHow;
 
-/* Filters the cubes or takes them from the user's cache, where a file is named by the hash of the pixels;
+/* Filters the cube or takes it from the user's cache, where a file is named by the hash of the pixels;
  * what cannot be read or written there is a warning (WEFT_MESSAGE_CACHE_IGNORED). Its rotation and strength
  * are those of `environment`. Leaves framebuffer 0 bound and no program in use. Zero on failure:
  * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED. */
@@ -54,18 +46,18 @@ void environment_destroy(GlEnvironment *environment);
 /* Radians about +y and a factor on all radiance. */
 void environment_place(const GlEnvironment *environment, float rotation, float strength);
 
-/* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes two samplers. */
+/* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes one sampler.
+ * AmbientWeights ambient_held(Frame, int) is left to the caller. */
 void environment_text(Text *text);
 
-/* Texture units, and the binding of the uniform block; of a program that lacks them nothing is asked. */
-void environment_program(unsigned program, int cube, int rest, int block);
-void environment_bind(const GlEnvironment *environment, int cube, int rest, int block);
+/* Texture unit, and the binding of the uniform block; of a program that lacks them nothing is asked. */
+void environment_program(unsigned program, int cube, int block);
+void environment_bind(const GlEnvironment *environment, int cube, int block);
 
-/* The bytes of a file of the cache: "weft-env", the key, RGB of all texels of both cubes as 16-bit floats,
+/* The bytes of a file of the cache: "weft-env", the key, RGB of all texels of the cube as 16-bit floats,
  * and the hash of all that. `texels` has room for ENVIRONMENT_TEXELS times three. */
 enum {
-    ENVIRONMENT_TEXELS = 6 * (256 * 256 + 128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4) +
-                         6 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8),
+    ENVIRONMENT_TEXELS = 6 * (256 * 256 + 128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4),
     ENVIRONMENT_FILE = 8 + 8 + 6 * ENVIRONMENT_TEXELS + 8
 };
 bool environment_unpack(const unsigned char *data, size_t size, uint64_t key, uint16_t *texels);

@@ -14,6 +14,7 @@ typedef struct Uniforms {
     float places[INPUT_COUNT][2][4];
     float e[4];    /* layer, low, high, tilt */
     float more[4]; /* alpha cutoff */
+    AmbientWeights fits[SHADER_SLOTS * AMBIENT_HELD];
 } Uniforms;
 
 static bool is_all(const Input *input, int count, float x) {
@@ -84,6 +85,26 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
     memcpy(uniforms->e, place, sizeof place);
 }
 
+/* Holds the tables of the slots whose parameters are numbers. */
+static bool add_fits(GlMaterial *self, const Material *material, int threads, Uniforms *uniforms) {
+    AmbientFit *fit = alloc_array(1, sizeof *fit);
+    Surface surface = material_plain(material);
+    Stack m;
+    if (!fit) return false;
+    stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    const Slot *const slots[SHADER_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
+    for (int k = 0; k < SHADER_SLOTS; k++) {
+        const Lobe *lobe = &slots[k]->lobe;
+        if (!(slots[k]->pick > 0.0f) || !shader_holds(&self->key, k)) continue;
+        ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
+        ambient_hold(fit, uniforms->fits + k * AMBIENT_HELD);
+        self->finest[k] = fit->finest;
+        self->key.turning |= fit->turning << k;
+    }
+    free(fit);
+    return true;
+}
+
 static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures,
                           Uniforms *uniforms) {
     self->key.choices = material_choices(material);
@@ -95,13 +116,14 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
 }
 
 static WeftResult make_uniforms(GlMaterials *self, const WeftScene *scene, const GlTextures *textures,
-                                WeftError *error) {
+                                int threads, WeftError *error) {
     GLint aligned = 256;
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
     self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
     size_t stride = (size_t)self->stride, count = (size_t)self->count;
     unsigned char *all = alloc_array(count, stride);
     if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool whole = true;
     for (size_t k = 0; k < count; k++) {
         Uniforms uniforms = {0};
         GlMaterial *material = &self->all[k];
@@ -109,12 +131,14 @@ static WeftResult make_uniforms(GlMaterials *self, const WeftScene *scene, const
             make_material(material, &scene->materials[k], textures, &uniforms);
             add_table(material, sheen_tables_of(self->sheens, (int)k),
                       sheen_tables_index(self->sheens, (int)k), &uniforms);
+            whole &= add_fits(material, &scene->materials[k], threads, &uniforms);
         }
         memcpy(all + k * stride, &uniforms, sizeof uniforms);
     }
     glBindBuffer(GL_UNIFORM_BUFFER, self->uniforms);
     glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)(count * stride), all, GL_STATIC_DRAW);
     free(all);
+    if (!whole) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     return gl_check(error, "materials");
 }
 
@@ -130,7 +154,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
     }
     glGenBuffers(1, &out->uniforms);
     WeftResult result = sheen_tables_create(scene, threads, &out->sheens, error);
-    if (result == WEFT_OK) result = make_uniforms(out, scene, textures, error);
+    if (result == WEFT_OK) result = make_uniforms(out, scene, textures, threads, error);
     if (result != WEFT_OK) materials_destroy(out);
     return result;
 }
@@ -140,6 +164,14 @@ void materials_destroy(GlMaterials *self) {
     sheen_tables_free(self->sheens);
     free(self->all);
     *self = (GlMaterials){0};
+}
+
+void material_in_light(const GlMaterial *self, float lamp_kappa, ShaderKey *key) {
+    key->focus = key->narrow = 0;
+    for (int k = 0; k < SHADER_SLOTS; k++) {
+        key->focus |= (self->finest[k] > AMBIENT_CLOSE - AMBIENT_BLEND) << k;
+        key->narrow |= (self->finest[k] > lamp_kappa - AMBIENT_FINER - AMBIENT_BLEND) << k;
+    }
 }
 
 void materials_bind(const GlMaterials *self, const GlTextures *textures, int material, int block) {

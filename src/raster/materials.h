@@ -12,7 +12,8 @@ typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
-    bool worn; /* by some mesh */
+    bool worn;                  /* by some mesh */
+    float finest[SHADER_SLOTS]; /* AmbientFit.finest where a table is held, else 0 */
 } GlMaterial;
 
 typedef struct GlMaterials {
@@ -27,6 +28,9 @@ typedef struct GlMaterials {
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
                             WeftError *error);
 void materials_destroy(GlMaterials *materials);
+
+/* What of a key depends on the environment's lamps: log2 of their kappa. */
+void material_in_light(const GlMaterial *material, float lamp_kappa, ShaderKey *key);
 
 /* Binds a material's uniforms to block `block` and its textures to units from 0 on. */
 void materials_bind(const GlMaterials *materials, const GlTextures *textures, int material, int block);

@@ -17,7 +17,6 @@ typedef struct Sampler {
 
 static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},
                                    {"environment_cube", UNIT_ENVIRONMENT},
-                                   {"environment_rest", UNIT_ENVIRONMENT_REST},
                                    {"shadow_map", UNIT_SHADOW},
                                    {"shadow_depth", UNIT_SHADOW_DEPTH}};
 

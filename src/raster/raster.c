@@ -226,8 +226,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view) {
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
-    if (self->shines)
-        environment_bind(&self->environment, UNIT_ENVIRONMENT, UNIT_ENVIRONMENT_REST, BLOCK_ENVIRONMENT);
+    if (self->shines) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
     glActiveTexture(GL_TEXTURE0);
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SHADOW_DEPTH);
 }
@@ -342,8 +341,10 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
         if (k == self->queue.solid && behind) result = draw_background(self, error);
         if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
-        ShaderKey key = self->materials.all[self->scene->meshes[mesh].material].key;
+        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
+        ShaderKey key = material->key;
         add_lights(self, view, &key);
+        if (key.ambient) material_in_light(material, self->environment.parts.lamp_kappa, &key);
         if (k == self->queue.solid) {
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */

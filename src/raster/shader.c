@@ -88,6 +88,39 @@ static KeySlots find_slots(const ShaderKey *key) {
     return found;
 }
 
+/* Puts x in for whatever a texture says. */
+static void vary(const ShaderKey *key, Surface *s, float x) {
+#define VARY_SCALAR(name)    s->name = x
+#define VARY_ANGLE(name)     (void)0
+#define VARY_COLOR(name)     (void)0
+#define VARY_NORMAL(name)    (void)0
+#define VARY_DIRECTION(name) (void)0
+#define VARY(kind, name, def, low, high, hard_low, hard_high, help)                                          \
+    if (key->inputs[INPUT_##name].state == INPUT_MAP) VARY_##kind(name);
+    SURFACE_INPUTS(VARY)
+}
+
+static const Slot *slot_of(const Stack *m, int slot) {
+    const Slot *const slots[SHADER_SLOTS] = {&m->diffuse, &m->specular, &m->sheen, &m->coat, &m->dust};
+    return slots[slot];
+}
+
+bool shader_holds(const ShaderKey *key, int slot) {
+    Lobe lobes[2];
+    for (int k = 0; k < 2; k++) {
+        Stack m;
+        Surface s = full_surface(0.5f);
+        s.dust = 1.0f;
+        leave_out(key, &s);
+        vary(key, &s, k ? 0.75f : 0.25f);
+        stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        lobes[k] = slot_of(&m, slot)->lobe;
+        if (!(slot_of(&m, slot)->pick > 0.0f)) return false;
+    }
+    bool same = !(lobes[0].params[0] < lobes[1].params[0]) && !(lobes[0].params[0] > lobes[1].params[0]);
+    return lobes[0].id == lobes[1].id && same;
+}
+
 static bool is_dusty(const ShaderKey *key) { return key->inputs[INPUT_dust].state != INPUT_ZERO; }
 
 /* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
@@ -162,7 +195,9 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     for (int k = 0; k < INPUT_COUNT; k++) text_line(text, "    highp vec4 material_%s;", input_infos[k].name);
     text_line(text, "    highp vec4 material_places[%d];", 2 * INPUT_COUNT);
     text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
-    text_line(text, "    highp vec4 material_more; /* alpha cutoff */\n};");
+    text_line(text, "    highp vec4 material_more; /* alpha cutoff */");
+    text_line(text, "    highp vec4 material_fits[%d]; /* see shading/ambient.h */\n};",
+              SHADER_SLOTS * AMBIENT_HELD);
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (key->inputs[k].state == INPUT_MAP && key->inputs[k].slot >= slots)
@@ -305,44 +340,55 @@ static void depth_text(const ShaderKey *key, Text *text) {
     text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;\n}");
 }
 
-/* One slot's table: that of its lobe, or where it holds none any that is there. */
-static void put_ambient_slot(Text *text, const char *slot, const AmbientFit *fit, int strategy) {
-    AmbientTable t = ambient_table(fit, strategy);
-    int sides = t.turning ? AMBIENT_SIDES : 1;
-    int layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns});
+static const char *boolean(bool x) { return x ? "true" : "false"; }
+
+/* One slot's table, held where `held` is not below 0. */
+static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int layer) {
     text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, layer, slot,
               t.rows, slot, t.columns);
     text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot,
               number(t.low).text, slot, number(t.high).text, slot, t.strategy);
-    text_line(text,
-              "    t.%s.focus = %s;\n    t.%s.second = %s;\n    t.%s.turning = %s;\n"
-              "    t.%s.lossless = %s;",
-              slot, t.focus ? "true" : "false", slot, t.second ? "true" : "false", slot,
-              t.turning ? "true" : "false", slot, t.lossless ? "true" : "false");
+    text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
+              boolean(t.focus), slot, boolean(t.narrow), slot, boolean(t.second));
+    text_line(text, "    t.%s.turning = %s;\n    t.%s.lossless = %s;\n    t.%s.held = %d;", slot,
+              boolean(t.turning), slot, boolean(t.lossless), slot, t.held);
+}
+
+/* Of a slot that holds nothing too: nobody asks. False where memory is short. */
+static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
+    static const char *const names[SHADER_SLOTS] = {"diffuse", "specular", "sheen", "coat", "dust"};
+    int strategy = key->ambient > 1 ? key->ambient - 2 : lobe ? ambient_strategy(lobe->id) : AMBIENT_FITTED;
+    AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS, .strategy = strategy};
+    int layer = 0;
+    if (lobe && !shader_holds(key, slot)) {
+        const AmbientFit *fit = fits_get(fits, lobe);
+        if (!fit) return false;
+        t = ambient_table(fit, strategy);
+        int sides = t.turning ? AMBIENT_SIDES : 1;
+        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns});
+    } else if (lobe) {
+        t.held = slot * AMBIENT_HELD;
+        t.focus = key->focus >> slot & 1;
+        t.narrow = key->narrow >> slot & 1;
+        t.turning = key->turning >> slot & 1;
+        t.second = (weft_lobe_info(lobe->id)->traits & TRAIT_TWO_COLORS) != 0;
+    }
+    put_ambient_table(text, names[slot], t, layer);
+    return true;
 }
 
 static void put_ambient(Text *text, const ShaderKey *key, const KeySlots *found, Fits *fits) {
-    static const char *const names[TEXT_SLOTS + 1] = {"diffuse", "specular", "sheen", "coat", "dust"};
-    Lobe lobes[TEXT_SLOTS + 1];
-    int strategies[TEXT_SLOTS + 1];
-    bool same = true;
-    for (int k = 0; k <= TEXT_SLOTS; k++) {
-        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
-        lobes[k] = lobe_default(there && k == TEXT_SLOTS ? LOBE_LTC_FIBRE : LOBE_LAMBERT);
-        if (there && k < TEXT_SLOTS) lobes[k] = found->lobes[k];
-        strategies[k] = key->ambient > 1 ? key->ambient - 2 : ambient_strategy(lobes[k].id);
-        same &= strategies[k] == strategies[0];
-    }
-    char strategy[16];
-    snprintf(strategy, sizeof strategy, "%d", strategies[0]);
-    if (same) text_define(text, "AMBIENT_STRATEGY(t)", strategy);
+    const Lobe dust = lobe_default(LOBE_LTC_FIBRE);
     environment_text(text);
+    text_line(text, "\nAmbientWeights ambient_held(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
+                    "    AmbientWeights w;\n    w.a = c.x;\n    w.b = c.y;\n    w.c = c.z;\n    w.d = c.w;\n"
+                    "    return w;\n}");
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
-    for (int k = 0; k <= TEXT_SLOTS; k++) {
-        const AmbientFit *fit = fits_get(fits, &lobes[k]);
-        if (!fit) return;
-        put_ambient_slot(text, names[k], fit, strategies[k]);
+    for (int k = 0; k < SHADER_SLOTS; k++) {
+        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
+        const Lobe *lobe = !there ? NULL : k < TEXT_SLOTS ? &found->lobes[k] : &dust;
+        if (!put_ambient_slot(text, key, k, lobe, fits)) return;
     }
     text_line(text, "    return t;\n}");
     text_define(text, "AMBIENT", "1");
@@ -361,9 +407,9 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     put_lobes(text, key, &found);
     if (key->polygons) text_lobe_tables(text);
     put_composition(text, &key->choices);
-    if (key->ambient) put_ambient(text, key, &found, fits);
     put_choices(text, &key->choices);
     put_uniforms(text, key);
+    if (key->ambient) put_ambient(text, key, &found, fits);
     put_table(text, key);
     put_surface(text, key);
     text_include(text, "raster/glsl/forward.glsl");

@@ -20,6 +20,9 @@ typedef struct ShaderInput {
     int16_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
+/* Of a stack: diffuse, specular, sheen, coat, dust. */
+enum { SHADER_SLOTS = 5 };
+
 /* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
 enum { SHADER_LIGHTS = 8 };
 
@@ -31,6 +34,7 @@ typedef struct ShaderKey {
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
+    int focus, narrow, turning; /* bit k: those of AmbientTable for slot k, whose table is held */
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
@@ -42,6 +46,11 @@ typedef struct ShaderKey {
  * weft_tables is to hold those of the scene's sheens. fits must outlive what the text's tables are uploaded
  * to. */
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text);
+
+/* Whether the table by which a slot's lobe meets the environment is held (shading/ambient.h), its parameter
+ * being a number: then its polynomials are material_fits from slot times AMBIENT_HELD on. `focus` is not
+ * read. */
+bool shader_holds(const ShaderKey *key, int slot);
 
 /* What is behind everything: the environment. */
 void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment);

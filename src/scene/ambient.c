@@ -85,6 +85,13 @@ void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]) {
                                       z * x,
                                       x2 - y2,
                                       3.0f * z2 - 1.0f,
+                                      y * (3.0f * x2 - y2),
+                                      x * y * z,
+                                      y * (5.0f * z2 - 1.0f),
+                                      z * (5.0f * z2 - 3.0f),
+                                      x * (5.0f * z2 - 1.0f),
+                                      z * (x2 - y2),
+                                      x * (x2 - 3.0f * y2),
                                       x * y * (x2 - y2),
                                       y * z * (3.0f * x2 - y2),
                                       x * y * (7.0f * z2 - 1.0f),
@@ -97,17 +104,48 @@ void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]) {
     memcpy(p, all, sizeof all);
 }
 
-/* Squares of the factors that make the polynomials orthonormal, times 4 pi; and the cosine's Legendre
- * coefficient of each degree over pi. */
-static const double squares[AMBIENT_TERMS] = {1.0,      3.0,      3.0,      3.0,       15.0,      15.0,
-                                              15.0,     15.0 / 4, 5.0 / 4,  315.0 / 4, 315.0 / 8, 45.0 / 4,
-                                              45.0 / 8, 9.0 / 64, 45.0 / 8, 45.0 / 16, 315.0 / 8, 315.0 / 64};
-static double cosine(int k) { return k < 1 ? 1.0 : k < 4 ? 2.0 / 3 : k < 9 ? 1.0 / 4 : -1.0 / 24; }
+/* Squares of the factors that make the polynomials orthonormal, times 4 pi; the degree of each; and of a
+ * degree the cosine's Legendre coefficient over pi. */
+static const double squares[AMBIENT_TERMS] = {
+    1.0,      3.0,      3.0,      3.0,      15.0,      15.0,      15.0,      15.0 / 4,  5.0 / 4,
+    35.0 / 8, 105.0,    21.0 / 8, 7.0 / 4,  21.0 / 8,  105.0 / 4, 35.0 / 8,  315.0 / 4, 315.0 / 8,
+    45.0 / 4, 45.0 / 8, 9.0 / 64, 45.0 / 8, 45.0 / 16, 315.0 / 8, 315.0 / 64};
+static int degree(int k) { return k < 1 ? 0 : k < 4 ? 1 : k < 9 ? 2 : k < 16 ? 3 : 4; }
+static const double cosines[5] = {1.0, 2.0 / 3, 1.0 / 4, 0.0, -1.0 / 24};
 
-static void add_terms(AmbientParts *parts, double sums[AMBIENT_TERMS][3]) {
+/* Radiance by the polynomials. */
+static void project(const WeftImage *image, float terms[AMBIENT_TERMS][3]) {
+    double sums[AMBIENT_TERMS][3] = {{0.0}};
+    const float *p = image->pixels;
+    for (int y = 0; y < image->height; y++) {
+        double solid =
+            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        for (int x = 0; x < image->width; x++, p += 3) {
+            float at[AMBIENT_TERMS];
+            ambient_polynomials(latlong_direction((x + 0.5) / image->width, (y + 0.5) / image->height), at);
+            for (int k = 0; k < AMBIENT_TERMS; k++)
+                for (int c = 0; c < 3; c++) sums[k][c] += solid * (double)(p[c] * at[k]);
+        }
+    }
     for (int k = 0; k < AMBIENT_TERMS; k++)
-        for (int c = 0; c < 3; c++)
-            parts->terms[k][c] = (float)(sums[k][c] * squares[k] / (4.0 * pi) * cosine(k));
+        for (int c = 0; c < 3; c++) terms[k][c] = (float)(sums[k][c] * squares[k] / (4.0 * pi));
+}
+
+void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float color[3]) {
+    double a[5] = {1.0}, k = (double)kappa;
+    memcpy(a, cosines, sizeof a);
+    if (kappa > 0.0f) {
+        a[1] = 1.0 / tanh(k) - 1.0 / k;
+        for (int l = 1; l < 4; l++) a[l + 1] = a[l - 1] - (2 * l + 1) / k * a[l];
+    }
+    float p[AMBIENT_TERMS];
+    ambient_polynomials(w, p);
+    for (int c = 0; c < 3; c++) {
+        double sum = 0.0;
+        for (int n = 0; n < AMBIENT_REST_TERMS; n++)
+            sum += a[degree(n)] * (double)(parts->rest_terms[n][c] * p[n]);
+        color[c] = (float)fmax(sum, 0.0);
+    }
 }
 
 static double luminance(const float *p) {
@@ -126,24 +164,18 @@ typedef struct Sparks {
     double energy;
 } Sparks;
 
-/* Takes from `image` what goes to the lamps, and sums the terms of both. */
-static void take_sparks(WeftImage *image, Sparks *sparks, AmbientParts *parts) {
-    double sums[AMBIENT_TERMS][3] = {{0.0}}, mean = 0.0, all = 0.0;
+/* Takes from `image` what goes to the lamps. */
+static void take_sparks(WeftImage *image, Sparks *sparks) {
+    double mean = 0.0, all = 0.0;
     float *p = image->pixels;
     for (int y = 0; y < image->height; y++) {
         double solid =
             2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
         for (int x = 0; x < image->width; x++, p += 3) {
-            Vec3 d = latlong_direction((x + 0.5) / image->width, (y + 0.5) / image->height);
-            float polynomials[AMBIENT_TERMS];
-            ambient_polynomials(d, polynomials);
-            for (int k = 0; k < AMBIENT_TERMS; k++)
-                for (int c = 0; c < 3; c++) sums[k][c] += solid * (double)(p[c] * polynomials[k]);
             mean += solid * luminance(p);
             all += solid;
         }
     }
-    add_terms(parts, sums);
     double clip = AMBIENT_CLIP * mean / all;
     p = image->pixels;
     for (int y = 0; y < image->height; y++) {
@@ -223,7 +255,7 @@ static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp
 
 /* The best of some starts with so many lamps. */
 static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
-    double best = INFINITY;
+    double best = (double)INFINITY;
     for (int start = 0; start < STARTS; start++) {
         Vec3 centres[AMBIENT_LAMPS_MAX];
         AmbientLamp lamps[AMBIENT_LAMPS_MAX];
@@ -243,13 +275,14 @@ static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
 /* As few as are enough. */
 static void find_lamps(const Sparks *sparks, int most, AmbientParts *parts) {
     if (!sparks->count || !(sparks->energy > 0.0)) return;
-    for (int count = 2; count <= most && parts->lamp_kappa < AMBIENT_LAMP_KAPPA; count++)
+    for (int count = 2; count <= most; count++) {
         find_some(sparks, count, parts);
+        if (parts->lamp_kappa >= AMBIENT_LAMP_KAPPA) break;
+    }
 }
 
 static WeftResult constant_image(const float color[3], WeftImage *out, WeftError *error) {
-    WeftResult result =
-        weft_image_create(AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, 3, WEFT_PIXEL_F32, out, error);
+    WeftResult result = weft_image_create(SPLIT_WIDTH, SPLIT_WIDTH / 2, 3, WEFT_PIXEL_F32, out, error);
     float *p = out->pixels;
     for (int k = 0; result == WEFT_OK && k < out->width * out->height * 3; k++) p[k] = color[k % 3];
     return result;
@@ -257,7 +290,7 @@ static WeftResult constant_image(const float color[3], WeftImage *out, WeftError
 
 WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts *out, WeftError *error) {
     WeftImage image;
-    *out = (AmbientParts){0};
+    *out = (AmbientParts){.lamp_kappa = AMBIENT_EVEN_KAPPA};
     WeftResult result =
         environment->kind == ENVIRONMENT_CONSTANT
             ? constant_image(environment->color, &image, error)
@@ -265,18 +298,16 @@ WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts
     if (result != WEFT_OK) return result;
     Sparks sparks = {.list = alloc_array((size_t)image.width * (size_t)image.height, sizeof(Spark))};
     if (sparks.list) {
-        take_sparks(&image, &sparks, out);
+        project(&image, out->terms);
+        for (int k = 0; k < AMBIENT_TERMS; k++)
+            for (int c = 0; c < 3; c++) out->terms[k][c] *= (float)cosines[degree(k)];
+        take_sparks(&image, &sparks);
+        project(&image, out->rest_terms);
         find_lamps(&sparks, lamps < AMBIENT_LAMPS_MAX ? lamps : AMBIENT_LAMPS_MAX, out);
-        result = latlong_resize(&image, AMBIENT_REST_WIDTH, AMBIENT_REST_WIDTH / 2, &out->rest, error);
     } else {
         result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
     }
     free(sparks.list);
     weft_image_free(&image);
     return result;
-}
-
-void ambient_free(AmbientParts *parts) {
-    weft_image_free(&parts->rest);
-    *parts = (AmbientParts){0};
 }

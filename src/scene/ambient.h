@@ -8,12 +8,15 @@
 
 #include "scene/scene.h"
 
-enum { AMBIENT_LAMPS_MAX = 16, AMBIENT_LAMPS = 8, AMBIENT_TERMS = 18, AMBIENT_REST_WIDTH = 128 };
+enum { AMBIENT_LAMPS_MAX = 16, AMBIENT_LAMPS = 8, AMBIENT_TERMS = 25, AMBIENT_REST_TERMS = 16 };
 
 #define AMBIENT_CLIP 1.25
 
 /* log2 kappa of lamps that is fine enough: then there are no more of them. */
 #define AMBIENT_LAMP_KAPPA 9.0f
+
+/* The rest tells no more than that. */
+#define AMBIENT_EVEN_KAPPA 6.0f
 
 typedef struct AmbientLamp {
     Vec3 direction; /* towards it, unit */
@@ -23,23 +26,27 @@ typedef struct AmbientLamp {
 typedef struct AmbientParts {
     AmbientLamp lamps[AMBIENT_LAMPS_MAX];
     int lamp_count;
-    float lamp_kappa; /* log2 of it: 2 over the mean squared distance of light to its lamp */
+    /* log2 of it: 2 over the mean squared distance of light to its lamp; AMBIENT_EVEN_KAPPA where all is even
+     * and there is none. */
+    float lamp_kappa;
     /* Irradiance over pi of all of the environment, lamps and rest: sum_k terms[k] p_k(n), p of
      * ambient_polynomials. */
     float terms[AMBIENT_TERMS][3];
-    WeftImage rest; /* F32 RGB lat-long, AMBIENT_REST_WIDTH by half of that or less; owned */
+    float rest_terms[AMBIENT_TERMS][3]; /* radiance of the rest */
 } AmbientParts;
 
-/* As many lamps as are enough, but at most `lamps`: 0, or 2 .. AMBIENT_LAMPS_MAX. Release with ambient_free.
- * Fails with WEFT_MESSAGE_MEMORY.
- */
+/* As many lamps as are enough, but at most `lamps`: 0, or 2 .. AMBIENT_LAMPS_MAX. Fails with
+ * WEFT_MESSAGE_MEMORY. */
 WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts *out, WeftError *error);
-void ambient_free(AmbientParts *parts);
 
-/* Spherical harmonics of degree 0, 1, 2 and 4, without their factors. The cosine has none of degree 3, and of
+/* Spherical harmonics of degrees 0 to 4, without their factors. The cosine has none of degree 3, and of
  * degree 6 a thousandth: Ravi Ramamoorthi, Pat Hanrahan, "On the Relationship between Radiance and
  * Irradiance", JOSA A 18(10), 2001. */
 void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]);
+
+/* ambient_rest of ambient_source.h by the first AMBIENT_REST_TERMS of the rest's terms. exp(kappa mu) has the
+ * Legendre coefficients a_0 = 1, a_1 = coth kappa - 1 / kappa, a_(l+1) = a_(l-1) - (2 l + 1) / kappa a_l. */
+void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float color[3]);
 
 /* Radiance of an F32 lat-long image along a unit direction of its own frame, bilinear. */
 void latlong_at(const WeftImage *image, Vec3 direction, float color[3]);

@@ -5,13 +5,15 @@
  *   irradiance   E(cos_o) ambient_irradiance(n)
  *   mirror       E(cos_o) ambient_radiance(r, kappa),  r: wo mirrored at the normal, kappa: of the lobe as
  *                wide as it is at normal incidence. The way of Brian Karis, "Real Shading in Unreal Engine
- * 4", SIGGRAPH 2013 course; engines filter sheens so too fitted       sum over lamps of f cos_i + sum_k w_k
- * ambient_rest(axis_k) for a broad lobe; for one that is less so, with one look-up of the rest, E(cos_o)
- * ambient_rest(axis, kappa); and for one too narrow for the lamps E(cos_o) (mean of ambient_radiance(axis,
- * kappa) with a wider one for the tail of the lobe). The axis is the lobe's mean direction sampled      lamps
- * as before, and of the rest, or for a narrow lobe of all, the mean over some of the lobe's own samples of f
- * cos_i / pdf L(i, kappa), kappa by their density: Jaroslav Krivanek, Mark Colbert, "Real-time Shading with
- * Filtered Importance Sampling", Computer Graphics Forum 27(4), 2008. For lobes that are far from round
+ *                4", SIGGRAPH 2013 course; engines filter sheens so too
+ *   fitted       sum over lamps of f cos_i + sum_k w_k ambient_rest(axis_k) for a broad lobe; for one that is
+ *                less so, with one look-up of the rest, E(cos_o) ambient_rest(axis, kappa); and for one too
+ *                narrow for the lamps E(cos_o) (mean of ambient_radiance(axis, kappa) with a wider one for
+ *                the tail of the lobe). The axis is the lobe's mean direction
+ *   sampled      lamps as before, and of the rest, or for a narrow lobe of all, the mean over some of the
+ *                lobe's own samples of f cos_i / pdf L(i, kappa), kappa by their density: Jaroslav Krivanek,
+ *                Mark Colbert, "Real-time Shading with Filtered Importance Sampling", Computer Graphics Forum
+ *                27(4), 2008. For lobes that are far from round
  *
  * Why lamps: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
  * lamps for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
@@ -25,6 +27,12 @@
  *   3   80 degrees, 135 and -135 degrees                       kappa 12.5
  *
  *   w_k(cos_o, parameter) >= 0 and sum w_k = E(cos_o), from a table that ambient_table.h makes of any lobe.
+ *
+ * Where no texture changes the parameter the table is held: one row of it, and that as polynomials, since a
+ * texel costs as much as a dozen of these:
+ *
+ *   entry(y) = sum_k c_k (2 y - 1)^k,  k = 0 .. AMBIENT_DEGREE,  cos_o = (1 - (1 - y)^2)^2
+ *
  * The E of a sheen that has a table of its own is taken from there, where it is mixed with more care.
  *
  * Occlusion is the part of the cosine-weighted sky that is seen, taken for a cone about the normal, as in
@@ -55,15 +63,22 @@
 #define AMBIENT_STRATEGY(t) (t).strategy
 #endif
 
-/* Planes of a table, `rows` rows each: w_0 .. w_3 of the first colour; the sine of the angle of the lobe's
- * mean direction, which is above 0 on the side of wo, log2 of its kappa, and its tail, 0 of a Gaussian and 1
- * of ggx; w_0 .. w_3 of the second colour. */
-#define AMBIENT_PLANE_AXIS   4
-#define AMBIENT_PLANE_KAPPA  5
-#define AMBIENT_PLANE_TAIL   6
-#define AMBIENT_PLANE_SECOND 7
-#define AMBIENT_PLANE_E      11 /* sums of the weights of the first colour and, behind it, of the second */
+/* Planes of a table, `rows` rows each, in groups of four: w_0 .. w_3 of the first colour; the sine of the
+ * angle of the lobe's mean direction, which is above 0 on the side of wo, log2 of its kappa, its tail, 0 of a
+ * Gaussian and 1 of ggx, and the sum of the first group; w_0 .. w_3 of the second colour. The last plane is
+ * the sum of these. */
+#define AMBIENT_GROUP_FIRST  0
+#define AMBIENT_GROUP_SHAPE  1
+#define AMBIENT_GROUP_SECOND 2
+#define AMBIENT_GROUPS       3
 #define AMBIENT_PLANES       13
+
+#define AMBIENT_PLANE_E        7
+#define AMBIENT_PLANE_E_SECOND 12
+
+#define AMBIENT_DEGREE 7
+#define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of a table, each of a group */
+#define AMBIENT_HELD   (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
 
 /* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From an eighth of
  * the lamps' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
@@ -80,10 +95,12 @@ STRUCT(AmbientTable) {
     int rows, columns; /* of a plane; rows: 1 where the parameter is held */
     float low, high;   /* roots of the parameter in the first and the last row */
     bool focus;        /* somewhere it is not broad */
+    bool narrow;       /* and somewhere too narrow for the lamps */
     bool second;       /* it has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
     int strategy;
+    int held; /* its first polynomial; below 0: it is a table */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
@@ -92,15 +109,17 @@ STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
  * along or against, by its square. */
 STRUCT(AmbientSpot) {
     int row, column, side; /* side: the first plane of along or of against */
-    float x, y, z;
+    float x, y, z, t;      /* t: of polynomials */
 };
 
 FN AmbientSpot ambient_spot(AmbientTable t, float cos_o, float heading, float p) {
     AmbientSpot s;
+    float y_o = 1.0f - sqrt(max(1.0f - sqrt(clamp(cos_o, 0.0f, 1.0f)), 0.0f)),
+          x = y_o * to_float(t.columns - 1);
+    float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
     s.side = heading < 0.0f ? 2 * AMBIENT_PLANES : 0;
     s.z = heading * heading;
-    float y_o = 1.0f - sqrt(max(1.0f - sqrt(max(cos_o, 0.0f)), 0.0f)), x = y_o * to_float(t.columns - 1);
-    float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
+    s.t = 2.0f * y_o - 1.0f;
     s.column = to_int(left);
     s.x = clamp(x - left, 0.0f, 1.0f);
     s.row = 0;
@@ -129,17 +148,74 @@ FN float ambient_entry(AmbientTable t, AmbientSpot s, int plane) {
     return mix(ambient_plane(t, s, AMBIENT_PLANES + plane), ambient_plane(t, s, s.side + plane), s.z);
 }
 
-STRUCT(AmbientWeights) { float a, b, c, d; };
-
-FN AmbientWeights ambient_weights(AmbientTable t, AmbientSpot s, int plane) {
+FN AmbientWeights ambient_nothing(void) {
     AmbientWeights w;
-    w.a = ambient_entry(t, s, plane);
-    w.b = ambient_entry(t, s, plane + 1);
-    w.c = ambient_entry(t, s, plane + 2);
-    w.d = ambient_entry(t, s, plane + 3);
+    w.a = 0.0f;
+    w.b = 0.0f;
+    w.c = 0.0f;
+    w.d = 0.0f;
+    return w;
+}
+
+FN AmbientWeights ambient_polynomial(AmbientSource s, int first, float t) {
+    AmbientWeights w = ambient_held(s, first + AMBIENT_DEGREE);
+    for (int k = AMBIENT_DEGREE - 1; k >= 0; k--) {
+        AmbientWeights c = ambient_held(s, first + k);
+        w.a = w.a * t + c.a;
+        w.b = w.b * t + c.b;
+        w.c = w.c * t + c.c;
+        w.d = w.d * t + c.d;
+    }
+    return w;
+}
+
+FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWeights y) {
+    AmbientWeights w;
+    w.a = first ? x.a : y.a;
+    w.b = first ? x.b : y.b;
+    w.c = first ? x.c : y.c;
+    w.d = first ? x.d : y.d;
+    return w;
+}
+
+/* A group of a table that is held. */
+FN AmbientWeights ambient_sides(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
+    int first = t.held + (AMBIENT_DEGREE + 1) * group;
+    AmbientWeights w = ambient_polynomial(s, first, at.t);
+    if (!t.turning) return w;
+    AmbientWeights across = ambient_polynomial(s, first + AMBIENT_SIDE, at.t),
+                   against = ambient_polynomial(s, first + 2 * AMBIENT_SIDE, at.t);
+    w = ambient_weights_choose(at.side > 0, against, w);
+    w.a = mix(across.a, w.a, at.z);
+    w.b = mix(across.b, w.b, at.z);
+    w.c = mix(across.c, w.c, at.z);
+    w.d = mix(across.d, w.d, at.z);
+    return w;
+}
+
+/* All of a group. */
+FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
+    if (t.held >= 0) return ambient_sides(t, s, at, group);
+    AmbientWeights w;
+    w.a = ambient_entry(t, at, 4 * group);
+    w.b = ambient_entry(t, at, 4 * group + 1);
+    w.c = ambient_entry(t, at, 4 * group + 2);
+    w.d = ambient_entry(t, at, 4 * group + 3);
     return w;
 }
 FN float ambient_sum(AmbientWeights w) { return w.a + w.b + w.c + w.d; }
+
+/* E of the first colour, and of the second. */
+FN float ambient_first(AmbientTable t, AmbientSource s, AmbientSpot at) {
+    if (t.lossless) return 1.0f;
+    if (t.held >= 0) return ambient_group(t, s, at, AMBIENT_GROUP_SHAPE).d;
+    return ambient_entry(t, at, AMBIENT_PLANE_E);
+}
+FN float ambient_second(AmbientTable t, AmbientSource s, AmbientSpot at) {
+    if (!t.second) return 0.0f;
+    if (t.held >= 0) return ambient_sum(ambient_group(t, s, at, AMBIENT_GROUP_SECOND));
+    return ambient_entry(t, at, AMBIENT_PLANE_E_SECOND);
+}
 
 /* From wo, and from the frame of the lobe to that of the source. */
 STRUCT(AmbientView) {
@@ -190,38 +266,39 @@ FN Rgb ambient_rest_at(AmbientSource s, AmbientView v, Dir w, float kappa) {
 /* What the two colours of a lobe are multiplied by. */
 STRUCT(AmbientPair) { Rgb first, second; };
 
-/* The look-ups of what the lamps leave; one that no colour asks for is not made. */
-FN AmbientPair ambient_mixed(AmbientSource s, AmbientView v, AmbientWeights f, AmbientWeights g) {
+/* What the lamps leave, as the four weights look it up: the same for all lobes of a frame. */
+STRUCT(AmbientFour) { Rgb a, b, c, d; };
+
+FN AmbientFour ambient_four(AmbientSource s, AmbientView v) {
+    AmbientFour l;
+    l.a = rgb_scale(ambient_rest(s, v.z, 0.0f), v.occlusion);
+    l.b = rgb_add(ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f),
+                  ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f));
+    l.c = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f);
+    l.d = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f),
+                  ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f));
+    l.b = rgb_scale(l.b, 0.5f);
+    l.d = rgb_scale(l.d, 0.5f);
+    return l;
+}
+
+FN Rgb ambient_weighed(AmbientFour l, AmbientWeights w) {
+    return rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)),
+                   rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
+}
+FN AmbientPair ambient_mixed(AmbientFour l, AmbientWeights f, AmbientWeights g) {
     AmbientPair p;
-    Rgb l = rgb_scale(ambient_rest(s, v.z, 0.0f), v.occlusion);
-    p.first = rgb_scale(l, f.a);
-    p.second = rgb_scale(l, g.a);
-    if (f.b + g.b > 0.0f) {
-        l = rgb_add(ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f),
-                    ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f));
-        p.first = rgb_add(p.first, rgb_scale(l, 0.5f * f.b));
-        p.second = rgb_add(p.second, rgb_scale(l, 0.5f * g.b));
-    }
-    if (f.c + g.c > 0.0f) {
-        l = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f);
-        p.first = rgb_add(p.first, rgb_scale(l, f.c));
-        p.second = rgb_add(p.second, rgb_scale(l, g.c));
-    }
-    if (f.d + g.d > 0.0f) {
-        l = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f),
-                    ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f));
-        p.first = rgb_add(p.first, rgb_scale(l, 0.5f * f.d));
-        p.second = rgb_add(p.second, rgb_scale(l, 0.5f * g.d));
-    }
+    p.first = ambient_weighed(l, f);
+    p.second = ambient_weighed(l, g);
     return p;
 }
 
-/* One look-up for a whole lobe. */
-FN AmbientPair ambient_one(AmbientView v, Rgb radiance, Dir w, AmbientWeights f, AmbientWeights g) {
+/* One look-up for a whole lobe, whose colours have E first and second. */
+FN AmbientPair ambient_one(AmbientView v, Rgb radiance, Dir w, float first, float second) {
     AmbientPair p;
     Rgb l = rgb_scale(radiance, ambient_visible(v.occlusion, w.z));
-    p.first = rgb_scale(l, ambient_sum(f));
-    p.second = rgb_scale(l, ambient_sum(g));
+    p.first = rgb_scale(l, first);
+    p.second = rgb_scale(l, second);
     return p;
 }
 FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
@@ -234,7 +311,6 @@ FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
 /* Of facets by ggx the part beyond 1 - mu = t is 1 / (1 + t ln 2 / kappa) where half is within kappa; this is
  * near 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
 FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
-    if (tail <= 0.0f) return ambient_radiance(s, w, kappa);
     return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
 }
@@ -279,58 +355,47 @@ STRUCT(AmbientSlot) {
     float lamps, e; /* e: what the table has for E */
 };
 
-FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Lobe lobe) {
+FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, AmbientFour rest, Lobe lobe) {
     AmbientSlot a;
     float p = lobe.params[0];
     AmbientSpot spot = ambient_spot(t, v.o.z, v.heading, p);
     a.lamps = 0.0f;
-    if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
-        float first = t.lossless ? 1.0f : ambient_entry(t, spot, AMBIENT_PLANE_E), second = 0.0f;
-        if (t.second) second = ambient_entry(t, spot, AMBIENT_PLANE_E + 1);
-        Rgb l = rgb_scale(ambient_irradiance(s, v.z), v.occlusion);
+    if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE || AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
+        float first = ambient_first(t, s, spot), second = ambient_second(t, s, spot);
         a.e = first + second;
-        a.of.first = rgb_scale(l, first);
-        a.of.second = rgb_scale(l, second);
+        if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
+            a.of = ambient_one(v, rgb_scale(ambient_irradiance(s, v.z), v.occlusion), dir(0.0f, 0.0f, 1.0f),
+                               first, second);
+        } else {
+            Dir r = dir(-v.o.x, -v.o.y, v.o.z);
+            AmbientWeights facing =
+                ambient_group(t, s, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
+            a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), exp2(facing.b)), r, first, second);
+        }
         return a;
     }
-    AmbientWeights f = ambient_weights(t, spot, 0), g;
-    g.a = 0.0f;
-    g.b = 0.0f;
-    g.c = 0.0f;
-    g.d = 0.0f;
-    if (t.second) g = ambient_weights(t, spot, AMBIENT_PLANE_SECOND);
-    a.e = ambient_sum(f) + ambient_sum(g);
-    if (AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
-        Dir r = dir(-v.o.x, -v.o.y, v.o.z);
-        float kappa = exp2(ambient_entry(t, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_PLANE_KAPPA));
-        a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), kappa), r, f, g);
-        return a;
-    }
+    AmbientWeights f = ambient_group(t, s, spot, AMBIENT_GROUP_FIRST), g = ambient_nothing();
+    if (t.second) g = ambient_group(t, s, spot, AMBIENT_GROUP_SECOND);
+    float first = ambient_sum(f), second = ambient_sum(g);
+    a.e = first + second;
     a.lamps = 1.0f;
-    if (!t.focus && AMBIENT_STRATEGY(t) == AMBIENT_FITTED) {
-        a.of = ambient_mixed(s, v, f, g);
-        return a;
-    }
-    float log2_kappa = ambient_entry(t, spot, AMBIENT_PLANE_KAPPA);
-    float x = clamp(ambient_entry(t, spot, AMBIENT_PLANE_AXIS), -1.0f, 1.0f);
+    a.of = ambient_mixed(rest, f, g);
+    if (!t.focus && AMBIENT_STRATEGY(t) == AMBIENT_FITTED) return a;
+    AmbientWeights shape = ambient_group(t, s, spot, AMBIENT_GROUP_SHAPE);
+    float x = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
     float close = ambient_beyond(log2_kappa, AMBIENT_CLOSE);
-    float narrow = ambient_beyond(log2_kappa, ambient_lamp_kappa(s) - AMBIENT_FINER),
-          kappa = exp2(log2_kappa);
+    float narrow = t.narrow ? ambient_beyond(log2_kappa, ambient_lamp_kappa(s) - AMBIENT_FINER) : 0.0f;
     Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
     a.lamps = 1.0f - narrow;
     if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
         a.of = ambient_drawn(s, v, lobe, narrow, a.e);
         return a;
     }
-    a.of.first = rgb_grey(0.0f);
-    a.of.second = a.of.first;
-    if (close < 1.0f) a.of = ambient_mixed(s, v, f, g);
-    if (close > 0.0f && narrow < 1.0f)
-        a.of = ambient_pair_mix(a.of, ambient_one(v, ambient_rest(s, out_axis, kappa), axis, f, g), close);
-    if (narrow > 0.0f) {
-        Rgb l = ambient_tailed(s, out_axis, kappa, ambient_entry(t, spot, AMBIENT_PLANE_TAIL));
-        a.of = ambient_pair_mix(a.of, ambient_one(v, l, axis, f, g), narrow);
-    }
+    a.of =
+        ambient_pair_mix(a.of, ambient_one(v, ambient_rest(s, out_axis, kappa), axis, first, second), close);
+    if (!t.narrow) return a;
+    Rgb l = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
+    a.of = ambient_pair_mix(a.of, ambient_one(v, l, axis, first, second), narrow);
     return a;
 }
 
@@ -406,6 +471,7 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     Slots only = slots_of(false, false, false, false, false);
     AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
+    AmbientFour rest = ambient_four(s, v);
     bool worn = IS_WORN(m);
     Rgb keep = worn ? stack_keep(m, m.e_avg) : rgb_grey(1.0f);
     Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
@@ -416,13 +482,13 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
-        AmbientSlot a = ambient_slot(t.diffuse, s, v, m.diffuse.lobe);
+        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m.diffuse.lobe);
         sum = rgb_mul(diffuse, ambient_colored(m.diffuse, plain, a.of));
         lit.diffuse = ambient_lit(m.diffuse, a.lamps);
         only.diffuse = a.lamps > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
-        AmbientSlot a = ambient_slot(t.specular, s, v, m.specular.lobe);
+        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m.specular.lobe);
         sum = rgb_add(sum, rgb_mul(keep, ambient_colored(m.specular, plain, a.of)));
         only.specular = a.lamps > 0.0f;
         if (only.specular) lit.specular = ambient_lit(m.specular, a.lamps);
@@ -434,7 +500,7 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
             m.albedo == ALBEDO_TABLE && m.table.kind != TABLE_NONE; /* E of the stack is the better one */
         AmbientTable table = t.sheen;
         table.lossless = t.sheen.lossless || (own && !t.sheen.second);
-        AmbientSlot a = ambient_slot(table, s, along, m.sheen.lobe);
+        AmbientSlot a = ambient_slot(table, s, along, rest, m.sheen.lobe);
         float known = own ? m.e_o.e / max(a.e, 1e-20f) : 1.0f;
         Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
         sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known));
@@ -445,14 +511,14 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
         Dir oc = stack_to_coat(m, o);
         if (oc.z > 0.0f) {
             AmbientView c = ambient_view(oc, m.coat_x, m.coat_y, m.coat_z, v.occlusion);
-            AmbientSlot a = ambient_slot(t.coat, s, c, m.coat.lobe);
+            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m.coat.lobe);
             sum = rgb_add(sum, ambient_colored(m.coat, plain, a.of));
             lit.coat = ambient_lit(m.coat, a.lamps);
             only.coat = a.lamps > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
-        AmbientSlot a = ambient_slot(t.dust, s, v, m.dust.lobe);
+        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m.dust.lobe);
         sum = rgb_add(sum, ambient_colored(m.dust, plain, a.of));
         lit.dust = ambient_lit(m.dust, a.lamps);
         only.dust = a.lamps > 0.0f;

@@ -2,16 +2,15 @@
  *
  *   ambient_radiance(s, w, kappa)  radiance about w: mean of L(i) weighted by exp(kappa (i . w - 1))
  *   ambient_irradiance(s, w)       mean of L(i) weighted by max(i . w, 0)
- *   ambient_light(s, k)            lamp k of those that stand for the brightest of L, 0 <= k <
- * ambient_count(s) ambient_rest(s, w, kappa)      what the lamps leave of L, weighted likewise, kappa at most
- * 200; or, where kappa is 0, by max(i . w, 0)
+ *   ambient_light(s, k)            lamp k of those that stand for the brightest of L
+ *   ambient_count(s)               how many there are
+ *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for
+ *   ambient_rest(s, w, kappa)      what the lamps leave of L, which is smooth, weighted as radiance is
+ *   ambient_held(s, k)             coefficients k of tables that are held (ambient.h)
  *
- *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for, on
- * average
- *
- * Directions are unit, in the shading frame (angles.h). So L = rest + lamps, and radiance and irradiance are
- * of L. In GLSL a source is a number that says nothing, and whoever draws provides these functions in this
- * file's place (raster/environment.h). */
+ * ambient_rest takes kappa 0 for the weight of irradiance. Directions are unit, in the shading frame
+ * (angles.h). So L = rest + lamps, and radiance and irradiance are of L. In GLSL a source is a Frame, and
+ * whoever draws provides these functions in this file's place (raster/environment.h). */
 #ifndef WEFT_SHADING_AMBIENT_SOURCE_H
 #define WEFT_SHADING_AMBIENT_SOURCE_H
 
@@ -22,6 +21,9 @@ STRUCT(AmbientLight) {
     Rgb color; /* irradiance on a surface that faces it */
 };
 
+/* Four numbers of a table. */
+STRUCT(AmbientWeights) { float a, b, c, d; };
+
 typedef struct AmbientSourceCalls {
     Rgb (*radiance)(const void *user, Dir w, float kappa);
     Rgb (*irradiance)(const void *user, Dir w);
@@ -30,6 +32,7 @@ typedef struct AmbientSourceCalls {
     const void *user;
     int count;
     float lamp_kappa;
+    const AmbientWeights *held; /* may be NULL where no table is */
 } AmbientSourceCalls;
 
 typedef const AmbientSourceCalls *AmbientSource;
@@ -39,6 +42,7 @@ FN Rgb ambient_irradiance(AmbientSource s, Dir w) { return s->irradiance(s->user
 FN Rgb ambient_rest(AmbientSource s, Dir w, float kappa) { return s->rest(s->user, w, kappa); }
 FN int ambient_count(AmbientSource s) { return s->count; }
 FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
+FN AmbientWeights ambient_held(AmbientSource s, int k) { return s->held[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 
 #endif

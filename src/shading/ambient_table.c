@@ -14,6 +14,7 @@
  * with a_kl the Legendre coefficients of G_k about its axis. C_l falls as (l + 1)^-2.5: Ron Dror, Alan
  * Willsky, Edward Adelson, "Statistical Characterization of Real-World Illumination", Journal of Vision 4(9),
  * 2004, find powers between 2 and 3. */
+enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL };
 enum { BANDS = 24, GRAIN = 256, KERNELS = 3, ATOMS = 4, SAMPLES = 1024 };
 
 typedef struct Kernel {
@@ -169,10 +170,11 @@ static float *entry(AmbientFit *fit, int side, int plane, int row, int column) {
 /* Half of what exp(kappa (mu - 1)) weighs is within kappa (1 - mu) = ln 2, and three quarters within twice
  * that, of ggx within thrice. */
 static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int side) {
+    if (!(cloud->e[0] + cloud->e[1] > 0.0)) return; /* there is nothing to be narrow */
     double half = cloud_within(cloud, axis, 0.5), more = cloud_within(cloud, axis, 0.75);
-    *entry(fit, side, AMBIENT_PLANE_AXIS, row, column) = axis.x;
-    *entry(fit, side, AMBIENT_PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
-    *entry(fit, side, AMBIENT_PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
+    *entry(fit, side, PLANE_AXIS, row, column) = axis.x;
+    *entry(fit, side, PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
+    *entry(fit, side, PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
 }
 
 static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int side) {
@@ -201,9 +203,10 @@ static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, in
     for (int c = 0; c < 2; c++) {
         double w[ATOMS];
         solve(fitter, b[c], cloud->e[c], w);
-        *entry(fit, side, AMBIENT_PLANE_E + c, row, column) = (float)cloud->e[c];
+        *entry(fit, side, c ? AMBIENT_PLANE_E_SECOND : AMBIENT_PLANE_E, row, column) = (float)cloud->e[c];
         for (int k = 0; k < ATOMS; k++)
-            *entry(fit, side, (c ? AMBIENT_PLANE_SECOND : 0) + k, row, column) = (float)w[k];
+            *entry(fit, side, 4 * (c ? AMBIENT_GROUP_SECOND : AMBIENT_GROUP_FIRST) + k, row, column) =
+                (float)w[k];
     }
     fit_width(fit, cloud, axis, row, column, side);
 }
@@ -216,13 +219,20 @@ static void fit_column(void *user, int column, int thread) {
         for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
 }
 
+/* Whether its azimuth matters: not of fibres that stand upright, nor of what is not brushed. */
+static bool turns(const Lobe *lobe) {
+    int tilt = lobe_param(lobe->id, "tilt"), brushed = lobe_param(lobe->id, "anisotropy");
+    int by = tilt < 0 ? brushed : tilt;
+    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || lobe->params[by] > 0.0f);
+}
+
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     Fitter fitter = {.fit = fit};
     fit->lobe = *lobe;
-    int azimuth = lobe_param(lobe->id, "azimuth"), tilt = lobe_param(lobe->id, "tilt");
+    int azimuth = lobe_param(lobe->id, "azimuth");
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
-    fit->turning = (info->traits & TRAIT_ANISOTROPIC) && (tilt < 0 || lobe->params[tilt] > 0.0f);
+    fit->turning = turns(lobe);
     fit->low = low;
     fit->high = high;
     if (info->param_count > 0) {
@@ -236,12 +246,11 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     for (int j = 0; j < ATOMS; j++)
         for (int k = 0; k < ATOMS; k++) fitter.a[j][k] = product(&fitter, &atoms[j], &atoms[k]);
     parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
-    fit->focus = false;
+    fit->finest = -100.0f;
     for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++)
-                fit->focus = fit->focus || *entry(fit, side, AMBIENT_PLANE_KAPPA, row, column) >
-                                               AMBIENT_CLOSE - AMBIENT_BLEND;
+                fit->finest = max(fit->finest, *entry(fit, side, PLANE_KAPPA, row, column));
 }
 
 static bool same(float a, float b) { return !(a < b) && !(a > b); }
@@ -271,14 +280,87 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .columns = AMBIENT_COLUMNS,
                           .low = fit->root_low,
                           .high = fit->root_high,
-                          .focus = fit->focus,
+                          .focus = fit->finest > AMBIENT_CLOSE - AMBIENT_BLEND,
+                          .narrow = true,
                           .second = second,
                           .lossless = !second && is_flat(fit),
                           .turning = fit->turning,
-                          .strategy = strategy};
+                          .strategy = strategy,
+                          .held = -1};
 }
 
-int ambient_strategy(int lobe) {
-    (void)lobe;
-    return AMBIENT_FITTED;
+enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
+
+/* Errors count by the E that they are of, down to this part of the greatest: where a lobe fades away an error
+ * that is small elsewhere would be all there is. */
+static const double FADED = 0.01;
+
+/* Of A x = b, A symmetric and positive definite, all planes b at once: A = L L^T. Both are overwritten. */
+static void cholesky_solve(double a[TERMS][TERMS], double b[TERMS][PLANES_HELD]) {
+    for (int i = 0; i < TERMS; i++)
+        for (int j = 0; j <= i; j++) {
+            for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
+            a[i][j] = i == j ? (sqrt)(a[i][i]) : a[i][j] / a[j][j];
+        }
+    for (int n = 0; n < PLANES_HELD; n++) {
+        for (int i = 0; i < TERMS; i++) {
+            for (int k = 0; k < i; k++) b[i][n] -= a[i][k] * b[k][n];
+            b[i][n] /= a[i][i];
+        }
+        for (int i = TERMS - 1; i >= 0; i--) {
+            for (int k = i + 1; k < TERMS; k++) b[i][n] -= a[k][i] * b[k][n];
+            b[i][n] /= a[i][i];
+        }
+    }
 }
+
+static double node(const AmbientFit *fit, int side, int plane, int column) {
+    return (double)fit->texels[side * AMBIENT_PLANES + plane][column];
+}
+static double albedo_at(const AmbientFit *fit, int side, int column) {
+    return node(fit, side, AMBIENT_PLANE_E, column) + node(fit, side, AMBIENT_PLANE_E_SECOND, column);
+}
+
+/* Coefficients of planes first .. end - 1 by weighted least squares, into members of the groups. */
+static void hold_planes(const AmbientFit *fit, int side, int first, int end,
+                        const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_SIDE]) {
+    double a[TERMS][TERMS] = {{0.0}}, b[TERMS][PLANES_HELD] = {{0.0}};
+    for (int column = 0; column < AMBIENT_COLUMNS; column++) {
+        double power[TERMS] = {1.0}, t = 2.0 * column / (AMBIENT_COLUMNS - 1) - 1.0;
+        for (int k = 1; k < TERMS; k++) power[k] = power[k - 1] * t;
+        for (int j = 0; j < TERMS; j++) {
+            for (int k = 0; k < TERMS; k++) a[j][k] += weight[column] * power[j] * power[k];
+            for (int n = first; n < end; n++)
+                b[j][n] += weight[column] * power[j] * node(fit, side, n, column);
+        }
+    }
+    cholesky_solve(a, b);
+    for (int k = 0; k < AMBIENT_SIDE; k++) {
+        float *to[4] = {&out[k].a, &out[k].b, &out[k].c, &out[k].d};
+        for (int n = 0; n < 4; n++) {
+            int plane = 4 * (k / TERMS) + n;
+            if (plane >= first && plane < end) *to[n] = (float)b[k % TERMS][plane];
+        }
+    }
+}
+
+/* The shape of a lobe counts where it is to be seen, up to a hair for what fades away. */
+static void hold_side(const AmbientFit *fit, int side, AmbientWeights out[AMBIENT_SIDE]) {
+    double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS];
+    for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, side, column));
+    for (int column = 0; column < AMBIENT_COLUMNS; column++) {
+        double e = albedo_at(fit, side, column) / most;
+        value[column] = 1.0 / ((e + FADED) * (e + FADED));
+        shape[column] = fmin(e, 0.1) + 1e-9;
+    }
+    hold_planes(fit, side, 0, PLANE_AXIS, value, out);
+    hold_planes(fit, side, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
+    hold_planes(fit, side, AMBIENT_PLANE_E, PLANES_HELD, value, out);
+}
+
+void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]) {
+    for (int side = 0; side < AMBIENT_SIDES; side++)
+        hold_side(fit, fit->turning ? side : 0, out + side * AMBIENT_SIDE);
+}
+
+int ambient_strategy(int lobe) { return lobe == LOBE_SILK ? AMBIENT_SAMPLED : AMBIENT_FITTED; }

@@ -12,7 +12,7 @@ typedef struct AmbientFit {
     int rows;
     float low, high; /* the range asked for */
     float root_low, root_high;
-    bool focus;   /* some node is not broad */
+    float finest; /* the greatest log2 kappa */
     bool turning; /* there are planes for AMBIENT_SIDES headings */
     float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
 } AmbientFit;
@@ -26,8 +26,11 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
 /* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
 
-/* The table for ambient.h to read; the fit must outlive it. */
+/* The table for ambient.h to read, not held; the fit must outlive it. */
 AmbientTable ambient_table(const AmbientFit *fit, int strategy);
+
+/* The polynomials of a fit of one row, by least squares over its nodes. */
+void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]);
 
 /* The strategy with the least error for that lobe (docs/environment.md). */
 int ambient_strategy(int lobe);

@@ -65,14 +65,22 @@ STRUCT(Facing) {
     float handedness; /* of the bitangent: n x t times this */
 };
 
+/* The normal nearest to n that the viewer sees, by a hair: of a mesh whose normals are smoother than it is.
+ */
+FN Dir frame_seen(Dir n, Dir wo) {
+    float away = max(1e-4f - dir_dot(n, wo), 0.0f);
+    Dir m = dir_add(n, dir_scale(wo, away));
+    return dir_scale(m, 1.0f / sqrt(dir_dot(m, m)));
+}
+
 /* The frame of a surface seen along wo, x along the direction of its anisotropy if it has one. */
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
     bool sound = dir_dot(at.normal, at.geometric) > 0.0f; /* else damaged */
     Dir normal = dir_choose(sound, at.normal, at.geometric), n = normal;
-    if (s.normal.z < 1.0f) n = frame_from(frame_about(normal, at.tangent, at.handedness), s.normal);
-    bool bend = s.normal.z < 1.0f || dir_dot(normal, wo) <= 1e-4f;
-    n = dir_choose(bend, frame_bent(n, at.geometric, wo), n);
-    Frame f = frame_about(n, at.tangent, at.handedness);
+    if (s.normal.z < 1.0f)
+        n = frame_bent(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal), at.geometric,
+                       wo);
+    Frame f = frame_about(frame_seen(n, wo), at.tangent, at.handedness);
     if (s.anisotropy > 0.0f) f = frame_about(f.z, frame_from(f, s.anisotropy_direction), at.handedness);
     return f;
 }

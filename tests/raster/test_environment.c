@@ -86,7 +86,7 @@ static GlContext *context_or_skip(TextLanguage language) {
     return NULL;
 }
 
-enum { CUBE = 3, REST = 4, TABLES = 5, BLOCK = 2 };
+enum { CUBE = 3, TABLES = 5, BLOCK = 2 };
 
 /* Runs `lines`, which set vec3 c from Dir d and Frame f, at every point; returns the number of samplers. */
 static int draw(TextLanguage language, const GlEnvironment *env, Text *text, const char *lines,
@@ -121,8 +121,8 @@ static int draw(TextLanguage language, const GlEnvironment *env, Text *text, con
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
     glViewport(0, 0, POINTS, 1);
-    environment_program(program, CUBE, REST, BLOCK);
-    environment_bind(env, CUBE, REST, BLOCK);
+    environment_program(program, CUBE, BLOCK);
+    environment_bind(env, CUBE, BLOCK);
     glUseProgram(program);
     if (tables) {
         glActiveTexture(GL_TEXTURE0 + TABLES);

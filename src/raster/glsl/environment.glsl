@@ -1,20 +1,23 @@
-/* environment.glsl - the light around a scene, for shading/ambient.h: filtered cubes, terms and lamps
+/* environment.glsl - the light around a scene, for shading/ambient.h: a filtered cube, terms and lamps
  *
- * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted by
- * exp(3200 / 4^m (mu - 1)); Of environment_rest level m holds that of what the
- * lamps leave by exp(50 / 4^m (mu - 1)), the last by the cosine; the first of the terms has ambient_lamp_kappa in w. Both are of the image as it is,
- * terms and lamps too. */
+ * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
+ * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/ambient.h: environment_terms of irradiance over pi,
+ * without degree 3; environment_rest of what the lamps leave. All are of the image as it is, lamps too.
+ * ambient_held is whoever's who has held tables. */
 #include "shading/frame.h"
 #include "shading/rgb.h"
 
 uniform highp samplerCube environment_cube;
-uniform highp samplerCube environment_rest;
 layout(std140) uniform Environment {
     highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lamps */
-    highp vec4 environment_terms[18]; /* irradiance over pi, see scene/ambient.h */
+    highp vec4 environment_terms[18]; /* w of the first: ambient_lamp_kappa */
+    highp vec4 environment_rest[16];
     highp vec4 environment_lamps[32]; /* two each: direction, irradiance */
 };
 
+struct AmbientWeights {
+    float a, b, c, d;
+};
 struct AmbientLight {
     Dir w;
     Rgb color;
@@ -40,9 +43,22 @@ Rgb ambient_radiance(Frame f, Dir w, float kappa) {
     return environment_rgb(textureLod(environment_cube, environment_image(f, w), max(level, 0.0)).rgb);
 }
 
+/* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/ambient.h). */
 Rgb ambient_rest(Frame f, Dir w, float kappa) {
-    float level = kappa > 0.0 ? clamp(0.5 * log2(50.0 / max(kappa, 0.25)), 0.0, 2.0) : 3.0;
-    return environment_rgb(textureLod(environment_rest, environment_image(f, w), level).rgb);
+    float q = 1.0 / max(kappa, 0.01), a = 1.0 + 2.0 / (exp(min(2.0 * kappa, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
+    vec3 d = kappa > 0.0 ? vec3(a, b, a - 5.0 * q * b) : vec3(2.0 / 3.0, 0.25, 0.0);
+    vec3 n = environment_image(f, w), s = n * n;
+    vec3 one = environment_rest[1].rgb * n.x + environment_rest[2].rgb * n.y + environment_rest[3].rgb * n.z;
+    vec3 two = environment_rest[4].rgb * (n.x * n.y) + environment_rest[5].rgb * (n.y * n.z) +
+               environment_rest[6].rgb * (n.z * n.x) + environment_rest[7].rgb * (s.x - s.y) +
+               environment_rest[8].rgb * (3.0 * s.z - 1.0);
+    vec3 three = environment_rest[9].rgb * (n.y * (3.0 * s.x - s.y)) + environment_rest[10].rgb * (n.x * n.y * n.z) +
+                 environment_rest[11].rgb * (n.y * (5.0 * s.z - 1.0)) +
+                 environment_rest[12].rgb * (n.z * (5.0 * s.z - 3.0)) +
+                 environment_rest[13].rgb * (n.x * (5.0 * s.z - 1.0)) +
+                 environment_rest[14].rgb * (n.z * (s.x - s.y)) +
+                 environment_rest[15].rgb * (n.x * (s.x - 3.0 * s.y));
+    return environment_rgb(max(environment_rest[0].rgb + d.x * one + d.y * two + d.z * three, vec3(0.0)));
 }
 
 float ambient_lamp_kappa(Frame f) { return environment_terms[0].w; }

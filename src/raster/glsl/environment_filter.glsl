@@ -2,8 +2,7 @@
  *
  *   L(d) = sum w L_texel / sum w,   w = sin(theta) exp(kappa (mu - 1)),  mu = d . texel
  *
- * or, where kappa is 0, w = sin(theta) max(mu, 0). Only texels within `reach` of d are asked: beyond it w is
- * below a three-thousandth. */
+ * Only texels within `reach` of d are asked: beyond it w is below a three-thousandth. */
 uniform highp sampler2D source;
 uniform highp mat3 face;  /* its axes as columns: towards the right, down, and out */
 uniform highp vec4 how;   /* texels across the face, level of the source, kappa, cosine of reach */
@@ -34,7 +33,7 @@ void main() {
         int x = first < 0 ? first + size.x : first;
         for (int k = 0; k < count; k++) {
             float mu = c * d.y + s * across * now.x;
-            float w = s * (how.z > 0.0 ? exp(how.z * (mu - 1.0)) : max(mu, 0.0));
+            float w = s * exp(how.z * (mu - 1.0));
             sum += w * vec4(texelFetch(source, ivec2(x, y), level).rgb, 1.0);
             now = vec2(now.x * turn_cos - now.y * turn_sin, now.y * turn_cos + now.x * turn_sin);
             x = x + 1 < size.x ? x + 1 : 0;
