@@ -31,7 +31,8 @@ typedef struct WeftRasterDesc {
     const char *shader_dir;
     int threads;   /* for the tables; 0: one a processor */
     int occlusion; /* rays a vertex, to find in the background what it sees of the sky, up to 4096; 0: none */
-    int no_cache;  /* not 0: the filtered environment is neither read from the user's cache nor written */
+    int no_cache;  /* not 0: the filtered environment and occlusion are neither read from the user's cache nor
+                      written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
      * other than 0 stops. */
     WeftProgress progress;

@@ -2,10 +2,12 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/memory.h"
 
 uint64_t cache_hash(uint64_t hash, const void *data, size_t size) {
     const unsigned char *bytes = data;
@@ -52,4 +54,46 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
         written = output_commit(&file, NULL) == WEFT_OK;
     }
     if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written");
+}
+
+/* What is before the data; a checksum of all is behind them. */
+typedef struct Head {
+    char magic[8];
+    uint64_t key;
+} Head;
+
+static Head head_of(uint64_t key) { return (Head){{'w', 'e', 'f', 't', '-', 'n', 'u', 'm'}, key}; }
+
+void cache_keep(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
+    const Head head = head_of(key);
+    size_t whole = sizeof head + size;
+    unsigned char *file = size < SIZE_MAX / 2 ? alloc_array(whole + sizeof key, 1) : NULL;
+    if (!file) return;
+    memcpy(file, &head, sizeof head);
+    memcpy(file + sizeof head, data, size);
+    uint64_t check = cache_hash(CACHE_HASH, file, whole);
+    memcpy(file + whole, &check, sizeof check);
+    cache_write(key, suffix, file, whole + sizeof check, log);
+    free(file);
+}
+
+bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const WeftLog *log) {
+    const Head head = head_of(key);
+    char path[CACHE_PATH_SIZE];
+    FileBytes file;
+    WeftError error;
+    struct stat status;
+    size_t whole = sizeof head + size;
+    if (!cache_path(path, key, suffix) || stat(path, &status) != 0) return false;
+    if (file_read(path, whole + sizeof key, &file, &error) != WEFT_OK) {
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "%s", weft_message_text(error.message));
+        return false;
+    }
+    bool good = file.size == whole + sizeof key && memcmp(file.data, &head, sizeof head) == 0;
+    uint64_t check = good ? cache_hash(CACHE_HASH, file.data, whole) : 0;
+    good = good && memcmp(file.data + whole, &check, sizeof check) == 0;
+    if (good) memcpy(data, file.data + sizeof head, size);
+    free(file.data);
+    if (!good) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it is damaged");
+    return good;
 }

@@ -23,4 +23,10 @@ bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix);
  * (WEFT_MESSAGE_CACHE_IGNORED). */
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);
 
+/* Numbers as this machine has them, with their key and a checksum: cache_keep writes them, cache_find reads
+ * them back. False where there are none of that size; those that are damaged are a warning too. Hash the size
+ * of some numbers, not only bytes, into a key: another machine's order of bytes is then another key. */
+void cache_keep(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);
+bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const WeftLog *log);
+
 #endif

@@ -88,6 +88,7 @@ typedef struct Job {
 typedef struct Jobs {
     Asset *asset;
     Job *items;               /* for each image of the scene */
+    int *order;               /* of the images: the longest file first, so that it is not the last to end */
     pthread_mutex_t log_lock; /* a log is never called by two threads at once */
 } Jobs;
 
@@ -100,9 +101,10 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
     pthread_mutex_unlock(&jobs->log_lock);
 }
 
-static void decode(void *user, int item, int thread) {
+static void decode(void *user, int turn, int thread) {
     (void)thread;
     Jobs *jobs = user;
+    int item = jobs->order[turn];
     Job *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
     job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
@@ -125,10 +127,20 @@ static void sizes_check(Jobs *jobs) {
                    decoded, room);
 }
 
+static void order_find(Jobs *jobs) {
+    for (int i = 0; i < jobs->asset->scene->image_count; i++) {
+        int at = i;
+        for (; at > 0 && jobs->items[jobs->order[at - 1]].bytes.size < jobs->items[i].bytes.size; at--)
+            jobs->order[at] = jobs->order[at - 1];
+        jobs->order[at] = i;
+    }
+}
+
 static void images_decode(Jobs *jobs) {
     Asset *asset = jobs->asset;
     int count = asset->scene->image_count;
     sizes_check(jobs);
+    order_find(jobs);
     if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
         asset->result = jobs->items[i].result;
@@ -195,6 +207,7 @@ void textures_resolve(Asset *asset) {
     WeftScene *scene = asset->scene;
     Jobs jobs = {.asset = asset};
     jobs.items = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.items);
+    jobs.order = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.order);
     scene->textures = asset_array(asset, &scene->arena, asset->texture_count, sizeof *scene->textures);
     scene->images = asset_array(asset, &scene->arena, asset->image_count, sizeof *scene->images);
     int *image_of_source = asset_array(asset, &asset->arena, asset->image_count, sizeof(int));

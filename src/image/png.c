@@ -116,6 +116,7 @@ static void png_encode(png_structp png, png_infop info, const WeftImage *image, 
                  PNG_FILTER_TYPE_DEFAULT);
     if (!job->data) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (job->comment) png_comment(png, info, job->comment);
+    png_set_compression_level(png, 3); /* a third of the time of the default, files a fifth longer */
     png_write_info(png, info);
     if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
     const size_t stride = (size_t)image->width * (size_t)image->channels * (deep ? 2 : 1);

@@ -15,6 +15,7 @@ enum { DEVICES_MAX = 16 };
 struct GlContext {
     EGLDisplay display;
     EGLContext context;
+    EGLConfig config;
     EGLSurface surface; /* EGL_NO_SURFACE, or one pixel where the driver insists */
     TextLanguage language;
     char driver[128];
@@ -58,7 +59,28 @@ static EGLConfig choose_config(EGLDisplay display, TextLanguage language, bool p
     return eglChooseConfig(display, wanted, &config, 1, &count) && count ? config : EGL_NO_CONFIG_KHR;
 }
 
-/* Fills in context and surface on that display. */
+/* Fills in context and surface; its objects are also those of `share`. */
+static bool make_context(GlContext *self, EGLContext share, bool pixel) {
+    static const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_MINOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                                     EGL_NONE};
+    static const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0, EGL_NONE};
+    static const EGLint one[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    self->context = eglCreateContext(self->display, self->config, share,
+                                     self->language == TEXT_GLSL_ES_300 ? es : desktop);
+    if (self->context == EGL_NO_CONTEXT) return false;
+    self->surface = pixel ? eglCreatePbufferSurface(self->display, self->config, one) : EGL_NO_SURFACE;
+    if (!pixel || self->surface != EGL_NO_SURFACE) return true;
+    eglDestroyContext(self->display, self->context);
+    self->context = EGL_NO_CONTEXT;
+    return false;
+}
+
+/* Fills in a whole context on that display. */
 static bool make_on(GlContext *self, EGLDisplay display) {
     if (!display_begin(display)) return false;
     if (!epoxy_has_egl_extension(display, "EGL_KHR_create_context") && epoxy_egl_version(display) < 15)
@@ -68,24 +90,9 @@ static bool make_on(GlContext *self, EGLDisplay display) {
     bool any = epoxy_has_egl_extension(display, "EGL_KHR_no_config_context") && !pixel;
     EGLConfig config = any ? EGL_NO_CONFIG_KHR : choose_config(display, self->language, pixel);
     if (!any && config == EGL_NO_CONFIG_KHR) return false;
-    static const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
-                                     3,
-                                     EGL_CONTEXT_MINOR_VERSION_KHR,
-                                     3,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                                     EGL_NONE};
-    static const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0, EGL_NONE};
     self->display = display;
-    self->context =
-        eglCreateContext(display, config, EGL_NO_CONTEXT, self->language == TEXT_GLSL_ES_300 ? es : desktop);
-    if (self->context == EGL_NO_CONTEXT) return false;
-    static const EGLint one[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
-    self->surface = pixel ? eglCreatePbufferSurface(display, config, one) : EGL_NO_SURFACE;
-    if (!pixel || self->surface != EGL_NO_SURFACE) return true;
-    eglDestroyContext(display, self->context);
-    self->context = EGL_NO_CONTEXT;
-    return false;
+    self->config = config;
+    return make_context(self, EGL_NO_CONTEXT, pixel);
 }
 
 /* Tries what needs no screen first: no surfaces at all, then each device, then what the system takes for the
@@ -153,6 +160,19 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
     return WEFT_OK;
 }
 
+GlContext *context_share(const GlContext *of) {
+    GlContext *self = alloc_array(1, sizeof *self);
+    if (!self) return NULL;
+    GlOuter outer = outer_now();
+    *self = *of;
+    eglBindAPI(api_of(self->language));
+    bool made = make_context(self, of->context, of->surface != EGL_NO_SURFACE);
+    eglBindAPI(outer.api);
+    if (made) return self;
+    free(self);
+    return NULL;
+}
+
 void context_destroy(GlContext *self) {
     if (!self) return;
     if (eglGetCurrentContext() == self->context)
@@ -174,6 +194,8 @@ bool context_enter(GlContext *self, GlOuter *outer) {
 void context_leave(GlContext *self, const GlOuter *outer) {
     if (outer->context != self->context) put_back(self, outer);
 }
+
+void context_thread_ends(void) { eglReleaseThread(); }
 
 TextLanguage context_language(const GlContext *self) { return self->language; }
 const char *context_driver(const GlContext *self) { return self->driver; }

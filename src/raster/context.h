@@ -15,6 +15,11 @@ typedef struct GlContext GlContext;
  * where there is no EGL, no driver, or no such version. */
 WeftResult context_create(TextLanguage language, GlContext **out, WeftError *error);
 
+/* Another context that has the same textures, buffers and programs (not framebuffers nor vertex arrays), for
+ * work in another thread: what is made there is there for all once glFinish and whatever joins the threads
+ * are past. NULL where the driver or memory refuses. Release with context_destroy. */
+GlContext *context_share(const GlContext *context);
+
 /* Makes it current nowhere and releases it; NULL is fine. What was made in it must be destroyed before. */
 void context_destroy(GlContext *context);
 
@@ -28,6 +33,9 @@ typedef struct GlOuter {
  * where the driver refuses: the context is in use in another thread. */
 bool context_enter(GlContext *context, GlOuter *outer);
 void context_leave(GlContext *context, const GlOuter *outer);
+
+/* Lets go of what EGL keeps for this thread, which then ends. */
+void context_thread_ends(void);
 
 /* The language it was made for. */
 TextLanguage context_language(const GlContext *context);

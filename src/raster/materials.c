@@ -6,11 +6,12 @@
 
 #include "base/fail.h"
 #include "raster/check.h"
+#include "raster/families.h"
 #include "scene/shade.h"
 
 /* The block "Material" of shader.c. */
 typedef struct Uniforms {
-    float inputs[INPUT_COUNT][4];
+    float inputs[INPUT_COUNT][4]; /* w: 1 where it has a map */
     float places[INPUT_COUNT][2][4];
     float e[4];    /* layer, low, high, tilt */
     float more[4]; /* alpha cutoff */
@@ -31,35 +32,16 @@ static InputState state_of(const Input *input, InputKind kind) {
                                                                                         : INPUT_VALUE;
 }
 
-static bool same_texel(const Input *a, const Input *b) {
-    bool same = a->texture == b->texture && a->texcoord == b->texcoord;
-    for (int k = 0; k < 6; k++)
-        same &= !(a->transform[k] < b->transform[k]) && !(a->transform[k] > b->transform[k]);
-    return same;
-}
-
-static bool is_color(const Material *material, int k) {
-    return input_infos[k].kind == INPUT_COLOR || (k == INPUT_opacity && material->inputs[k].channel == 3);
-}
-
 static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
                     Uniforms *uniforms) {
     const Input *input = &material->inputs[k];
-    ShaderInput *to = &self->key.inputs[k];
-    TexturePlace at = textures_place(textures, input, is_color(material, k));
-    int slot = 0;
-    while (slot < self->group_count && self->groups[slot] != at.group) slot++;
-    if (slot == self->group_count) self->groups[self->group_count++] = at.group;
-    to->slot = (int16_t)slot;
-    to->channel = (int16_t)input->channel;
-    to->texcoord = (int16_t)input->texcoord;
-    for (int j = k - 1; j >= 0; j--)
-        if (material->inputs[j].texture && self->key.inputs[j].like < 0 &&
-            is_color(material, j) == is_color(material, k) && same_texel(&material->inputs[j], input))
-            to->like = (int16_t)j;
+    TexturePlace at = textures_place(textures, input, textures_color(material, k));
+    self->key.inputs[k].channel = (int16_t)input->channel;
+    self->key.inputs[k].texcoord = (int16_t)input->texcoord;
     for (int row = 0; row < 2; row++)
         for (int c = 0; c < 3; c++) uniforms->places[k][row][c] = input->transform[3 * row + c];
     uniforms->places[k][0][3] = (float)at.layer;
+    uniforms->inputs[k][3] = 1.0f;
 }
 
 static void add_input(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
@@ -155,6 +137,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
     glGenBuffers(1, &out->uniforms);
     WeftResult result = sheen_tables_create(scene, threads, &out->sheens, error);
     if (result == WEFT_OK) result = make_uniforms(out, scene, textures, threads, error);
+    if (result == WEFT_OK) result = families_make(scene, textures, out->all, error);
     if (result != WEFT_OK) materials_destroy(out);
     return result;
 }

@@ -5,6 +5,7 @@
 
 #include "raster/occlusion.h"
 
+#include "base/cache.h"
 #include "base/fail.h"
 #include "base/thread.h"
 #include "shading/frame.h"
@@ -13,12 +14,17 @@
 
 enum { BLOCK = 256 }; /* vertices in one go */
 
+/* Raised whenever the same scene would give other values. */
+enum { LOOK = 1 };
+
 struct Occlusion {
     const WeftScene *scene;
     Geometry *geometry;
     float *values;
     uint32_t *first; /* vertex of a mesh */
     int rays, threads;
+    bool no_cache;
+    uint64_t key; /* of the values in the cache */
     atomic_int stop, done;
     bool joined;
     pthread_t thread;
@@ -63,36 +69,92 @@ static void look(void *user, int item, int thread) {
     }
 }
 
+/* What is not opaque hides by its textures: too much to hash. */
+static bool is_opaque(const WeftScene *scene) {
+    bool opaque = true;
+    for (int m = 0; m < scene->mesh_count; m++)
+        opaque &= scene->materials[scene->meshes[m].material].alpha_mode == ALPHA_OPAQUE;
+    return opaque;
+}
+
+/* All that the values of an opaque scene depend on. */
+static uint64_t values_key(const WeftScene *scene, int rays) {
+    const int how[] = {LOOK, rays, scene->mesh_count};
+    uint64_t hash = cache_hash(CACHE_HASH, how, sizeof how);
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        const uint32_t what[] = {mesh->vertex_count, mesh->triangle_count, mesh->normal != NULL,
+                                 scene->materials[mesh->material].double_sided};
+        size_t corners = 3 * (size_t)mesh->vertex_count * sizeof(float);
+        hash = cache_hash(hash, what, sizeof what);
+        hash = cache_hash(hash, mesh->position, corners);
+        if (mesh->normal) hash = cache_hash(hash, mesh->normal, corners);
+        hash = cache_hash(hash, mesh->index, 3 * (size_t)mesh->triangle_count * sizeof(uint32_t));
+    }
+    return hash;
+}
+
+static size_t values_count(const Occlusion *self) { return 2 * (size_t)self->first[self->scene->mesh_count]; }
+
+static bool in_range(const float *values, size_t count) {
+    bool good = true;
+    for (size_t k = 0; k < count; k++) good &= values[k] >= 0.0f && values[k] <= 1.0f;
+    return good;
+}
+
 static void *work(void *user) {
     Occlusion *self = user;
     uint32_t count = self->first[self->scene->mesh_count];
     parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
     atomic_store(&self->done, 1);
+    /* in silence: a log is for the thread that made this */
+    if (!self->no_cache && !atomic_load(&self->stop))
+        cache_keep(self->key, "sky", self->values, values_count(self) * sizeof(float), NULL);
     return NULL;
 }
 
-WeftResult occlusion_start(const WeftScene *scene, int rays, int threads, Occlusion **out, WeftError *error) {
+/* Whether an earlier run has found them. */
+static bool known(Occlusion *self, const WeftLog *log) {
+    if (self->no_cache) return false;
+    size_t count = values_count(self);
+    self->key = values_key(self->scene, self->rays);
+    return cache_find(self->key, "sky", self->values, count * sizeof(float), log) &&
+           in_range(self->values, count);
+}
+
+static WeftResult begin(Occlusion *self, WeftError *error) {
+    WeftResult result = geometry_create(self->scene, self->threads, &self->geometry, error);
+    if (result != WEFT_OK) return result;
+    self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
+    if (self->joined) work(self); /* no thread to be had: now, then */
+    return WEFT_OK;
+}
+
+WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
+                           const WeftLog *log, WeftError *error) {
     *out = NULL;
     Occlusion *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->scene = scene;
-    self->rays = rays;
-    self->threads = threads ? threads : thread_count();
+    self->rays = how->rays;
+    self->no_cache = how->no_cache || !is_opaque(scene);
+    self->threads = how->threads ? how->threads : thread_count();
     self->joined = true;
     self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     for (int m = 0; self->first && m < scene->mesh_count; m++)
         self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
     if (self->first) self->values = alloc_array(self->first[scene->mesh_count], 2 * sizeof(float));
     WeftResult result = WEFT_OK;
-    if (!self->values) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    if (result == WEFT_OK) result = geometry_create(scene, self->threads, &self->geometry, error);
-    if (result == WEFT_OK) {
-        self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
-        if (self->joined) work(self); /* no thread to be had: now, then */
+    if (!self->first || !self->values)
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    else if (known(self, log))
+        atomic_store(&self->done, 1);
+    else
+        result = begin(self, error);
+    if (result == WEFT_OK)
         *out = self;
-        return WEFT_OK;
-    }
-    occlusion_free(self);
+    else
+        occlusion_free(self);
     return result;
 }
 

@@ -7,8 +7,10 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/thread.h"
 #include "raster/program.h"
 #include "raster/tables.h"
+#include "weft/render.h"
 
 typedef struct Sampler {
     const char *name;
@@ -77,48 +79,131 @@ static void drop(Program *self) {
     glDeleteTextures(1, &self->tables);
 }
 
-/* Compiles; what was there before stays where that fails. */
-static void build(Programs *programs, Program *self) {
-    Text vertex = {0}, fragment = {0};
-    WeftError error = {0};
-    GLuint made = 0, tables = 0;
-    shader_vertex_text(&programs->desc, &vertex);
-    shader_text(&self->key, &programs->desc, &programs->fits, &fragment);
-    if (text_end(&vertex, &error) == WEFT_OK && text_end(&fragment, &error) == WEFT_OK)
-        made = program_create("material shader", (ShaderSource){vertex.bytes, &vertex},
-                              (ShaderSource){fragment.bytes, &fragment}, &error);
-    if (made) tables = make_tables(programs, &fragment, &error);
-    text_free(&vertex);
-    text_free(&fragment);
+/* One to compile. */
+typedef struct Job {
+    Program *program;
+    Text vertex, fragment;
+    WeftError error;
+    GLuint made;
+} Job;
+
+typedef struct Batch {
+    Job *jobs;
+    GlContext *contexts[WEFT_THREADS_MAX]; /* a thread; NULL for the caller's, which has one */
+} Batch;
+
+static void write_text(Programs *programs, Job *job) {
+    shader_vertex_text(&programs->desc, &job->vertex);
+    shader_text(&job->program->key, &programs->desc, &programs->fits, &job->fragment);
+    if (text_end(&job->vertex, &job->error) == WEFT_OK) text_end(&job->fragment, &job->error);
+}
+
+static void compile(Job *job) {
+    if (job->error.result == WEFT_OK)
+        job->made = program_create("material shader", (ShaderSource){job->vertex.bytes, &job->vertex},
+                                   (ShaderSource){job->fragment.bytes, &job->fragment}, &job->error);
+}
+
+static void compile_in_thread(void *user, int item, int thread) {
+    const Batch *batch = user;
+    GlContext *context = batch->contexts[thread];
+    GlOuter outer;
+    if (!context) {
+        compile(&batch->jobs[item]);
+    } else if (context_enter(context, &outer)) {
+        compile(&batch->jobs[item]);
+        glFinish();
+        context_leave(context, &outer);
+        context_thread_ends();
+    }
+}
+
+/* What was there before stays where compiling failed. */
+static void take(Programs *programs, Job *job) {
+    Program *self = job->program;
+    GLuint tables = 0;
+    if (job->made) tables = make_tables(programs, &job->fragment, &job->error);
+    text_free(&job->vertex);
+    text_free(&job->fragment);
     programs->compiled++;
     self->stale = false;
-    self->error = error;
-    if (error.result != WEFT_OK) {
-        glDeleteProgram(made);
+    self->error = job->error;
+    if (job->error.result != WEFT_OK) {
+        glDeleteProgram(job->made);
         return;
     }
     drop(self);
-    self->name = made;
+    self->name = job->made;
     self->tables = tables;
-    bind_blocks(made);
+    bind_blocks(self->name);
     set_units(self);
 }
 
-const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
+/* As many contexts as there are other threads to use, beside the caller's. */
+static int share_contexts(Batch *batch, const GlContext *context, int threads, int count) {
+    int made = 1;
+    if (threads <= 0) threads = thread_count();
+    if (threads > count) threads = count;
+    while (made < threads && (batch->contexts[made] = context_share(context))) made++;
+    return made;
+}
+
+/* Drivers compile and link in the thread that asks, for as long as all else takes together; so several ask.
+ */
+static void build(Programs *programs, const GlContext *context, Job *jobs, int count) {
+    Batch batch = {.jobs = jobs};
+    for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
+    int threads = share_contexts(&batch, context, programs->fits.threads, count);
+    parallel_for(threads, count, compile_in_thread, &batch);
+    for (int k = 1; k < threads; k++) context_destroy(batch.contexts[k]);
+    for (int k = 0; k < count; k++) {
+        /* a thread that could not enter its context has left its job */
+        if (!jobs[k].made) compile(&jobs[k]);
+        take(programs, &jobs[k]);
+    }
+}
+
+/* That of a key, or a new one that is stale; NULL where memory is short. */
+static Program *find(Programs *programs, const ShaderKey *key) {
     Program *p = programs->first;
     while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
-    if (!p) {
-        p = alloc_array(1, sizeof *p);
-        if (!p) {
-            fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
-            return NULL;
-        }
-        memcpy(&p->key, key, sizeof *key);
-        p->stale = true;
-        p->next = programs->first;
-        programs->first = p;
+    if (p) return p;
+    p = alloc_array(1, sizeof *p);
+    if (!p) return NULL;
+    memcpy(&p->key, key, sizeof *key);
+    p->stale = true;
+    p->next = programs->first;
+    programs->first = p;
+    return p;
+}
+
+bool programs_want(Programs *programs, const ShaderKey *key) {
+    Program *p = find(programs, key);
+    if (!p) return false;
+    if (p->stale && !p->wanted) programs->wanted++;
+    p->wanted = p->stale;
+    return true;
+}
+
+bool programs_build(Programs *programs, const GlContext *context) {
+    int count = 0;
+    if (!programs->wanted) return true;
+    Job *jobs = alloc_array((size_t)programs->wanted, sizeof *jobs);
+    if (!jobs) return false;
+    for (Program *p = programs->first; p; p = p->next) {
+        if (p->wanted) jobs[count++].program = p;
+        p->wanted = false;
     }
-    if (p->stale) build(programs, p);
+    programs->wanted = 0;
+    build(programs, context, jobs, count);
+    free(jobs);
+    return true;
+}
+
+const Program *programs_get(const Programs *programs, const ShaderKey *key, WeftError *error) {
+    const Program *p = programs->first;
+    while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
+    if (!p) return NULL;
     *error = p->error;
     return p->name ? p : NULL;
 }

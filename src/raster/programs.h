@@ -4,6 +4,7 @@
 #ifndef WEFT_RASTER_PROGRAMS_H
 #define WEFT_RASTER_PROGRAMS_H
 
+#include "raster/context.h"
 #include "raster/shader.h"
 #include "scene/sheen_tables.h"
 
@@ -18,6 +19,7 @@ typedef struct Program {
     unsigned tables; /* array texture for weft_tables, 0 where the program has none */
     int samplers;    /* array elements counted one by one */
     bool stale;      /* its text may have changed */
+    bool wanted;     /* and it is to be compiled */
     WeftError error; /* of the last attempt; its program before stays in use */
 } Program;
 
@@ -27,12 +29,21 @@ typedef struct Programs {
     Fits fits;                 /* for their light from the environment */
     const SheenTables *sheens; /* of the scene: behind each program's own tables */
     int compiled;              /* so far */
+    int wanted;                /* in the list */
 } Programs;
 
-/* The program for a key, compiled where it is new or stale. NULL where it has never compiled, with what the
- * compiler says in error; where it did before, that one stays, and error tells all the same: *error is
- * WEFT_OK only where all is well. Compiling changes which program is in use. */
-const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
+/* Notes that a key will be drawn with; false where memory is short. */
+bool programs_want(Programs *programs, const ShaderKey *key);
+
+/* Compiles those noted that are new or stale, several at once, in threads with contexts that share the
+ * objects of `context`, which is current. Does nothing where there are none; else it changes which program is
+ * in use. False where memory is short. */
+bool programs_build(Programs *programs, const GlContext *context);
+
+/* The program for a key that was noted and built. NULL where it has never compiled, with what the compiler
+ * says in error; where it did before, that one stays, and error tells all the same: *error is WEFT_OK only
+ * where all is well. */
+const Program *programs_get(const Programs *programs, const ShaderKey *key, WeftError *error);
 
 /* The program that draws the environment behind everything; 0 on failure, with what the compiler says in
  * error. Release with glDeleteProgram. */

@@ -85,7 +85,7 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     const WeftScene *scene = self->scene;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     WeftResult result = meshes_create(scene, &self->meshes, error);
-    if (result == WEFT_OK) result = textures_create(scene, &self->textures, log, error);
+    if (result == WEFT_OK) result = textures_create(scene, desc->threads, &self->textures, log, error);
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, desc->threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
@@ -130,6 +130,9 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->programs.desc = (TextDesc){language, true, self->shader_dir};
     if (result == WEFT_OK && self->shader_dir) watch_look(&self->watch, self->shader_dir);
+    if (result == WEFT_OK && desc->occlusion)
+        result = occlusion_start(scene, &(OcclusionHow){desc->occlusion, desc->threads, desc->no_cache != 0},
+                                 &self->occlusion, log, error);
     if (result == WEFT_OK) result = context_create(language, &self->context, error);
     GlOuter outer;
     if (result == WEFT_OK && !context_enter(self->context, &outer))
@@ -138,8 +141,6 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
         result = upload(self, desc, log, error);
         context_leave(self->context, &outer);
     }
-    if (result == WEFT_OK && desc->occlusion)
-        result = occlusion_start(scene, desc->occlusion, desc->threads, &self->occlusion, error);
     if (result == WEFT_OK)
         *out = self;
     else
@@ -235,10 +236,7 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     int k = self->scene->meshes[mesh].material;
     const GlMaterial *material = &self->materials.all[k];
     WeftError said = {0};
-    double start = now();
-    int compiled = self->programs.compiled;
     const Program *program = programs_get(&self->programs, key, &said);
-    if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
     if (!program) {
         if (error) *error = said;
         return said.result;
@@ -271,21 +269,6 @@ static ShaderKey depth_key(const ShaderKey *key) {
     return depth;
 }
 
-/* The maps stay as they are as long as the scene does. */
-static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
-    WeftResult result = WEFT_OK;
-    for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
-        set_picture(self, &self->shadows.all[k].view, NULL);
-        shadows_begin(&self->shadows, k);
-        for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
-            ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
-            result = draw_mesh(self, m, &key, error);
-        }
-    }
-    self->shadows.drawn = result == WEFT_OK;
-    return result;
-}
-
 /* What the lights make of a key. */
 static void add_lights(const WeftRaster *self, const WeftRasterView *view, ShaderKey *key) {
     const WeftScene *scene = self->scene;
@@ -307,6 +290,45 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
         for (int j = 0; j < self->shadows.count && key->shadowed; j++)
             if (self->shadows.of_polygon[j] == k) key->polygon_map[k] = (int16_t)j;
     }
+}
+
+static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
+    ShaderKey key = material->key;
+    add_lights(self, view, &key);
+    if (key.ambient) material_in_light(material, self->environment.parts.lamp_kappa, &key);
+    return key;
+}
+
+/* Compiles whatever a picture will be drawn with. */
+static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    bool held = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
+    for (int k = 0; k < self->materials.count && held; k++) {
+        if (!self->materials.all[k].worn) continue;
+        const GlMaterial *material = &self->materials.all[k];
+        ShaderKey key = lit_key(self, view, material), depth = depth_key(&material->key);
+        held = programs_want(&self->programs, &key);
+        if (shadows) held = held && programs_want(&self->programs, &depth);
+    }
+    double start = now();
+    int compiled = self->programs.compiled;
+    held = held && programs_build(&self->programs, self->context);
+    if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
+    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
+}
+
+/* The maps stay as they are as long as the scene does. */
+static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
+        set_picture(self, &self->shadows.all[k].view, NULL);
+        shadows_begin(&self->shadows, k);
+        for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+            ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
+            result = draw_mesh(self, m, &key, error);
+        }
+    }
+    self->shadows.drawn = result == WEFT_OK;
+    return result;
 }
 
 /* Where nothing was drawn; behind what blends. */
@@ -342,9 +364,7 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
         if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
         const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
-        ShaderKey key = material->key;
-        add_lights(self, view, &key);
-        if (key.ambient) material_in_light(material, self->environment.parts.lamp_kappa, &key);
+        ShaderKey key = lit_key(self, view, material);
         if (k == self->queue.solid) {
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
@@ -387,7 +407,8 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
     set_state(self);
-    result = take_occlusion(self, false, error);
+    result = prepare(self, &view, error);
+    if (result == WEFT_OK) result = take_occlusion(self, false, error);
     if (result == WEFT_OK && !view.no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK)
         result = target_resize(&self->target, view.width, view.height, view.samples, error);

@@ -88,6 +88,10 @@ static KeySlots find_slots(const ShaderKey *key) {
     return found;
 }
 
+static bool is_mapped(const ShaderInput *input) {
+    return input->state == INPUT_MAP || input->state == INPUT_MAYBE;
+}
+
 /* Puts x in for whatever a texture says. */
 static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_SCALAR(name)    s->name = x
@@ -96,7 +100,7 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_NORMAL(name)    (void)0
 #define VARY_DIRECTION(name) (void)0
 #define VARY(kind, name, def, low, high, hard_low, hard_high, help)                                          \
-    if (key->inputs[INPUT_##name].state == INPUT_MAP) VARY_##kind(name);
+    if (is_mapped(&key->inputs[INPUT_##name])) VARY_##kind(name);
     SURFACE_INPUTS(VARY)
 }
 
@@ -200,8 +204,7 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
               SHADER_SLOTS * AMBIENT_HELD);
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
-        if (key->inputs[k].state == INPUT_MAP && key->inputs[k].slot >= slots)
-            slots = key->inputs[k].slot + 1;
+        if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
     if (!slots) return;
     text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
     text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
@@ -218,16 +221,26 @@ static void put_table(Text *text, const ShaderKey *key) {
                     "    return t;\n}");
 }
 
+/* The texel that changes nothing. */
+static const char *rest_of(int input) {
+    InputKind kind = input_infos[input].kind;
+    return kind == INPUT_NORMAL || kind == INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)" : "vec4(1.0)";
+}
+
+bool shader_same_rest(int input, int other) { return strcmp(rest_of(input), rest_of(other)) == 0; }
+
 /* The texel of a map, unless an earlier input has it. */
 static void put_texel(Text *text, const ShaderKey *key, int k) {
     const ShaderInput *input = &key->inputs[k];
-    if (input->state != INPUT_MAP || input->like >= 0) return;
-    text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);", input_infos[k].name, input->texcoord);
+    const char *name = input_infos[k].name;
+    if (!is_mapped(input) || input->like >= 0) return;
+    text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);\n    vec4 map_%s = %s;", name, input->texcoord,
+              name, rest_of(k));
+    if (input->state == INPUT_MAYBE) text_line(text, "    if (material_%s.w > 0.5)", name);
     text_line(text,
-              "    vec4 map_%s = texture(material_maps[%d], vec3(dot(material_places[%d].xyz, at_%s), "
+              "    map_%s = texture(material_maps[%d], vec3(dot(material_places[%d].xyz, at_%s), "
               "dot(material_places[%d].xyz, at_%s), material_places[%d].w));",
-              input_infos[k].name, input->slot, 2 * k, input_infos[k].name, 2 * k + 1, input_infos[k].name,
-              2 * k);
+              name, input->slot, 2 * k, name, 2 * k + 1, name, 2 * k);
 }
 
 static void put_input(Text *text, const ShaderKey *key, int k) {
@@ -236,7 +249,7 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
     char value[96], map[96];
     snprintf(value, sizeof value, "material_%s", name);
     snprintf(map, sizeof map, "map_%s", input_infos[input->like >= 0 ? input->like : k].name);
-    bool mapped = input->state == INPUT_MAP;
+    bool mapped = is_mapped(input);
     if (k == INPUT_occlusion) { /* its number is the strength of the map */
         if (mapped)
             text_line(text, "    s.occlusion = mix(1.0, %s.%c, %s.x);", map, "rgba"[input->channel], value);
@@ -324,11 +337,55 @@ static void put_lights(Text *text, const ShaderKey *key) {
 static bool turns(const ShaderKey *key, const KeySlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
-        int state = key->inputs[turning[k]].state;
+        const ShaderInput *input = &key->inputs[turning[k]];
         bool number = input_infos[turning[k]].kind != INPUT_NORMAL;
-        if (state == INPUT_MAP || (number && state != INPUT_ZERO)) return true;
+        if (is_mapped(input) || (number && input->state != INPUT_ZERO)) return true;
     }
     return found->slots[2].count && weft_lobe_info(found->lobes[2].id)->traits & TRAIT_ANISOTROPIC;
+}
+
+static bool same_slots(const KeySlots *a, const KeySlots *b) {
+    bool same = a->worn == b->worn;
+    for (int k = 0; k < TEXT_SLOTS; k++) {
+        const TextSlot *s = &a->slots[k], *t = &b->slots[k];
+        same = same && s->count == t->count;
+        for (int j = 0; same && j < s->count; j++) same = s->lobes[j] == t->lobes[j];
+        const float *p = a->lobes[k].params, *q = b->lobes[k].params;
+        for (int j = 0; same && s->count && j < LOBE_PARAMS_MAX; j++) same = !(p[j] < q[j]) && !(p[j] > q[j]);
+    }
+    return same;
+}
+
+/* Whether two keys leave out and hold the same. */
+static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
+    const KeySlots x = find_slots(a), y = find_slots(b);
+    for (int k = 0; k < SHADER_SLOTS; k++)
+        if (shader_holds(a, k) != shader_holds(b, k)) return false;
+    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b);
+}
+
+static bool join_input(ShaderInput *a, const ShaderInput *b) {
+    if (is_mapped(a) && is_mapped(b)) {
+        if (b->state == INPUT_MAYBE) a->state = INPUT_MAYBE;
+        return a->channel == b->channel && a->texcoord == b->texcoord;
+    }
+    bool maybe = is_mapped(a) || is_mapped(b);
+    int16_t number = a->state == b->state ? a->state : (int16_t)INPUT_VALUE;
+    if (is_mapped(b)) *a = *b;
+    a->state = maybe ? (int16_t)INPUT_MAYBE : number;
+    return true;
+}
+
+bool shader_join(ShaderKey *key, const ShaderKey *other) {
+    ShaderKey joined = *key, rest = *other;
+    memcpy(rest.inputs, key->inputs, sizeof rest.inputs);
+    rest.turning = key->turning; /* what does for a lobe that turns does for a round one */
+    joined.turning |= other->turning;
+    bool same = memcmp((const char *)&rest, (const char *)key, sizeof rest) == 0;
+    for (int k = 0; same && k < INPUT_COUNT; k++) same = join_input(&joined.inputs[k], &other->inputs[k]);
+    if (!same || !same_extent(&joined, key) || !same_extent(&joined, other)) return false;
+    *key = joined;
+    return true;
 }
 
 /* Nothing but what is there: holes and what is less than half there let light through. */

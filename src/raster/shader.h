@@ -12,7 +12,13 @@
 
 /* How a shader finds an input. Numbers that leave something out altogether are in the text, so that it falls
  * away. */
-typedef enum InputState { INPUT_VALUE, INPUT_ZERO, INPUT_ONE, INPUT_MAP } InputState;
+typedef enum InputState {
+    INPUT_VALUE,
+    INPUT_ZERO,
+    INPUT_ONE,
+    INPUT_MAP,
+    INPUT_MAYBE /* a map of some of the materials that share the program: those that say so in w */
+} InputState;
 
 typedef struct ShaderInput {
     int16_t state;
@@ -41,6 +47,14 @@ typedef struct ShaderKey {
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
+
+/* Makes a key that does for both: inputs that differ become numbers or maybe maps, their `slot` and `like`
+ * left for the caller. False, and *key as it was, where the text would then hold what one of the two leaves
+ * out. */
+bool shader_join(ShaderKey *key, const ShaderKey *other);
+
+/* Whether an input that has no map reads the same without one: what stands in for a texel. */
+bool shader_same_rest(int input, int other);
 
 /* Puts the fragment shader into text, which the caller ends and frees. Behind the tables that the text names,
  * weft_tables is to hold those of the scene's sheens. fits must outlive what the text's tables are uploaded

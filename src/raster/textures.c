@@ -6,7 +6,10 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/thread.h"
+#include "image/halve.h"
 #include "raster/check.h"
+#include "weft/render.h"
 
 /* What the layers of one array texture have in common. */
 typedef struct Group {
@@ -27,7 +30,7 @@ typedef struct Plan {
     TexturePlace *places;
 } Plan;
 
-static bool input_is_color(const Material *material, int input) {
+bool textures_color(const Material *material, int input) {
     const Input *i = &material->inputs[input];
     /* opacity is the alpha of a colour texture: the same texels, and alpha is never decoded */
     return input_infos[input].kind == INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
@@ -79,7 +82,7 @@ static int make_plan(Plan *plan) {
         for (int k = 0; k < INPUT_COUNT; k++) {
             const Input *input = &scene->materials[m].inputs[k];
             if (!input->texture) continue;
-            bool color = input_is_color(&scene->materials[m], k);
+            bool color = textures_color(&scene->materials[m], k);
             place(plan, input->texture - 1, color);
             int group = plan->places[2 * (input->texture - 1) + color].group, g = 0;
             while (g < count && groups[g] != group) g++;
@@ -94,17 +97,22 @@ static GLenum wrap_of(Wrap wrap) {
     return wrap == WRAP_CLAMP ? GL_CLAMP_TO_EDGE : wrap == WRAP_MIRROR ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-static void make_group(GLuint texture, const Group *group) {
+static int levels_of(const Group *group) {
     int levels = 1;
     for (int side = group->width > group->height ? group->width : group->height; side > 1; side /= 2)
         levels++;
+    return group->nearest ? 1 : levels;
+}
+
+static void make_group(GLuint texture, const Group *group) {
+    int levels = levels_of(group);
     bool whole = group->format != GL_RGBA16F;
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
     for (int level = 0, w = group->width, h = group->height; level < levels; level++) {
         glTexImage3D(GL_TEXTURE_2D_ARRAY, level, (GLint)group->format, w, h, group->layers, 0, GL_RGBA,
                      whole ? GL_UNSIGNED_BYTE : GL_FLOAT, NULL);
-        w = w > 1 ? w / 2 : 1;
-        h = h > 1 ? h / 2 : 1;
+        w = halved(w);
+        h = halved(h);
     }
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, (GLint)wrap_of(group->wrap_u));
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, (GLint)wrap_of(group->wrap_v));
@@ -114,53 +122,120 @@ static void make_group(GLuint texture, const Group *group) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
+/* An image of 8 bits as four channels, as texture_fetch reads them. */
+static void spread(const WeftImage *image, unsigned char *to) {
+    const unsigned char *p = image->pixels;
+    size_t count = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    size_t g = channels < 3 ? 0 : 1, b = channels < 3 ? 0 : 2;
+    for (size_t k = 0; k < count; k++, p += channels, to += 4) {
+        to[0] = p[0];
+        to[1] = p[g];
+        to[2] = p[b];
+        to[3] = channels % 2 ? 255 : p[channels - 1];
+    }
+}
+
 /* Any image as four channels of the group's size: integers of 8 bits stay, others become floats, a colour of
- * 16 bits decoded. texture_fetch scales. The image's own pixels where they will do. */
-static void *texels_of(const WeftScene *scene, int texture, bool color, const Group *group) {
+ * 16 bits decoded. texture_fetch scales. */
+static void put_texels(const WeftScene *scene, int texture, bool color, const Group *group, void *texels) {
     const WeftImage *image = &scene->images[scene->textures[texture].image];
     bool whole = group->format != GL_RGBA16F;
     bool same = image->width == group->width && image->height == group->height;
-    if (whole && same && image->channels == 4) return image->pixels;
+    if (whole && same) {
+        spread(image, texels);
+        return;
+    }
     size_t width = (size_t)group->width, height = (size_t)group->height;
     size_t size = whole ? 1 : sizeof(float);
-    unsigned char *all = alloc_array(width * height, 4 * size), *to = all;
+    unsigned char *to = texels;
     Texture direct = scene->textures[texture];
     direct.wrap_u = direct.wrap_v = WRAP_CLAMP;
     if (same) direct.nearest = true;
     const SrgbTable *srgb = color && !whole ? &scene->srgb : NULL;
-    for (size_t y = 0; all && y < height; y++)
+    for (size_t y = 0; y < height; y++)
         for (size_t x = 0; x < width; x++, to += 4 * size) {
             Texel t = texture_fetch(&direct, scene->images, srgb, ((float)x + 0.5f) / (float)width,
                                     ((float)y + 0.5f) / (float)height);
             if (!whole) memcpy(to, t.c, sizeof t.c);
             for (size_t c = 0; whole && c < 4; c++) to[c] = (unsigned char)(t.c[c] * 255.0f + 0.5f);
         }
-    return all;
 }
 
-static WeftResult fill_groups(GlTextures *self, const Plan *plan, WeftError *error) {
+/* One layer with its smaller copies, one after the other. */
+typedef struct Layer {
+    int place; /* of GlTextures.places */
+    void *texels;
+} Layer;
+
+typedef struct Layers {
+    const Plan *plan;
+    Layer items[WEFT_THREADS_MAX];
+} Layers;
+
+static size_t texel_size(const Group *group) { return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4; }
+
+/* Of the levels before that one. */
+static size_t level_at(const Group *group, int level) {
+    size_t texels = 0;
+    for (int w = group->width, h = group->height; level > 0; level--, w = halved(w), h = halved(h))
+        texels += (size_t)w * (size_t)h;
+    return texels * texel_size(group);
+}
+
+static void make_layer(void *user, int item, int thread) {
+    const Layers *layers = user;
+    const Layer *layer = &layers->items[item];
+    const Group *group = &layers->plan->groups[layers->plan->places[layer->place].group];
+    unsigned char *to = layer->texels;
+    put_texels(layers->plan->scene, layer->place / 2, layer->place & 1, group, to);
+    for (int level = 1, w = group->width, h = group->height; level < levels_of(group);
+         level++, w = halved(w), h = halved(h)) {
+        unsigned char *from = to;
+        to += (size_t)w * (size_t)h * texel_size(group);
+        if (group->format == GL_RGBA16F)
+            halve_f32((const float *)from, w, h, (float *)to);
+        else
+            halve_u8(from, w, h, group->format == GL_SRGB8_ALPHA8, to);
+    }
+}
+
+static void upload_layer(const GlTextures *self, const Plan *plan, const Layer *layer) {
+    TexturePlace at = plan->places[layer->place];
+    const Group *group = &plan->groups[at.group];
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[at.group]);
+    for (int level = 0, w = group->width, h = group->height; level < levels_of(group);
+         level++, w = halved(w), h = halved(h))
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, at.layer, w, h, 1, GL_RGBA,
+                        group->format == GL_RGBA16F ? GL_FLOAT : GL_UNSIGNED_BYTE,
+                        (const unsigned char *)layer->texels + level_at(group, level));
+}
+
+/* As many at once as there are threads, so that no more are held than that. */
+static WeftResult fill_groups(GlTextures *self, const Plan *plan, int threads, WeftError *error) {
     const WeftScene *scene = plan->scene;
+    Layers layers = {.plan = plan};
+    WeftResult result = WEFT_OK;
+    if (threads <= 0) threads = thread_count();
     for (int g = 0; g < plan->count; g++) make_group(self->groups[g], &plan->groups[g]);
-    for (int k = 0; k < 2 * scene->texture_count; k++) {
-        TexturePlace at = self->places[k];
-        if (at.group < 0) continue;
-        const Group *group = &plan->groups[at.group];
-        const WeftImage *image = &scene->images[scene->textures[k / 2].image];
-        void *texels = texels_of(scene, k / 2, k & 1, group);
-        if (!texels) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[at.group]);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, at.layer, group->width, group->height, 1, GL_RGBA,
-                        group->format == GL_RGBA16F ? GL_FLOAT : GL_UNSIGNED_BYTE, texels);
-        if (texels != image->pixels) free(texels);
+    for (int k = 0; k < 2 * scene->texture_count && result == WEFT_OK;) {
+        int count = 0;
+        for (; k < 2 * scene->texture_count && count < threads && result == WEFT_OK; k++) {
+            if (self->places[k].group < 0) continue;
+            const Group *group = &plan->groups[self->places[k].group];
+            Layer layer = {k, alloc_array(level_at(group, levels_of(group)), 1)};
+            if (!layer.texels) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+            layers.items[count++] = layer;
+        }
+        if (result == WEFT_OK) parallel_for(threads, count, make_layer, &layers);
+        for (int n = 0; n < count; n++) {
+            if (result == WEFT_OK) upload_layer(self, plan, &layers.items[n]);
+            free(layers.items[n].texels);
+        }
     }
-    for (int g = 0; g < plan->count; g++) {
-        glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[g]);
-        if (!plan->groups[g].nearest) glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
-    }
-    return gl_check(error, "textures");
+    return result == WEFT_OK ? gl_check(error, "textures") : result;
 }
 
-static WeftResult upload(GlTextures *self, Plan *plan, const WeftLog *log, WeftError *error) {
+static WeftResult upload(GlTextures *self, Plan *plan, int threads, const WeftLog *log, WeftError *error) {
     const char *name = plan->scene->name;
     if (make_plan(plan) > TEXTURE_SLOTS) {
         plan->one_size = true;
@@ -171,10 +246,11 @@ static WeftResult upload(GlTextures *self, Plan *plan, const WeftLog *log, WeftE
     }
     self->group_count = plan->count;
     glGenTextures(plan->count, self->groups);
-    return fill_groups(self, plan, error);
+    return fill_groups(self, plan, threads, error);
 }
 
-WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLog *log, WeftError *error) {
+WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
+                           WeftError *error) {
     *out = (GlTextures){0};
     if (!scene->texture_count) return WEFT_OK;
     size_t count = 2 * (size_t)scene->texture_count;
@@ -186,7 +262,7 @@ WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLo
     out->groups = alloc_array(count, sizeof(GLuint));
     bool held = plan.groups && plan.places && out->groups;
     WeftResult result =
-        held ? upload(out, &plan, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        held ? upload(out, &plan, threads, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(plan.groups);
     if (result != WEFT_OK) textures_destroy(out);
     return result;

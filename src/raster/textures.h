@@ -23,11 +23,15 @@ typedef struct GlTextures {
     TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
 } GlTextures;
 
-/* Uploads what the materials that are worn look up, with smaller copies of it. Should a material need more
- * than TEXTURE_SLOTS groups, images are scaled to one size, with a warning. Zero on failure:
- * WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
-WeftResult textures_create(const WeftScene *scene, GlTextures *out, const WeftLog *log, WeftError *error);
+/* Uploads what the materials that are worn look up, with smaller copies of it, made on `threads` threads (0:
+ * all). Should a material need more than TEXTURE_SLOTS groups, images are scaled to one size, with a warning.
+ * Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
+WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
+                           WeftError *error);
 void textures_destroy(GlTextures *textures);
+
+/* Whether an input of a material looks its texture up as a colour. */
+bool textures_color(const Material *material, int input);
 
 /* Of what an input of a material looks up. */
 TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);

@@ -1,0 +1,58 @@
+"""Seconds from the start of `weft render --engine raster` to its end with a picture written, 960 x 720, four samples.
+
+    python3 bench/start.py [--quick] [WEFT]
+
+Cold: weft's own cache and the driver's cache of shaders (Mesa's) are empty, and the files of the programs are in memory.
+Warm: an earlier run has filled both. The best of some runs, which take turns; behind it the seconds of processor.
+"""
+
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DATA = ROOT.parent / "shared/data"
+STUDIO = DATA / "env/studio_small_03_1k.hdr"
+QUICK = "--quick" in sys.argv
+WEFT = next((name for name in sys.argv[1:] if not name.startswith("--")), ROOT / "build/release/weft")
+ROUNDS = 2 if QUICK else 5
+SCENES = [["builtin:spheres"]]
+if (DATA / "gltf/SheenChair/SheenChair.gltf").exists():
+    SCENES += [[DATA / "gltf/SheenChair/SheenChair.gltf"]]
+    SCENES += [[DATA / "gltf/SheenChair/SheenChair.gltf", "--env", STUDIO]]
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def start(scene, folder):
+    command = [WEFT, "render", *scene, "-o", f"{folder}/picture.png", "--engine", "raster", "--quiet",
+               "--width", "960", "--height", "720", "--msaa", "4"]
+    caches = {**os.environ, "XDG_CACHE_HOME": f"{folder}/cache", "MESA_SHADER_CACHE_DIR": f"{folder}/mesa"}
+    used, begin = processor_seconds(), time.monotonic()
+    subprocess.run(command, check=True, env=caches)
+    return time.monotonic() - begin, processor_seconds() - used
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        start(SCENES[0], folder)  # so that the files are in memory
+    print("start to picture, s            cold   (processor)      warm   (processor)")
+    for scene in SCENES:
+        cold, warm = [], []
+        for _ in range(ROUNDS):
+            with tempfile.TemporaryDirectory() as folder:
+                cold.append(start(scene, folder))
+                warm.append(start(scene, folder))
+        name = pathlib.Path(scene[0]).stem + (" --env" if len(scene) > 1 else "")
+        print(f"{name:26} {min(cold)[0]:8.2f} {min(c for _, c in cold):13.2f} {min(warm)[0]:9.2f} "
+              f"{min(c for _, c in warm):13.2f}")
+
+
+main()

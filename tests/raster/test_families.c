@@ -1,0 +1,157 @@
+/* Materials that share a program look as each does with its own; several programs at once are as those made
+ * one by one */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "trace/scenes.h"
+
+#include "raster/context.h"
+
+enum { SIDE = 96, KINDS = 6 };
+static bool no_gl;
+
+static void need_gl(void) {
+    if (no_gl) skip();
+}
+
+/* Of noise, with a fixed seed. */
+static void add_texture(WeftScene *scene, int side, int channels) {
+    WeftImage *image = &scene->images[scene->image_count];
+    uint32_t state = 7u + (uint32_t)side;
+    WeftError error;
+    assert_int_equal(weft_image_create(side, side, channels, WEFT_PIXEL_U8, image, &error), WEFT_OK);
+    unsigned char *p = image->pixels;
+    for (int k = 0; k < side * side * channels; k++) {
+        state = state * 1664525u + 1013904223u;
+        p[k] = (unsigned char)(state >> 24);
+    }
+    scene->textures[scene->texture_count++] = (Texture){.image = scene->image_count++};
+}
+
+static void set_map(Material *material, InputId input, int texture, int channel) {
+    material->inputs[input].texture = texture + 1;
+    material->inputs[input].channel = (uint8_t)channel;
+}
+
+/* One of KINDS squares side by side, or with -1 all of them: numbers, and maps of different inputs, sizes and
+ * channels. */
+static WeftScene *squares(int only) {
+    static float uv[8] = {0.1f, 0.1f, 0.9f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
+    WeftScene *scene = test_scene();
+    scene->images = arena_array(&scene->arena, 3, sizeof(WeftImage));
+    scene->textures = arena_array(&scene->arena, 3, sizeof(Texture));
+    add_texture(scene, 4, 3);
+    add_texture(scene, 8, 4);
+    add_texture(scene, 4, 4);
+    for (int k = 0; k < KINDS; k++) {
+        if (only >= 0 && only != k) continue;
+        Material *m = test_material(scene, 0.3f + 0.1f * (float)k);
+        m->inputs[INPUT_specular].value[0] = 1.0f;
+        m->inputs[INPUT_roughness].value[0] = k == 0 ? 1.0f : 0.5f;
+        m->inputs[INPUT_metallic].value[0] = k < 2 ? 0.0f : 0.75f;
+        if (k == 1 || k == 4) set_map(m, INPUT_base_color, k == 1 ? 0 : 1, 0);
+        if (k == 2 || k == 4) set_map(m, INPUT_metallic, 2, 2);
+        if (k == 2 || k == 3 || k == 4) set_map(m, INPUT_roughness, 2, 1);
+        if (k == 5) set_map(m, INPUT_occlusion, 1, 0);
+        Mesh *mesh = test_quad(scene, vec3(-0.9f + 0.3f * (float)k, -0.5f, 0.0f), vec3(0.3f, 0.0f, 0.0f),
+                               vec3(0.0f, 1.0f, 0.0f));
+        mesh->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
+        memcpy(mesh->texcoord[0], uv, sizeof uv);
+    }
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    const WeftLight light = {.direction = {-0.2f, -0.3f, -1.0f}, .color = {2.0f, 2.0f, 2.0f}};
+    assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
+    return scene;
+}
+
+static WeftImage picture_of(const WeftScene *scene, WeftGl gl, int threads, int *programs) {
+    const WeftRasterView view = {
+        .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,4;0,0,0;30", .no_shadows = 1};
+    WeftRaster *raster;
+    WeftImage image = {0};
+    WeftError error;
+    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = threads, .no_cache = 1}, &raster,
+                           NULL, &error) != WEFT_OK ||
+        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
+        weft_raster_image(raster, &image, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    *programs = weft_raster_info(raster).programs;
+    weft_raster_free(raster);
+    return image;
+}
+
+/* In the columns of that square; largest difference of any channel there. */
+static float difference(const WeftImage *a, const WeftImage *b, int square) {
+    float most = 0.0f, across = 2.0f * 4.0f * 0.267949192f; /* of the picture, in the plane of the squares */
+    int begin = (int)((0.5f + (-0.9f + 0.3f * (float)square) / across) * SIDE) + 2;
+    int end = (int)((0.5f + (-0.6f + 0.3f * (float)square) / across) * SIDE) - 2;
+    assert_true(end > begin + 5);
+    for (int y = SIDE / 3; y < SIDE - SIDE / 3; y++)
+        for (int x = begin; x < end; x++)
+            for (int c = 0; c < 4; c++) {
+                size_t at = 4 * ((size_t)y * SIDE + (size_t)x) + (size_t)c;
+                most = fmaxf(most, fabsf(((float *)a->pixels)[at] - ((float *)b->pixels)[at]));
+            }
+    return most;
+}
+
+static void families_look_as_each_alone(void **state) {
+    (void)state;
+    need_gl();
+    for (int gl = WEFT_GL_DESKTOP; gl <= WEFT_GL_ES; gl++) {
+        int programs;
+        WeftScene *scene = squares(-1);
+        WeftImage together = picture_of(scene, (WeftGl)gl, 2, &programs);
+        assert_int_equal(programs, 1);
+        weft_scene_free(scene);
+        for (int k = gl; k < KINDS; k += 2) {
+            scene = squares(k);
+            WeftImage alone = picture_of(scene, (WeftGl)gl, 2, &programs);
+            float most = difference(&together, &alone, k);
+            if (most > 2e-3f) fail_msg("square %d differs by %g", k, (double)most);
+            weft_image_free(&alone);
+            weft_scene_free(scene);
+        }
+        weft_image_free(&together);
+    }
+}
+
+/* Squares that are seen from one side or cut out: four programs. */
+static void threads_make_no_difference(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = squares(-1);
+    int programs;
+    for (int k = 0; k < KINDS; k++) scene->materials[k].alpha_mode = k % 2 ? ALPHA_MASK : ALPHA_OPAQUE;
+    for (int k = 0; k < KINDS; k++) scene->materials[k].double_sided = k % 4 < 2;
+    WeftImage one = picture_of(scene, WEFT_GL_DESKTOP, 1, &programs);
+    assert_int_equal(programs, 4);
+    WeftImage four = picture_of(scene, WEFT_GL_DESKTOP, 4, &programs);
+    assert_int_equal(programs, 4);
+    assert_memory_equal(one.pixels, four.pixels, SIDE * SIDE * 4 * sizeof(float));
+    weft_image_free(&one);
+    weft_image_free(&four);
+    weft_scene_free(scene);
+}
+
+static int begin(void **state) {
+    (void)state;
+    GlContext *context;
+    WeftError error;
+    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
+    if (no_gl) print_message("%s\n", error.text);
+    if (!no_gl) context_destroy(context);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(families_look_as_each_alone),
+                                       cmocka_unit_test(threads_make_no_difference)};
+    return cmocka_run_group_tests(tests, begin, NULL);
+}

@@ -1,0 +1,104 @@
+/* What vertices see of the sky: all of it, half of it; and from the cache what was found before */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "trace/scenes.h"
+
+#include "raster/occlusion.h"
+
+enum { RAYS = 256 };
+static char folder[] = "/tmp/weft-test-occlusion-XXXXXX";
+
+static void count(void *user, WeftMessage message, const char *text) {
+    (void)message, (void)text;
+    ++*(int *)user;
+}
+
+/* A small floor before a wall so large that it hides half of the sky. */
+static WeftScene *corner(AlphaMode mode) {
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.5f)->alpha_mode = mode;
+    Mesh *floor =
+        test_quad(scene, vec3(-0.01f, 0.0f, 0.02f), vec3(0.02f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.02f));
+    floor->normal = arena_array(&scene->arena, 4, 3 * sizeof(float));
+    for (int k = 0; k < 4; k++) floor->normal[3 * k + 1] = 1.0f;
+    test_quad(scene, vec3(-1e3f, 0.0f, -0.02f), vec3(2e3f, 0.0f, 0.0f), vec3(0.0f, 1e3f, 0.0f));
+    scene_bounds(scene);
+    scene->low = vec3(-0.05f, 0.0f, -0.05f); /* rays start a part of the scene's size off */
+    scene->high = vec3(0.05f, 0.05f, 0.05f);
+    return scene;
+}
+
+static void look(const WeftScene *scene, bool no_cache, float values[16], int *warnings) {
+    const WeftLog log = {count, warnings};
+    Occlusion *occlusion;
+    WeftError error;
+    assert_int_equal(occlusion_start(scene, &(OcclusionHow){RAYS, 2, no_cache}, &occlusion, &log, &error),
+                     WEFT_OK);
+    memcpy(values, occlusion_values(occlusion, true), 16 * sizeof *values);
+    occlusion_free(occlusion);
+}
+
+static int files(void) {
+    char command[128];
+    snprintf(command, sizeof command, "test -z \"$(find %s -name '*.sky')\"", folder);
+    return system(command) != 0;
+}
+
+static void half_of_the_sky_is_found_again(void **state) {
+    (void)state;
+    WeftScene *scene = corner(ALPHA_OPAQUE);
+    float first[16], again[16];
+    int warnings = 0;
+    look(scene, true, first, &warnings);
+    assert_int_equal(files(), 0);
+    for (int k = 0; k < 4; k++) assert_float_equal(first[2 * k], 0.5f, 0.02f);
+    look(scene, false, again, &warnings);
+    assert_int_equal(files(), 1);
+    assert_memory_equal(first, again, sizeof first);
+    look(scene, false, again, &warnings);
+    assert_memory_equal(first, again, sizeof first);
+    scene->meshes[1].position[0] -= 1.0f; /* another scene */
+    for (int k = 0; k < 12; k++) scene->meshes[1].position[k] += k % 3 == 1 ? 1e4f : 0.0f;
+    look(scene, false, again, &warnings);
+    assert_float_equal(again[0], 1.0f, 0.0f);
+    assert_int_equal(warnings, 0);
+    weft_scene_free(scene);
+}
+
+/* What is transparent by its textures is looked at anew each time. */
+static void only_opaque_scenes_are_kept(void **state) {
+    (void)state;
+    char command[96];
+    snprintf(command, sizeof command, "rm -rf %s/weft", folder);
+    assert_int_equal(system(command), 0);
+    WeftScene *scene = corner(ALPHA_BLEND);
+    float values[16];
+    int warnings = 0;
+    look(scene, false, values, &warnings);
+    assert_int_equal(files(), 0);
+    weft_scene_free(scene);
+}
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    char command[96];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(half_of_the_sky_is_found_again),
+                                       cmocka_unit_test(only_opaque_scenes_are_kept)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
