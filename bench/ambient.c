@@ -3,10 +3,10 @@
  *   bench_ambient [--lamps N] [--quick] [--only LOBE] [--tables] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
- * first over roughness 0.1 .. 1 together, then the roughness with the greatest. The reference is multiple
- * importance sampling between the lobe's sampler and the map's radiance; the strategies run as the shader has
- * them, with the sums of ambient_source.h over all texels. --tables holds none of them. `base` is a white
- * dielectric, f0 0.04: lambert under ggx. */
+ * over roughness 0.1 .. 1 together, and of the default strategy the roughness with the greatest, which for a
+ * sheen is where there is least of it. The reference is multiple importance sampling between the lobe's
+ * sampler and the map's radiance; the strategies run as the shader has them, with means of radiance by
+ * sampling. --tables holds none of them. `base` is a white dielectric, f0 0.04: lambert under ggx. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -304,29 +304,38 @@ static void measure(void *user, int item, int thread) {
     free(draws);
 }
 
+typedef struct Error {
+    double all, worst, at; /* over all roughnesses; at that roughness */
+} Error;
+
+static Error error_of(int subject, int strategy, int map) {
+    Error error = {0.0, 0.0, 0.0};
+    double off = 0.0, all = 0.0;
+    for (int r = 0; r < ROUGHNESSES; r++) {
+        const double *sum = results[subject][r][strategy][map];
+        if (!(sum[1] > 0.0)) continue;
+        off += sum[0], all += sum[1];
+        if (sum[0] / sum[1] > error.worst) error.worst = sum[0] / sum[1], error.at = 0.1 * (r + 1);
+    }
+    error.all = off / all;
+    return error;
+}
+
 static void print_results(void) {
     static const char *const names[AMBIENT_STRATEGIES] = {"irradiance", "mirror", "fitted", "sampled"};
-    printf("| lobe |");
-    for (int k = 0; k < map_count; k++)
-        for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %s, %s |", maps[k].name, names[s]);
-    printf(" default |\n|---|");
-    for (int k = 0; k <= map_count * AMBIENT_STRATEGIES; k++) printf("---|");
-    printf("\n");
-    for (int subject = 0; subject < SUBJECTS; subject++) {
-        if (!used(subject)) continue;
-        printf("| %s |", subject == BASE ? "base" : weft_lobe_info(subject)->id);
-        for (int k = 0; k < map_count; k++)
-            for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                double off = 0.0, all = 0.0, worst = 0.0, at = 0.0;
-                for (int r = 0; r < ROUGHNESSES; r++) {
-                    const double *sum = results[subject][r][s][k];
-                    if (!(sum[1] > 0.0)) continue;
-                    off += sum[0], all += sum[1];
-                    if (sum[0] / sum[1] > worst) worst = sum[0] / sum[1], at = 0.1 * (r + 1);
-                }
-                printf(" %.1f (%.1f at %.1f) |", 100.0 * off / all, 100.0 * worst, at);
-            }
-        printf(" %s |\n", names[subject == BASE ? AMBIENT_FITTED : ambient_strategy(subject)]);
+    for (int k = 0; k < map_count; k++) {
+        printf("\n%s, %d lamps\n%-27s", maps[k].name, maps[k].parts.lamp_count, "lobe");
+        for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %10s", names[s]);
+        printf("  default, worst at\n");
+        for (int subject = 0; subject < SUBJECTS; subject++) {
+            if (!used(subject)) continue;
+            int best = subject == BASE ? AMBIENT_FITTED : ambient_strategy(subject);
+            printf("%-27s", subject == BASE ? "base" : weft_lobe_info(subject)->id);
+            for (int s = 0; s < AMBIENT_STRATEGIES; s++)
+                printf(" %10.1f", 100.0 * error_of(subject, s, k).all);
+            Error error = error_of(subject, best, k);
+            printf("  %s, %.1f at %.1f\n", names[best], 100.0 * error.worst, error.at);
+        }
     }
 }
 

@@ -1,13 +1,50 @@
+#include <math.h>
 #include <stdlib.h> /* before the dialect, whose abs() shadows its own */
 
 #include "raster/fits.h"
 
+#include "base/cache.h"
 #include "base/memory.h"
 
 typedef struct Fit {
     struct Fit *next;
     AmbientFit fit;
 } Fit;
+
+/* Raised whenever the same lobe would give other tables. */
+enum { FITS = 1 };
+
+/* All that a table depends on. */
+static uint64_t fit_key(const Lobe *lobe, float low, float high) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->id);
+    const int sizes[] = {FITS, AMBIENT_COLUMNS, AMBIENT_ROWS, AMBIENT_PLANES, info->param_count};
+    const float range[] = {low, high};
+    uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
+    hash = cache_hash(hash, WEFT_VERSION, sizeof WEFT_VERSION);
+    hash = cache_hash(hash, info->id, strlen(info->id));
+    hash = cache_hash(hash, range, sizeof range);
+    return cache_hash(hash, lobe->params, (size_t)info->param_count * sizeof lobe->params[0]);
+}
+
+static bool is_sound(const AmbientFit *fit) {
+    const float *p = fit->texels[0];
+    bool sound = true;
+    for (size_t k = 0; k < sizeof fit->texels / sizeof *p; k++) sound = sound && fabsf(p[k]) < 1e6f;
+    return sound;
+}
+
+/* From the user's cache where it is there. */
+static void make(AmbientFit *fit, const Lobe *lobe, float low, float high, const Fits *how) {
+    uint64_t key = fit_key(lobe, low, high);
+    ambient_fit_shape(fit, lobe, low, high);
+    if (!how->no_cache && cache_find(key, "fit", fit->texels, sizeof fit->texels, NULL) && is_sound(fit)) {
+        ambient_fit_finish(fit);
+        return;
+    }
+    memset(fit->texels, 0, sizeof fit->texels);
+    ambient_fit(fit, lobe, low, high, how->threads);
+    if (!how->no_cache) cache_keep(key, "fit", fit->texels, sizeof fit->texels, NULL);
+}
 
 const AmbientFit *fits_get(Fits *self, const Lobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
@@ -17,7 +54,7 @@ const AmbientFit *fits_get(Fits *self, const Lobe *lobe) {
         if (ambient_fit_serves(&k->fit, lobe, low, high)) return &k->fit;
     Fit *made = alloc_array(1, sizeof *made);
     if (!made) return NULL;
-    ambient_fit(&made->fit, lobe, low, high, self->threads);
+    make(&made->fit, lobe, low, high, self);
     made->next = self->first;
     self->first = made;
     return &made->fit;

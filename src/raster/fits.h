@@ -9,6 +9,7 @@
 typedef struct Fits {
     struct Fit *first;
     int threads;
+    bool no_cache; /* neither read from the user's cache nor written */
 } Fits;
 
 /* The fit of a lobe over the plausible range of its first parameter, its others as they are; NULL where

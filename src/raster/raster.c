@@ -94,6 +94,7 @@ static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const Wef
     if (result == WEFT_OK) result = shadows_create(scene, &self->polygons, &self->shadows, error);
     if (result == WEFT_OK) result = upload_environment(self, desc, log, error);
     self->programs.fits.threads = desc->threads;
+    self->programs.fits.no_cache = desc->no_cache != 0;
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);

@@ -359,8 +359,6 @@ static bool same_slots(const KeySlots *a, const KeySlots *b) {
 /* Whether two keys leave out and hold the same. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
     const KeySlots x = find_slots(a), y = find_slots(b);
-    for (int k = 0; k < SHADER_SLOTS; k++)
-        if (shader_holds(a, k) != shader_holds(b, k)) return false;
     return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b);
 }
 

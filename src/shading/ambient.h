@@ -76,7 +76,7 @@
 #define AMBIENT_PLANE_E        7
 #define AMBIENT_PLANE_E_SECOND 12
 
-#define AMBIENT_DEGREE 7
+#define AMBIENT_DEGREE 9
 #define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of a table, each of a group */
 #define AMBIENT_HELD   (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
 

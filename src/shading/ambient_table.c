@@ -226,11 +226,10 @@ static bool turns(const Lobe *lobe) {
     return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || lobe->params[by] > 0.0f);
 }
 
-void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
+void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    Fitter fitter = {.fit = fit};
-    fit->lobe = *lobe;
     int azimuth = lobe_param(lobe->id, "azimuth");
+    fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
     fit->turning = turns(lobe);
     fit->low = low;
@@ -242,15 +241,24 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     fit->root_low = sqrt(low);
     fit->root_high = sqrt(high);
     fit->rows = info->param_count > 0 && low < high ? AMBIENT_ROWS : 1;
-    for (int k = 0; k < KERNELS; k++) make_kernel(&fitter.kernels[k], kappas[k]);
-    for (int j = 0; j < ATOMS; j++)
-        for (int k = 0; k < ATOMS; k++) fitter.a[j][k] = product(&fitter, &atoms[j], &atoms[k]);
-    parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
+}
+
+void ambient_fit_finish(AmbientFit *fit) {
     fit->finest = -100.0f;
     for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++)
                 fit->finest = max(fit->finest, *entry(fit, side, PLANE_KAPPA, row, column));
+}
+
+void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
+    Fitter fitter = {.fit = fit};
+    ambient_fit_shape(fit, lobe, low, high);
+    for (int k = 0; k < KERNELS; k++) make_kernel(&fitter.kernels[k], kappas[k]);
+    for (int j = 0; j < ATOMS; j++)
+        for (int k = 0; k < ATOMS; k++) fitter.a[j][k] = product(&fitter, &atoms[j], &atoms[k]);
+    parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
+    ambient_fit_finish(fit);
 }
 
 static bool same(float a, float b) { return !(a < b) && !(a > b); }

@@ -23,6 +23,10 @@ typedef struct AmbientFit {
  * threads (0: all); the same numbers on any number of them. */
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
 
+/* The same from texels that were kept: all but them, then what follows from them. */
+void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
+void ambient_fit_finish(AmbientFit *fit);
+
 /* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
 

@@ -200,12 +200,51 @@ static void look_ups_are_sums(TextLanguage language) {
     context_destroy(context);
 }
 
+/* What the lamps leave, as C has it. */
+static void rest_is_that_of_c(TextLanguage language) {
+    GlContext *context = context_or_skip(language);
+    GlOuter outer;
+    assert_true(context_enter(context, &outer));
+    Environment e = sharp_environment();
+    GlEnvironment env;
+    make(language, &e, true, 0, &env);
+    const float kappas[] = {0.0f, 0.5f, 3.125f, 12.5f, 150.0f};
+    for (size_t k = 0; k < sizeof kappas / sizeof kappas[0]; k++) {
+        static float out[POINTS][4];
+        char lines[128];
+        Text text;
+        begin(&text, language);
+        snprintf(lines, sizeof lines, "Rgb l = ambient_rest(f, d, %.6f); c = vec3(l.r, l.g, l.b);",
+                 (double)kappas[k]);
+        draw(language, &env, &text, lines, 0, out);
+        text_free(&text);
+        for (int n = 0; n < POINTS; n++) {
+            float c[3];
+            ambient_rest_about(&env.parts, turned(&e, point(n)), kappas[k], c);
+            for (int j = 0; j < 3; j++) {
+                assert_true(c[j] > 0.05f);
+                assert_float_equal(out[n][j], e.strength * c[j], 2e-4f * e.strength * c[j]);
+            }
+        }
+    }
+    environment_destroy(&env);
+    weft_image_free(&e.image);
+    context_leave(context, &outer);
+    context_destroy(context);
+}
+
+static void test_rest_is_that_of_c(void **state) {
+    (void)state;
+    for (int k = 0; k < LANGUAGES; k++) rest_is_that_of_c(languages[k]);
+}
+
 static void test_look_ups_are_sums(void **state) {
     (void)state;
     for (int k = 0; k < LANGUAGES; k++) look_ups_are_sums(languages[k]);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_look_ups_are_sums)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_look_ups_are_sums),
+                                       cmocka_unit_test(test_rest_is_that_of_c)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
