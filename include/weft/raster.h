@@ -5,13 +5,26 @@
  *   weft_raster_image(raster, &image, &error);
  *   weft_raster_free(raster);
  *
- * A WeftRaster belongs to one thread at a time and owns all that it makes in the driver; each has a context
- * of its own, and what was current before a call is current after it.
+ * and in a window, whose context is current:
+ *
+ *   weft_raster_create(scene, &(WeftRasterDesc){.adopt = 1}, &raster, log, &error);
+ *   weft_scene_set(scene, "cloth.sheen_color", "0.8", log, &error);
+ *   weft_raster_update(raster, log, &error);
+ *   weft_raster_draw(raster, &view, &error);
+ *   weft_raster_show(raster, &(WeftRasterShow){.exposure = 1.0f}, &error);
+ *
+ * A WeftRaster belongs to one thread at a time and owns all that it makes in the driver. Either it has a
+ * context of its own, and what was current before a call is current after it; or it adopts the caller's,
+ * which must then be current at every call, the last one among them. In that one each call takes state as it
+ * finds it, and leaves the framebuffers bound, the viewport and the scissor box as they were and all else as
+ * a new context has it: nothing bound, no test or blending on, pixels stored without gaps, alignment 4.
+ * Errors that the driver holds when a call begins are dropped. Several rasters may share a context.
  *
  * DOES NOT: light that bounced, refraction, layer rule "stochastic" (drawn without its bounces). */
 #ifndef WEFT_RASTER_H
 #define WEFT_RASTER_H
 
+#include "weft/image.h"
 #include "weft/render.h"
 
 #ifdef __cplusplus
@@ -26,6 +39,8 @@ typedef enum WeftGl { WEFT_GL_DESKTOP = 0, WEFT_GL_ES } WeftGl;
 /* Zero means default, in every member. */
 typedef struct WeftRasterDesc {
     WeftGl gl;
+    int adopt; /* not 0: draw in the context that is current in this thread, of whichever kind it is (gl is
+                  then not asked): OpenGL 3.3 or ES 3.0 with float targets, or later, through EGL or GLX */
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
      * is there. It need not be there. Copied. */
     const char *shader_dir;
@@ -34,19 +49,28 @@ typedef struct WeftRasterDesc {
     int no_cache;  /* not 0: the filtered environment and occlusion are neither read from the user's cache nor
                       written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
-     * other than 0 stops. */
+     * other than 0 stops. weft_raster_update may call it too. */
     WeftProgress progress;
     void *user;
 } WeftRasterDesc;
 
-/* Uploads the scene, which must outlive the raster and not change meanwhile. Shaders are compiled when they
- * are first drawn with. log (may be NULL) receives warnings. Fails with WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY,
- * _MEMORY or _SCENE_EMPTY. */
+/* Uploads the scene, which must outlive the raster; where it changes, call weft_raster_update before anything
+ * else. Shaders are compiled when they are first drawn with. log (may be NULL) receives warnings. Fails with
+ * WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY, _MEMORY or _SCENE_EMPTY. */
 WEFT_API WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
                                        const WeftLog *log, WeftError *error);
 
 /* raster may be NULL. */
 WEFT_API void weft_raster_free(WeftRaster *raster);
+
+/* Takes the scene as it is now, after any call of weft/scene.h: materials, variants, lights, the environment
+ * and its placement. What is the same is left alone: a parameter is a few bytes to upload, and tables to
+ * fit where it shapes a lobe; a term compiles a shader, at the next picture, unless there was one for it
+ * before; another image in the environment is
+ * filtered, with progress; a texture that was not looked up before uploads all textures. Shapes are not
+ * looked at. Fails as weft_raster_create does, or with WEFT_INTERRUPTED; pictures are then partly of the
+ * scene as it was, until an update does not fail. */
+WEFT_API WeftResult weft_raster_update(WeftRaster *raster, const WeftLog *log, WeftError *error);
 
 enum { WEFT_RASTER_POLYGONS = 8 };
 
@@ -83,6 +107,22 @@ WEFT_API WeftResult weft_raster_settle(WeftRaster *raster, WeftError *error);
 /* The picture drawn last: F32 RGBA, linear Rec. 709 radiance, straight alpha. Release with weft_image_free.
  */
 WEFT_API WeftResult weft_raster_image(WeftRaster *raster, WeftImage *out, WeftError *error);
+
+/* Where a picture is shown, and how. Zero means default, in every member. */
+typedef struct WeftRasterShow {
+    unsigned framebuffer; /* of the context that was adopted, and complete; 0: the window's */
+    int x, y;             /* the picture's lower left corner in it, pixels */
+    int width, height;    /* the picture is scaled to, by its nearest pixels; 0: as it is */
+    int clip[4];          /* x, y, width, height of what may change; width 0: no limit */
+    float background[3];  /* display values, in [0, 1], where the picture is transparent */
+    WeftTonemap tonemap;
+    float exposure; /* stops */
+} WeftRasterShow;
+
+/* Draws the picture drawn last as weft_image_tonemap makes it, dither and all, over the background. It
+ * converts to sRGB itself: under OpenGL ES the framebuffer must not do so too. Fails with WEFT_MESSAGE_DESC
+ * where nothing was drawn or the raster has a context of its own, _GL_COMPILE, _TEXT_DIALECT, _GL_CONTEXT. */
+WEFT_API WeftResult weft_raster_show(WeftRaster *raster, const WeftRasterShow *show, WeftError *error);
 
 /* Looks whether text in the shader_dir (files .h and .glsl) was made, changed or removed since the last look,
  * or since the raster was made, and returns how many files were. From then on shaders are compiled anew when

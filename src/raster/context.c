@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -12,7 +13,11 @@
 
 enum { DEVICES_MAX = 16 };
 
+/* Tells which context is current in this thread; NULL: none. */
+typedef void *(*Current)(void);
+
 struct GlContext {
+    Current adopted; /* by whom to ask for it; NULL: it is ours, through EGL */
     EGLDisplay display;
     EGLContext context;
     EGLConfig config;
@@ -114,9 +119,28 @@ static bool make_anywhere(GlContext *self) {
     return make_on(self, eglGetDisplay(EGL_DEFAULT_DISPLAY));
 }
 
+static void *egl_current(void) { return eglGetCurrentContext(); }
+
+/* GLX's own answer. Windows may come from there, and libepoxy, which ends the process where no context is
+ * current, does not tell. The library is not loaded for that: who has a context has it loaded. */
+static Current glx_current(void) {
+    static const char *const names[] = {"libGLX.so.0", "libGL.so.1"};
+    Current found = NULL;
+    for (size_t k = 0; k < sizeof names / sizeof names[0] && !found; k++) {
+        void *library = dlopen(names[k], RTLD_LAZY | RTLD_NOLOAD);
+        void *symbol = library ? dlsym(library, "glXGetCurrentContext") : NULL;
+        memcpy(&found, &symbol, sizeof found);
+        if (library) dlclose(library);
+    }
+    return found;
+}
+
 static GlOuter outer_now(void) {
-    return (GlOuter){eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
-                     eglGetCurrentSurface(EGL_READ), eglQueryAPI()};
+    return (GlOuter){.display = eglGetCurrentDisplay(),
+                     .context = eglGetCurrentContext(),
+                     .draw = eglGetCurrentSurface(EGL_DRAW),
+                     .read = eglGetCurrentSurface(EGL_READ),
+                     .api = eglQueryAPI()};
 }
 
 static void put_back(GlContext *self, const GlOuter *outer) {
@@ -126,6 +150,14 @@ static void put_back(GlContext *self, const GlOuter *outer) {
     else
         eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
+
+/* Of the context that is current: its name for itself; false where it cannot draw floats. */
+static bool take_driver(GlContext *self) {
+    snprintf(self->driver, sizeof self->driver, "%s", (const char *)glGetString(GL_RENDERER));
+    return epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
+}
+
+static const char *const no_floats = "the driver cannot draw floating-point numbers";
 
 WeftResult context_create(TextLanguage language, GlContext **out, WeftError *error) {
     *out = NULL;
@@ -149,19 +181,18 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
         context_destroy(self);
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "its context cannot be used");
     }
-    snprintf(self->driver, sizeof self->driver, "%s", (const char *)glGetString(GL_RENDERER));
-    bool floats = epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
+    bool floats = take_driver(self);
     context_leave(self, &outer);
     if (!floats) {
         context_destroy(self);
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "the driver cannot draw floating-point numbers");
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "%s", no_floats);
     }
     *out = self;
     return WEFT_OK;
 }
 
 GlContext *context_share(const GlContext *of) {
-    GlContext *self = alloc_array(1, sizeof *self);
+    GlContext *self = of->adopted ? NULL : alloc_array(1, sizeof *self);
     if (!self) return NULL;
     GlOuter outer = outer_now();
     *self = *of;
@@ -173,8 +204,38 @@ GlContext *context_share(const GlContext *of) {
     return NULL;
 }
 
+WeftResult context_adopt(GlContext **out, WeftError *error) {
+    static const char name[] = "the current context";
+    *out = NULL;
+    Current adopted = epoxy_has_egl() && egl_current() ? egl_current : glx_current();
+    if (!adopted || !adopted())
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "there is none in this thread");
+    bool desktop = epoxy_is_desktop_gl();
+    int version = epoxy_gl_version();
+    if (version < (desktop ? 33 : 30))
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "it is OpenGL %s%d.%d", desktop ? "" : "ES ",
+                    version / 10, version % 10);
+    GlContext *self = alloc_array(1, sizeof *self);
+    if (!self) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    self->adopted = adopted;
+    self->context = adopted();
+    self->language = desktop ? TEXT_GLSL_330 : TEXT_GLSL_ES_300;
+    if (!take_driver(self)) {
+        context_destroy(self);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "%s", no_floats);
+    }
+    *out = self;
+    return WEFT_OK;
+}
+
+bool context_adopted(const GlContext *self) { return self->adopted != NULL; }
+
 void context_destroy(GlContext *self) {
     if (!self) return;
+    if (self->adopted) {
+        free(self);
+        return;
+    }
     if (eglGetCurrentContext() == self->context)
         eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(self->display, self->context);
@@ -183,6 +244,11 @@ void context_destroy(GlContext *self) {
 }
 
 bool context_enter(GlContext *self, GlOuter *outer) {
+    if (self->adopted) {
+        if (self->adopted() != self->context) return false;
+        state_begin(&outer->place);
+        return true;
+    }
     *outer = outer_now();
     if (outer->context == self->context) return true;
     eglBindAPI(api_of(self->language));
@@ -192,7 +258,10 @@ bool context_enter(GlContext *self, GlOuter *outer) {
 }
 
 void context_leave(GlContext *self, const GlOuter *outer) {
-    if (outer->context != self->context) put_back(self, outer);
+    if (self->adopted)
+        state_end(&outer->place);
+    else if (outer->context != self->context)
+        put_back(self, outer);
 }
 
 void context_thread_ends(void) { eglReleaseThread(); }

@@ -1,3 +1,4 @@
+#include <stddef.h>
 #include <stdlib.h> /* before the dialect, whose abs() shadows its own */
 
 #include "raster/materials.h"
@@ -7,6 +8,7 @@
 #include "base/fail.h"
 #include "raster/check.h"
 #include "raster/families.h"
+#include "scene/polygons.h"
 #include "scene/shade.h"
 
 /* The block "Material" of shader.c. */
@@ -67,7 +69,7 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
     memcpy(uniforms->e, place, sizeof place);
 }
 
-/* Holds the tables of the slots whose parameters are numbers. */
+/* Holds the tables of the slots whose parameters are numbers: another is made where the lobe is another. */
 static bool add_fits(GlMaterial *self, const Material *material, int threads, Uniforms *uniforms) {
     AmbientFit *fit = alloc_array(1, sizeof *fit);
     Surface surface = material_plain(material);
@@ -78,10 +80,14 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
     for (int k = 0; k < SHADER_SLOTS; k++) {
         const Lobe *lobe = &slots[k]->lobe;
         if (!(slots[k]->pick > 0.0f) || !shader_holds(&self->key, k)) continue;
-        ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
-        ambient_hold(fit, uniforms->fits + k * AMBIENT_HELD);
-        self->finest[k] = fit->finest;
-        self->key.turning |= fit->turning << k;
+        MaterialFit *held = &self->fits[k];
+        if (!held->made || !ambient_alike(&held->lobe, lobe)) {
+            ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
+            ambient_hold(fit, uniforms->fits + k * AMBIENT_HELD);
+            *held = (MaterialFit){true, fit->turning, fit->finest, *lobe};
+        }
+        self->finest[k] = held->finest;
+        self->key.turning |= held->turning << k;
     }
     free(fit);
     return true;
@@ -97,47 +103,115 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     uniforms->more[0] = material->alpha_cutoff;
 }
 
-static WeftResult make_uniforms(GlMaterials *self, const WeftScene *scene, const GlTextures *textures,
-                                int threads, WeftError *error) {
-    GLint aligned = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
-    self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
-    size_t stride = (size_t)self->stride, count = (size_t)self->count;
-    unsigned char *all = alloc_array(count, stride);
-    if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+/* All materials as they are now; what old ones hold is taken over. False where memory is short. */
+static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene,
+                 const GlTextures *textures, int threads) {
     bool whole = true;
-    for (size_t k = 0; k < count; k++) {
+    for (int m = 0; m < scene->mesh_count; m++) {
+        int k = self->of_mesh[m] = scene->meshes[m].material;
+        self->all[k].worn = true;
+        self->all[k].key.colored |= scene->meshes[m].color != NULL;
+    }
+    for (int k = 0; k < self->count; k++) {
         Uniforms uniforms = {0};
         GlMaterial *material = &self->all[k];
+        size_t at = (size_t)k * (size_t)self->stride;
+        memcpy(material->fits, old->all[k].fits, sizeof material->fits);
+        memcpy(uniforms.fits, old->blocks + at + offsetof(Uniforms, fits), sizeof uniforms.fits);
         if (material->worn) {
+            material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
-            add_table(material, sheen_tables_of(self->sheens, (int)k),
-                      sheen_tables_index(self->sheens, (int)k), &uniforms);
+            add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
+                      &uniforms);
             whole &= add_fits(material, &scene->materials[k], threads, &uniforms);
         }
-        memcpy(all + k * stride, &uniforms, sizeof uniforms);
+        memcpy(self->blocks + at, &uniforms, sizeof uniforms);
     }
+    return whole;
+}
+
+static bool is_same(const GlMaterial *a, const GlMaterial *b) {
+    return memcmp((const char *)&a->key, (const char *)&b->key, sizeof a->key) == 0 &&
+           a->group_count == b->group_count && memcmp(a->groups, b->groups, sizeof a->groups) == 0 &&
+           a->worn == b->worn && a->emits == b->emits;
+}
+
+static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
+    change->coverage |= old->key.alpha_mode != ALPHA_OPAQUE || fresh->key.alpha_mode != ALPHA_OPAQUE ||
+                        old->key.double_sided != fresh->key.double_sided;
+    change->emission |= old->emits || fresh->emits;
+}
+
+/* Uploads what differs, and tells what that means. */
+static void upload(const GlMaterials *old, const GlMaterials *fresh, int mesh_count,
+                   MaterialsChange *change) {
+    size_t worn = (size_t)mesh_count * sizeof *fresh->of_mesh;
+    change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, worn) != 0;
+    glBindBuffer(GL_UNIFORM_BUFFER, fresh->uniforms);
+    for (int k = 0; k < fresh->count; k++) {
+        size_t at = (size_t)k * (size_t)fresh->stride;
+        const unsigned char *block = fresh->blocks + at;
+        bool same = memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
+        if (same && is_same(&old->all[k], &fresh->all[k])) continue;
+        add_change(&old->all[k], &fresh->all[k], change);
+        if (!same) glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)at, (GLsizeiptr)sizeof(Uniforms), block);
+    }
+}
+
+/* What a material is known by, all zero. */
+static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *error) {
+    self->all = alloc_array((size_t)self->count, sizeof(GlMaterial));
+    self->blocks = alloc_array((size_t)self->count, (size_t)self->stride);
+    self->of_mesh = alloc_array((size_t)scene->mesh_count, sizeof(int));
+    bool held = self->all && self->blocks && self->of_mesh;
+    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
+static void let_go(GlMaterials *self) {
+    free(self->all);
+    free(self->blocks);
+    free(self->of_mesh);
+}
+
+WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlTextures *textures,
+                            int threads, MaterialsChange *change, WeftError *error) {
+    GlMaterials fresh = *self;
+    *change = (MaterialsChange){0};
+    WeftResult result = hold(&fresh, scene, error);
+    if (result == WEFT_OK)
+        result = sheen_tables_update(&self->sheens, scene, threads, &change->tables, error);
+    fresh.sheens = self->sheens;
+    if (result == WEFT_OK && !take(&fresh, self, scene, textures, threads))
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK) result = families_make(scene, textures, fresh.all, error);
+    if (result == WEFT_OK) {
+        upload(self, &fresh, scene->mesh_count, change);
+        result = gl_check(error, "materials");
+    }
+    let_go(result == WEFT_OK ? self : &fresh);
+    if (result == WEFT_OK) *self = fresh;
+    return result;
+}
+
+static WeftResult make_buffer(GlMaterials *self, const WeftScene *scene, WeftError *error) {
+    GLint aligned = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
+    self->count = scene->material_count;
+    self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
+    WeftResult result = hold(self, scene, error);
+    if (result != WEFT_OK) return result;
+    glGenBuffers(1, &self->uniforms);
     glBindBuffer(GL_UNIFORM_BUFFER, self->uniforms);
-    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)(count * stride), all, GL_STATIC_DRAW);
-    free(all);
-    if (!whole) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    return gl_check(error, "materials");
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)self->count * self->stride, self->blocks, GL_DYNAMIC_DRAW);
+    return WEFT_OK;
 }
 
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
                             WeftError *error) {
-    *out = (GlMaterials){.count = scene->material_count};
-    out->all = alloc_array((size_t)scene->material_count, sizeof(GlMaterial));
-    if (!out->all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int m = 0; m < scene->mesh_count; m++) {
-        GlMaterial *material = &out->all[scene->meshes[m].material];
-        material->worn = true;
-        material->key.colored |= scene->meshes[m].color != NULL;
-    }
-    glGenBuffers(1, &out->uniforms);
-    WeftResult result = sheen_tables_create(scene, threads, &out->sheens, error);
-    if (result == WEFT_OK) result = make_uniforms(out, scene, textures, threads, error);
-    if (result == WEFT_OK) result = families_make(scene, textures, out->all, error);
+    MaterialsChange change;
+    *out = (GlMaterials){0};
+    WeftResult result = make_buffer(out, scene, error);
+    if (result == WEFT_OK) result = materials_update(out, scene, textures, threads, &change, error);
     if (result != WEFT_OK) materials_destroy(out);
     return result;
 }
@@ -145,7 +219,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
 void materials_destroy(GlMaterials *self) {
     if (self->uniforms) glDeleteBuffers(1, &self->uniforms);
     sheen_tables_free(self->sheens);
-    free(self->all);
+    let_go(self);
     *self = (GlMaterials){0};
 }
 

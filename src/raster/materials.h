@@ -8,12 +8,21 @@
 #include "raster/textures.h"
 #include "scene/sheen_tables.h"
 
+/* The table of a slot that is held in the uniforms, or was when the slot last asked for one. */
+typedef struct MaterialFit {
+    bool made, turning; /* as AmbientFit has it */
+    float finest;       /* likewise */
+    Lobe lobe;
+} MaterialFit;
+
 typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
     bool worn;                  /* by some mesh */
-    float finest[SHADER_SLOTS]; /* AmbientFit.finest where a table is held, else 0 */
+    bool emits;                 /* light */
+    float finest[SHADER_SLOTS]; /* of the tables that are held, or a finer one's; 0 where none is */
+    MaterialFit fits[SHADER_SLOTS];
 } GlMaterial;
 
 typedef struct GlMaterials {
@@ -21,12 +30,28 @@ typedef struct GlMaterials {
     int count;
     unsigned uniforms; /* buffer of one block a material, `stride` bytes apart */
     int stride;
-    SheenTables *sheens; /* what programs read behind their own tables */
+    unsigned char *blocks; /* what is in it */
+    int *of_mesh;          /* the material of each mesh */
+    SheenTables *sheens;   /* what programs read behind their own tables */
 } GlMaterials;
 
 /* Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
                             WeftError *error);
+
+/* What an update has found. */
+typedef struct MaterialsChange {
+    bool tables;   /* the sheens' are others */
+    bool coverage; /* light may pass where it did not, or the other way round */
+    bool emission; /* what sends out light is another, or does it otherwise */
+} MaterialsChange;
+
+/* Takes the materials as they are now, with as many as there were; textures must serve them. What is the same
+ * is neither fitted nor uploaded again. Fails as materials_create does; the materials are then as they were.
+ */
+WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, const GlTextures *textures,
+                            int threads, MaterialsChange *change, WeftError *error);
+
 void materials_destroy(GlMaterials *materials);
 
 /* What of a key depends on the environment's lamps: log2 of their kappa. */

@@ -19,18 +19,21 @@ static const float *stream_of(const Mesh *mesh, int attribute) {
     }
 }
 
+static int tangents_of(const WeftScene *scene) {
+    int count = 0;
+    for (int m = 0; m < scene->mesh_count; m++) count += scene->meshes[m].tangent != NULL;
+    return count;
+}
+
 /* One attribute of all meshes, one after the other; 0, or white, where a mesh has none. An attribute that no
- * mesh has takes no memory: the shader reads the constant. */
+ * mesh has takes no memory: the shader reads the constant that meshes_bind sets. */
 static WeftResult upload(GLuint buffer, const WeftScene *scene, int attribute, size_t count,
                          WeftError *error) {
     size_t width = (size_t)components[attribute];
     const float constant = attribute == AT_COLOR ? 1.0f : 0.0f;
     bool any = false;
     for (int m = 0; m < scene->mesh_count; m++) any |= stream_of(&scene->meshes[m], attribute) != NULL;
-    if (!any) {
-        glVertexAttrib4f((GLuint)attribute, constant, constant, constant, constant);
-        return WEFT_OK;
-    }
+    if (!any) return WEFT_OK;
     float *all = alloc_array(count, width * sizeof(float)), *to = all;
     if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int m = 0; m < scene->mesh_count; m++) {
@@ -86,9 +89,20 @@ WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error
     for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++)
         result = upload(out->attributes[a], scene, a, vertices, error);
     glBindVertexArray(0);
-    glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
     out->vertex_count = (uint32_t)vertices;
+    out->tangents = tangents_of(scene);
     if (result != WEFT_OK) meshes_destroy(out);
+    return result;
+}
+
+WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *error) {
+    int tangents = tangents_of(scene);
+    if (tangents == self->tangents) return WEFT_OK;
+    glBindVertexArray(self->vertices);
+    WeftResult result =
+        upload(self->attributes[AT_TANGENT], scene, AT_TANGENT, (size_t)self->vertex_count, error);
+    glBindVertexArray(0);
+    if (result == WEFT_OK) self->tangents = tangents;
     return result;
 }
 
@@ -112,6 +126,15 @@ void meshes_destroy(GlMeshes *self) {
     }
     free(self->first);
     *self = (GlMeshes){0};
+}
+
+void meshes_bind(const GlMeshes *self) {
+    glBindVertexArray(self->vertices);
+    for (GLuint a = 0; a < AT_COUNT; a++) {
+        const float constant = a == AT_COLOR ? 1.0f : 0.0f;
+        glVertexAttrib4f(a, constant, constant, constant, constant);
+    }
+    glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
 }
 
 void meshes_draw(const GlMeshes *self, int mesh) {

@@ -22,6 +22,7 @@ typedef struct GlMeshes {
     unsigned attributes[AT_COUNT], index;
     unsigned occlusion; /* buffer, 0 until there is one */
     uint32_t vertex_count;
+    int tangents;    /* of how many meshes they are uploaded */
     uint32_t *first; /* a mesh's first index; mesh_count + 1 entries, owned */
 } GlMeshes;
 
@@ -33,7 +34,14 @@ void meshes_destroy(GlMeshes *meshes);
 /* Gives each vertex what its front and its back see of the sky; 1 until then. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
 
-/* Draws the triangles of one mesh; the vertex array must be bound. */
+/* Uploads tangents, which setting a material may have given to meshes; nothing else of a mesh changes. Fails
+ * as meshes_create does; it is then as it was. */
+WeftResult meshes_update(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
+
+/* Binds the vertex array, and sets the constants that stand for what is not in it. */
+void meshes_bind(const GlMeshes *meshes);
+
+/* Draws the triangles of one mesh; they must be bound. */
 void meshes_draw(const GlMeshes *meshes, int mesh);
 
 #endif

@@ -2,6 +2,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+#include <string.h>
 
 #include "raster/occlusion.h"
 
@@ -18,7 +19,7 @@ enum { BLOCK = 256 }; /* vertices in one go */
 enum { LOOK = 1 };
 
 struct Occlusion {
-    const WeftScene *scene;
+    WeftScene scene; /* as it was: what its lists hold stays, the lists of meshes and materials are copies */
     Geometry *geometry;
     float *values;
     uint32_t *first; /* vertex of a mesh */
@@ -50,7 +51,7 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
 
 static void look(void *user, int item, int thread) {
     Occlusion *self = user;
-    const WeftScene *scene = self->scene;
+    const WeftScene *scene = &self->scene;
     uint32_t count = self->first[scene->mesh_count], begin = (uint32_t)item * BLOCK;
     uint32_t end = count - begin < BLOCK ? count : begin + BLOCK;
     float reach = 1e-4f * vec3_length(vec3_sub(scene->high, scene->low));
@@ -94,7 +95,7 @@ static uint64_t values_key(const WeftScene *scene, int rays) {
     return hash;
 }
 
-static size_t values_count(const Occlusion *self) { return 2 * (size_t)self->first[self->scene->mesh_count]; }
+static size_t values_count(const Occlusion *self) { return 2 * (size_t)self->first[self->scene.mesh_count]; }
 
 static bool in_range(const float *values, size_t count) {
     bool good = true;
@@ -104,7 +105,7 @@ static bool in_range(const float *values, size_t count) {
 
 static void *work(void *user) {
     Occlusion *self = user;
-    uint32_t count = self->first[self->scene->mesh_count];
+    uint32_t count = self->first[self->scene.mesh_count];
     parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
     atomic_store(&self->done, 1);
     /* in silence: a log is for the thread that made this */
@@ -113,17 +114,28 @@ static void *work(void *user) {
     return NULL;
 }
 
+static bool copy_scene(Occlusion *self, const WeftScene *scene) {
+    size_t meshes = (size_t)scene->mesh_count, materials = (size_t)scene->material_count;
+    self->scene = *scene;
+    self->scene.meshes = alloc_array(meshes, sizeof(Mesh));
+    self->scene.materials = alloc_array(materials, sizeof(Material));
+    if (!self->scene.meshes || !self->scene.materials) return false;
+    memcpy(self->scene.meshes, scene->meshes, meshes * sizeof(Mesh));
+    memcpy(self->scene.materials, scene->materials, materials * sizeof(Material));
+    return true;
+}
+
 /* Whether an earlier run has found them. */
 static bool known(Occlusion *self, const WeftLog *log) {
     if (self->no_cache) return false;
     size_t count = values_count(self);
-    self->key = values_key(self->scene, self->rays);
+    self->key = values_key(&self->scene, self->rays);
     return cache_find(self->key, "sky", self->values, count * sizeof(float), log) &&
            in_range(self->values, count);
 }
 
 static WeftResult begin(Occlusion *self, WeftError *error) {
-    WeftResult result = geometry_create(self->scene, self->threads, &self->geometry, error);
+    WeftResult result = geometry_create(&self->scene, self->threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
     if (self->joined) work(self); /* no thread to be had: now, then */
@@ -135,7 +147,6 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     *out = NULL;
     Occlusion *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    self->scene = scene;
     self->rays = how->rays;
     self->no_cache = how->no_cache || !is_opaque(scene);
     self->threads = how->threads ? how->threads : thread_count();
@@ -143,9 +154,10 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     for (int m = 0; self->first && m < scene->mesh_count; m++)
         self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
-    if (self->first) self->values = alloc_array(self->first[scene->mesh_count], 2 * sizeof(float));
+    bool copied = copy_scene(self, scene);
+    if (copied && self->first) self->values = alloc_array(self->first[scene->mesh_count], 2 * sizeof(float));
     WeftResult result = WEFT_OK;
-    if (!self->first || !self->values)
+    if (!self->values)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     else if (known(self, log))
         atomic_store(&self->done, 1);
@@ -170,6 +182,8 @@ void occlusion_free(Occlusion *self) {
     atomic_store(&self->stop, 1);
     if (!self->joined) pthread_join(self->thread, NULL);
     geometry_free(self->geometry);
+    free(self->scene.meshes);
+    free(self->scene.materials);
     free(self->values);
     free(self->first);
     free(self);

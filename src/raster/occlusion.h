@@ -13,8 +13,9 @@ typedef struct OcclusionHow {
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
 } OcclusionHow;
 
-/* Starts to look from every vertex. The scene must outlive it. Fails with WEFT_MESSAGE_MEMORY or
- * _RENDER_DEVICE; what is wrong with a file of the cache is a warning. */
+/* Starts to look from every vertex. The scene must outlive it; the calls of weft/scene.h may change it
+ * meanwhile. Fails with WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of the cache is a
+ * warning. */
 WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
                            const WeftLog *log, WeftError *error);
 

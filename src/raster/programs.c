@@ -54,20 +54,20 @@ static void bind_blocks(GLuint program) {
     if (material != GL_INVALID_INDEX) glUniformBlockBinding(program, material, BLOCK_MATERIAL);
 }
 
-/* The tables of the text, then those of the sheens; 0 where there are none, or on failure. */
-static GLuint make_tables(const Programs *programs, const Text *text, WeftError *error) {
-    int count = sheen_tables_count(programs->sheens), all = text->table_count + count;
+/* The program's own tables, then those of the sheens; 0 where there are none, or on failure. */
+static GLuint make_tables(const Programs *programs, const TextTable *own, int own_count, WeftError *error) {
+    int count = sheen_tables_count(programs->sheens), all = own_count + count;
     if (!all) return 0;
     TextTable *tables = alloc_array((size_t)all, sizeof *tables);
     if (!tables) {
         fail(error, WEFT_MESSAGE_MEMORY, "tables", NULL);
         return 0;
     }
-    memcpy(tables, text->tables, (size_t)text->table_count * sizeof *tables);
+    memcpy(tables, own, (size_t)own_count * sizeof *tables);
     for (int k = 0; k < count; k++) {
         const AlbedoTable *table = sheen_tables_at(programs->sheens, k);
         TableRef e = albedo_table_ref(table);
-        tables[text->table_count + k] = (TextTable){e.texels, table->maps * e.rows, e.columns + 1};
+        tables[own_count + k] = (TextTable){e.texels, table->maps * e.rows, e.columns + 1};
     }
     GLuint texture = tables_create(tables, all, error);
     free(tables);
@@ -121,22 +121,40 @@ static void compile_in_thread(void *user, int item, int thread) {
 /* What was there before stays where compiling failed. */
 static void take(Programs *programs, Job *job) {
     Program *self = job->program;
+    const Text *text = &job->fragment;
     GLuint tables = 0;
-    if (job->made) tables = make_tables(programs, &job->fragment, &job->error);
-    text_free(&job->vertex);
-    text_free(&job->fragment);
+    if (job->made) tables = make_tables(programs, text->tables, text->table_count, &job->error);
     programs->compiled++;
     self->stale = false;
     self->error = job->error;
-    if (job->error.result != WEFT_OK) {
+    if (job->error.result == WEFT_OK) {
+        drop(self);
+        self->name = job->made;
+        self->tables = tables;
+        self->own_count = text->table_count;
+        self->turn = programs->turn;
+        memcpy(self->own, text->tables, sizeof self->own);
+        bind_blocks(self->name);
+        set_units(self);
+    } else {
         glDeleteProgram(job->made);
-        return;
     }
-    drop(self);
-    self->name = job->made;
+    text_free(&job->vertex);
+    text_free(&job->fragment);
+}
+
+/* Makes the tables of a program again, behind whose own there are other sheens. */
+static bool take_sheens(const Programs *programs, Program *self, WeftError *error) {
+    WeftError said = {0};
+    GLuint tables = make_tables(programs, self->own, self->own_count, &said);
+    if (said.result != WEFT_OK) {
+        *error = said;
+        return false;
+    }
+    glDeleteTextures(1, &self->tables);
     self->tables = tables;
-    bind_blocks(self->name);
-    set_units(self);
+    self->turn = programs->turn;
+    return true;
 }
 
 /* As many contexts as there are other threads to use, beside the caller's. */
@@ -200,10 +218,11 @@ bool programs_build(Programs *programs, const GlContext *context) {
     return true;
 }
 
-const Program *programs_get(const Programs *programs, const ShaderKey *key, WeftError *error) {
-    const Program *p = programs->first;
+const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
+    Program *p = programs->first;
     while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
     if (!p) return NULL;
+    if (p->name && p->turn != programs->turn && !take_sheens(programs, p, error)) return NULL;
     *error = p->error;
     return p->name ? p : NULL;
 }

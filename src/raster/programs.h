@@ -15,8 +15,11 @@ enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
 typedef struct Program {
     struct Program *next;
     ShaderKey key;
-    unsigned name;   /* 0: it never compiled */
-    unsigned tables; /* array texture for weft_tables, 0 where the program has none */
+    unsigned name;                  /* 0: it never compiled */
+    unsigned tables;                /* array texture for weft_tables, 0 where the program has none */
+    TextTable own[TEXT_TABLES_MAX]; /* the first of its layers; the sheens' are behind them */
+    int own_count;
+    unsigned turn;   /* of the sheens that it holds */
     int samplers;    /* array elements counted one by one */
     bool stale;      /* its text may have changed */
     bool wanted;     /* and it is to be compiled */
@@ -28,6 +31,7 @@ typedef struct Programs {
     TextDesc desc;             /* of all texts */
     Fits fits;                 /* for their light from the environment */
     const SheenTables *sheens; /* of the scene: behind each program's own tables */
+    unsigned turn;             /* another number for others, which programs take at their next use */
     int compiled;              /* so far */
     int wanted;                /* in the list */
 } Programs;
@@ -43,7 +47,7 @@ bool programs_build(Programs *programs, const GlContext *context);
 /* The program for a key that was noted and built. NULL where it has never compiled, with what the compiler
  * says in error; where it did before, that one stays, and error tells all the same: *error is WEFT_OK only
  * where all is well. */
-const Program *programs_get(const Programs *programs, const ShaderKey *key, WeftError *error);
+const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
 
 /* The program that draws the environment behind everything; 0 on failure, with what the compiler says in
  * error. Release with glDeleteProgram. */

@@ -32,12 +32,25 @@ WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     for (int m = 0; m < scene->mesh_count; m++) measure(out, scene, m);
-    for (int m = 0; m < scene->mesh_count; m++)
-        if (!blends(scene, m)) out->order[out->count++] = m;
-    out->solid = out->count;
-    for (int m = 0; m < scene->mesh_count; m++)
-        if (blends(scene, m)) out->order[out->count++] = m;
+    queue_update(out, scene);
     return WEFT_OK;
+}
+
+/* Whether solid meshes still come before those that blend. */
+static bool serves(const Queue *self, const WeftScene *scene) {
+    bool good = self->count == scene->mesh_count;
+    for (int k = 0; k < self->count; k++) good &= blends(scene, self->order[k]) == (k >= self->solid);
+    return good;
+}
+
+void queue_update(Queue *self, const WeftScene *scene) {
+    if (serves(self, scene)) return;
+    self->count = 0;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (!blends(scene, m)) self->order[self->count++] = m;
+    self->solid = self->count;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (blends(scene, m)) self->order[self->count++] = m;
 }
 
 void queue_destroy(Queue *self) {

@@ -17,6 +17,9 @@ typedef struct Queue {
 WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error);
 void queue_destroy(Queue *queue);
 
+/* Asks the materials again which meshes blend. */
+void queue_update(Queue *queue, const WeftScene *scene);
+
 /* Sorts for a view; allocates nothing, and takes little time where the view has moved little. */
 void queue_sort(Queue *queue, const WeftScene *scene, const View *view);
 

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "raster/check.h"
 #include "raster/context.h"
+#include "raster/display.h"
 #include "raster/environment.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
@@ -26,6 +27,7 @@ enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX 
 
 struct WeftRaster {
     const WeftScene *scene;
+    WeftRasterDesc desc; /* shader_dir is our own copy */
     GlContext *context;
     GlMeshes meshes;
     GlTextures textures;
@@ -34,17 +36,18 @@ struct WeftRaster {
     GlEnvironment environment;
     unsigned background;  /* program, 0 until it is needed */
     bool shines;          /* the environment does */
+    unsigned turn;        /* of the environment that was uploaded */
     Occlusion *occlusion; /* NULL where none is wanted, or once it is uploaded */
     LightPolygons polygons;
     Shadows shadows;
     Target target;
+    Display display;
     unsigned picture; /* uniform buffer */
     bool plain;       /* textures are without their smaller copies */
     Queue queue;
     Camera camera; /* of the last picture */
     double compile_seconds;
-    char *shader_dir;
-    Watch watch; /* of it */
+    Watch watch; /* of the shader_dir */
 };
 
 static double now(void) {
@@ -68,33 +71,43 @@ static bool environment_shines(const Environment *e) {
     return e->strength > 0.0f && (e->kind != ENVIRONMENT_CONSTANT || color);
 }
 
-static WeftResult upload_environment(WeftRaster *self, const WeftRasterDesc *desc, const WeftLog *log,
-                                     WeftError *error) {
-    Watched watched = {desc->progress, desc->user};
+/* One that is dark is neither uploaded nor dropped. */
+static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftError *error) {
+    const Environment *environment = &self->scene->environment;
+    Watched watched = {self->desc.progress, self->desc.user};
     const EnvironmentHow how = {.language = context_language(self->context),
-                                .folder = self->shader_dir,
-                                .no_cache = desc->no_cache != 0,
+                                .folder = self->desc.shader_dir,
+                                .no_cache = self->desc.no_cache != 0,
                                 .progress = on_progress,
                                 .user = &watched};
-    self->shines = environment_shines(&self->scene->environment);
+    self->shines = environment_shines(environment);
     if (!self->shines) return WEFT_OK;
-    return environment_create(&self->scene->environment, &how, &self->environment, log, error);
+    if (self->environment.buffer && self->turn == environment->turn) {
+        environment_place(&self->environment, environment->rotation, environment->strength);
+        return gl_check(error, "an environment");
+    }
+    environment_destroy(&self->environment);
+    self->turn = environment->turn;
+    WeftResult result = environment_create(environment, &how, &self->environment, log, error);
+    self->shines = result == WEFT_OK;
+    return result;
 }
 
-static WeftResult upload(WeftRaster *self, const WeftRasterDesc *desc, const WeftLog *log, WeftError *error) {
+static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error) {
     const WeftScene *scene = self->scene;
+    int threads = self->desc.threads;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     WeftResult result = meshes_create(scene, &self->meshes, error);
-    if (result == WEFT_OK) result = textures_create(scene, desc->threads, &self->textures, log, error);
+    if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
-        result = materials_create(scene, &self->textures, desc->threads, &self->materials, error);
+        result = materials_create(scene, &self->textures, threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
     if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS_MOST))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = shadows_create(scene, &self->polygons, &self->shadows, error);
-    if (result == WEFT_OK) result = upload_environment(self, desc, log, error);
-    self->programs.fits.threads = desc->threads;
-    self->programs.fits.no_cache = desc->no_cache != 0;
+    if (result == WEFT_OK) result = update_environment(self, log, error);
+    self->programs.fits.threads = threads;
+    self->programs.fits.no_cache = self->desc.no_cache != 0;
     glGenBuffers(1, &self->picture);
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
@@ -110,38 +123,51 @@ static void release(WeftRaster *self) {
     environment_destroy(&self->environment);
     glDeleteProgram(self->background);
     target_destroy(&self->target);
+    display_destroy(&self->display);
     glDeleteBuffers(1, &self->picture);
+}
+
+static WeftResult enter(WeftRaster *self, GlOuter *outer, WeftError *error) {
+    if (context_enter(self->context, outer)) return WEFT_OK;
+    const char *why = context_adopted(self->context) ? "is not current" : "is in use";
+    return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context %s", why);
+}
+
+/* A context, and all that is drawn with. */
+static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError *error) {
+    GlOuter outer;
+    TextLanguage language = self->desc.gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
+    WeftResult result = self->desc.adopt ? context_adopt(&self->context, error)
+                                         : context_create(language, &self->context, error);
+    if (result == WEFT_OK) result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    language = context_language(self->context);
+    self->programs.desc = (TextDesc){language, true, self->desc.shader_dir};
+    result = upload(self, log, error);
+    context_leave(self->context, &outer);
+    return result;
 }
 
 WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
                               const WeftLog *log, WeftError *error) {
     *out = NULL;
     if ((unsigned)desc->gl > WEFT_GL_ES) return fail(error, WEFT_MESSAGE_DESC, "gl", "%d", (int)desc->gl);
-    TextLanguage language = desc->gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
     if (desc->occlusion < 0 || desc->occlusion > 4096)
         return fail(error, WEFT_MESSAGE_DESC, "occlusion", "%d", desc->occlusion);
     if (!scene->mesh_count) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
     WeftRaster *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->scene = scene;
-    WeftResult result = WEFT_OK;
-    if (result == WEFT_OK) result = queue_create(scene, &self->queue, error);
-    if (desc->shader_dir) self->shader_dir = strdup(desc->shader_dir);
-    if (result == WEFT_OK && desc->shader_dir && !self->shader_dir)
+    self->desc = *desc;
+    if (desc->shader_dir) self->desc.shader_dir = strdup(desc->shader_dir);
+    WeftResult result = queue_create(scene, &self->queue, error);
+    if (result == WEFT_OK && desc->shader_dir && !self->desc.shader_dir)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    self->programs.desc = (TextDesc){language, true, self->shader_dir};
-    if (result == WEFT_OK && self->shader_dir) watch_look(&self->watch, self->shader_dir);
+    if (result == WEFT_OK && desc->shader_dir) watch_look(&self->watch, desc->shader_dir);
     if (result == WEFT_OK && desc->occlusion)
         result = occlusion_start(scene, &(OcclusionHow){desc->occlusion, desc->threads, desc->no_cache != 0},
                                  &self->occlusion, log, error);
-    if (result == WEFT_OK) result = context_create(language, &self->context, error);
-    GlOuter outer;
-    if (result == WEFT_OK && !context_enter(self->context, &outer))
-        result = fail(error, WEFT_MESSAGE_GL_CONTEXT, scene->name, "its context is in use");
-    else if (result == WEFT_OK) {
-        result = upload(self, desc, log, error);
-        context_leave(self->context, &outer);
-    }
+    if (result == WEFT_OK) result = begin_drawing(self, log, error);
     if (result == WEFT_OK)
         *out = self;
     else
@@ -160,7 +186,7 @@ void weft_raster_free(WeftRaster *self) {
     occlusion_free(self->occlusion);
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
-    free(self->shader_dir);
+    free((char *)self->desc.shader_dir);
     watch_free(&self->watch);
     free(self);
 }
@@ -208,7 +234,7 @@ static void set_state(WeftRaster *self) {
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glBindVertexArray(self->meshes.vertices);
+    meshes_bind(&self->meshes);
 }
 
 static void begin(WeftRaster *self, const WeftRasterView *view) {
@@ -358,7 +384,7 @@ static WeftResult draw_background(WeftRaster *self, WeftError *error) {
 
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
-    bool behind = view->background == WEFT_BACKGROUND_ENVIRONMENT && self->environment.map;
+    bool behind = view->background == WEFT_BACKGROUND_ENVIRONMENT && self->shines && self->environment.map;
     queue_sort(&self->queue, self->scene, seen);
     for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
         if (k == self->queue.solid && behind) result = draw_background(self, error);
@@ -388,9 +414,56 @@ static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) 
 
 WeftResult weft_raster_settle(WeftRaster *self, WeftError *error) {
     GlOuter outer;
-    if (!context_enter(self->context, &outer))
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
-    WeftResult result = take_occlusion(self, true, error);
+    WeftResult result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    result = take_occlusion(self, true, error);
+    context_leave(self->context, &outer);
+    return result;
+}
+
+/* Textures that materials did not look up before are uploaded with all others. */
+static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, const WeftLog *log,
+                                   WeftError *error) {
+    const WeftScene *scene = self->scene;
+    GlTextures textures = self->textures;
+    WeftResult result = WEFT_OK;
+    bool serve = textures_serve(&textures, scene);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (!serve) result = textures_create(scene, self->desc.threads, &textures, log, error);
+    if (result != WEFT_OK) return result;
+    result = materials_update(&self->materials, scene, &textures, self->desc.threads, change, error);
+    if (!serve) textures_destroy(result == WEFT_OK ? &self->textures : &textures);
+    if (!serve && result == WEFT_OK) {
+        self->textures = textures;
+        self->plain = false;
+    }
+    self->programs.sheens = self->materials.sheens;
+    self->programs.turn += change->tables;
+    return result;
+}
+
+static WeftResult update_lights(WeftRaster *self, const MaterialsChange *change, WeftError *error) {
+    LightPolygons polygons;
+    if (change->emission) {
+        if (!light_polygons_find(&polygons, self->scene, PICTURE_POLYGONS_MOST))
+            return fail(error, WEFT_MESSAGE_MEMORY, self->scene->name, NULL);
+        light_polygons_free(&self->polygons);
+        self->polygons = polygons;
+    }
+    if (change->coverage) self->shadows.drawn = false;
+    return shadows_update(&self->shadows, self->scene, &self->polygons, error);
+}
+
+WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *error) {
+    GlOuter outer;
+    MaterialsChange change;
+    WeftResult result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    result = meshes_update(&self->meshes, self->scene, error);
+    if (result == WEFT_OK) result = update_materials(self, &change, log, error);
+    if (result == WEFT_OK) result = update_lights(self, &change, error);
+    if (result == WEFT_OK) result = update_environment(self, log, error);
+    queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
     return result;
 }
@@ -405,8 +478,8 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     result = camera_find(self->scene, view.camera, aspect, &self->camera, error);
     if (result != WEFT_OK) return result;
     View seen = view_of(&self->camera, aspect);
-    if (!context_enter(self->context, &outer))
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
+    result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
     set_state(self);
     result = prepare(self, &view, error);
     if (result == WEFT_OK) result = take_occlusion(self, false, error);
@@ -427,17 +500,49 @@ WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error)
     GlOuter outer;
     *out = (WeftImage){0};
     if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, "a picture", "nothing was drawn yet");
-    if (!context_enter(self->context, &outer))
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context is in use");
-    WeftResult result = target_read(&self->target, out, error);
+    WeftResult result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    result = target_read(&self->target, out, error);
+    context_leave(self->context, &outer);
+    return result;
+}
+
+static WeftResult check_show(const WeftRaster *self, const WeftRasterShow *show, WeftError *error) {
+    static const char subject[] = "showing a picture";
+    if (!context_adopted(self->context))
+        return fail(error, WEFT_MESSAGE_DESC, subject, "a context of its own has nothing to show it in");
+    if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, subject, "nothing was drawn yet");
+    if (show->width < 1 || show->width > SIDE_MAX || show->height < 1 || show->height > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d; a side is 1 to %d", show->width,
+                    show->height, SIDE_MAX);
+    if (show->clip[2] < 0 || show->clip[3] < 0)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "clip %d x %d", show->clip[2], show->clip[3]);
+    if ((unsigned)show->tonemap > WEFT_TONEMAP_NONE || !isfinite(show->exposure))
+        return fail(error, WEFT_MESSAGE_DESC, subject, "curve %d, exposure %g", (int)show->tonemap,
+                    (double)show->exposure);
+    return WEFT_OK;
+}
+
+WeftResult weft_raster_show(WeftRaster *self, const WeftRasterShow *wanted, WeftError *error) {
+    WeftRasterShow show = *wanted;
+    GlOuter outer;
+    if (!show.width) show.width = self->target.width;
+    if (!show.height) show.height = self->target.height;
+    WeftResult result = check_show(self, &show, error);
+    if (result == WEFT_OK) result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    set_state(self);
+    result = display_draw(&self->display, &self->programs.desc, &self->target, &show, error);
     context_leave(self->context, &outer);
     return result;
 }
 
 int weft_raster_refresh(WeftRaster *self) {
-    int changes = self->shader_dir ? watch_look(&self->watch, self->shader_dir) : 0;
+    const char *folder = self->desc.shader_dir;
+    int changes = folder ? watch_look(&self->watch, folder) : 0;
     if (!changes) return 0;
     programs_refresh(&self->programs);
+    self->display.stale = true;
     self->shadows.drawn = false;
     return changes;
 }
@@ -459,6 +564,7 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
         info.programs += p->name != 0;
         if (p->samplers > info.samplers) info.samplers = p->samplers;
     }
-    snprintf(info.complaint, sizeof info.complaint, "%s", programs_complaint(&self->programs));
+    const char *complaint = programs_complaint(&self->programs);
+    snprintf(info.complaint, sizeof info.complaint, "%s", *complaint ? complaint : self->display.error.text);
     return info;
 }

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "base/fail.h"
 #include "raster/check.h"
@@ -145,11 +147,25 @@ static Shadow of_polygon(const LightPolygon *polygon, Box subject) {
 }
 
 static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadows *self) {
-    Box subject = find_subject(scene);
+    Box subject = {self->low, self->high};
     int half = SHADOWS_MOST / 2, wanted = polygons->count < half ? polygons->count : half;
     choose_lights(scene, SHADOWS_MOST - wanted, subject, self);
     for (int k = 0; k < polygons->count && self->count < SHADOWS_MOST; k++)
         add(self, of_polygon(&polygons->items[k], subject), -1, k);
+}
+
+static bool sees_the_same(const Shadow *a, const Shadow *b) {
+    return memcmp(&a->view, &b->view, offsetof(View, orthographic)) == 0 &&
+           a->view.orthographic == b->view.orthographic;
+}
+
+static void delete_objects(Shadows *self) {
+    glDeleteTextures(1, &self->texture);
+    glDeleteFramebuffers(1, &self->framebuffer);
+    glDeleteSamplers(1, &self->compare);
+    glDeleteSamplers(1, &self->plain);
+    self->texture = self->framebuffer = self->compare = self->plain = 0;
+    self->drawn = false;
 }
 
 static void make_objects(Shadows *self) {
@@ -175,20 +191,29 @@ static void make_objects(Shadows *self) {
 
 WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
                           WeftError *error) {
-    *out = (Shadows){0};
-    choose(scene, polygons, out);
-    if (!out->count) return WEFT_OK;
-    make_objects(out);
+    Box subject = find_subject(scene);
+    *out = (Shadows){.low = subject.low, .high = subject.high};
+    return shadows_update(out, scene, polygons, error);
+}
+
+WeftResult shadows_update(Shadows *self, const WeftScene *scene, const LightPolygons *polygons,
+                          WeftError *error) {
+    Shadows old = *self;
+    self->count = 0;
+    choose(scene, polygons, self);
+    for (int k = 0; k < self->count; k++) self->drawn &= sees_the_same(&self->all[k], &old.all[k]);
+    if (self->count == old.count) return WEFT_OK;
+    delete_objects(self);
+    if (self->count) make_objects(self);
     WeftResult result = gl_check(error, "shadows");
-    if (result != WEFT_OK) shadows_destroy(out);
+    if (result == WEFT_OK) return WEFT_OK;
+    delete_objects(self);
+    self->count = 0;
     return result;
 }
 
 void shadows_destroy(Shadows *self) {
-    glDeleteTextures(1, &self->texture);
-    glDeleteFramebuffers(1, &self->framebuffer);
-    glDeleteSamplers(1, &self->compare);
-    glDeleteSamplers(1, &self->plain);
+    delete_objects(self);
     *self = (Shadows){0};
 }
 

@@ -23,6 +23,7 @@ typedef struct Shadows {
     int of_polygon[SHADOWS_MOST]; /* of the polygon, or -1 */
     unsigned texture, framebuffer;
     unsigned compare, plain; /* sampler objects: compared, and as numbers */
+    Vec3 low, high;          /* box of what shadows are looked at on */
     bool drawn;              /* the texture holds what the lights see */
 } Shadows;
 
@@ -32,6 +33,11 @@ typedef struct Shadows {
 WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
                           WeftError *error);
 void shadows_destroy(Shadows *shadows);
+
+/* Chooses again, for other lights and the same meshes; maps that see something else are to be drawn anew.
+ * Fails as shadows_create does, and there are then none. */
+WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
+                          WeftError *error);
 
 /* Makes layer `layer` the target, empty. */
 void shadows_begin(const Shadows *shadows, int layer);

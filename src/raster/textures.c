@@ -251,7 +251,7 @@ static WeftResult upload(GlTextures *self, Plan *plan, int threads, const WeftLo
 
 WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
                            WeftError *error) {
-    *out = (GlTextures){0};
+    *out = (GlTextures){.texture_count = scene->texture_count};
     if (!scene->texture_count) return WEFT_OK;
     size_t count = 2 * (size_t)scene->texture_count;
     Plan plan = {.scene = scene};
@@ -273,6 +273,17 @@ void textures_destroy(GlTextures *self) {
     free(self->groups);
     free(self->places);
     *self = (GlTextures){0};
+}
+
+bool textures_serve(const GlTextures *self, const WeftScene *scene) {
+    for (int m = 0; m < scene->material_count; m++)
+        for (int k = 0; k < INPUT_COUNT; k++) {
+            int texture = scene->materials[m].inputs[k].texture - 1;
+            bool color = textures_color(&scene->materials[m], k);
+            if (texture >= self->texture_count) return false;
+            if (texture >= 0 && self->places[2 * texture + color].group < 0) return false;
+        }
+    return true;
 }
 
 TexturePlace textures_place(const GlTextures *self, const Input *input, bool color) {

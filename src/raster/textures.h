@@ -21,6 +21,7 @@ typedef struct GlTextures {
     unsigned *groups; /* array textures */
     int group_count;
     TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
+    int texture_count;    /* that there were */
 } GlTextures;
 
 /* Uploads what the materials that are worn look up, with smaller copies of it, made on `threads` threads (0:
@@ -32,6 +33,9 @@ void textures_destroy(GlTextures *textures);
 
 /* Whether an input of a material looks its texture up as a colour. */
 bool textures_color(const Material *material, int input);
+
+/* Whether all that materials look up by now is there. */
+bool textures_serve(const GlTextures *textures, const WeftScene *scene);
 
 /* Of what an input of a material looks up. */
 TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);

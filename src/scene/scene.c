@@ -112,6 +112,7 @@ WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, c
     weft_image_free(&scene->environment.image);
     scene->environment.image = linear;
     scene->environment.kind = ENVIRONMENT_IMAGE;
+    scene->environment.turn++;
     return WEFT_OK;
 }
 
@@ -121,6 +122,7 @@ WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[
             return fail(error, WEFT_MESSAGE_DESC, "environment color", "%g", (double)color[c]);
     weft_image_free(&scene->environment.image);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
+    scene->environment.turn++;
     memcpy(scene->environment.color, color, sizeof scene->environment.color);
     return WEFT_OK;
 }

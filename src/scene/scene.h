@@ -63,6 +63,7 @@ typedef struct Environment {
     WeftImage image; /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
     float rotation;  /* radians about +y, counter-clockwise seen from above */
     float strength;  /* factor on the radiance */
+    unsigned turn;   /* another number for another image or colour */
 } Environment;
 
 struct WeftScene {

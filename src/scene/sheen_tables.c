@@ -52,10 +52,17 @@ static void table_range(const Material *material, bool all, float *low, float *h
     }
 }
 
-/* The table that the sheen of a material asks for: made, or that of an earlier material with the same sheen
- * over the same range. */
-static WeftResult find_table(SheenTables *self, const Material *material, int threads, int *index,
-                             WeftError *error) {
+/* The table that a sheen asks for, or -1. */
+static int table_that_serves(const SheenTables *self, const Lobe *lobe, float low, float high, bool scaled) {
+    for (int k = 0; self && k < self->table_count; k++)
+        if (albedo_table_serves(self->tables[k], lobe, low, high, scaled)) return k;
+    return -1;
+}
+
+/* The table that the sheen of a material asks for: made, that of an earlier material with the same sheen
+ * over the same range, or one of those before, which may be NULL. */
+static WeftResult find_table(SheenTables *self, const SheenTables *before, const Material *material,
+                             int threads, int *index, WeftError *error) {
     const Surface plain = material_plain(material);
     const Choices choices = material_choices(material);
     *index = -1;
@@ -69,32 +76,44 @@ static WeftResult find_table(SheenTables *self, const Material *material, int th
     bool scaled = material->inputs[INPUT_nap].texture != 0;
     float low, high;
     table_range(material, self->table_count >= NARROW_TABLES, &low, &high);
-    for (int k = 0; k < self->table_count; k++)
-        if (albedo_table_serves(self->tables[k], &lobe, low, high, scaled)) {
-            *index = k;
-            return WEFT_OK;
-        }
-    AlbedoTable *table = alloc_array(1, sizeof(AlbedoTable));
+    *index = table_that_serves(self, &lobe, low, high, scaled);
+    if (*index >= 0) return WEFT_OK;
+    int kept = table_that_serves(before, &lobe, low, high, scaled);
+    AlbedoTable *table = kept >= 0 ? before->tables[kept] : alloc_array(1, sizeof(AlbedoTable));
     if (!table) return fail(error, WEFT_MESSAGE_MEMORY, material->name, NULL);
-    (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, threads);
+    if (kept < 0) (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, threads);
     *index = self->table_count;
     self->tables[self->table_count++] = table;
     return WEFT_OK;
 }
 
 /* worn: by some mesh. */
-static WeftResult find_all(SheenTables *self, const WeftScene *scene, bool *worn, int threads,
-                           WeftError *error) {
+static WeftResult find_all(SheenTables *self, const SheenTables *before, const WeftScene *scene, bool *worn,
+                           int threads, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < scene->mesh_count; m++) worn[scene->meshes[m].material] = true;
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++) {
         self->index[k] = -1;
-        if (worn[k]) result = find_table(self, &scene->materials[k], threads, &self->index[k], error);
+        if (worn[k]) result = find_table(self, before, &scene->materials[k], threads, &self->index[k], error);
     }
     return result;
 }
 
-WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error) {
+/* Frees it with the tables that the other, which may be NULL, does not have. */
+static void free_but(SheenTables *self, const SheenTables *other) {
+    if (!self) return;
+    for (int k = 0; k < self->table_count; k++) {
+        bool shared = false;
+        for (int j = 0; other && j < other->table_count; j++) shared |= other->tables[j] == self->tables[k];
+        if (!shared) free(self->tables[k]);
+    }
+    free(self->tables);
+    free(self->index);
+    free(self);
+}
+
+static WeftResult make(const WeftScene *scene, const SheenTables *before, int threads, SheenTables **out,
+                       WeftError *error) {
     size_t count = (size_t)scene->material_count;
     SheenTables *self = alloc_array(1, sizeof *self);
     bool *worn = alloc_array(count, sizeof(bool));
@@ -103,23 +122,33 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
         self->index = alloc_array(count, sizeof(int));
     }
     bool held = worn && self && self->tables && self->index;
-    WeftResult result = held ? find_all(self, scene, worn, threads, error)
+    WeftResult result = held ? find_all(self, before, scene, worn, threads, error)
                              : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(worn);
     if (result == WEFT_OK)
         *out = self;
     else
-        sheen_tables_free(self);
+        free_but(self, before);
     return result;
 }
 
-void sheen_tables_free(SheenTables *self) {
-    if (!self) return;
-    for (int k = 0; k < self->table_count; k++) free(self->tables[k]);
-    free(self->tables);
-    free(self->index);
-    free(self);
+WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error) {
+    return make(scene, NULL, threads, out, error);
 }
+
+WeftResult sheen_tables_update(SheenTables **tables, const WeftScene *scene, int threads, bool *changed,
+                               WeftError *error) {
+    SheenTables *before = *tables, *now;
+    WeftResult result = make(scene, before, threads, &now, error);
+    if (result != WEFT_OK) return result;
+    *changed = now->table_count != (before ? before->table_count : 0);
+    for (int k = 0; k < now->table_count && !*changed; k++) *changed = now->tables[k] != before->tables[k];
+    free_but(before, now);
+    *tables = now;
+    return WEFT_OK;
+}
+
+void sheen_tables_free(SheenTables *self) { free_but(self, NULL); }
 
 int sheen_tables_count(const SheenTables *self) { return self->table_count; }
 const AlbedoTable *sheen_tables_at(const SheenTables *self, int index) { return self->tables[index]; }

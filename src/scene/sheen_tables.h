@@ -11,6 +11,11 @@ typedef struct SheenTables SheenTables;
  * that are alike share one. threads: 0 is one a processor. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error);
 
+/* Makes *tables, which may be NULL, those of the materials as they are now. What is wanted still is kept, be
+ * it at another place. *changed: one is another or at another place. On failure all stays as it was. */
+WeftResult sheen_tables_update(SheenTables **tables, const WeftScene *scene, int threads, bool *changed,
+                               WeftError *error);
+
 /* tables may be NULL. */
 void sheen_tables_free(SheenTables *tables);
 

@@ -263,11 +263,18 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
 
 static bool same(float a, float b) { return !(a < b) && !(a > b); }
 
+/* From parameter `first` on. */
+static bool alike_from(const Lobe *a, const Lobe *b, int first) {
+    if (a->id != b->id) return false;
+    for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
+        if (k != lobe_param(a->id, "azimuth") && !same(a->params[k], b->params[k])) return false;
+    return true;
+}
+
+bool ambient_alike(const Lobe *a, const Lobe *b) { return alike_from(a, b, 0); }
+
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high) {
-    if (fit->lobe.id != lobe->id) return false;
-    for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
-        if (k != lobe_param(lobe->id, "azimuth") && !same(fit->lobe.params[k], lobe->params[k])) return false;
-    return same(fit->low, low) && same(fit->high, high);
+    return alike_from(&fit->lobe, lobe, 1) && same(fit->low, low) && same(fit->high, high);
 }
 
 /* Whether nothing is lost, whatever wo. */

@@ -27,6 +27,9 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 void ambient_fit_finish(AmbientFit *fit);
 
+/* Whether one fit over a single value of parameter 0 does for both lobes. */
+bool ambient_alike(const Lobe *a, const Lobe *b);
+
 /* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
 

@@ -141,7 +141,7 @@ FN float table_texel(Table t, int stride, int row, int column) { return t[row * 
 #define sin(x)              sinf(x)
 #define cos(x)              cosf(x)
 #define mix(a, b, t)        weft_mix(a, b, t)
-#ifdef WEFT_LIBM /* the C library's own, for bench/arrays.c to compare with */
+#ifdef WEFT_LIBM /* the C library's own: for pictures, and for bench/arrays.c to compare with */
 #define log2(x)   log2f(x)
 #define exp2(x)   exp2f(x)
 #define exp(x)    expf(x)

@@ -1,0 +1,25 @@
+/* display.glsl - the picture as a display shows it: exposure, tone curve, sRGB encoding, what is behind it */
+#include "shading/tone.h"
+
+uniform highp sampler2D picture_mean;
+uniform highp vec4 show_place; /* the picture's corner and size in the framebuffer */
+uniform highp vec4 show_back;  /* display values of what is behind it; w: the gain */
+uniform int show_curve;
+out highp vec4 shown;
+
+/* As in image/tonemap.c, for a pixel counted from the top left. */
+float show_dither(ivec2 at) {
+    uint turn = uint(at.x) * 0xc13fa9a9u + uint(at.y) * 0x91e10da5u;
+    return (float(turn >> 24) + 0.5) / 256.0;
+}
+
+void main() {
+    vec2 at = gl_FragCoord.xy - show_place.xy, size = vec2(textureSize(picture_mean, 0));
+    vec4 c = texelFetch(picture_mean, ivec2(min(at * (size / show_place.zw), size - 0.5)), 0);
+    float alpha = c.a > 0.0 ? min(c.a, 1.0) : 0.0;
+    vec3 straight = alpha > 0.0 ? c.rgb / c.a : vec3(0.0);
+    Rgb display = tone_display(rgb(straight.r, straight.g, straight.b), show_back.w, show_curve);
+    vec3 over = mix(show_back.rgb, vec3(display.r, display.g, display.b), alpha);
+    float fraction = show_dither(ivec2(int(at.x), int(show_place.w - at.y)));
+    shown = vec4(min(floor(over * 255.0 + fraction) / 255.0, vec3(1.0)), 1.0);
+}
