@@ -104,8 +104,8 @@ static void prepare_draws(Map *map) {
         while (k < count - 1 && sums[k] < u) k++;
         double a = unit_double(hash64((uint64_t)n * 7 + 123)),
                b = unit_double(hash64((uint64_t)n * 13 + 765));
-        double row = k / CELLS_WIDTH, top = (cos)((float)(3.14159265 * row / CELLS_HEIGHT));
-        double z = top + ((double)(cos)((float)(3.14159265 * (row + 1) / CELLS_HEIGHT)) - top) * b;
+        double row = k / CELLS_WIDTH, top = (cos)(3.14159265 * row / CELLS_HEIGHT);
+        double z = top + ((cos)(3.14159265 * (row + 1) / CELLS_HEIGHT) - top) * b;
         map->draws[n] = latlong_direction((k % CELLS_WIDTH + a) / CELLS_WIDTH, acos(z) / 3.14159265358979);
     }
 }
