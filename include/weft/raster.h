@@ -18,7 +18,8 @@
  * which must then be current at every call, the last one among them. In that one each call takes state as it
  * finds it, and leaves the framebuffers bound, the viewport and the scissor box as they were and all else as
  * a new context has it: nothing bound, no test or blending on, pixels stored without gaps, alignment 4.
- * Errors that the driver holds when a call begins are dropped. Several rasters may share a context.
+ * No query, transform feedback or conditional rendering may be under way. Errors that the driver holds when a
+ * call begins are dropped. Several rasters may share a context.
  *
  * DOES NOT: light that bounced, refraction, layer rule "stochastic" (drawn without its bounces). */
 #ifndef WEFT_RASTER_H
@@ -44,10 +45,10 @@ typedef struct WeftRasterDesc {
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
      * is there. It need not be there. Copied. */
     const char *shader_dir;
-    int threads;   /* for the tables; 0: one a processor */
+    int threads;   /* for tables, textures and shaders, up to WEFT_THREADS_MAX; 0: one a processor */
     int occlusion; /* rays a vertex, to find in the background what it sees of the sky, up to 4096; 0: none */
-    int no_cache;  /* not 0: the filtered environment and occlusion are neither read from the user's cache nor
-                      written */
+    int no_cache;  /* not 0: the filtered environment, the tables by which lobes meet it and occlusion are
+                      neither  read from the user's cache nor written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
      * other than 0 stops. weft_raster_update may call it too. */
     WeftProgress progress;
@@ -56,7 +57,7 @@ typedef struct WeftRasterDesc {
 
 /* Uploads the scene, which must outlive the raster; where it changes, call weft_raster_update before anything
  * else. Shaders are compiled when they are first drawn with. log (may be NULL) receives warnings. Fails with
- * WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY, _MEMORY or _SCENE_EMPTY. */
+ * WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY, _MEMORY, _SCENE_EMPTY, or _DESC where a number is out of range. */
 WEFT_API WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
                                        const WeftLog *log, WeftError *error);
 

@@ -38,7 +38,7 @@ static void build(Display *self, const TextDesc *desc) {
 
 WeftResult display_draw(Display *self, const TextDesc *desc, const Target *target, const WeftRasterShow *show,
                         WeftError *error) {
-    if (!self->program || self->stale) build(self, desc);
+    if (self->stale || (!self->program && self->error.result == WEFT_OK)) build(self, desc);
     if (!self->program) {
         if (error) *error = self->error;
         return self->error.result;

@@ -100,8 +100,10 @@ static void share_finest(Families *self, int head) {
             }
 }
 
-static void finish(Families *self, int head) {
+/* False where a material looks into too many groups. */
+static bool finish(Families *self, int head) {
     int count = self->scene->material_count, slots = find_slots(self, head, &self->all[head].key);
+    if (slots > TEXTURE_SLOTS) return false;
     for (int m = 0; m < count; m++) {
         if (self->head[m] != head) continue;
         GlMaterial *material = &self->all[m];
@@ -115,15 +117,18 @@ static void finish(Families *self, int head) {
         }
     }
     share_finest(self, head);
+    return true;
 }
 
-static void make_all(Families *self) {
+static bool make_all(Families *self) {
     int count = self->scene->material_count;
+    bool fits = true;
     for (int m = 0; m < count; m++) self->head[m] = -1;
     for (int m = 0; m < count; m++)
         if (self->all[m].worn) join(self, m);
     for (int m = 0; m < count; m++)
-        if (self->head[m] == m) finish(self, m);
+        if (self->head[m] == m) fits = fits && finish(self, m);
+    return fits;
 }
 
 WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all,
@@ -131,9 +136,11 @@ WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlM
     size_t count = (size_t)scene->material_count;
     Families self = {scene, textures, all, alloc_array(count, sizeof(int)),
                      alloc_array(count, TEXTURE_SLOTS * sizeof(int))};
-    bool held = self.head && self.groups;
-    if (held) make_all(&self);
+    bool held = self.head && self.groups, fits = held && make_all(&self);
     free(self.head);
     free(self.groups);
-    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (!held) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return fits ? WEFT_OK
+                : fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name,
+                       "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
 }

@@ -14,16 +14,19 @@ typedef struct Fit {
 /* Raised whenever the same lobe would give other tables. */
 enum { FITS = 1 };
 
-/* All that a table depends on. */
+/* All that a table depends on: see ambient_fit_serves. */
 static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
+    int azimuth = lobe_param(lobe->id, "azimuth");
     const int sizes[] = {FITS, AMBIENT_COLUMNS, AMBIENT_ROWS, AMBIENT_PLANES, info->param_count};
     const float range[] = {low, high};
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
     hash = cache_hash(hash, WEFT_VERSION, sizeof WEFT_VERSION);
     hash = cache_hash(hash, info->id, strlen(info->id));
     hash = cache_hash(hash, range, sizeof range);
-    return cache_hash(hash, lobe->params, (size_t)info->param_count * sizeof lobe->params[0]);
+    for (int k = 1; k < info->param_count; k++)
+        if (k != azimuth) hash = cache_hash(hash, &lobe->params[k], sizeof lobe->params[k]);
+    return hash;
 }
 
 static bool is_sound(const AmbientFit *fit) {

@@ -69,10 +69,19 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
     memcpy(uniforms->e, place, sizeof place);
 }
 
+/* With half of what textures scale, where all that they may bring is there. */
+static Surface middle_surface(const Material *material) {
+    Material middle = *material;
+    for (int k = 0; k < INPUT_COUNT; k++)
+        for (int c = 0; c < 3 && input_infos[k].kind != INPUT_DIRECTION; c++)
+            if (middle.inputs[k].texture) middle.inputs[k].value[c] *= 0.5f;
+    return material_plain(&middle);
+}
+
 /* Holds the tables of the slots whose parameters are numbers: another is made where the lobe is another. */
 static bool add_fits(GlMaterial *self, const Material *material, int threads, Uniforms *uniforms) {
     AmbientFit *fit = alloc_array(1, sizeof *fit);
-    Surface surface = material_plain(material);
+    Surface surface = middle_surface(material);
     Stack m;
     if (!fit) return false;
     stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
@@ -146,12 +155,13 @@ static void add_change(const GlMaterial *old, const GlMaterial *fresh, Materials
 static void upload(const GlMaterials *old, const GlMaterials *fresh, int mesh_count,
                    MaterialsChange *change) {
     size_t worn = (size_t)mesh_count * sizeof *fresh->of_mesh;
+    change->tables = !old->sheens || sheen_tables_differ(old->sheens, fresh->sheens);
     change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, worn) != 0;
     glBindBuffer(GL_UNIFORM_BUFFER, fresh->uniforms);
     for (int k = 0; k < fresh->count; k++) {
         size_t at = (size_t)k * (size_t)fresh->stride;
         const unsigned char *block = fresh->blocks + at;
-        bool same = memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
+        bool same = old->uploaded && memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
         if (same && is_same(&old->all[k], &fresh->all[k])) continue;
         add_change(&old->all[k], &fresh->all[k], change);
         if (!same) glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)at, (GLsizeiptr)sizeof(Uniforms), block);
@@ -167,7 +177,9 @@ static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *err
     return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
-static void let_go(GlMaterials *self) {
+/* All but what another has too. */
+static void let_go(GlMaterials *self, const GlMaterials *other) {
+    sheen_tables_free_but(self->sheens, other ? other->sheens : NULL);
     free(self->all);
     free(self->blocks);
     free(self->of_mesh);
@@ -177,18 +189,18 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
                             int threads, MaterialsChange *change, WeftError *error) {
     GlMaterials fresh = *self;
     *change = (MaterialsChange){0};
+    fresh.sheens = NULL;
     WeftResult result = hold(&fresh, scene, error);
-    if (result == WEFT_OK)
-        result = sheen_tables_update(&self->sheens, scene, threads, &change->tables, error);
-    fresh.sheens = self->sheens;
+    if (result == WEFT_OK) result = sheen_tables_renew(self->sheens, scene, threads, &fresh.sheens, error);
     if (result == WEFT_OK && !take(&fresh, self, scene, textures, threads))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = families_make(scene, textures, fresh.all, error);
     if (result == WEFT_OK) {
         upload(self, &fresh, scene->mesh_count, change);
         result = gl_check(error, "materials");
+        self->uploaded = fresh.uploaded = result == WEFT_OK;
     }
-    let_go(result == WEFT_OK ? self : &fresh);
+    let_go(result == WEFT_OK ? self : &fresh, result == WEFT_OK ? &fresh : self);
     if (result == WEFT_OK) *self = fresh;
     return result;
 }
@@ -218,8 +230,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
 
 void materials_destroy(GlMaterials *self) {
     if (self->uniforms) glDeleteBuffers(1, &self->uniforms);
-    sheen_tables_free(self->sheens);
-    let_go(self);
+    let_go(self, NULL);
     *self = (GlMaterials){0};
 }
 

@@ -30,9 +30,10 @@ typedef struct GlMaterials {
     int count;
     unsigned uniforms; /* buffer of one block a material, `stride` bytes apart */
     int stride;
-    unsigned char *blocks; /* what is in it */
-    int *of_mesh;          /* the material of each mesh */
-    SheenTables *sheens;   /* what programs read behind their own tables */
+    unsigned char *blocks; /* what is in it, once it is uploaded */
+    bool uploaded;
+    int *of_mesh;        /* the material of each mesh */
+    SheenTables *sheens; /* what programs read behind their own tables */
 } GlMaterials;
 
 /* Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */

@@ -107,10 +107,10 @@ static void *work(void *user) {
     Occlusion *self = user;
     uint32_t count = self->first[self->scene.mesh_count];
     parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
-    atomic_store(&self->done, 1);
     /* in silence: a log is for the thread that made this */
     if (!self->no_cache && !atomic_load(&self->stop))
         cache_keep(self->key, "sky", self->values, values_count(self) * sizeof(float), NULL);
+    atomic_store(&self->done, 1);
     return NULL;
 }
 
@@ -152,12 +152,14 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->threads = how->threads ? how->threads : thread_count();
     self->joined = true;
     self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
-    for (int m = 0; self->first && m < scene->mesh_count; m++)
-        self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
-    bool copied = copy_scene(self, scene);
-    if (copied && self->first) self->values = alloc_array(self->first[scene->mesh_count], 2 * sizeof(float));
+    bool held = self->first && copy_scene(self, scene);
+    if (held) {
+        for (int m = 0; m < scene->mesh_count; m++)
+            self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
+        self->values = alloc_array(values_count(self), sizeof(float));
+    }
     WeftResult result = WEFT_OK;
-    if (!self->values)
+    if (!held || !self->values)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     else if (known(self, log))
         atomic_store(&self->done, 1);

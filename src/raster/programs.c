@@ -157,12 +157,24 @@ static bool take_sheens(const Programs *programs, Program *self, WeftError *erro
     return true;
 }
 
+/* One to compile in; NULL where there is none, or none that can be entered. */
+static GlContext *share_context(const GlContext *context) {
+    GlOuter outer;
+    GlContext *self = context_share(context);
+    if (self && context_enter(self, &outer)) {
+        context_leave(self, &outer);
+        return self;
+    }
+    context_destroy(self);
+    return NULL;
+}
+
 /* As many contexts as there are other threads to use, beside the caller's. */
 static int share_contexts(Batch *batch, const GlContext *context, int threads, int count) {
     int made = 1;
     if (threads <= 0) threads = thread_count();
     if (threads > count) threads = count;
-    while (made < threads && (batch->contexts[made] = context_share(context))) made++;
+    while (made < threads && (batch->contexts[made] = share_context(context))) made++;
     return made;
 }
 

@@ -154,6 +154,8 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     if ((unsigned)desc->gl > WEFT_GL_ES) return fail(error, WEFT_MESSAGE_DESC, "gl", "%d", (int)desc->gl);
     if (desc->occlusion < 0 || desc->occlusion > 4096)
         return fail(error, WEFT_MESSAGE_DESC, "occlusion", "%d", desc->occlusion);
+    if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
     if (!scene->mesh_count) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
     WeftRaster *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);

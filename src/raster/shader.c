@@ -356,10 +356,23 @@ static bool same_slots(const KeySlots *a, const KeySlots *b) {
     return same;
 }
 
+/* Whether a table over a parameter, which knows nothing of the others, is as good to one key as to the other.
+ */
+static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
+    bool same = true, turned = false;
+    for (int k = 0; k < SHADER_SLOTS; k++) same &= shader_holds(a, k) == shader_holds(b, k);
+    for (int x = 0; x < 2; x++) {
+        const ShaderInput *inputs = x ? a->inputs : b->inputs;
+        turned |= inputs[INPUT_nap].state != INPUT_ZERO || inputs[INPUT_anisotropy].state != INPUT_ZERO;
+    }
+    return same || !turned;
+}
+
 /* Whether two keys leave out and hold the same. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
     const KeySlots x = find_slots(a), y = find_slots(b);
-    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b);
+    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b) &&
+           same_tables(a, b);
 }
 
 static bool join_input(ShaderInput *a, const ShaderInput *b) {

@@ -61,9 +61,10 @@ bool shader_same_rest(int input, int other);
  * to. */
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text);
 
-/* Whether the table by which a slot's lobe meets the environment is held (shading/ambient.h), its parameter
- * being a number: then its polynomials are material_fits from slot times AMBIENT_HELD on. `focus` is not
- * read. */
+/* Whether the table by which a slot's lobe meets the environment is held (shading/ambient.h), its first
+ * parameter being a number: then its polynomials are material_fits from slot times AMBIENT_HELD on.
+ * Departure: what textures make of the other parameters, of nap and anisotropy, is not known to it, which
+ * takes half of their number; a table that is not held takes none. `focus` is not read. */
 bool shader_holds(const ShaderKey *key, int slot);
 
 /* What is behind everything: the environment. */

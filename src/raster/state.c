@@ -6,7 +6,7 @@
 #include <epoxy/gl.h>
 
 /* Texture units and uniform blocks in use at most; every driver has as many. */
-enum { UNITS = 16, BLOCKS = 4 };
+enum { UNITS = 16, BLOCKS = 4, ATTRIBUTES = 16, CLIP_DISTANCES = 8 };
 
 #define COUNT(a) (sizeof(a) / sizeof(a)[0])
 
@@ -26,6 +26,7 @@ static void reset_switches(bool desktop) {
     for (size_t k = 0; k < COUNT(off); k++) glDisable(off[k]);
     if (!desktop) return;
     for (size_t k = 0; k < COUNT(off_desktop); k++) glDisable(off_desktop[k]);
+    for (GLenum k = 0; k < CLIP_DISTANCES; k++) glDisable(GL_CLIP_DISTANCE0 + k);
     glEnable(GL_MULTISAMPLE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
@@ -48,11 +49,14 @@ static void reset_drawing(bool desktop) {
     glBlendFunc(GL_ONE, GL_ZERO);
 }
 
-static void reset_pixels(void) {
+static void reset_pixels(bool desktop) {
     static const GLenum rows[] = {GL_UNPACK_ROW_LENGTH,  GL_UNPACK_SKIP_ROWS,    GL_UNPACK_SKIP_PIXELS,
                                   GL_UNPACK_SKIP_IMAGES, GL_UNPACK_IMAGE_HEIGHT, GL_PACK_ROW_LENGTH,
                                   GL_PACK_SKIP_ROWS,     GL_PACK_SKIP_PIXELS};
+    static const GLenum rows_desktop[] = {GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_PACK_SWAP_BYTES,
+                                          GL_PACK_LSB_FIRST,    GL_PACK_SKIP_IMAGES, GL_PACK_IMAGE_HEIGHT};
     for (size_t k = 0; k < COUNT(rows); k++) glPixelStorei(rows[k], 0);
+    for (size_t k = 0; desktop && k < COUNT(rows_desktop); k++) glPixelStorei(rows_desktop[k], 0);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
 }
@@ -65,6 +69,7 @@ static void reset_bindings(void) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     for (GLuint k = 0; k < BLOCKS; k++) glBindBufferBase(GL_UNIFORM_BUFFER, k, 0);
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    for (GLuint k = 0; k < ATTRIBUTES; k++) glVertexAttrib4f(k, 0.0f, 0.0f, 0.0f, 1.0f);
     for (GLuint k = UNITS; k-- > 0;) {
         glActiveTexture(GL_TEXTURE0 + k);
         glBindTexture(GL_TEXTURE_2D, 0);
@@ -77,7 +82,7 @@ static void reset_bindings(void) {
 static void reset(bool desktop) {
     reset_switches(desktop);
     reset_drawing(desktop);
-    reset_pixels();
+    reset_pixels(desktop);
     reset_bindings();
 }
 

@@ -71,6 +71,20 @@ static void place(Plan *plan, int texture, bool color) {
     *at = (TexturePlace){k, home->layers++};
 }
 
+/* The groups that a material looks into; -1: into something that has none. */
+static int count_groups(const TexturePlace *places, const Material *material) {
+    int groups[INPUT_COUNT], count = 0;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        int texture = material->inputs[k].texture - 1, g = 0;
+        if (texture < 0) continue;
+        int group = places[2 * texture + textures_color(material, k)].group;
+        if (group < 0) return -1;
+        while (g < count && groups[g] != group) g++;
+        if (g == count) groups[count++] = group;
+    }
+    return count;
+}
+
 /* Places everything; the most groups that one material needs. */
 static int make_plan(Plan *plan) {
     const WeftScene *scene = plan->scene;
@@ -78,16 +92,11 @@ static int make_plan(Plan *plan) {
     plan->count = 0;
     for (int k = 0; k < 2 * scene->texture_count; k++) plan->places[k] = (TexturePlace){-1, 0};
     for (int m = 0; m < scene->material_count; m++) {
-        int groups[INPUT_COUNT], count = 0;
-        for (int k = 0; k < INPUT_COUNT; k++) {
-            const Input *input = &scene->materials[m].inputs[k];
-            if (!input->texture) continue;
-            bool color = textures_color(&scene->materials[m], k);
-            place(plan, input->texture - 1, color);
-            int group = plan->places[2 * (input->texture - 1) + color].group, g = 0;
-            while (g < count && groups[g] != group) g++;
-            if (g == count) groups[count++] = group;
-        }
+        const Material *material = &scene->materials[m];
+        for (int k = 0; k < INPUT_COUNT; k++)
+            if (material->inputs[k].texture)
+                place(plan, material->inputs[k].texture - 1, textures_color(material, k));
+        int count = count_groups(plan->places, material);
         if (count > most) most = count;
     }
     return most;
@@ -276,13 +285,11 @@ void textures_destroy(GlTextures *self) {
 }
 
 bool textures_serve(const GlTextures *self, const WeftScene *scene) {
-    for (int m = 0; m < scene->material_count; m++)
-        for (int k = 0; k < INPUT_COUNT; k++) {
-            int texture = scene->materials[m].inputs[k].texture - 1;
-            bool color = textures_color(&scene->materials[m], k);
-            if (texture >= self->texture_count) return false;
-            if (texture >= 0 && self->places[2 * texture + color].group < 0) return false;
-        }
+    if (scene->texture_count > self->texture_count) return false;
+    for (int m = 0; m < scene->material_count; m++) {
+        int count = count_groups(self->places, &scene->materials[m]);
+        if (count < 0 || count > TEXTURE_SLOTS) return false;
+    }
     return true;
 }
 

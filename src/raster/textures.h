@@ -34,7 +34,7 @@ void textures_destroy(GlTextures *textures);
 /* Whether an input of a material looks its texture up as a colour. */
 bool textures_color(const Material *material, int input);
 
-/* Whether all that materials look up by now is there. */
+/* Whether all that materials look up by now is there, for each in no more than TEXTURE_SLOTS groups. */
 bool textures_serve(const GlTextures *textures, const WeftScene *scene);
 
 /* Of what an input of a material looks up. */

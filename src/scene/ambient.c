@@ -301,7 +301,7 @@ WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts
         project(&image, out->terms);
         for (int k = 0; k < AMBIENT_TERMS; k++)
             for (int c = 0; c < 3; c++) out->terms[k][c] *= (float)cosines[degree(k)];
-        take_sparks(&image, &sparks);
+        if (lamps >= 2) take_sparks(&image, &sparks);
         project(&image, out->rest_terms);
         find_lamps(&sparks, lamps < AMBIENT_LAMPS_MAX ? lamps : AMBIENT_LAMPS_MAX, out);
     } else {

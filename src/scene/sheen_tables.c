@@ -99,12 +99,11 @@ static WeftResult find_all(SheenTables *self, const SheenTables *before, const W
     return result;
 }
 
-/* Frees it with the tables that the other, which may be NULL, does not have. */
-static void free_but(SheenTables *self, const SheenTables *other) {
+void sheen_tables_free_but(SheenTables *self, const SheenTables *kept) {
     if (!self) return;
     for (int k = 0; k < self->table_count; k++) {
         bool shared = false;
-        for (int j = 0; other && j < other->table_count; j++) shared |= other->tables[j] == self->tables[k];
+        for (int j = 0; kept && j < kept->table_count; j++) shared |= kept->tables[j] == self->tables[k];
         if (!shared) free(self->tables[k]);
     }
     free(self->tables);
@@ -112,8 +111,8 @@ static void free_but(SheenTables *self, const SheenTables *other) {
     free(self);
 }
 
-static WeftResult make(const WeftScene *scene, const SheenTables *before, int threads, SheenTables **out,
-                       WeftError *error) {
+WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
+                              SheenTables **out, WeftError *error) {
     size_t count = (size_t)scene->material_count;
     SheenTables *self = alloc_array(1, sizeof *self);
     bool *worn = alloc_array(count, sizeof(bool));
@@ -125,30 +124,25 @@ static WeftResult make(const WeftScene *scene, const SheenTables *before, int th
     WeftResult result = held ? find_all(self, before, scene, worn, threads, error)
                              : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(worn);
-    if (result == WEFT_OK)
-        *out = self;
-    else
-        free_but(self, before);
+    if (result != WEFT_OK) {
+        sheen_tables_free_but(self, before);
+        self = NULL;
+    }
+    *out = self;
     return result;
 }
 
 WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error) {
-    return make(scene, NULL, threads, out, error);
+    return sheen_tables_renew(NULL, scene, threads, out, error);
 }
 
-WeftResult sheen_tables_update(SheenTables **tables, const WeftScene *scene, int threads, bool *changed,
-                               WeftError *error) {
-    SheenTables *before = *tables, *now;
-    WeftResult result = make(scene, before, threads, &now, error);
-    if (result != WEFT_OK) return result;
-    *changed = now->table_count != (before ? before->table_count : 0);
-    for (int k = 0; k < now->table_count && !*changed; k++) *changed = now->tables[k] != before->tables[k];
-    free_but(before, now);
-    *tables = now;
-    return WEFT_OK;
+bool sheen_tables_differ(const SheenTables *self, const SheenTables *other) {
+    bool differ = self->table_count != other->table_count;
+    for (int k = 0; k < self->table_count && !differ; k++) differ = self->tables[k] != other->tables[k];
+    return differ;
 }
 
-void sheen_tables_free(SheenTables *self) { free_but(self, NULL); }
+void sheen_tables_free(SheenTables *self) { sheen_tables_free_but(self, NULL); }
 
 int sheen_tables_count(const SheenTables *self) { return self->table_count; }
 const AlbedoTable *sheen_tables_at(const SheenTables *self, int index) { return self->tables[index]; }

@@ -11,13 +11,17 @@ typedef struct SheenTables SheenTables;
  * that are alike share one. threads: 0 is one a processor. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error);
 
-/* Makes *tables, which may be NULL, those of the materials as they are now. What is wanted still is kept, be
- * it at another place. *changed: one is another or at another place. On failure all stays as it was. */
-WeftResult sheen_tables_update(SheenTables **tables, const WeftScene *scene, int threads, bool *changed,
-                               WeftError *error);
+/* The same as `before` (may be NULL) has them where it does: they are then in both, and whichever goes first
+ * goes with sheen_tables_free_but. */
+WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
+                              SheenTables **out, WeftError *error);
 
-/* tables may be NULL. */
+/* Whether one has a table that the other has not, or has at another place. */
+bool sheen_tables_differ(const SheenTables *tables, const SheenTables *other);
+
+/* tables may be NULL; frees all, or all that `kept` (may be NULL) does not have. */
 void sheen_tables_free(SheenTables *tables);
+void sheen_tables_free_but(SheenTables *tables, const SheenTables *kept);
 
 /* How many there are, and each. */
 int sheen_tables_count(const SheenTables *tables);

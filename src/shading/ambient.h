@@ -178,11 +178,22 @@ FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWe
     return w;
 }
 
-/* A group of a table that is held. */
+FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
+    AmbientWeights w = a;
+    w.d = max(a.d, 0.0f);
+    if (group == AMBIENT_GROUP_SHAPE) return w;
+    w.a = max(a.a, 0.0f);
+    w.b = max(a.b, 0.0f);
+    w.c = max(a.c, 0.0f);
+    return w;
+}
+
+/* A group of a table that is held. Polynomials that go to zero swing about it; what is a sum or a part of one
+ * is not below. */
 FN AmbientWeights ambient_sides(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
     int first = t.held + (AMBIENT_DEGREE + 1) * group;
     AmbientWeights w = ambient_polynomial(s, first, at.t);
-    if (!t.turning) return w;
+    if (!t.turning) return ambient_sound(w, group);
     AmbientWeights across = ambient_polynomial(s, first + AMBIENT_SIDE, at.t),
                    against = ambient_polynomial(s, first + 2 * AMBIENT_SIDE, at.t);
     w = ambient_weights_choose(at.side > 0, against, w);
@@ -190,7 +201,7 @@ FN AmbientWeights ambient_sides(AmbientTable t, AmbientSource s, AmbientSpot at,
     w.b = mix(across.b, w.b, at.z);
     w.c = mix(across.c, w.c, at.z);
     w.d = mix(across.d, w.d, at.z);
-    return w;
+    return ambient_sound(w, group);
 }
 
 /* All of a group. */
@@ -501,7 +512,8 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
         AmbientTable table = t.sheen;
         table.lossless = t.sheen.lossless || (own && !t.sheen.second);
         AmbientSlot a = ambient_slot(table, s, along, rest, m.sheen.lobe);
-        float known = own ? m.e_o.e / max(a.e, 1e-20f) : 1.0f;
+        /* they differ by the errors of both, which is much only where there is next to nothing */
+        float known = own ? min(m.e_o.e / max(a.e, 1e-4f), 4.0f) : 1.0f;
         Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
         sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known));
         lit.sheen = ambient_lit(m.sheen, a.lamps);

@@ -12,7 +12,9 @@
 
 #include "raster/context.h"
 
-enum { SIDE = 96, KINDS = 6 };
+/* Of the squares the last are brushed, which one program does for and the table of another does not. */
+enum { SIDE = 128, KINDS = 8, ROUND = 6 };
+static const float STEP = 1.8f / KINDS;
 static bool no_gl;
 
 static void need_gl(void) {
@@ -56,15 +58,16 @@ static WeftScene *squares(int only) {
         m->inputs[INPUT_metallic].value[0] = k < 2 ? 0.0f : 0.75f;
         if (k == 1 || k == 4) set_map(m, INPUT_base_color, k == 1 ? 0 : 1, 0);
         if (k == 2 || k == 4) set_map(m, INPUT_metallic, 2, 2);
-        if (k == 2 || k == 3 || k == 4) set_map(m, INPUT_roughness, 2, 1);
+        if (k >= ROUND) m->inputs[INPUT_anisotropy].value[0] = 0.7f;
+        if ((k >= 2 && k <= 4) || k == 7) set_map(m, INPUT_roughness, 2, 1);
         if (k == 5) set_map(m, INPUT_occlusion, 1, 0);
-        Mesh *mesh = test_quad(scene, vec3(-0.9f + 0.3f * (float)k, -0.5f, 0.0f), vec3(0.3f, 0.0f, 0.0f),
+        Mesh *mesh = test_quad(scene, vec3(-0.9f + STEP * (float)k, -0.5f, 0.0f), vec3(STEP, 0.0f, 0.0f),
                                vec3(0.0f, 1.0f, 0.0f));
         mesh->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
         memcpy(mesh->texcoord[0], uv, sizeof uv);
     }
     scene_bounds(scene);
-    test_environment(scene, 0.0f);
+    test_environment(scene, 0.4f);
     const WeftLight light = {.direction = {-0.2f, -0.3f, -1.0f}, .color = {2.0f, 2.0f, 2.0f}};
     assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
     return scene;
@@ -89,8 +92,8 @@ static WeftImage picture_of(const WeftScene *scene, WeftGl gl, int threads, int 
 /* In the columns of that square; largest difference of any channel there. */
 static float difference(const WeftImage *a, const WeftImage *b, int square) {
     float most = 0.0f, across = 2.0f * 4.0f * 0.267949192f; /* of the picture, in the plane of the squares */
-    int begin = (int)((0.5f + (-0.9f + 0.3f * (float)square) / across) * SIDE) + 2;
-    int end = (int)((0.5f + (-0.6f + 0.3f * (float)square) / across) * SIDE) - 2;
+    int begin = (int)((0.5f + (-0.9f + STEP * (float)square) / across) * SIDE) + 2;
+    int end = (int)((0.5f + (-0.9f + STEP * (float)(square + 1)) / across) * SIDE) - 2;
     assert_true(end > begin + 5);
     for (int y = SIDE / 3; y < SIDE - SIDE / 3; y++)
         for (int x = begin; x < end; x++)
@@ -108,7 +111,7 @@ static void families_look_as_each_alone(void **state) {
         int programs;
         WeftScene *scene = squares(-1);
         WeftImage together = picture_of(scene, (WeftGl)gl, 2, &programs);
-        assert_int_equal(programs, 1);
+        assert_int_equal(programs, 3);
         weft_scene_free(scene);
         for (int k = gl; k < KINDS; k += 2) {
             scene = squares(k);
@@ -122,7 +125,57 @@ static void families_look_as_each_alone(void **state) {
     }
 }
 
-/* Squares that are seen from one side or cut out: four programs. */
+/* A square with maps that are 128 of 255 all over, or the numbers that come out of that. */
+static WeftScene *even_square(bool mapped) {
+    static const InputId colors[] = {INPUT_base_color, INPUT_sheen_color, INPUT_specular_color};
+    static const InputId scalars[] = {INPUT_metallic, INPUT_clearcoat, INPUT_specular, INPUT_anisotropy};
+    static float uv[8] = {0.1f, 0.1f, 0.9f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
+    WeftScene *scene = test_scene();
+    scene->images = arena_array(&scene->arena, 1, sizeof(WeftImage));
+    scene->textures = arena_array(&scene->arena, 1, sizeof(Texture));
+    add_texture(scene, 4, 3);
+    memset(scene->images[0].pixels, 128, 4 * 4 * 3);
+    Material *m = test_material(scene, 1.0f);
+    m->inputs[INPUT_specular].value[0] = 1.0f;
+    for (size_t k = 0; k < sizeof colors / sizeof colors[0]; k++) {
+        test_color(m, colors[k], mapped ? 1.0f : 0.21586050f); /* decoded */
+        if (mapped) set_map(m, colors[k], 0, 0);
+    }
+    for (size_t k = 0; k < sizeof scalars / sizeof scalars[0]; k++) {
+        m->inputs[scalars[k]].value[0] = mapped ? 1.0f : 128.0f / 255.0f;
+        if (mapped) set_map(m, scalars[k], 0, 0);
+    }
+    m->inputs[INPUT_roughness].value[0] = m->inputs[INPUT_sheen_roughness].value[0] = 0.6f;
+    Mesh *mesh = test_quad(scene, vec3(-1.0f, -1.0f, 0.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 2.0f, 0.0f));
+    mesh->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
+    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    scene_bounds(scene);
+    test_environment(scene, 1.0f);
+    return scene;
+}
+
+/* A factor of 1 on a map leaves nothing out that the map brings. */
+static void even_maps_are_numbers(void **state) {
+    (void)state;
+    need_gl();
+    WeftImage images[2];
+    for (int mapped = 0; mapped < 2; mapped++) {
+        int programs;
+        WeftScene *scene = even_square(mapped);
+        images[mapped] = picture_of(scene, WEFT_GL_DESKTOP, 2, &programs);
+        weft_scene_free(scene);
+    }
+    const float *a = images[0].pixels, *b = images[1].pixels;
+    size_t middle = 4 * (SIDE / 2 * SIDE + SIDE / 2);
+    for (size_t c = 0; c < 3; c++) {
+        assert_true(a[middle + c] > 0.1f);
+        assert_float_equal(a[middle + c], b[middle + c], 4e-3f * a[middle + c]);
+    }
+    weft_image_free(&images[0]);
+    weft_image_free(&images[1]);
+}
+
+/* Squares that are seen from one side or cut out: six programs. */
 static void threads_make_no_difference(void **state) {
     (void)state;
     need_gl();
@@ -131,9 +184,9 @@ static void threads_make_no_difference(void **state) {
     for (int k = 0; k < KINDS; k++) scene->materials[k].alpha_mode = k % 2 ? ALPHA_MASK : ALPHA_OPAQUE;
     for (int k = 0; k < KINDS; k++) scene->materials[k].double_sided = k % 4 < 2;
     WeftImage one = picture_of(scene, WEFT_GL_DESKTOP, 1, &programs);
-    assert_int_equal(programs, 4);
+    assert_int_equal(programs, 6);
     WeftImage four = picture_of(scene, WEFT_GL_DESKTOP, 4, &programs);
-    assert_int_equal(programs, 4);
+    assert_int_equal(programs, 6);
     assert_memory_equal(one.pixels, four.pixels, SIDE * SIDE * 4 * sizeof(float));
     weft_image_free(&one);
     weft_image_free(&four);
@@ -152,6 +205,7 @@ static int begin(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(families_look_as_each_alone),
+                                       cmocka_unit_test(even_maps_are_numbers),
                                        cmocka_unit_test(threads_make_no_difference)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }

@@ -284,6 +284,9 @@ static GLuint spoil_state(void) {
         glEnable(GL_COLOR_LOGIC_OP);
         glLogicOp(GL_CLEAR);
         glPolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+        glEnable(GL_CLIP_DISTANCE0 + 3);
+        glPixelStorei(GL_UNPACK_SWAP_BYTES, GL_TRUE);
+        glPixelStorei(GL_PACK_SWAP_BYTES, GL_TRUE);
         glDepthRange(1.0, 0.0);
     }
     glEnable(0xffff); /* an error that nobody asked for */
@@ -306,6 +309,16 @@ static void assert_new_state(const Window *w) {
     for (size_t k = 0; k < sizeof off / sizeof off[0]; k++) assert_false(glIsEnabled(off[k]));
     for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
         assert_int_equal(integer(values[k].what), values[k].value);
+    if (epoxy_is_desktop_gl()) {
+        assert_false(glIsEnabled(GL_CLIP_DISTANCE0 + 3));
+        assert_int_equal(integer(GL_UNPACK_SWAP_BYTES), 0);
+        assert_int_equal(integer(GL_PACK_SWAP_BYTES), 0);
+    }
+    for (GLuint k = 0; k < 8; k++) {
+        GLfloat now[4], fresh[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+        glGetVertexAttribfv(k, GL_CURRENT_VERTEX_ATTRIB, now);
+        assert_memory_equal(now, fresh, sizeof now);
+    }
     GLint box[4];
     glGetIntegerv(GL_SCISSOR_BOX, box);
     assert_memory_equal(box, ((GLint[]){3, 4, 5, 6}), sizeof box);

@@ -1,6 +1,6 @@
 /* Light of an environment in C, over all lobes: under even light every strategy returns E; weights are not
  * negative; a far lamp gives what f says; sharp light is met within a few hundredths; occlusion takes what it
- * says; layers and coats leave what they should */
+ * says; layers and coats leave what they should; lamps and rest are all of an environment */
 #include "cases.h"
 
 #include "scene/ambient.h"
@@ -102,6 +102,46 @@ static void held_tables_return_albedo(void **state) {
             if (off > 0.02f * truth + 0.009f)
                 fail_msg("%s, cosine %g: %g for %g", weft_lobe_info(id)->id, (double)o.z, (double)got.r,
                          (double)truth);
+        }
+}
+
+/* A sheen with the table that a stack asks E of. */
+static Stack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
+    Stack m = one_lobe(lobe);
+    albedo_table_fill(table, &lobe, lobe.params[0], lobe.params[0], 0);
+    m.table = albedo_table_ref(table);
+    m.albedo = ALBEDO_TABLE;
+    m.at = lobe.params[0];
+    m.e_o = stack_albedo(m, o);
+    return m;
+}
+
+/* Where a lobe fades away, its polynomials swing about zero: nothing becomes negative, or much. */
+static void held_tables_fade_away(void **state) {
+    (void)state;
+    static const float roughnesses[] = {0.1f, 0.14f, 0.22f, 0.6f};
+    static const float cosines[] = {1.0f, 0.995f, 0.97f, 0.9f, 0.7f, 0.3f, 0.03f};
+    static AmbientFit fitted;
+    static AlbedoTable albedo;
+    static AmbientWeights held[AMBIENT_HELD];
+    Even even = {.radiance = 1.0f};
+    AmbientSourceCalls calls = even_calls(&even);
+    calls.held = held;
+    for (int id = 0; id < LOBE_COUNT; id++)
+        for (size_t k = 0; asked(id) && k < sizeof roughnesses / sizeof roughnesses[0]; k++) {
+            Lobe lobe = lobe_rough(id, roughnesses[k]);
+            ambient_fit(&fitted, &lobe, lobe.params[0], lobe.params[0], 0);
+            ambient_hold(&fitted, held);
+            AmbientTable t = ambient_table(&fitted, ambient_strategy(id));
+            t.held = 0;
+            for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
+                Dir o = direction_cos((double)cosines[n], 0.0);
+                Stack m = tabled(lobe, o, &albedo);
+                Rgb got = stack_ambient(m, o, all_tables(t), &calls, 1.0f);
+                if (!(got.r >= 0.0f && abs(got.r - m.e_o.e) <= 0.03f * m.e_o.e + 0.003f))
+                    fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id,
+                             (double)roughnesses[k], (double)o.z, (double)got.r, (double)m.e_o.e);
+            }
         }
 }
 
@@ -296,6 +336,26 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy) {
     return off / all;
 }
 
+/* Whatever does not go to lamps is the rest's. */
+static void no_light_is_lost(void **state) {
+    (void)state;
+    static const int lamps[] = {0, 1, 2, AMBIENT_LAMPS, AMBIENT_LAMPS_MAX};
+    Sharp s = {0};
+    make_sharp(&s);
+    Environment e = {.kind = ENVIRONMENT_IMAGE, .image = s.image, .strength = 1.0f};
+    for (size_t k = 0; k < sizeof lamps / sizeof lamps[0]; k++) {
+        AmbientParts parts;
+        assert_int_equal(ambient_split(&e, lamps[k], &parts, NULL), WEFT_OK);
+        assert_true(parts.lamp_count <= lamps[k] && (lamps[k] < 2) == !parts.lamp_count);
+        for (int c = 0; c < 3; c++) {
+            double sum = 4.0 * TEST_PI * (double)parts.rest_terms[0][c];
+            for (int n = 0; n < parts.lamp_count; n++) sum += (double)parts.lamps[n].color[c];
+            assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.terms[0][c], 1e-4f * (float)sum);
+        }
+    }
+    weft_image_free(&s.image);
+}
+
 static void sharp_light_is_met(void **state) {
     (void)state;
     static const int lobes[] = {LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT,
@@ -323,6 +383,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(even_light_returns_albedo),     cmocka_unit_test(held_tables_return_albedo),
         cmocka_unit_test(lamps_are_met_as_lights_are),   cmocka_unit_test(occlusion_takes_what_it_says),
-        cmocka_unit_test(layers_leave_what_they_should), cmocka_unit_test(sharp_light_is_met)};
+        cmocka_unit_test(layers_leave_what_they_should), cmocka_unit_test(no_light_is_lost),
+        cmocka_unit_test(held_tables_fade_away),         cmocka_unit_test(sharp_light_is_met)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
