@@ -27,7 +27,12 @@
 #include <stdint.h>
 #include <string.h>
 
-#define FN       static inline __attribute__((always_inline, unused))
+/* WEFT_OUTLINED: for code that is not to be fast but to be compiled soon. */
+#ifdef WEFT_OUTLINED
+#define FN static inline __attribute__((unused))
+#else
+#define FN static inline __attribute__((always_inline, unused))
+#endif
 /* One that is to stay out of its callers: long text that runs once for many pairs, or has loops, which only
  * lobes with TRAIT_REFERENCE may. */
 #define FN_APART static __attribute__((noinline, unused))

@@ -768,7 +768,7 @@ static int begin(void **state) {
     WeftError error = {0};
     for (int k = 0; k < LANGUAGES; k++)
         if (context_create(languages[k], &contexts[k], &error) != WEFT_OK) print_message("%s\n", error.text);
-    samples = test_short() ? SAMPLES_MOST / 8 : SAMPLES_MOST;
+    samples = (size_t)(SAMPLES_MOST / (test_long() ? 1 : test_short() ? 8 : 2));
     for (int k = 0; k < INPUTS; k++) in[k] = calloc(samples, 4 * sizeof(float));
     for (int k = 0; k < LANGUAGES * OUTPUTS; k++)
         out[k / OUTPUTS][k % OUTPUTS] = calloc(samples, 4 * sizeof(float));

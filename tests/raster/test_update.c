@@ -205,7 +205,7 @@ static void take_steps(WeftScene *scene, const Step *all, int count) {
             fail_msg("step %d, %s: %d compiled, not %d", k, name, compiled, step->compiled);
         if (is_same(&pictures[k], k ? &pictures[k - 1] : &first))
             fail_msg("step %d, %s: nothing has changed", k, name);
-        bool asked = test_long() || k % (test_short() ? 6 : 3) == 1; /* a new raster takes a second */
+        bool asked = test_long() || k % (test_short() ? 12 : 4) == 1; /* a new raster takes a second */
         WeftRaster *fresh = step->like == NEW && asked ? raster_of(scene) : NULL;
         WeftImage should = fresh ? drawn(fresh) : pictures[step->like == NEW ? k : step->like];
         if (!is_same(&pictures[k], &should)) fail_msg("step %d, %s: not as it is otherwise", k, name);

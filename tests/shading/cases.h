@@ -191,8 +191,10 @@ static inline Surface random_surface(Random *random, bool tilt) {
     s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
     s.clearcoat = max(2.0f * random_unit(random) - 1.0f, 0.0f);
     s.clearcoat_roughness = weft_mix(tilt ? 0.4f : 0.0f, 1.0f, random_unit(random));
-    if (tilt)
-        s.clearcoat_normal = direction(0.5 * (double)random_unit(random), 6.0 * (double)random_unit(random));
+    if (tilt) { /* compilers differ in the order of arguments */
+        double phi = 6.0 * (double)random_unit(random), theta = 0.5 * (double)random_unit(random);
+        s.clearcoat_normal = direction(theta, phi);
+    }
     if (random_unit(random) < 0.5f)
         s.sheen_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
     s.sheen_roughness = random_unit(random);

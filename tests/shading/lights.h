@@ -30,6 +30,16 @@ static inline double light_random(uint64_t *state) {
     return (double)(hash64(*state += 0x9e3779b97f4a7c15u) >> 11) * 0x1p-53;
 }
 
+/* Three such. In statements of their own: compilers differ in the order of arguments. */
+static inline Point light_random_point(uint64_t *state) {
+    double z = light_random(state), y = light_random(state), x = light_random(state);
+    return point(x, y, z);
+}
+static inline Point light_random_flat(uint64_t *state, double z) {
+    double y = light_random(state), x = light_random(state);
+    return point(x, y, z);
+}
+
 /* A function of directions, f cos_i say; 1/sr. */
 typedef double (*Integrand)(const void *what, Dir o, Dir i);
 
@@ -114,11 +124,11 @@ typedef struct LightPose {
 } LightPose;
 
 static inline LightPose light_pose(uint64_t *state) {
-    Point c = point(3.0 * light_random(state) - 1.5, 3.0 * light_random(state) - 1.5,
-                    2.3 * light_random(state) - 0.3);
-    Point n =
-        point_unit(point(light_random(state) - 0.5, light_random(state) - 0.5, light_random(state) - 0.5));
-    Point u = point_unit(point_cross(n, point(light_random(state) - 0.5, light_random(state) - 0.5, 0.25)));
+    const Point half = {0.5, 0.5, 0.5};
+    Point c = light_random_point(state);
+    c = point(3.0 * c.x - 1.5, 3.0 * c.y - 1.5, 2.3 * c.z - 0.3);
+    Point n = point_unit(point_add(light_random_point(state), half, -1.0));
+    Point u = point_unit(point_cross(n, point_add(light_random_flat(state, 0.75), half, -1.0)));
     Point v = point_cross(n, u);
     double su = 0.1 + 0.8 * light_random(state), sv = 0.1 + 0.8 * light_random(state);
     LightPose pose;
@@ -136,8 +146,9 @@ typedef struct Light {
  */
 static inline Light light_seen(const LightPose *pose, bool sphere, uint64_t *state) {
     const Point eye = {0.3, -3.0, 1.6}, centre = {0.0, 0.0, 0.45};
-    Point at = point(2.0 * light_random(state) - 1.0, 2.0 * light_random(state) - 1.0, 0.0),
-          n = point(0.0, 0.0, 1.0), o;
+    const Point half = {0.5, 0.5, 0.5};
+    Point at = light_random_flat(state, 0.0), n = point(0.0, 0.0, 1.0), o;
+    at = point(2.0 * at.x - 1.0, 2.0 * at.y - 1.0, 0.0);
     do {
         if (sphere) {
             double z = 2.0 * light_random(state) - 1.0, r = (sqrt)(1.0 - z * z),
@@ -147,7 +158,7 @@ static inline Light light_seen(const LightPose *pose, bool sphere, uint64_t *sta
         }
         o = point_unit(point_add(eye, at, -1.0));
     } while (point_dot(n, o) < 0.02);
-    Point t = point_unit(point_cross(n, point(light_random(state) - 0.5, light_random(state) - 0.5, 0.37)));
+    Point t = point_unit(point_cross(n, point_add(light_random_flat(state, 0.87), half, -1.0)));
     Point b = point_cross(n, t);
     Light light = {.o = point_dir(point(point_dot(o, t), point_dot(o, b), point_dot(o, n)))};
     for (int k = 0; k < 4; k++) {

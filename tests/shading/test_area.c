@@ -70,7 +70,7 @@ static void cloth_is_near(void **state) {
         bool coat = id == LOBE_BURLEY_COAT || id == LOBE_SILK;
         for (int k = 0; k < 3; k++) {
             static const float alphas[] = {0.1f, 0.25f, 0.5f};
-            if (test_turn(&at, 4, 7))
+            if (test_turn(&at, 5, 7))
                 a_lobe_is_near(lobe_rough(id, sqrt(alphas[k])), coat ? 0.08 : 0.05, k == 0 ? 3 : 2);
             if (info->param_count == 0) break;
         }

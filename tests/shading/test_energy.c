@@ -60,7 +60,7 @@ static void quadrature_agrees_with_other_estimators(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++)
         for (int k = 0; k < case_count(id); k++)
             for (int c = 0; c < COSINES; c++) {
-                if (case_walks(id) || !test_turn(&turn, 5, 41)) continue;
+                if (case_walks(id) || !test_turn(&turn, 7, 41)) continue;
                 Lobe lobe = case_lobe(id, k);
                 Dir o = direction_cos(cosines[c], 0.3);
                 const char *name = case_name(&lobe, o).text;
