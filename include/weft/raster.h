@@ -46,9 +46,10 @@ typedef struct WeftRasterDesc {
      * is there. It need not be there. Copied. */
     const char *shader_dir;
     int threads;   /* for tables, textures and shaders, up to WEFT_THREADS_MAX; 0: one a processor */
-    int occlusion; /* rays a vertex, to find in the background what it sees of the sky, up to 4096; 0: none */
+    int occlusion; /* rays a vertex, to find in the background what it sees of the sky and of the
+                      environment's lamps, up to 4096; 0: none */
     int no_cache;  /* not 0: the filtered environment, the tables by which lobes meet it and occlusion are
-                      neither  read from the user's cache nor written */
+                      neither read from the user's cache nor written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
      * other than 0 stops. weft_raster_update may call it too. */
     WeftProgress progress;

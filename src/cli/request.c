@@ -48,8 +48,9 @@ const Option request_options[] = {
         "--ambient", "STRATEGY", "best",
         "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
         "lobe, or none"),
-    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
-                  "raster: look at the sky from each vertex along so many rays, for what lies in creases"),
+    OPTION_NUMBER(
+        "--occlusion", "RAYS", "64", 0, 4096,
+        "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),

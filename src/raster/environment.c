@@ -384,6 +384,16 @@ void environment_place(const GlEnvironment *self, float rotation, float strength
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
 }
 
+int environment_lamps(const GlEnvironment *self, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]) {
+    float c = cosf(rotation), s = sinf(rotation);
+    for (int k = 0; k < self->parts.lamp_count; k++) {
+        Vec3 d = self->parts.lamps[k].direction;
+        lamps[k] = self->parts.lamps[k];
+        lamps[k].direction = vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
+    }
+    return self->parts.lamp_count;
+}
+
 void environment_text(Text *text) {
     text_provide(text, "shading/ambient_source.h");
     text_define(text, "AmbientSource", "Frame");

@@ -46,8 +46,12 @@ void environment_destroy(GlEnvironment *environment);
 /* Radians about +y and a factor on all radiance. */
 void environment_place(const GlEnvironment *environment, float rotation, float strength);
 
+/* The lamps in the world, of an environment so rotated; how many there are. */
+int environment_lamps(const GlEnvironment *environment, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]);
+
 /* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes one sampler.
- * AmbientWeights ambient_held(Frame, int) is left to the caller. */
+ * AmbientWeights ambient_held(Frame, int) and float ambient_seen(Frame, int, float) are left to the caller.
+ */
 void environment_text(Text *text);
 
 /* Texture unit, and the binding of the uniform block; of a program that lacks them nothing is asked. */

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "raster/check.h"
+#include "raster/occlusion.h"
 
 static const int components[AT_COUNT] = {3, 3, 4, 2, 2, 4};
 
@@ -107,14 +108,24 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
 }
 
 WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
-    glGenBuffers(1, &self->occlusion);
+    const size_t stride = OCCLUSION_VALUES * sizeof(float);
+    if (!self->occlusion) glGenBuffers(1, &self->occlusion);
     glBindVertexArray(self->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * self->vertex_count * sizeof(float)), values,
-                 GL_STATIC_DRAW);
-    glVertexAttribPointer(AT_OCCLUSION, 2, GL_FLOAT, GL_FALSE, 0, NULL);
-    glEnableVertexAttribArray(AT_OCCLUSION);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(stride * self->vertex_count), values, GL_STATIC_DRAW);
+    for (size_t k = 0, at = 0; k < 3; at += k++ ? 4 : 2) {
+        GLuint attribute = (GLuint)(AT_OCCLUSION + k);
+        glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+                              (const void *)(at * sizeof(float)));
+        glEnableVertexAttribArray(attribute);
+    }
     return gl_check(error, "occlusion");
+}
+
+void meshes_forget_lamps(GlMeshes *self) {
+    glBindVertexArray(self->vertices);
+    for (GLuint k = 0; k < 2; k++) glDisableVertexAttribArray(AT_LAMPS + k);
+    glBindVertexArray(0);
 }
 
 void meshes_destroy(GlMeshes *self) {
@@ -135,6 +146,7 @@ void meshes_bind(const GlMeshes *self) {
         glVertexAttrib4f(a, constant, constant, constant, constant);
     }
     glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
+    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LAMPS + k, -1.0f, -1.0f, -1.0f, -1.0f);
 }
 
 void meshes_draw(const GlMeshes *self, int mesh) {

@@ -14,7 +14,8 @@ enum {
     AT_TEXCOORD,
     AT_COLOR = AT_TEXCOORD + 2,
     AT_COUNT,
-    AT_OCCLUSION = AT_COUNT /* not of a file: meshes_occlusion */
+    AT_OCCLUSION = AT_COUNT, /* not of a file: meshes_occlusion */
+    AT_LAMPS                 /* two */
 };
 
 typedef struct GlMeshes {
@@ -31,8 +32,12 @@ typedef struct GlMeshes {
 WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
-/* Gives each vertex what its front and its back see of the sky; 1 until then. */
+/* Gives each vertex what it sees of the sky and of lamps, as occlusion_values has it; all of the sky until
+ * then, and of lamps nothing is known. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
+
+/* From now on nothing is known of lamps, which are others. */
+void meshes_forget_lamps(GlMeshes *meshes);
 
 /* Uploads tangents, which setting a material may have given to meshes; nothing else of a mesh changes. Fails
  * as meshes_create does; it is then as it was. */

@@ -16,7 +16,7 @@
 enum { BLOCK = 256 }; /* vertices in one go */
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 1 };
+enum { LOOK = 2 };
 
 struct Occlusion {
     WeftScene scene; /* as it was: what its lists hold stays, the lists of meshes and materials are copies */
@@ -25,6 +25,8 @@ struct Occlusion {
     uint32_t *first; /* vertex of a mesh */
     int rays, threads;
     bool no_cache;
+    AmbientLamp lamps[OCCLUSION_LAMPS];
+    int lamp_count;
     uint64_t key; /* of the values in the cache */
     atomic_int stop, done;
     bool joined;
@@ -49,6 +51,27 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
     return (float)seen / (float)self->rays;
 }
 
+/* The part of a lamp that a point sees, its light spread about it by exp(kappa (mu - 1)), whose mean squared
+ * distance is 2 / kappa. */
+static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, Vec3 n, float reach,
+                       uint32_t turn) {
+    Frame frame = frame_about(dir_of(lamp->direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
+    if (vec3_dot(lamp->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
+    Vec3 from = vec3_madd(p, n, reach);
+    int rays = self->rays / 4 > 0 ? self->rays / 4 : 1, seen = 0, above = 0;
+    for (int k = 0; k < rays; k++) {
+        float u = ((float)k + 0.5f) / (float)rays, mu = max(1.0f + 0.5f * lamp->spread * logf(u), -1.0f);
+        float phi = (float)k * 2.39996323f + (float)(turn * 2654435769u >> 8) * (0x1p-24f * 2.0f * PI);
+        float s = sqrt(max(1.0f - mu * mu, 0.0f));
+        Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};
+        if (vec3_dot(ray.direction, n) <= 0.0f) continue;
+        above++;
+        seen += !geometry_occluded(self->geometry, ray);
+    }
+    return above ? (float)seen / (float)above : 1.0f;
+}
+
 static void look(void *user, int item, int thread) {
     Occlusion *self = user;
     const WeftScene *scene = &self->scene;
@@ -60,13 +83,16 @@ static void look(void *user, int item, int thread) {
         while (self->first[m + 1] <= k) m++;
         const Mesh *mesh = &scene->meshes[m];
         size_t at = 3 * (size_t)(k - self->first[m]);
-        float *to = self->values + 2 * (size_t)k;
+        float *to = self->values + OCCLUSION_VALUES * (size_t)k;
         to[0] = to[1] = 1.0f;
+        for (int j = 0; j < OCCLUSION_LAMPS; j++) to[2 + j] = -1.0f;
         if (!mesh->normal) continue;
         Vec3 p = vec3_load(mesh->position + at), n = vec3_load(mesh->normal + at);
         to[0] = seen_from(self, p, n, reach, k);
         if (scene->materials[mesh->material].double_sided)
             to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k);
+        for (int j = 0; j < self->lamp_count; j++)
+            to[2 + j] = lamp_from(self, &self->lamps[j], p, n, reach, k);
     }
 }
 
@@ -79,9 +105,14 @@ static bool is_opaque(const WeftScene *scene) {
 }
 
 /* All that the values of an opaque scene depend on. */
-static uint64_t values_key(const WeftScene *scene, int rays) {
-    const int how[] = {LOOK, rays, scene->mesh_count};
+static uint64_t values_key(const Occlusion *self) {
+    const WeftScene *scene = &self->scene;
+    const int how[] = {LOOK, self->rays, scene->mesh_count, self->lamp_count};
     uint64_t hash = cache_hash(CACHE_HASH, how, sizeof how);
+    for (int k = 0; k < self->lamp_count; k++) {
+        hash = cache_hash(hash, &self->lamps[k].direction, sizeof self->lamps[k].direction);
+        hash = cache_hash(hash, &self->lamps[k].spread, sizeof self->lamps[k].spread);
+    }
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const uint32_t what[] = {mesh->vertex_count, mesh->triangle_count, mesh->normal != NULL,
@@ -95,11 +126,14 @@ static uint64_t values_key(const WeftScene *scene, int rays) {
     return hash;
 }
 
-static size_t values_count(const Occlusion *self) { return 2 * (size_t)self->first[self->scene.mesh_count]; }
+static size_t values_count(const Occlusion *self) {
+    return OCCLUSION_VALUES * (size_t)self->first[self->scene.mesh_count];
+}
 
 static bool in_range(const float *values, size_t count) {
     bool good = true;
-    for (size_t k = 0; k < count; k++) good &= values[k] >= 0.0f && values[k] <= 1.0f;
+    for (size_t k = 0; k < count; k++)
+        good &= values[k] >= (k % OCCLUSION_VALUES < 2 ? 0.0f : -1.0f) && values[k] <= 1.0f;
     return good;
 }
 
@@ -129,7 +163,7 @@ static bool copy_scene(Occlusion *self, const WeftScene *scene) {
 static bool known(Occlusion *self, const WeftLog *log) {
     if (self->no_cache) return false;
     size_t count = values_count(self);
-    self->key = values_key(&self->scene, self->rays);
+    self->key = values_key(self);
     return cache_find(self->key, "sky", self->values, count * sizeof(float), log) &&
            in_range(self->values, count);
 }
@@ -150,6 +184,8 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->rays = how->rays;
     self->no_cache = how->no_cache || !is_opaque(scene);
     self->threads = how->threads ? how->threads : thread_count();
+    self->lamp_count = how->lamp_count < OCCLUSION_LAMPS ? how->lamp_count : OCCLUSION_LAMPS;
+    for (int k = 0; k < self->lamp_count; k++) self->lamps[k] = how->lamps[k];
     self->joined = true;
     self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     bool held = self->first && copy_scene(self, scene);

@@ -34,10 +34,12 @@ struct WeftRaster {
     GlMaterials materials;
     Programs programs;
     GlEnvironment environment;
-    unsigned background;  /* program, 0 until it is needed */
-    bool shines;          /* the environment does */
-    unsigned turn;        /* of the environment that was uploaded */
-    Occlusion *occlusion; /* NULL where none is wanted, or once it is uploaded */
+    unsigned background;                  /* program, 0 until it is needed */
+    bool shines;                          /* the environment does */
+    unsigned turn;                        /* of the environment that was uploaded */
+    Occlusion *occlusion;                 /* NULL where none is wanted, or once it is uploaded */
+    AmbientLamp lamps[AMBIENT_LAMPS_MAX]; /* that it looked for, or looks for */
+    int lamp_count;
     LightPolygons polygons;
     Shadows shadows;
     Target target;
@@ -91,6 +93,33 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
     WeftResult result = environment_create(environment, &how, &self->environment, log, error);
     self->shines = result == WEFT_OK;
     return result;
+}
+
+/* Whether the lamps, as they are now, are others. */
+static bool find_lamps(WeftRaster *self) {
+    AmbientLamp lamps[AMBIENT_LAMPS_MAX];
+    int count =
+        self->shines ? environment_lamps(&self->environment, self->scene->environment.rotation, lamps) : 0;
+    bool same = count == self->lamp_count;
+    for (int k = 0; same && k < count; k++)
+        same = memcmp((const char *)&lamps[k], (const char *)&self->lamps[k], sizeof lamps[k]) == 0;
+    memcpy(self->lamps, lamps, (size_t)count * sizeof *lamps);
+    self->lamp_count = count;
+    return !same;
+}
+
+static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog *log, WeftError *error) {
+    const OcclusionHow how = {self->desc.occlusion, self->desc.threads, no_cache, self->lamps,
+                              self->lamp_count};
+    occlusion_free(self->occlusion);
+    return occlusion_start(self->scene, &how, &self->occlusion, log, error);
+}
+
+/* Until it is known what hides them, other lamps are hidden as the sky is. */
+static WeftResult update_occlusion(WeftRaster *self, const WeftLog *log, WeftError *error) {
+    if (!self->desc.occlusion || !find_lamps(self)) return WEFT_OK;
+    meshes_forget_lamps(&self->meshes);
+    return start_occlusion(self, true, log, error);
 }
 
 static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error) {
@@ -166,10 +195,11 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     if (result == WEFT_OK && desc->shader_dir && !self->desc.shader_dir)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK && desc->shader_dir) watch_look(&self->watch, desc->shader_dir);
-    if (result == WEFT_OK && desc->occlusion)
-        result = occlusion_start(scene, &(OcclusionHow){desc->occlusion, desc->threads, desc->no_cache != 0},
-                                 &self->occlusion, log, error);
     if (result == WEFT_OK) result = begin_drawing(self, log, error);
+    if (result == WEFT_OK && desc->occlusion) {
+        find_lamps(self);
+        result = start_occlusion(self, desc->no_cache != 0, log, error);
+    }
     if (result == WEFT_OK)
         *out = self;
     else
@@ -465,6 +495,7 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     if (result == WEFT_OK) result = update_materials(self, &change, log, error);
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
+    if (result == WEFT_OK) result = update_occlusion(self, log, error);
     queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
     return result;

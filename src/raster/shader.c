@@ -451,6 +451,7 @@ static void put_ambient(Text *text, const ShaderKey *key, const KeySlots *found,
     text_line(text, "\nAmbientWeights ambient_held(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
                     "    AmbientWeights w;\n    w.a = c.x;\n    w.b = c.y;\n    w.c = c.z;\n    w.d = c.w;\n"
                     "    return w;\n}");
+    text_include(text, "raster/glsl/lamps.glsl");
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k < SHADER_SLOTS; k++) {

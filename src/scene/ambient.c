@@ -235,6 +235,7 @@ static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp
     double left = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
         Vec3 sums[AMBIENT_LAMPS_MAX] = {{0.0f, 0.0f, 0.0f}};
+        float energy[AMBIENT_LAMPS_MAX] = {0.0f};
         memset(lamps, 0, (size_t)count * sizeof *lamps);
         left = 0.0;
         for (int n = 0; n < sparks->count; n++) {
@@ -242,12 +243,16 @@ static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp
             const Spark *spark = &sparks->list[n];
             int k = nearest(centres, count, spark->direction, &c);
             sums[k] = vec3_madd(sums[k], spark->direction, spark->energy);
-            left += (double)spark->energy * (2.0 - 2.0 * (double)c);
+            float apart = spark->energy * (2.0f - 2.0f * c);
+            left += (double)apart;
+            lamps[k].spread += apart;
+            energy[k] += spark->energy;
             for (int j = 0; j < 3; j++) lamps[k].color[j] += spark->color[j];
         }
         for (int k = 0; k < count; k++) {
             centres[k] = vec3_normal_or(sums[k], centres[k]);
             lamps[k].direction = centres[k];
+            lamps[k].spread = fmaxf(lamps[k].spread / fmaxf(energy[k], 1e-30f), 0.0f);
         }
     }
     return left;

@@ -21,6 +21,7 @@ enum { AMBIENT_LAMPS_MAX = 16, AMBIENT_LAMPS = 8, AMBIENT_TERMS = 25, AMBIENT_RE
 typedef struct AmbientLamp {
     Vec3 direction; /* towards it, unit */
     float color[3]; /* irradiance on what faces it */
+    float spread;   /* mean squared distance of its light from it, on the unit sphere */
 } AmbientLamp;
 
 typedef struct AmbientParts {

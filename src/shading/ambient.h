@@ -39,7 +39,8 @@
  * Jorge Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", SIGGRAPH 2016
  * course: whatever comes from outside of it, a sheen's light first of all, is not seen.
  *
- * A lamp may be anywhere, and a cone would hide all of it or nothing: it is dimmed by the part instead.
+ * A lamp may be anywhere, and a cone would hide all of it or nothing: it is dimmed by the part instead, unless
+ * the source knows better.
  *
  * Departures: of lobes that are brushed or lean, tables know wo along, across and against that, and take what
  * comes back to lie evenly about the plane of wo; lamps have them as they are. What the lamps leave meets a
@@ -464,7 +465,7 @@ FN Rgb ambient_lamps(Stack m, Slots only, Dir o, AmbientSource s, float occlusio
     int count = ambient_count(s);
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_light(s, k);
-        float seen = l.w.z > 0.0f ? occlusion : 0.0f;
+        float seen = l.w.z > 0.0f ? ambient_seen(s, k, occlusion) : 0.0f;
         if (seen > 0.0f) {
             Angles a = angles_between(o, l.w), coat = a;
             if (only.coat) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, l.w));

@@ -4,6 +4,8 @@
  *   ambient_irradiance(s, w)       mean of L(i) weighted by max(i . w, 0)
  *   ambient_light(s, k)            lamp k of those that stand for the brightest of L
  *   ambient_count(s)               how many there are
+ *   ambient_seen(s, k, occlusion)  the part of lamp k that is seen, where that part of the sky is: no more is
+ *                                  known of it in C
  *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for
  *   ambient_rest(s, w, kappa)      what the lamps leave of L, which is smooth, weighted as radiance is
  *   ambient_held(s, k)             coefficients k of tables that are held (ambient.h)
@@ -44,5 +46,6 @@ FN int ambient_count(AmbientSource s) { return s->count; }
 FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
 FN AmbientWeights ambient_held(AmbientSource s, int k) { return s->held[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
+FN float ambient_seen(AmbientSource s, int k, float occlusion) { return occlusion; }
 
 #endif

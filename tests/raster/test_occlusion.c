@@ -11,7 +11,7 @@
 
 #include "raster/occlusion.h"
 
-enum { RAYS = 256 };
+enum { RAYS = 256, LAMPS = 4, ALL = 8 * OCCLUSION_VALUES };
 static char folder[] = "/tmp/weft-test-occlusion-XXXXXX";
 
 static void count(void *user, WeftMessage message, const char *text) {
@@ -34,13 +34,18 @@ static WeftScene *corner(AlphaMode mode) {
     return scene;
 }
 
-static void look(const WeftScene *scene, bool no_cache, float values[16], int *warnings) {
+static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *warnings) {
     const WeftLog log = {count, warnings};
     Occlusion *occlusion;
     WeftError error;
-    assert_int_equal(occlusion_start(scene, &(OcclusionHow){RAYS, 2, no_cache}, &occlusion, &log, &error),
-                     WEFT_OK);
-    memcpy(values, occlusion_values(occlusion, true), 16 * sizeof *values);
+    /* overhead; behind the wall; about its edge, in front of the wall and behind it; below the floor */
+    const AmbientLamp lamps[LAMPS] = {{.direction = {0.0f, 1.0f, 0.0f}},
+                                      {.direction = {0.0f, 0.6f, -0.8f}, .spread = 0.01f},
+                                      {.direction = {0.0f, 1.0f, 0.0f}, .spread = 0.05f},
+                                      {.direction = {0.0f, -0.8f, 0.6f}, .spread = 0.01f}};
+    const OcclusionHow how = {RAYS, 2, no_cache, lamps, LAMPS};
+    assert_int_equal(occlusion_start(scene, &how, &occlusion, &log, &error), WEFT_OK);
+    memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
 }
 
@@ -53,11 +58,19 @@ static int files(void) {
 static void half_of_the_sky_is_found_again(void **state) {
     (void)state;
     WeftScene *scene = corner(ALPHA_OPAQUE);
-    float first[16], again[16];
+    float first[ALL], again[ALL];
     int warnings = 0;
     look(scene, true, first, &warnings);
     assert_int_equal(files(), 0);
-    for (int k = 0; k < 4; k++) assert_float_equal(first[2 * k], 0.5f, 0.02f);
+    for (int k = 0; k < 4; k++) {
+        const float *at = first + OCCLUSION_VALUES * k, half = 0.5f;
+        assert_float_equal(at[0], half, 0.02f);
+        assert_float_equal(at[2], 1.0f, 0.0f);
+        assert_float_equal(at[3], 0.0f, 0.0f);
+        assert_float_equal(at[4], half, 0.1f);
+        assert_float_equal(at[5], 1.0f, 0.0f); /* by the back */
+        assert_true(at[2 + LAMPS] < 0.0f);
+    }
     look(scene, false, again, &warnings);
     assert_int_equal(files(), 1);
     assert_memory_equal(first, again, sizeof first);
@@ -78,7 +91,7 @@ static void only_opaque_scenes_are_kept(void **state) {
     snprintf(command, sizeof command, "rm -rf %s/weft", folder);
     assert_int_equal(system(command), 0);
     WeftScene *scene = corner(ALPHA_BLEND);
-    float values[16];
+    float values[ALL];
     int warnings = 0;
     look(scene, false, values, &warnings);
     assert_int_equal(files(), 0);

@@ -238,17 +238,18 @@ static int on_progress(void *user, double done) {
     return 0;
 }
 
-/* Turning and dimming filters nothing; another image does, once. */
+/* Turning and dimming filters nothing; another image does, once. What hides its lamps is found again. */
 static void environments_are_as_new(void **state) {
     (void)state;
     if (no_gl) skip();
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f);
     test_sphere(scene, vec3(0.0f, 0.0f, 0.0f), 0.5f);
+    test_quad(scene, vec3(-0.6f, -1.0f, 0.6f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 2.0f, 0.0f));
     scene_bounds(scene);
     WeftError error;
     WeftRaster *raster;
-    const WeftRasterDesc desc = {.threads = 1, .progress = on_progress};
+    const WeftRasterDesc desc = {.threads = 1, .occlusion = 8, .progress = on_progress};
     put_sky(scene, 0.5f);
     assert_int_equal(weft_scene_set_environment_placement(scene, 0.0f, 0.0f, &error), WEFT_OK);
     assert_int_equal(weft_raster_create(scene, &desc, &raster, NULL, &error), WEFT_OK);
@@ -264,6 +265,8 @@ static void environments_are_as_new(void **state) {
         assert_int_equal(progress_calls > 0, k == 0 || k == 2);
         WeftRaster *fresh;
         assert_int_equal(weft_raster_create(scene, &desc, &fresh, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_raster_settle(raster, &error), WEFT_OK);
+        assert_int_equal(weft_raster_settle(fresh, &error), WEFT_OK);
         WeftImage is = drawn(raster), should = drawn(fresh);
         if (!is_same(&is, &should)) fail_msg("environment %d: not as a new raster draws it", k);
         if (is_same(&is, &before)) fail_msg("environment %d: nothing has changed", k);

@@ -3,7 +3,7 @@
  * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
  * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/ambient.h: environment_terms of irradiance over pi,
  * without degree 3; environment_rest of what the lamps leave. All are of the image as it is, lamps too.
- * ambient_held is whoever's who has held tables. */
+ * ambient_held is whoever's who has held tables, ambient_seen whoever's who knows what hides lamps. */
 #include "shading/frame.h"
 #include "shading/rgb.h"
 

@@ -105,11 +105,10 @@ Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) { return rgb_grey(0.0); }
 #endif
 
 #ifdef AMBIENT
-in highp vec2 vertex_occlusion;
-
 /* The texture's occlusion is of the material's own bumps, the vertex's of all else; where both know the same
  * crease the lesser is right. */
 Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) {
+    texture_occlusion = occlusion;
     return stack_ambient(m, o, material_ambient(), f,
                          min(occlusion, gl_FrontFacing ? vertex_occlusion.x : vertex_occlusion.y));
 }

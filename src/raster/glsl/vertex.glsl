@@ -8,6 +8,8 @@ layout(location = 3) in highp vec2 at_texcoord_0;
 layout(location = 4) in highp vec2 at_texcoord_1;
 layout(location = 5) in highp vec4 at_color;
 layout(location = 6) in highp vec2 at_occlusion;
+layout(location = 7) in highp vec4 at_lamps_0;
+layout(location = 8) in highp vec4 at_lamps_1;
 
 out highp vec3 from_eye;
 out highp vec3 vertex_normal;
@@ -16,6 +18,8 @@ out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
 out highp vec4 vertex_color;
 out highp vec2 vertex_occlusion;
+out highp vec4 vertex_lamps_0;
+out highp vec4 vertex_lamps_1;
 
 void main() {
     from_eye = at_position - eye.xyz;
@@ -25,5 +29,7 @@ void main() {
     texcoord_1 = at_texcoord_1;
     vertex_color = at_color;
     vertex_occlusion = at_occlusion;
+    vertex_lamps_0 = at_lamps_0;
+    vertex_lamps_1 = at_lamps_1;
     gl_Position = to_clip * vec4(from_eye, 1.0);
 }

@@ -1,0 +1,12 @@
+/* lamps.glsl - what a fragment sees of the environment's lamps, of which there are eight: raster/occlusion.h */
+in highp vec2 vertex_occlusion;
+in highp vec4 vertex_lamps_0;
+in highp vec4 vertex_lamps_1;
+
+/* Of the sky, by a texture, which is of the material's own bumps. */
+float texture_occlusion = 1.0;
+
+float ambient_seen(Frame f, int k, float occlusion) {
+    float seen = k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4];
+    return seen < 0.0 ? occlusion : seen * texture_occlusion;
+}
