@@ -58,7 +58,8 @@ typedef struct WeftRasterDesc {
 
 /* Uploads the scene, which must outlive the raster; where it changes, call weft_raster_update before anything
  * else. Shaders are compiled when they are first drawn with. log (may be NULL) receives warnings. Fails with
- * WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY, _MEMORY, _SCENE_EMPTY, or _DESC where a number is out of range. */
+ * WEFT_MESSAGE_GL_CONTEXT, _GL_MEMORY, _MEMORY, _RENDER_DEVICE, _SCENE_EMPTY, or _DESC where a number is out
+ * of range. */
 WEFT_API WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
                                        const WeftLog *log, WeftError *error);
 
@@ -70,8 +71,9 @@ WEFT_API void weft_raster_free(WeftRaster *raster);
  * fit where it shapes a lobe; a term compiles a shader, at the next picture, unless there was one for it
  * before; another image in the environment is
  * filtered, with progress; a texture that was not looked up before uploads all textures. Shapes are not
- * looked at. Fails as weft_raster_create does, or with WEFT_INTERRUPTED; pictures are then partly of the
- * scene as it was, until an update does not fail. */
+ * looked at. What is seen of the sky is found anew, in the background, where the environment was turned or
+ * light passes elsewhere. Fails as weft_raster_create does, or with WEFT_INTERRUPTED; pictures are then
+ * partly of the scene as it was, until an update does not fail. */
 WEFT_API WeftResult weft_raster_update(WeftRaster *raster, const WeftLog *log, WeftError *error);
 
 enum { WEFT_RASTER_POLYGONS = 8 };

@@ -125,7 +125,6 @@ WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *erro
 void meshes_forget_lamps(GlMeshes *self) {
     glBindVertexArray(self->vertices);
     for (GLuint k = 0; k < 2; k++) glDisableVertexAttribArray(AT_LAMPS + k);
-    glBindVertexArray(0);
 }
 
 void meshes_destroy(GlMeshes *self) {

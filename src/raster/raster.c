@@ -40,6 +40,7 @@ struct WeftRaster {
     Occlusion *occlusion;                 /* NULL where none is wanted, or once it is uploaded */
     AmbientLamp lamps[AMBIENT_LAMPS_MAX]; /* that it looked for, or looks for */
     int lamp_count;
+    bool look; /* once more, when what is looked for now is found */
     LightPolygons polygons;
     Shadows shadows;
     Target target;
@@ -95,14 +96,18 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
     return result;
 }
 
-/* Whether the lamps, as they are now, are others. */
+static bool is_same_place(const AmbientLamp *a, const AmbientLamp *b) {
+    return memcmp((const char *)&a->direction, (const char *)&b->direction, sizeof a->direction) == 0 &&
+           memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
+}
+
+/* Whether the lamps, as they are now, are elsewhere; while it is dark they are where they were. */
 static bool find_lamps(WeftRaster *self) {
     AmbientLamp lamps[AMBIENT_LAMPS_MAX];
-    int count =
-        self->shines ? environment_lamps(&self->environment, self->scene->environment.rotation, lamps) : 0;
+    if (!self->shines) return false;
+    int count = environment_lamps(&self->environment, self->scene->environment.rotation, lamps);
     bool same = count == self->lamp_count;
-    for (int k = 0; same && k < count; k++)
-        same = memcmp((const char *)&lamps[k], (const char *)&self->lamps[k], sizeof lamps[k]) == 0;
+    for (int k = 0; same && k < count; k++) same = is_same_place(&lamps[k], &self->lamps[k]);
     memcpy(self->lamps, lamps, (size_t)count * sizeof *lamps);
     self->lamp_count = count;
     return !same;
@@ -111,15 +116,20 @@ static bool find_lamps(WeftRaster *self) {
 static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog *log, WeftError *error) {
     const OcclusionHow how = {self->desc.occlusion, self->desc.threads, no_cache, self->lamps,
                               self->lamp_count};
-    occlusion_free(self->occlusion);
-    return occlusion_start(self->scene, &how, &self->occlusion, log, error);
+    WeftResult result = occlusion_start(self->scene, &how, &self->occlusion, log, error);
+    self->look = result != WEFT_OK;
+    return result;
 }
 
-/* Until it is known what hides them, other lamps are hidden as the sky is. */
+/* Until it is known what hides them, other lamps are hidden as the sky is. Whoever is looking may finish: of
+ * what is found then, the sky serves. */
 static WeftResult update_occlusion(WeftRaster *self, const WeftLog *log, WeftError *error) {
-    if (!self->desc.occlusion || !find_lamps(self)) return WEFT_OK;
-    meshes_forget_lamps(&self->meshes);
-    return start_occlusion(self, true, log, error);
+    if (!self->desc.occlusion) return WEFT_OK;
+    if (find_lamps(self)) {
+        meshes_forget_lamps(&self->meshes);
+        self->look = true;
+    }
+    return self->look && !self->occlusion ? start_occlusion(self, true, log, error) : WEFT_OK;
 }
 
 static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error) {
@@ -441,14 +451,16 @@ static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) 
     WeftResult result = meshes_occlusion(&self->meshes, values, error);
     occlusion_free(self->occlusion);
     self->occlusion = NULL;
-    return result;
+    if (!self->look || result != WEFT_OK) return result;
+    meshes_forget_lamps(&self->meshes);
+    return start_occlusion(self, true, NULL, error);
 }
 
 WeftResult weft_raster_settle(WeftRaster *self, WeftError *error) {
     GlOuter outer;
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    result = take_occlusion(self, true, error);
+    while (self->occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
     context_leave(self->context, &outer);
     return result;
 }
@@ -493,6 +505,7 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     if (result != WEFT_OK) return result;
     result = meshes_update(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = update_materials(self, &change, log, error);
+    if (result == WEFT_OK) self->look |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
     if (result == WEFT_OK) result = update_occlusion(self, log, error);

@@ -72,11 +72,12 @@ static void place(Plan *plan, int texture, bool color) {
 }
 
 /* The groups that a material looks into; -1: into something that has none. */
-static int count_groups(const TexturePlace *places, const Material *material) {
+static int count_groups(const TexturePlace *places, int texture_count, const Material *material) {
     int groups[INPUT_COUNT], count = 0;
     for (int k = 0; k < INPUT_COUNT; k++) {
         int texture = material->inputs[k].texture - 1, g = 0;
         if (texture < 0) continue;
+        if (texture >= texture_count) return -1;
         int group = places[2 * texture + textures_color(material, k)].group;
         if (group < 0) return -1;
         while (g < count && groups[g] != group) g++;
@@ -96,7 +97,7 @@ static int make_plan(Plan *plan) {
         for (int k = 0; k < INPUT_COUNT; k++)
             if (material->inputs[k].texture)
                 place(plan, material->inputs[k].texture - 1, textures_color(material, k));
-        int count = count_groups(plan->places, material);
+        int count = count_groups(plan->places, scene->texture_count, material);
         if (count > most) most = count;
     }
     return most;
@@ -285,9 +286,8 @@ void textures_destroy(GlTextures *self) {
 }
 
 bool textures_serve(const GlTextures *self, const WeftScene *scene) {
-    if (scene->texture_count > self->texture_count) return false;
     for (int m = 0; m < scene->material_count; m++) {
-        int count = count_groups(self->places, &scene->materials[m]);
+        int count = count_groups(self->places, self->texture_count, &scene->materials[m]);
         if (count < 0 || count > TEXTURE_SLOTS) return false;
     }
     return true;

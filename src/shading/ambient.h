@@ -39,8 +39,8 @@
  * Jorge Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", SIGGRAPH 2016
  * course: whatever comes from outside of it, a sheen's light first of all, is not seen.
  *
- * A lamp may be anywhere, and a cone would hide all of it or nothing: it is dimmed by the part instead, unless
- * the source knows better.
+ * A lamp may be anywhere, and a cone would hide all of it or nothing: it is dimmed by the part instead,
+ * unless the source knows better.
  *
  * Departures: of lobes that are brushed or lean, tables know wo along, across and against that, and take what
  * comes back to lie evenly about the plane of wo; lamps have them as they are. What the lamps leave meets a

@@ -314,7 +314,7 @@ static void assert_new_state(const Window *w) {
         assert_int_equal(integer(GL_UNPACK_SWAP_BYTES), 0);
         assert_int_equal(integer(GL_PACK_SWAP_BYTES), 0);
     }
-    for (GLuint k = 0; k < 8; k++) {
+    for (GLuint k = 0; k < 16; k++) {
         GLfloat now[4], fresh[4] = {0.0f, 0.0f, 0.0f, 1.0f};
         glGetVertexAttribfv(k, GL_CURRENT_VERTEX_ATTRIB, now);
         assert_memory_equal(now, fresh, sizeof now);

@@ -8,5 +8,6 @@ float texture_occlusion = 1.0;
 
 float ambient_seen(Frame f, int k, float occlusion) {
     float seen = k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4];
-    return seen < 0.0 ? occlusion : seen * texture_occlusion;
+    /* -1 is unknown; beside their triangle fragments are a little out of range */
+    return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion;
 }

@@ -1,0 +1,137 @@
+/* What hides the lamps of an environment: a wall's shadow on a floor is where the path tracer has it, and a
+ * map that is turned takes it along */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "shading/cases.h"
+#include "trace/scenes.h"
+
+#include "raster/context.h"
+
+enum { SIDE = 64, CELLS = 60, MAP_WIDTH = 64, MAP_HEIGHT = 32 };
+static const char camera[] = "0,6,0.01;0,0,0;24";
+static bool no_gl;
+
+/* A floor of small cells. */
+static void add_floor(WeftScene *scene) {
+    enum { ACROSS = CELLS + 1 };
+    Mesh *mesh = test_mesh(scene, ACROSS * ACROSS, 2 * CELLS * CELLS);
+    mesh->normal = arena_array(&scene->arena, mesh->vertex_count, 3 * sizeof(float));
+    uint32_t *index = mesh->index;
+    for (uint32_t k = 0; k < ACROSS * ACROSS; k++) {
+        float x = (float)(k % ACROSS) / CELLS - 0.5f, z = (float)(k / ACROSS) / CELLS - 0.5f;
+        Vec3 p = {3.0f * x, 0.0f, 3.0f * z};
+        memcpy(mesh->position + 3 * k, &p, sizeof p);
+        mesh->normal[3 * k + 1] = 1.0f;
+        if (k % ACROSS == CELLS || k / ACROSS == CELLS) continue;
+        const uint32_t corners[6] = {k, k + ACROSS, k + 1, k + 1, k + ACROSS, k + ACROSS + 1};
+        memcpy(index, corners, sizeof corners);
+        index += 6;
+    }
+}
+
+/* A dim sky with a small bright window and a wide one, and a wall that hides both from some of a matt floor.
+ */
+static WeftScene *wall(void) {
+    WeftScene *scene = test_scene();
+    WeftImage sky;
+    test_material(scene, 0.7f);
+    add_floor(scene);
+    test_material(scene, 0.0f);
+    test_quad(scene, vec3(-0.5f, 0.0f, 0.025f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.7f, 0.0f));
+    scene_bounds(scene);
+    assert_int_equal(weft_image_create(MAP_WIDTH, MAP_HEIGHT, 3, WEFT_PIXEL_F32, &sky, NULL), WEFT_OK);
+    float *p = sky.pixels;
+    for (int k = 0; k < MAP_WIDTH * MAP_HEIGHT; k++, p += 3) {
+        int x = k % MAP_WIDTH, y = k / MAP_WIDTH;
+        bool small = x >= 30 && x < 32 && y >= 7 && y < 9, wide = x >= 2 && x < 8 && y >= 6 && y < 11;
+        p[0] = p[1] = p[2] = small ? 150.0f : wide ? 6.0f : 0.3f;
+    }
+    scene->environment.image = sky;
+    scene->environment.kind = ENVIRONMENT_IMAGE;
+    scene->environment.turn++;
+    return scene;
+}
+
+static WeftRaster *raster_of(const WeftScene *scene, int occlusion) {
+    WeftRaster *raster;
+    WeftError error;
+    const WeftRasterDesc desc = {.threads = 2, .occlusion = occlusion, .no_cache = 1};
+    if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return raster;
+}
+
+static WeftImage drawn(WeftRaster *raster) {
+    WeftImage image;
+    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = camera};
+    assert_int_equal(weft_raster_settle(raster, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
+    return image;
+}
+
+/* Sum of differences over sum of the reference, of means over blocks, in which its noise is small. */
+static double error_of(const WeftImage *image, const WeftImage *reference) {
+    enum { BLOCK = 4 };
+    const float *p = image->pixels, *q = reference->pixels;
+    double off = 0.0, all = 0.0;
+    for (int block = 0; block < SIDE * SIDE / (BLOCK * BLOCK); block++) {
+        int x = block % (SIDE / BLOCK) * BLOCK, y = block / (SIDE / BLOCK) * BLOCK;
+        double difference = 0.0;
+        for (int k = 0; k < BLOCK * BLOCK; k++) {
+            int at = 4 * ((y + k / BLOCK) * SIDE + x + k % BLOCK);
+            difference += (double)(p[at] - q[at]);
+            all += (double)q[at];
+        }
+        off += fabs(difference);
+    }
+    return off / all;
+}
+
+static void compare(WeftScene *scene, WeftRaster *raster, WeftRaster *without, float turn) {
+    const WeftRenderDesc desc = {
+        .width = SIDE, .height = SIDE, .max_depth = 1, .camera = camera, .threads = 2};
+    assert_int_equal(weft_scene_set_environment_placement(scene, turn, 1.0f, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_update(without, NULL, NULL), WEFT_OK);
+    WeftImage reference = test_render(scene, desc, 256), image = drawn(raster), plain = drawn(without);
+    double off = error_of(&image, &reference), off_plain = error_of(&plain, &reference);
+    print_message("turned by %g: %.1f %%, without %.1f %%\n", (double)turn, 100.0 * off, 100.0 * off_plain);
+    assert_true(off < 0.04);
+    assert_true(off_plain > 2.0 * off);
+    weft_image_free(&reference);
+    weft_image_free(&image);
+    weft_image_free(&plain);
+}
+
+static void shadows_are_those_of_the_path_tracer(void **state) {
+    (void)state;
+    if (no_gl) skip();
+    WeftScene *scene = wall();
+    WeftRaster *raster = raster_of(scene, 64), *without = raster_of(scene, 0);
+    compare(scene, raster, without, 20.0f);
+    compare(scene, raster, without, 200.0f);
+    weft_raster_free(raster);
+    weft_raster_free(without);
+    weft_scene_free(scene);
+}
+
+static int begin(void **state) {
+    (void)state;
+    GlContext *context;
+    WeftError error;
+    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
+    if (no_gl) print_message("%s\n", error.text);
+    if (!no_gl) context_destroy(context);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_are_those_of_the_path_tracer)};
+    return cmocka_run_group_tests(tests, begin, NULL);
+}
