@@ -52,6 +52,7 @@ static WeftScene *wall(void) {
         bool small = x >= 30 && x < 32 && y >= 7 && y < 9, wide = x >= 2 && x < 8 && y >= 6 && y < 11;
         p[0] = p[1] = p[2] = small ? 150.0f : wide ? 6.0f : 0.3f;
     }
+    weft_image_free(&scene->environment.image);
     scene->environment.image = sky;
     scene->environment.kind = ENVIRONMENT_IMAGE;
     scene->environment.turn++;
