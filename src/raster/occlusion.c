@@ -35,15 +35,18 @@ struct Occlusion {
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 
-/* The part of the sky above n that a point sees: directions by Christophe Schlick's grid of the golden ratio,
- * turned for each vertex so that neighbours do not err alike. */
+/* Part of a turn by which a vertex's directions differ from others', so that neighbours do not err alike. */
+static float turned(uint32_t vertex) { return (float)(vertex * 2654435769u >> 8) * 0x1p-24f; }
+
+/* The part of the sky above n that a point sees: directions by Christophe Schlick's grid of the golden ratio.
+ */
 static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t turn) {
     Frame frame = frame_about(dir_of(n), dir(0.0f, 0.0f, 0.0f), 1.0f);
     Vec3 from = vec3_madd(p, n, reach);
     int seen = 0;
     for (int k = 0; k < self->rays; k++) {
         float u = ((float)k + 0.5f) / (float)self->rays;
-        float v = (float)k * 0.618033989f + (float)(turn * 2654435769u >> 8) * 0x1p-24f;
+        float v = (float)k * 0.618033989f + turned(turn);
         Dir d = frame_from(frame, warp_cosine(u, v - floor(v)));
         Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};
         seen += !geometry_occluded(self->geometry, ray);
@@ -61,7 +64,7 @@ static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, V
     int rays = self->rays / 4 > 0 ? self->rays / 4 : 1, seen = 0, above = 0;
     for (int k = 0; k < rays; k++) {
         float u = ((float)k + 0.5f) / (float)rays, mu = max(1.0f + 0.5f * lamp->spread * logf(u), -1.0f);
-        float phi = (float)k * 2.39996323f + (float)(turn * 2654435769u >> 8) * (0x1p-24f * 2.0f * PI);
+        float phi = (float)k * 2.39996323f + 2.0f * PI * turned(turn);
         float s = sqrt(max(1.0f - mu * mu, 0.0f));
         Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
         Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};

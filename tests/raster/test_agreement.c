@@ -3,7 +3,8 @@
  * fault. Random rules are left out, and pixels at outlines, where the engines may see different surfaces. */
 #include "shading/cases.h"
 
-#include "raster/context.h"
+#include "raster/gl.h"
+
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "shading/choice.h"
@@ -14,7 +15,6 @@ enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
 static const double relative = 0.01, floor_share = 1e-3, share_least = 0.999;
 static const float light_color = 3.0f;
 
-static bool no_gl;
 static bool inside[PIXELS]; /* of one surface, with all neighbours */
 
 /* What is hit at the middle of each pixel, from which follows what lies at an outline. */
@@ -166,7 +166,7 @@ static bool choice_agrees(ChoiceId choice, const char *name, int step) {
 
 static void on_spheres(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     static const struct {
         ChoiceId choice;
         const char *name;
@@ -193,7 +193,7 @@ static void on_spheres(void **state) {
 
 static void on_a_textured_cloth(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     const char *path = WEFT_SOURCE_DIR "/../shared/data/gltf/SheenCloth/SheenCloth.gltf";
     FILE *there = fopen(path, "rb");
     if (!there) {
@@ -222,15 +222,9 @@ static void on_a_textured_cloth(void **state) {
 }
 
 static int begin(void **state) {
-    (void)state;
-    GlContext *context;
-    WeftError error;
     /* Mesa's software renderer would filter 8-bit textures with 8 bits of fraction. */
     setenv("GALLIVM_PERF", "no_aos_sampling", 1);
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
+    return gl_begin(state);
 }
 
 int main(void) {

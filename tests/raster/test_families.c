@@ -8,19 +8,13 @@
 
 #include <cmocka.h>
 
+#include "raster/gl.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
-
-#include "raster/context.h"
 
 /* Of the squares the last are brushed, which one program does for and the table of another does not. */
 enum { SIDE = 128, KINDS = 8, ROUND = 6 };
 static const float STEP = 1.8f / KINDS;
-static bool no_gl;
-
-static void need_gl(void) {
-    if (no_gl) skip();
-}
 
 /* Of noise, with a fixed seed. */
 static void add_texture(WeftScene *scene, int side, int channels) {
@@ -41,10 +35,15 @@ static void set_map(Material *material, InputId input, int texture, int channel)
     material->inputs[input].channel = (uint8_t)channel;
 }
 
+static void add_texcoords(WeftScene *scene, Mesh *quad) {
+    static const float uv[8] = {0.1f, 0.1f, 0.9f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
+    quad->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
+    memcpy(quad->texcoord[0], uv, sizeof uv);
+}
+
 /* One of KINDS squares side by side, or with -1 all of them: numbers, and maps of different inputs, sizes and
  * channels. */
 static WeftScene *squares(int only) {
-    static float uv[8] = {0.1f, 0.1f, 0.9f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
     WeftScene *scene = test_scene();
     scene->images = arena_array(&scene->arena, 3, sizeof(WeftImage));
     scene->textures = arena_array(&scene->arena, 3, sizeof(Texture));
@@ -64,8 +63,7 @@ static WeftScene *squares(int only) {
         if (k == 5) set_map(m, INPUT_occlusion, 1, 0);
         Mesh *mesh = test_quad(scene, vec3(-0.9f + STEP * (float)k, -0.5f, 0.0f), vec3(STEP, 0.0f, 0.0f),
                                vec3(0.0f, 1.0f, 0.0f));
-        mesh->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
-        memcpy(mesh->texcoord[0], uv, sizeof uv);
+        add_texcoords(scene, mesh);
     }
     scene_bounds(scene);
     test_environment(scene, 0.4f);
@@ -130,7 +128,6 @@ static void families_look_as_each_alone(void **state) {
 static WeftScene *even_square(bool mapped) {
     static const InputId colors[] = {INPUT_base_color, INPUT_sheen_color, INPUT_specular_color};
     static const InputId scalars[] = {INPUT_metallic, INPUT_clearcoat, INPUT_specular, INPUT_anisotropy};
-    static float uv[8] = {0.1f, 0.1f, 0.9f, 0.1f, 0.9f, 0.9f, 0.1f, 0.9f};
     WeftScene *scene = test_scene();
     scene->images = arena_array(&scene->arena, 1, sizeof(WeftImage));
     scene->textures = arena_array(&scene->arena, 1, sizeof(Texture));
@@ -148,8 +145,7 @@ static WeftScene *even_square(bool mapped) {
     }
     m->inputs[INPUT_roughness].value[0] = m->inputs[INPUT_sheen_roughness].value[0] = 0.6f;
     Mesh *mesh = test_quad(scene, vec3(-1.0f, -1.0f, 0.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 2.0f, 0.0f));
-    mesh->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
-    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    add_texcoords(scene, mesh);
     scene_bounds(scene);
     test_environment(scene, 1.0f);
     return scene;
@@ -195,19 +191,9 @@ static void threads_make_no_difference(void **state) {
     weft_scene_free(scene);
 }
 
-static int begin(void **state) {
-    (void)state;
-    GlContext *context;
-    WeftError error;
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(families_look_as_each_alone),
                                        cmocka_unit_test(even_maps_are_numbers),
                                        cmocka_unit_test(threads_make_no_difference)};
-    return cmocka_run_group_tests(tests, begin, NULL);
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -8,14 +8,12 @@
 
 #include <cmocka.h>
 
+#include "raster/gl.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
 
-#include "raster/context.h"
-
 enum { SIDE = 64, CELLS = 60, MAP_WIDTH = 64, MAP_HEIGHT = 32 };
 static const char camera[] = "0,6,0.01;0,0,0;24";
-static bool no_gl;
 
 /* A floor of small cells. */
 static void add_floor(WeftScene *scene) {
@@ -112,7 +110,7 @@ static void compare(WeftScene *scene, WeftRaster *raster, WeftRaster *without, f
 
 static void shadows_are_those_of_the_path_tracer(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     WeftScene *scene = wall();
     WeftRaster *raster = raster_of(scene, 64), *without = raster_of(scene, 0);
     compare(scene, raster, without, 20.0f);
@@ -122,17 +120,7 @@ static void shadows_are_those_of_the_path_tracer(void **state) {
     weft_scene_free(scene);
 }
 
-static int begin(void **state) {
-    (void)state;
-    GlContext *context;
-    WeftError error;
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_are_those_of_the_path_tracer)};
-    return cmocka_run_group_tests(tests, begin, NULL);
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -10,19 +10,14 @@
 #include <cmocka.h>
 #include <epoxy/gl.h>
 
+#include "raster/gl.h"
 #include "raster/made.h"
 #include "trace/scenes.h"
 
-#include "raster/context.h"
 #include "raster/shader.h"
 #include "shading/choice.h"
 
 enum { SIDE = 96 };
-static bool no_gl;
-
-static void need_gl(void) {
-    if (no_gl) skip();
-}
 
 static WeftRaster *raster_of(const WeftScene *scene, WeftGl gl) {
     WeftRaster *raster;
@@ -310,16 +305,6 @@ static void shaders_are_of_their_version(void **state) {
     assert_int_equal(status, 0);
 }
 
-static int begin(void **state) {
-    (void)state;
-    GlContext *context;
-    WeftError error;
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_is_as_told),
                                        cmocka_unit_test(background_is_as_told),
@@ -328,5 +313,5 @@ int main(void) {
                                        cmocka_unit_test(steady_frames_make_nothing),
                                        cmocka_unit_test(descriptors_are_checked),
                                        cmocka_unit_test(shaders_are_of_their_version)};
-    return cmocka_run_group_tests(tests, begin, NULL);
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

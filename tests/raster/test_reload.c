@@ -13,23 +13,16 @@
 
 #include <cmocka.h>
 
-#include "raster/context.h"
+#include "raster/gl.h"
 #include "raster/watch.h"
 #include "weft/weft.h"
 
-static bool no_gl;
 static char base[] = "/tmp/weft-test-reload-XXXXXX";
 static char folder[64], lobe_path[128]; /* folder is not there at first */
 
 static int begin(void **state) {
-    (void)state;
-    GlContext *context;
-    WeftError error;
     if (!mkdtemp(base)) return -1;
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
+    return gl_begin(state);
 }
 
 static int end(void **state) {
@@ -176,19 +169,19 @@ static void text_is_taken_anew(WeftGl gl) {
 
 static void desktop_takes_text_anew(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     text_is_taken_anew(WEFT_GL_DESKTOP);
 }
 
 static void es_takes_text_anew(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     text_is_taken_anew(WEFT_GL_ES);
 }
 
 static void without_a_folder_nothing_changes(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     WeftRaster *raster;
     WeftError error;
     WeftScene *scene = load_scene();

@@ -9,13 +9,11 @@
 #include <cmocka.h>
 #include <epoxy/gl.h>
 
+#include "raster/gl.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
 
-#include "raster/context.h"
-
 enum { SIDE = 64 };
-static bool no_gl;
 
 static const WeftRasterView view = {.width = SIDE,
                                     .height = SIDE,
@@ -220,13 +218,13 @@ static void take_steps(WeftScene *scene, const Step *all, int count) {
 
 static void pictures_are_as_new(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     take_steps(under_lamps(), steps, STEPS);
 }
 
 static void fits_are_as_new(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     take_steps(under_sky(), fitted_steps, FITTED_STEPS);
 }
 
@@ -241,7 +239,7 @@ static int on_progress(void *user, double done) {
 /* Turning and dimming filters nothing; another image does, once. What hides its lamps is found again. */
 static void environments_are_as_new(void **state) {
     (void)state;
-    if (no_gl) skip();
+    need_gl();
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f);
     test_sphere(scene, vec3(0.0f, 0.0f, 0.0f), 0.5f);
@@ -283,14 +281,8 @@ static void environments_are_as_new(void **state) {
 static char cache[] = "/tmp/weft-test-update-XXXXXX";
 
 static int begin(void **state) {
-    (void)state;
     if (!mkdtemp(cache) || setenv("XDG_CACHE_HOME", cache, 1) != 0) return -1;
-    GlContext *context;
-    WeftError error;
-    no_gl = context_create(TEXT_GLSL_330, &context, &error) != WEFT_OK;
-    if (no_gl) print_message("%s\n", error.text);
-    if (!no_gl) context_destroy(context);
-    return 0;
+    return gl_begin(state);
 }
 
 static int end(void **state) {

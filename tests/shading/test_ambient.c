@@ -79,10 +79,19 @@ static void even_light_returns_albedo(void **state) {
     }
 }
 
+/* A table of that lobe alone, held as polynomials. */
+static AmbientTable hold(const Lobe *lobe, int strategy, AmbientWeights held[AMBIENT_HELD]) {
+    static AmbientFit fitted;
+    ambient_fit(&fitted, lobe, lobe->params[0], lobe->params[0], 0);
+    ambient_hold(&fitted, held);
+    AmbientTable t = ambient_table(&fitted, strategy);
+    t.held = 0;
+    return t;
+}
+
 /* Held as polynomials the same table still has E, where a lobe turns too. */
 static void held_tables_return_albedo(void **state) {
     (void)state;
-    static AmbientFit table;
     static AmbientWeights held[AMBIENT_HELD];
     Even even = {.radiance = 1.0f};
     AmbientSourceCalls calls = even_calls(&even);
@@ -95,10 +104,7 @@ static void held_tables_return_albedo(void **state) {
             Dir o = direction_cos(0.15 + 0.35 * (double)(k / 3), 0.0);
             bool across = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC && k % 2;
             if (across) o = dir(o.y, o.x, o.z);
-            ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
-            ambient_hold(&table, held);
-            AmbientTable t = ambient_table(&table, AMBIENT_FITTED);
-            t.held = 0;
+            AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             Rgb got = stack_ambient(one_lobe(lobe), o, all_tables(t), &calls, 1.0f);
             float truth = e.f0 + e.f90, off = abs(got.r - truth);
@@ -124,7 +130,6 @@ static void held_tables_fade_away(void **state) {
     (void)state;
     static const float roughnesses[] = {0.1f, 0.14f, 0.22f, 0.6f};
     static const float cosines[] = {1.0f, 0.995f, 0.97f, 0.9f, 0.7f, 0.3f, 0.03f};
-    static AmbientFit fitted;
     static AlbedoTable albedo;
     static AmbientWeights held[AMBIENT_HELD];
     Even even = {.radiance = 1.0f};
@@ -135,10 +140,7 @@ static void held_tables_fade_away(void **state) {
         for (size_t k = 0; asked(id) && k < sizeof roughnesses / sizeof roughnesses[0]; k++) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, roughnesses[k]);
-            ambient_fit(&fitted, &lobe, lobe.params[0], lobe.params[0], 0);
-            ambient_hold(&fitted, held);
-            AmbientTable t = ambient_table(&fitted, ambient_strategy(id));
-            t.held = 0;
+            AmbientTable t = hold(&lobe, ambient_strategy(id), held);
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
                 Stack m = tabled(lobe, o, &albedo);
