@@ -87,6 +87,27 @@ typedef enum WeftAmbient {
     WEFT_AMBIENT_NONE        /* no light from the environment */
 } WeftAmbient;
 
+/* What a picture shows: all, or one part of the light, those of a material's lobes that sum up to all but
+ * emission; or one property of what is seen, in numbers as they are. */
+typedef enum WeftPart {
+    WEFT_PART_ALL = 0,
+    WEFT_PART_DIFFUSE,
+    WEFT_PART_SPECULAR,
+    WEFT_PART_SHEEN,
+    WEFT_PART_COAT,
+    WEFT_PART_DUST,
+    WEFT_PART_BASE_COLOR,
+    WEFT_PART_NORMAL,    /* in the world, (n + 1) / 2 */
+    WEFT_PART_ROUGHNESS, /* of the base */
+    WEFT_PART_SHEEN_COLOR,
+    WEFT_PART_SHEEN_ROUGHNESS,
+    WEFT_PART_TEXCOORD, /* UV set 0, less its whole part */
+    WEFT_PART_COUNT
+} WeftPart;
+
+/* "all", "diffuse" and so on; NULL out of range. */
+WEFT_API const char *weft_part_name(int part);
+
 /* Zero means default, in every member. */
 typedef struct WeftRasterView {
     int width, height;  /* pixels, 1 .. 16384; 0: 960 x 720 */
@@ -96,7 +117,9 @@ typedef struct WeftRasterView {
     float background_color[3];
     WeftAmbient ambient;
     int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
-    int no_shadows;     /* not 0: lights reach every point that faces them */
+    int no_shadows; /* not 0: lights reach every point that faces them */
+    WeftPart part;
+    int crop[4];        /* x, y, width, height from the top left: nothing else is drawn; all 0: everything */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
 } WeftRasterView;
 

@@ -54,12 +54,18 @@ typedef struct WeftRender WeftRender;
 WEFT_API WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
                                        WeftError *error);
 
+/* What of the scene was changed since a render was made or last restarted: a sum of these. The environment is
+ * a light; a polygon light is a shape too. */
+enum { WEFT_CHANGED_MATERIALS = 1, WEFT_CHANGED_LIGHTS = 2, WEFT_CHANGED_SHAPES = 4 };
+
+/* Begins again from no samples, with another descriptor; what did not change is kept: after a change of the
+ * descriptor alone nothing is built. Fails as weft_render_create does; the render can then only be restarted
+ * with all of them changed, or freed. */
+WEFT_API WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
+                                        WeftError *error);
+
 /* render may be NULL. */
 WEFT_API void weft_render_free(WeftRender *render);
-
-/* Called now and then, from the thread that called weft_render_run, with the finished share of the samples
- * asked for, in [0, 1]. A result other than 0 stops the render soon. */
-typedef int (*WeftProgress)(void *user, double fraction);
 
 /* While this runs, from whichever thread, only the progress callback's arguments may be used:
  * weft_render_info and weft_render_image read what the render writes, so they wait until it has returned.

@@ -19,6 +19,14 @@ typedef struct WeftScene WeftScene;
  * is owned by the caller: release it with weft_scene_free. */
 WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error);
 
+/* Called now and then from the thread that made the call it was given to, with the finished share in [0, 1].
+ * A result other than 0 stops the work soon. */
+typedef int (*WeftProgress)(void *user, double fraction);
+
+/* weft_scene_load, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
+WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user,
+                                            WeftScene **out, const WeftLog *log, WeftError *error);
+
 /* The same from size bytes of a .glb, or of a .gltf that refers to no other file. */
 WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                            const WeftLog *log, WeftError *error);
@@ -103,21 +111,43 @@ WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float
 typedef enum WeftLightKind {
     WEFT_LIGHT_DIRECTIONAL = 0,
     WEFT_LIGHT_POINT = 1,
-    WEFT_LIGHT_SPOT = 2
+    WEFT_LIGHT_SPOT = 2,
+    WEFT_LIGHT_POLYGON = 3 /* flat, shines to one side */
 } WeftLightKind;
 
 /* A punctual light, that of KHR_lights_punctual (Khronos Group, 2018-2020) in radiometric units. */
 typedef struct WeftLight {
     WeftLightKind kind;
-    float position[3];  /* m; point, spot */
-    float direction[3]; /* that it travels, of any length but 0; directional, spot */
-    float color[3];     /* >= 0: W/m^2 across the beam (directional) or W/sr (point, spot) */
-    float range;        /* m, where it ends; 0: nowhere */
+    float position[3];  /* m; point, spot, middle of a polygon */
+    float direction[3]; /* that it travels, of any length but 0; directional, spot, polygon: its normal */
+    float color[3]; /* >= 0: W/m^2 across the beam (directional), W/sr (point, spot), radiance (polygon) */
+    float range;    /* m, where it ends; 0: nowhere */
     float inner, outer; /* spot: degrees from the axis, 0 <= inner <= outer <= 90; outer 0: 45 */
+    float size[2];      /* polygon: m, along its two axes, > 0; the first one is level */
+    int corners;        /* polygon: 3 .. 8, on the ellipse that fills size; 4 is the rectangle; 0: 4 */
+    float roll;         /* polygon: degrees about its normal, from level */
 } WeftLight;
 
-/* Adds it to the scene. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+/* Adds it to the scene, behind those that it has. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_scene_add_light(WeftScene *scene, const WeftLight *light, WeftError *error);
+
+/* The lights of the scene by index, WeftSceneInfo.light_count of them: those of its file, then those that
+ * were added. What shines because its material does is a mesh and not among them. All fail with
+ * WEFT_MESSAGE_DESC where there is no such light; weft_scene_put_light as weft_scene_add_light does. */
+WEFT_API WeftResult weft_scene_light(const WeftScene *scene, int index, WeftLight *out, WeftError *error);
+WEFT_API WeftResult weft_scene_put_light(WeftScene *scene, int index, const WeftLight *light,
+                                         WeftError *error);
+WEFT_API WeftResult weft_scene_remove_light(WeftScene *scene, int index, WeftError *error);
+
+/* A camera in numbers: what text (as WeftRenderDesc.camera) means in a picture of that aspect, width over
+ * height. fov is vertical, degrees, 0 of an orthographic one. Fails with WEFT_MESSAGE_CAMERA_NAME. */
+typedef struct WeftCamera {
+    float eye[3], target[3], up[3]; /* target: where its axis passes the middle of the scene */
+    float fov;
+} WeftCamera;
+
+WEFT_API WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,
+                                      WeftError *error);
 
 #ifdef __cplusplus
 }

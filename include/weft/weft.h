@@ -8,10 +8,13 @@
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"
+#include "weft/material.h"
 #include "weft/measure.h"
+#include "weft/pick.h"
 #include "weft/raster.h"
 #include "weft/render.h"
 #include "weft/result.h"
+#include "weft/save.h"
 #include "weft/scene.h"
 #include "weft/sheet.h"
 
