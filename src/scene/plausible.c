@@ -74,30 +74,48 @@ static const struct {
     {CHOICE_workflow, "free", "nothing takes from anything: more light may leave than came"},
 };
 
-static bool concerns(const Limit *limit, const Material *material, int input) {
-    int workflow = material->choices[CHOICE_workflow] == CHOICE_AUTO ? 0 : material->choices[CHOICE_workflow];
-    bool named = false, textured = false;
-    for (int k = 0; k < 3 && limit->inputs[k] >= 0; k++) {
-        named |= limit->inputs[k] == input;
-        textured |= material->inputs[limit->inputs[k]].texture != 0;
-    }
-    return named && !textured && strcmp(choice_id(CHOICE_workflow, workflow), limit->workflow) == 0;
+static bool concerns(const Limit *limit, int input) {
+    bool named = false;
+    for (int k = 0; k < 3 && limit->inputs[k] >= 0; k++) named |= limit->inputs[k] == input;
+    return named;
 }
 
-void plausible_check(const Material *material, int input, int choice, const char *target,
-                     const WeftLog *log) {
-    for (size_t k = 0; input >= 0 && k < sizeof limits / sizeof *limits; k++) {
-        const Limit *limit = &limits[k];
-        if (!concerns(limit, material, input)) continue;
-        float found = limit->measure(material);
-        if (found < limit->low - 1e-6f || found > limit->high + 1e-6f)
-            warn(log, WEFT_MESSAGE_PLAUSIBLE, target,
-                 limit->low < limit->high ? "%s %.3g, not in %g .. %g" : "%s %.3g, not %g", limit->what,
-                 (double)found, (double)limit->low, (double)limit->high);
-    }
-    for (size_t k = 0; choice >= 0 && k < sizeof gains / sizeof *gains; k++) {
+/* Whether it speaks of this material: of its workflow, and of numbers alone. */
+static bool applies(const Limit *limit, const Material *material) {
+    int workflow = material->choices[CHOICE_workflow] == CHOICE_AUTO ? 0 : material->choices[CHOICE_workflow];
+    bool textured = false;
+    for (int k = 0; k < 3 && limit->inputs[k] >= 0; k++)
+        textured |= material->inputs[limit->inputs[k]].texture != 0;
+    return !textured && strcmp(choice_id(CHOICE_workflow, workflow), limit->workflow) == 0;
+}
+
+static void check_limit(const Limit *limit, const Material *material, const char *target,
+                        const WeftLog *log) {
+    if (!applies(limit, material)) return;
+    float found = limit->measure(material);
+    if (found < limit->low - 1e-6f || found > limit->high + 1e-6f)
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target,
+             limit->low < limit->high ? "%s %.3g, not in %g .. %g" : "%s %.3g, not %g", limit->what,
+             (double)found, (double)limit->low, (double)limit->high);
+}
+
+static void check_gains(const Material *material, int choice, const char *target, const WeftLog *log) {
+    for (size_t k = 0; k < sizeof gains / sizeof *gains; k++) {
         const char *id = choice_id((ChoiceId)choice, material->choices[choice]);
         if ((int)gains[k].choice == choice && id && strcmp(id, gains[k].id) == 0)
             warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s: %s", id, gains[k].text);
     }
+}
+
+void plausible_check(const Material *material, int input, int choice, const char *target,
+                     const WeftLog *log) {
+    for (size_t k = 0; input >= 0 && k < sizeof limits / sizeof *limits; k++)
+        if (concerns(&limits[k], input)) check_limit(&limits[k], material, target, log);
+    if (choice >= 0) check_gains(material, choice, target, log);
+}
+
+void plausible_check_all(const Material *material, const char *target, const WeftLog *log) {
+    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++)
+        check_limit(&limits[k], material, target, log);
+    for (int k = 0; k < CHOICE_COUNT; k++) check_gains(material, k, target, log);
 }

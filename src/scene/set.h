@@ -22,4 +22,7 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
 /* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
 void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
 
+/* The same of all settings, each thing once. */
+void plausible_check_all(const Material *material, const char *target, const WeftLog *log);
+
 #endif

@@ -1,0 +1,15 @@
+/* material_numbers.h - a Material as the plain numbers of weft/material.h, and back */
+#ifndef WEFT_SCENE_MATERIAL_NUMBERS_H
+#define WEFT_SCENE_MATERIAL_NUMBERS_H
+
+#include "scene/scene.h"
+#include "weft/material.h"
+
+/* What a caller hands over may be anything: numbers become finite and keep to their hard range, choices and
+ * modes that there are not become auto and opaque. The name is "". Textures are not looked at. */
+Material material_of_numbers(const WeftMaterial *numbers);
+
+/* A value clamped to the hard range of an input, angles in radians; NaN becomes its lower end. */
+float input_clamped(InputId input, float value);
+
+#endif
