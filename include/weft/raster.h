@@ -168,6 +168,8 @@ typedef struct WeftRasterInfo {
     int samplers;       /* the most that one program has */
     int samples;        /* a pixel, of the last picture */
     double compile_seconds;
+    int making; /* not 0: something is being made in the background (weft_raster_settle waits for it) */
+    int made;   /* not 0: and the next picture has it */
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
     /* What is wrong with a text that does not compile, from its file and line on; empty while all is well. */
     char complaint[512];

@@ -104,6 +104,9 @@ WEFT_API WeftResult weft_scene_set_environment_file(WeftScene *scene, const char
 WEFT_API WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[3],
                                                      WeftError *error);
 
+/* Lights the scene by the studio again, as one that was just loaded. */
+WEFT_API WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftError *error);
+
 /* Turns the environment about +y (degrees) and scales it. */
 WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                          WeftError *error);

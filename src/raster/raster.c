@@ -605,6 +605,8 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .compiled = self->programs.compiled,
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
+    info.making = self->occlusion != NULL;
+    info.made = self->occlusion && occlusion_values(self->occlusion, false);
     camera_tell(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {
         info.programs += p->name != 0;

@@ -127,6 +127,18 @@ WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[
     return WEFT_OK;
 }
 
+WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftError *error) {
+    WeftImage image;
+    WeftResult result = environment_studio(&image, error);
+    if (result != WEFT_OK) return result;
+    weft_image_free(&scene->environment.image);
+    scene->environment.kind = ENVIRONMENT_STUDIO;
+    scene->environment.image = image;
+    scene->environment.turn++;
+    environment_give_way(scene);
+    return WEFT_OK;
+}
+
 WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                 WeftError *error) {
     if (!isfinite(rotation)) return fail(error, WEFT_MESSAGE_DESC, "environment rotation", NULL);

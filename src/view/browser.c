@@ -1,0 +1,138 @@
+#define _XOPEN_SOURCE 700
+#include "view/browser.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "view/paths.h"
+#include "view/ui.h"
+
+enum { PATH = 1024, NAME = 256, ENTRIES = 4096 };
+
+typedef struct Entry {
+    char name[NAME];
+    bool folder;
+} Entry;
+
+struct Browser {
+    char folder[PATH], typed[PATH], chosen[2 * PATH];
+    Entry *entries;
+    int count;
+    bool more; /* than are listed */
+    bool everything;
+    char failure[200];
+};
+
+static int by_name(const void *a, const void *b) {
+    const Entry *x = a, *y = b;
+    if (x->folder != y->folder) return x->folder ? -1 : 1;
+    return strcasecmp(x->name, y->name);
+}
+
+static bool is_folder(const Browser *self, const struct dirent *d) {
+    char path[PATH + NAME + 2];
+    struct stat s;
+    snprintf(path, sizeof path, "%s/%s", self->folder, d->d_name);
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+static void list(Browser *self) {
+    DIR *dir = opendir(self->folder);
+    self->count = 0;
+    self->more = false;
+    self->failure[0] = '\0';
+    snprintf(self->typed, sizeof self->typed, "%s", self->folder);
+    if (!dir) {
+        snprintf(self->failure, sizeof self->failure, "this folder cannot be opened");
+        return;
+    }
+    for (const struct dirent *d; (d = readdir(dir));) {
+        if (d->d_name[0] == '.' || strlen(d->d_name) >= NAME) continue;
+        bool folder = is_folder(self, d);
+        if (!folder && !self->everything && path_kind(d->d_name) == PATH_UNKNOWN) continue;
+        if (self->count == ENTRIES) {
+            self->more = true;
+            break;
+        }
+        strcpy(self->entries[self->count].name, d->d_name);
+        self->entries[self->count++].folder = folder;
+    }
+    closedir(dir);
+    qsort(self->entries, (size_t)self->count, sizeof *self->entries, by_name);
+}
+
+static bool enter(Browser *self, const char *folder) {
+    char real[4096];
+    if (!realpath(folder, real) || strlen(real) >= PATH) return false;
+    strcpy(self->folder, real);
+    list(self);
+    return true;
+}
+
+Browser *browser_create(const char *folder) {
+    Browser *self = calloc(1, sizeof *self);
+    if (self) self->entries = calloc(ENTRIES, sizeof *self->entries);
+    if (!self || !self->entries) {
+        free(self);
+        return NULL;
+    }
+    if (!(folder && folder[0] && enter(self, folder)) && !enter(self, ".")) strcpy(self->folder, "/");
+    return self;
+}
+
+void browser_free(Browser *self) {
+    if (self) free(self->entries);
+    free(self);
+}
+
+const char *browser_folder(const Browser *self) { return self->folder; }
+
+static const char *choose(Browser *self, const char *path) {
+    struct stat s;
+    if (stat(path, &s) == 0 && S_ISDIR(s.st_mode)) {
+        if (!enter(self, path)) snprintf(self->failure, sizeof self->failure, "this folder cannot be opened");
+        return NULL;
+    }
+    snprintf(self->chosen, sizeof self->chosen, "%s", path);
+    return self->chosen;
+}
+
+const char *browser_draw(Browser *self, float height) {
+    const char *chosen = NULL;
+    char path[PATH + NAME + 2];
+    if (ui_button("Up")) {
+        snprintf(path, sizeof path, "%s/..", self->folder);
+        choose(self, path);
+    }
+    ui_tip("To the folder that this one is in.");
+    ui_same_line();
+    if (ui_button("Read again")) list(self);
+    ui_tip("Looks at the disk again.");
+    ui_same_line();
+    if (ui_checkbox("All files", &self->everything)) list(self);
+    ui_tip("Lists what cannot be opened, too.");
+    if (ui_input("##path", self->typed, PATH)) chosen = choose(self, self->typed);
+    ui_tip("A path to type: Enter opens it.");
+    if (self->failure[0]) ui_warning(self->failure);
+    if (ui_list("files", height - 3.2f * ui_line_height())) {
+        for (int k = 0; k < self->count && !chosen; k++) {
+            const Entry *entry = &self->entries[k];
+            char label[NAME + 4];
+            snprintf(label, sizeof label, "%s%s", entry->name, entry->folder ? "/" : "");
+            if (!ui_selectable(label, false)) continue;
+            snprintf(path, sizeof path, "%s/%s", strcmp(self->folder, "/") == 0 ? "" : self->folder,
+                     entry->name);
+            chosen = choose(self, path);
+            break; /* the list may be another one */
+        }
+        if (self->more) ui_dim("... and more, which are not listed");
+        if (!self->count && !self->failure[0]) ui_dim("nothing here that can be opened");
+    }
+    ui_list_end();
+    return chosen;
+}

@@ -1,0 +1,19 @@
+/* browser.h - choosing a file without a desktop's help: folders and files in a list */
+#ifndef WEFT_VIEW_BROWSER_H
+#define WEFT_VIEW_BROWSER_H
+
+#include <stdbool.h>
+
+typedef struct Browser Browser;
+
+/* In a folder; NULL or what is not there: the one the program runs in. NULL where memory is short. */
+Browser *browser_create(const char *folder);
+void browser_free(Browser *browser);
+
+const char *browser_folder(const Browser *browser);
+
+/* Draws it in what is left of a dialog, `height` pixels high. Returns a path once one is chosen, valid until
+ * the next call. */
+const char *browser_draw(Browser *browser, float height);
+
+#endif

@@ -1,0 +1,12 @@
+/* help.h - what the catalogue's own files say about a choice: what one sees, formula, source */
+#ifndef WEFT_VIEW_HELP_H
+#define WEFT_VIEW_HELP_H
+
+/* The comment at the head of the file of that value, as plain lines; of value -1 (auto) what a choice is
+ * about. "" where there is none. Valid until the next call. */
+const char *help_choice(int choice, int value);
+
+/* Of an input: what it is, its range and what resets it. Valid until the next call. */
+const char *help_input(int input);
+
+#endif

@@ -1,0 +1,12 @@
+/* inputs.h - a material's inputs and choices by name */
+#ifndef WEFT_VIEW_INPUTS_H
+#define WEFT_VIEW_INPUTS_H
+
+/* Their numbers; -1 where there is no such. */
+int input_number(const char *name);
+int choice_number(const char *name);
+
+/* How many values a choice has. */
+int choice_values(int choice);
+
+#endif

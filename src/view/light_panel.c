@@ -1,0 +1,203 @@
+/* The lights: those with a place, and the one from far away. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "view/viewer.h"
+
+static const char *const kinds[] = {"sun", "point", "spot", "polygon"};
+static const char *const kind_helps[] = {
+    "Parallel light from far away: its colour is irradiance across the beam, W/m^2.",
+    "Light from a point: its colour is radiant intensity, W/sr, and falls with the square of the distance.",
+    "A point light within a cone.",
+    "A flat light of a few corners: its colour is radiance, W/(m^2 sr). OpenGL draws it by linearly "
+    "transformed "
+    "cosines (Heitz et al. 2016)."};
+
+static const char *light_name(const void *user, int k) {
+    static char text[64];
+    const Viewer *v = user;
+    snprintf(text, sizeof text, "%d: %s", k + 1, kinds[v->look.lights[k].kind]);
+    return text;
+}
+
+/* A new one shines from above the eye onto the middle of the scene. */
+static void add_light(Viewer *v, WeftLightKind kind) {
+    if (v->look.light_count == LOOK_LIGHTS) {
+        viewer_say(v, true, "no more than %d lights", LOOK_LIGHTS);
+        return;
+    }
+    WeftLight light;
+    float size = 0.0f, far = 0.0f;
+    memset(&light, 0, sizeof light); /* compared byte by byte */
+    light.kind = kind;
+    for (int k = 0; k < 3; k++) {
+        float middle = 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]), d = v->orbit.eye[k] - middle;
+        size = fmaxf(size, v->facts.info.high[k] - v->facts.info.low[k]);
+        light.position[k] = middle + 0.6f * d;
+        far += d * d;
+    }
+    light.position[1] += 0.7f * size;
+    for (int k = 0; k < 3; k++)
+        light.direction[k] = 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]) - light.position[k];
+    float r2 = light.direction[0] * light.direction[0] + light.direction[1] * light.direction[1] +
+               light.direction[2] * light.direction[2];
+    float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f : kind == WEFT_LIGHT_POLYGON ? 12.0f : 3.0f * r2;
+    for (int k = 0; k < 3; k++) light.color[k] = color;
+    light.size[0] = light.size[1] = 0.5f * size;
+    light.corners = kind == WEFT_LIGHT_POLYGON ? 4 : 0;
+    if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
+    v->light = v->look.light_count;
+    v->look.lights[v->look.light_count++] = light;
+}
+
+static void remove_light(Viewer *v) {
+    WeftLight *lights = v->look.lights;
+    v->look.light_count--;
+    memmove(lights + v->light, lights + v->light + 1,
+            (size_t)(v->look.light_count - v->light) * sizeof *lights);
+    memset(&lights[v->look.light_count], 0, sizeof *lights);
+    if (v->light > 0) v->light--;
+}
+
+/* Colour and strength: the greatest channel is the strength. */
+static void draw_color(WeftLight *l) {
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    static const UiRange range = {0.01f, 1000.0f, 1.0f, NULL, true};
+    float most = fmaxf(l->color[0], fmaxf(l->color[1], l->color[2])), tint[3];
+    for (int c = 0; c < 3; c++) tint[c] = most > 0.0f ? l->color[c] / most : 1.0f;
+    bool changed = ui_color("colour", white, tint);
+    ui_tip("The tint of the light; its strongest channel counts as 1.");
+    changed |= ui_slider("intensity", &range, &most);
+    ui_tip(kind_helps[l->kind]);
+    float top = fmaxf(tint[0], fmaxf(tint[1], tint[2]));
+    for (int c = 0; c < 3 && changed; c++)
+        l->color[c] = fminf(fmaxf(most * tint[c] / fmaxf(top, 1e-6f), 0.0f), 1e6f);
+}
+
+static void draw_place(WeftLight *l) {
+    if (l->kind != WEFT_LIGHT_DIRECTIONAL) {
+        ui_numbers("position", 0.01f, l->position, 3);
+        ui_tip("Metres, x, y (up), z. The light can be dragged in the picture, too.");
+    }
+    if (l->kind != WEFT_LIGHT_POINT) {
+        float kept[3];
+        memcpy(kept, l->direction, sizeof kept);
+        ui_numbers("direction", 0.01f, l->direction, 3);
+        ui_tip("Where it shines, of any length.");
+        const float *d = l->direction;
+        if (!(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > 1e-12f)) memcpy(l->direction, kept, sizeof kept);
+    }
+}
+
+static void draw_shape(WeftLight *l) {
+    static const UiRange cone = {0.0f, 90.0f, 30.0f, "deg", false}, size = {0.01f, 10.0f, 1.0f, "m", true};
+    static const UiRange roll = {-180.0f, 180.0f, 0.0f, "deg", false};
+    if (l->kind == WEFT_LIGHT_SPOT) {
+        ui_slider("inner cone", &cone, &l->inner);
+        ui_tip("Full up to this angle from its axis.");
+        ui_slider("outer cone", &cone, &l->outer);
+        ui_tip("Nothing from this angle on.");
+        l->outer = fminf(fmaxf(l->outer, 0.1f), 90.0f);
+        l->inner = fminf(fmaxf(l->inner, 0.0f), l->outer);
+    }
+    if (l->kind != WEFT_LIGHT_POLYGON) return;
+    ui_slider("width", &size, &l->size[0]);
+    ui_tip("Metres, along its level axis.");
+    ui_slider("height", &size, &l->size[1]);
+    ui_tip("Metres, across it.");
+    ui_slider("roll", &roll, &l->roll);
+    ui_tip("Turns it about its normal.");
+    ui_slider_int("corners", 3, 8, &l->corners);
+    ui_tip("Of the polygon: 4 is a rectangle, 8 nearly an ellipse.");
+    l->corners = l->corners < 3 ? 3 : l->corners > 8 ? 8 : l->corners;
+    for (int k = 0; k < 2; k++) l->size[k] = fminf(fmaxf(l->size[k], 1e-3f), 1e4f);
+}
+
+static void draw_lights(Viewer *v) {
+    for (int k = 0; k < 4; k++) {
+        char label[32];
+        if (k) ui_same_line();
+        snprintf(label, sizeof label, "+ %s", kinds[k]);
+        if (ui_button(label)) add_light(v, (WeftLightKind)k);
+        ui_tip(kind_helps[k]);
+    }
+    if (!v->look.light_count) {
+        ui_dim("No light of its own: what is seen is lit from far away alone.");
+        return;
+    }
+    if (v->light >= v->look.light_count) v->light = v->look.light_count - 1;
+    const UiChoices lights = {v->look.light_count, light_name, NULL, v};
+    ui_choice("light", &lights, &v->light);
+    ui_tip("The light that is edited; its handle in the picture moves it.");
+    WeftLight *l = &v->look.lights[v->light];
+    draw_color(l);
+    draw_place(l);
+    draw_shape(l);
+    if (ui_button("Remove")) remove_light(v);
+    ui_tip("Takes this light away; Ctrl+Z brings it back.");
+}
+
+static const char *around_name(const void *user, int k) {
+    static const char *const names[] = {"studio", "picture", "colour"};
+    return names[k];
+}
+static const char *around_help(const void *user, int k) {
+    static const char *const helps[] = {
+        "The built-in soft boxes.",
+        "A lat-long picture (.hdr, .exr), or the folder of a cubemap: open or drop one.",
+        "One radiance from everywhere: the furnace, when it is 1."};
+    return helps[k];
+}
+
+static void draw_around(Viewer *v) {
+    static const UiRange turn = {-180.0f, 180.0f, 0.0f, "deg", false},
+                         strength = {0.0f, 4.0f, 1.0f, NULL, false};
+    static const float grey[3] = {1.0f, 1.0f, 1.0f};
+    const UiChoices rows = {3, around_name, around_help, NULL};
+    Around *a = &v->look.around;
+    int kind = (int)a->kind;
+    if (ui_choice("source", &rows, &kind)) {
+        if (kind == AROUND_FILE && !a->path[0]) {
+            viewer_dialog(v, "Open");
+        } else {
+            if (kind == AROUND_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
+                a->color[0] = a->color[1] = a->color[2] = 1.0f;
+            a->kind = (AroundKind)kind;
+        }
+    }
+    if (a->kind == AROUND_FILE) ui_dim(a->path);
+    if (a->kind == AROUND_COLOR) {
+        ui_color("radiance", grey, a->color);
+        ui_tip("W/(m^2 sr), linear.");
+    }
+    ui_slider("rotation", &turn, &a->rotation);
+    ui_tip("About the vertical. Ctrl-drag on the picture does it, too.");
+    ui_slider("strength", &strength, &a->strength);
+    ui_tip("A factor on all that comes from far away: ambient light and reflections alike, as in the path "
+           "tracer.");
+    a->strength = fminf(fmaxf(a->strength, 0.0f), 1e6f);
+}
+
+static const char *ambient_name(const void *user, int k) {
+    static const char *const names[] = {"best", "irradiance", "mirror", "fitted", "none"};
+    return names[k];
+}
+static const char *ambient_help(const void *user, int k) {
+    static const char *const helps[] = {
+        "For each lobe the one that is nearest to the path tracer.",
+        "Irradiance times albedo: the cheapest, and for many engines all there is.",
+        "One look-up where a mirror would look, as engines do.",
+        "Lamps for what is bright, and a few look-ups fitted to the lobe.", "No light from far away."};
+    return helps[k];
+}
+
+void light_panel(Viewer *v) {
+    if (ui_section("Lights", true)) draw_lights(v);
+    if (ui_section("From far away", true)) {
+        draw_around(v);
+        const UiChoices rows = {5, ambient_name, ambient_help, NULL};
+        int ambient = (int)v->ambient;
+        if (ui_choice("by OpenGL", &rows, &ambient)) v->ambient = (WeftAmbient)ambient;
+    }
+}

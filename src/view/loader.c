@@ -1,0 +1,136 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/loader.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "weft/weft.h"
+
+struct Loader {
+    Window *window;
+    const ViewDesc *desc;
+    pthread_t thread;
+    atomic_int thousandths; /* done; -1: unknown */
+    atomic_bool done, stop;
+    Loaded loaded;
+};
+
+typedef const char *NameOf(const WeftScene *scene, int index);
+
+static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, const char *kind) {
+    FactName *names = calloc((size_t)count + 1, sizeof *names);
+    for (int k = 0; k < count && names; k++) {
+        const char *text = name(scene, k);
+        if (text && text[0])
+            snprintf(names[k], FACTS_NAME, "%s", text);
+        else
+            snprintf(names[k], FACTS_NAME, "%s %d", kind, k);
+    }
+    return names;
+}
+
+bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
+    *facts = (Facts){.info = weft_scene_info(scene)};
+    snprintf(facts->path, sizeof facts->path, "%s", path);
+    facts->materials = copy_names(scene, facts->info.material_count, weft_scene_material_name, "material");
+    facts->cameras = copy_names(scene, facts->info.camera_count, weft_scene_camera_name, "camera");
+    facts->variants = copy_names(scene, facts->info.variant_count, weft_scene_variant_name, "variant");
+    if (facts->materials && facts->cameras && facts->variants) return true;
+    facts_free(facts);
+    return false;
+}
+
+void facts_free(Facts *facts) {
+    free(facts->materials);
+    free(facts->cameras);
+    free(facts->variants);
+    *facts = (Facts){0};
+}
+
+static void on_said(void *user, WeftMessage message, const char *text) {
+    Loaded *loaded = user;
+    size_t used = loaded->said ? strlen(loaded->said) : 0;
+    if (used > 16384) return;
+    char *grown = realloc(loaded->said, used + strlen(text) + 2);
+    if (!grown) return;
+    loaded->said = grown;
+    sprintf(grown + used, "%s\n", text);
+}
+
+static int on_progress(void *user, double fraction) {
+    Loader *self = user;
+    atomic_store(&self->thousandths, (int)(1000.0 * fraction));
+    window_wake(self->window);
+    return atomic_load(&self->stop);
+}
+
+static WeftResult load(Loader *self, WeftError *error) {
+    Loaded *loaded = &self->loaded;
+    const WeftLog log = {on_said, loaded};
+    const ViewDesc *desc = self->desc;
+    Around around = {.strength = 1.0f};
+    WeftResult result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
+    if (result == WEFT_OK && desc->dress)
+        result = desc->dress(desc->user, loaded->scene, &around, &log, error);
+    if (result != WEFT_OK) return result;
+    if (!look_read(&loaded->look, loaded->scene) ||
+        !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
+        snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
+        return WEFT_RESOURCES;
+    }
+    loaded->look.around = around;
+    return WEFT_OK;
+}
+
+static void *work(void *user) {
+    Loader *self = user;
+    WeftError error = {0};
+    if (load(self, &error) != WEFT_OK) {
+        weft_scene_free(self->loaded.scene);
+        self->loaded.scene = NULL;
+        snprintf(self->loaded.failure, sizeof self->loaded.failure, "%s", error.text);
+    }
+    atomic_store(&self->done, true);
+    window_wake(self->window);
+    return NULL;
+}
+
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again) {
+    Loader *self = calloc(1, sizeof *self);
+    if (!self) return NULL;
+    self->window = window;
+    self->desc = desc;
+    self->loaded.again = again;
+    snprintf(self->loaded.path, sizeof self->loaded.path, "%s", path);
+    atomic_init(&self->thousandths, -1);
+    atomic_init(&self->done, false);
+    atomic_init(&self->stop, false);
+    if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
+    free(self);
+    return NULL;
+}
+
+float loader_share(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
+
+bool loader_done(Loader *self) { return atomic_load(&self->done); }
+
+void loader_finish(Loader *self, Loaded *loaded) {
+    atomic_store(&self->stop, true);
+    pthread_join(self->thread, NULL);
+    if (loaded)
+        *loaded = self->loaded;
+    else
+        loaded_free(&self->loaded);
+    free(self);
+}
+
+void loaded_free(Loaded *loaded) {
+    weft_scene_free(loaded->scene);
+    look_free(&loaded->look);
+    facts_free(&loaded->facts);
+    free(loaded->said);
+    *loaded = (Loaded){0};
+}

@@ -1,0 +1,48 @@
+/* loader.h - reads a scene in a thread of its own, with progress */
+#ifndef WEFT_VIEW_LOADER_H
+#define WEFT_VIEW_LOADER_H
+
+#include "view/look.h"
+#include "view/view.h"
+#include "view/window.h"
+
+enum { FACTS_NAME = 64, FACTS_MOST = 512 };
+
+typedef char FactName[FACTS_NAME];
+
+/* What there is in a scene: copies, since the scene is the painter's. */
+typedef struct Facts {
+    char path[LOOK_PATH];
+    FactName *materials, *cameras, *variants; /* owned */
+    WeftSceneInfo info;
+} Facts;
+
+/* Of a scene from path. False where memory is short. */
+bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
+void facts_free(Facts *facts);
+
+typedef struct Loader Loader;
+
+/* What has been loaded, or why not. */
+typedef struct Loaded {
+    WeftScene *scene; /* owned; NULL on failure */
+    Look look;        /* owned; what it is dressed as */
+    Facts facts;      /* owned */
+    char path[LOOK_PATH];
+    char failure[512];
+    char *said; /* warnings, one a line; owned, may be NULL */
+    bool again; /* it is the scene that was there, read anew */
+} Loaded;
+
+/* desc.dress is called in that thread. NULL where memory is short. */
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again);
+
+/* The finished share, or -1 while it is not known. */
+float loader_share(Loader *loader);
+bool loader_done(Loader *loader);
+
+/* Gives up what is not done, and takes what is (loaded may be NULL: dropped). The loader is gone. */
+void loader_finish(Loader *loader, Loaded *loaded);
+void loaded_free(Loaded *loaded);
+
+#endif

@@ -1,0 +1,260 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/look.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/inputs.h"
+
+struct LookMaterial {
+    atomic_int users;
+    WeftMaterial is;
+};
+
+struct Nap {
+    atomic_int users;
+    int material;
+    WeftImage image;
+};
+
+static void material_drop(LookMaterial *m) {
+    if (m && atomic_fetch_sub(&m->users, 1) == 1) free(m);
+}
+
+void nap_free(Nap *nap) {
+    if (!nap || atomic_fetch_sub(&nap->users, 1) != 1) return;
+    weft_image_free(&nap->image);
+    free(nap);
+}
+
+static LookMaterial *material_make(const WeftMaterial *is) {
+    LookMaterial *m = calloc(1, sizeof *m);
+    if (!m) return NULL;
+    atomic_init(&m->users, 1);
+    m->is = *is;
+    return m;
+}
+
+static bool read_lights(Look *look, const WeftScene *scene) {
+    int count = weft_scene_info(scene).light_count;
+    look->light_count = count < LOOK_LIGHTS ? count : LOOK_LIGHTS;
+    for (int k = 0; k < look->light_count; k++)
+        if (weft_scene_light(scene, k, &look->lights[k], NULL) != WEFT_OK) return false;
+    return true;
+}
+
+bool look_read(Look *look, const WeftScene *scene) {
+    int count = weft_scene_info(scene).material_count;
+    *look = (Look){.around = {.strength = 1.0f}};
+    look->materials = calloc((size_t)count + 1, sizeof *look->materials);
+    bool whole = look->materials != NULL;
+    for (int k = 0; k < count && whole; k++) {
+        WeftMaterial is;
+        whole = weft_scene_material(scene, k, &is, NULL) == WEFT_OK &&
+                (look->materials[k] = material_make(&is)) != NULL;
+        look->material_count += whole;
+    }
+    if (whole) whole = read_lights(look, scene);
+    if (!whole) look_free(look);
+    return whole;
+}
+
+bool look_copy(Look *copy, const Look *look) {
+    LookMaterial **materials = calloc((size_t)look->material_count + 1, sizeof *materials);
+    if (!materials) return false;
+    for (int k = 0; k < look->material_count; k++) {
+        materials[k] = look->materials[k];
+        atomic_fetch_add(&materials[k]->users, 1);
+    }
+    for (int k = 0; k < LOOK_NAPS; k++)
+        if (look->naps[k]) atomic_fetch_add(&look->naps[k]->users, 1);
+    *copy = *look;
+    copy->materials = materials;
+    return true;
+}
+
+void look_free(Look *look) {
+    for (int k = 0; k < look->material_count; k++) material_drop(look->materials[k]);
+    for (int k = 0; k < LOOK_NAPS; k++) nap_free(look->naps[k]);
+    free(look->materials);
+    *look = (Look){0};
+}
+
+bool look_same_material(const Look *a, const Look *b, int k) {
+    return a->materials[k] == b->materials[k] ||
+           memcmp(&a->materials[k]->is, &b->materials[k]->is, sizeof a->materials[k]->is) == 0;
+}
+
+static bool same_lights(const Look *a, const Look *b) {
+    return a->light_count == b->light_count &&
+           memcmp(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights) == 0;
+}
+
+static bool same_source(const Around *a, const Around *b) {
+    return a->kind == b->kind && strcmp(a->path, b->path) == 0 && a->again == b->again &&
+           memcmp(a->color, b->color, sizeof a->color) == 0;
+}
+
+static bool same_around(const Around *a, const Around *b) {
+    return same_source(a, b) && !(a->rotation < b->rotation) && !(a->rotation > b->rotation) &&
+           !(a->strength < b->strength) && !(a->strength > b->strength);
+}
+
+bool look_same(const Look *a, const Look *b) {
+    bool same = a->material_count == b->material_count && same_lights(a, b) &&
+                same_around(&a->around, &b->around) && memcmp(a->naps, b->naps, sizeof a->naps) == 0;
+    for (int k = 0; same && k < a->material_count; k++) same = look_same_material(a, b, k);
+    return same;
+}
+
+const WeftMaterial *look_material(const Look *look, int k) { return &look->materials[k]->is; }
+
+bool look_set_material(Look *look, int k, const WeftMaterial *material) {
+    if (memcmp(&look->materials[k]->is, material, sizeof *material) == 0) return true;
+    LookMaterial *made = material_make(material);
+    if (!made) return false;
+    material_drop(look->materials[k]);
+    look->materials[k] = made;
+    return true;
+}
+
+static Nap *find_nap(const Look *look, int material) {
+    for (int k = 0; k < LOOK_NAPS; k++)
+        if (look->naps[k] && look->naps[k]->material == material) return look->naps[k];
+    return NULL;
+}
+
+const WeftImage *look_nap(const Look *look, int material) {
+    const Nap *nap = find_nap(look, material);
+    return nap ? &nap->image : NULL;
+}
+
+Nap *nap_copy(const Look *look, int material, WeftImage **image) {
+    const Nap *old = find_nap(look, material);
+    Nap *nap = calloc(1, sizeof *nap);
+    if (!nap || weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, &nap->image, NULL) != WEFT_OK) {
+        free(nap);
+        return NULL;
+    }
+    atomic_init(&nap->users, 1);
+    nap->material = material;
+    unsigned char *p = nap->image.pixels;
+    for (int k = 0; k < NAP_SIDE * NAP_SIDE && !old; k++, p += 3)
+        p[0] = 255, p[1] = p[2] = 128; /* along +u */
+    if (old) memcpy(p, old->image.pixels, (size_t)3 * NAP_SIDE * NAP_SIDE);
+    *image = &nap->image;
+    return nap;
+}
+
+bool look_set_nap(Look *look, Nap *nap) {
+    for (int pass = 0; pass < 2; pass++) /* where it has one already, else where there is room */
+        for (int k = 0; k < LOOK_NAPS; k++) {
+            bool its = look->naps[k] && look->naps[k]->material == nap->material;
+            if (!(its || (pass && !look->naps[k]))) continue;
+            nap_free(look->naps[k]);
+            look->naps[k] = nap;
+            return true;
+        }
+    nap_free(nap);
+    return false;
+}
+
+/* ---- a scene is brought to it ---- */
+
+static int texture_of(const LookWorn *worn, int material) {
+    for (int k = 0; k < worn->count; k++)
+        if (worn->materials[k] == material) return worn->textures[k];
+    return 0;
+}
+
+static WeftResult wear_nap(const Nap *nap, LookWorn *worn, WeftScene *scene, WeftError *error) {
+    WeftImage copy;
+    WeftResult result = weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, &copy, error);
+    if (result != WEFT_OK) return result;
+    memcpy(copy.pixels, nap->image.pixels, (size_t)3 * NAP_SIDE * NAP_SIDE);
+    int texture = texture_of(worn, nap->material);
+    if (texture) {
+        result = weft_scene_put_texture(scene, texture, &copy, error);
+    } else if (worn->count < LOOK_NAPS) {
+        texture = weft_scene_add_texture(scene, &copy, error);
+        if (texture) {
+            worn->materials[worn->count] = nap->material;
+            worn->textures[worn->count++] = texture;
+        } else {
+            result = WEFT_RESOURCES;
+        }
+    }
+    weft_image_free(&copy);
+    return result;
+}
+
+static WeftResult apply_materials(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene,
+                                  unsigned *changed, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < LOOK_NAPS && result == WEFT_OK; k++)
+        if (look->naps[k] && look->naps[k] != find_nap(is, look->naps[k]->material)) {
+            result = wear_nap(look->naps[k], worn, scene, error);
+            *changed |= WEFT_CHANGED_MATERIALS;
+        }
+    for (int k = 0; k < look->material_count && result == WEFT_OK; k++) {
+        const Nap *nap = find_nap(look, k), *was = find_nap(is, k);
+        if (look_same_material(look, is, k) && !nap == !was) continue;
+        WeftMaterial m = look->materials[k]->is;
+        if (nap) {
+            WeftInput *direction = &m.inputs[input_number("nap_direction")];
+            direction->texture = texture_of(worn, k);
+            direction->value[0] = 0.0f;
+        }
+        result = weft_scene_put_material(scene, k, &m, error);
+        *changed |= WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS;
+    }
+    return result;
+}
+
+static WeftResult apply_lights(const Look *look, const Look *is, WeftScene *scene, unsigned *changed,
+                               WeftError *error) {
+    WeftResult result = WEFT_OK;
+    if (same_lights(look, is)) return WEFT_OK;
+    *changed |= WEFT_CHANGED_LIGHTS;
+    for (int k = 0; k < look->light_count || k < is->light_count; k++) {
+        bool shape = (k < look->light_count && look->lights[k].kind == WEFT_LIGHT_POLYGON) ||
+                     (k < is->light_count && is->lights[k].kind == WEFT_LIGHT_POLYGON);
+        if (shape) *changed |= WEFT_CHANGED_SHAPES | WEFT_CHANGED_MATERIALS;
+    }
+    for (int k = is->light_count; k > look->light_count && result == WEFT_OK; k--)
+        result = weft_scene_remove_light(scene, k - 1, error);
+    for (int k = 0; k < look->light_count && result == WEFT_OK; k++)
+        if (k >= is->light_count)
+            result = weft_scene_add_light(scene, &look->lights[k], error);
+        else if (memcmp(&look->lights[k], &is->lights[k], sizeof *look->lights) != 0)
+            result = weft_scene_put_light(scene, k, &look->lights[k], error);
+    return result;
+}
+
+static WeftResult apply_around(const Around *a, const Around *is, WeftScene *scene, unsigned *changed,
+                               const WeftLog *log, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    if (same_around(a, is)) return WEFT_OK;
+    *changed |= WEFT_CHANGED_LIGHTS;
+    if (!same_source(a, is)) {
+        if (a->kind == AROUND_FILE)
+            result = weft_scene_set_environment_file(scene, a->path, log, error);
+        else if (a->kind == AROUND_COLOR)
+            result = weft_scene_set_environment_color(scene, a->color, error);
+        else
+            result = weft_scene_set_environment_studio(scene, error);
+    }
+    return result == WEFT_OK ? weft_scene_set_environment_placement(scene, a->rotation, a->strength, error)
+                             : result;
+}
+
+WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
+                      const WeftLog *log, WeftError *error) {
+    *changed = 0;
+    WeftResult result = apply_materials(look, is, worn, scene, changed, error);
+    if (result == WEFT_OK) result = apply_lights(look, is, scene, changed, error);
+    if (result == WEFT_OK) result = apply_around(&look->around, &is->around, scene, changed, log, error);
+    return result;
+}

@@ -1,0 +1,68 @@
+/* look.h - what a scene is dressed and lit as, as a value: to keep, to compare and to go back to
+ *
+ * A copy shares its parts, which never change once they are made: so a history of looks is small, and that
+ * two are alike is told by pointers. Looks may be read, copied and released in any thread; one look is
+ * changed by one thread. */
+#ifndef WEFT_VIEW_LOOK_H
+#define WEFT_VIEW_LOOK_H
+
+#include <stdbool.h>
+
+#include "weft/material.h"
+#include "weft/render.h"
+
+enum { LOOK_LIGHTS = 64, LOOK_PATH = 1024, LOOK_NAPS = 16, NAP_SIDE = 512 };
+
+/* The light from far away. */
+typedef enum AroundKind { AROUND_STUDIO = 0, AROUND_FILE, AROUND_COLOR } AroundKind;
+typedef struct Around {
+    AroundKind kind;
+    char path[LOOK_PATH]; /* of a lat-long picture or of a cubemap */
+    float color[3];
+    float rotation, strength; /* degrees; a factor */
+    unsigned again;           /* another number: the file has changed */
+} Around;
+
+typedef struct LookMaterial LookMaterial; /* shared */
+
+/* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction. Shared. */
+typedef struct Nap Nap;
+
+typedef struct Look {
+    LookMaterial **materials;
+    int material_count;
+    WeftLight lights[LOOK_LIGHTS];
+    int light_count;
+    Around around;
+    Nap *naps[LOOK_NAPS]; /* NULL: none */
+} Look;
+
+/* Of a scene as it is; the environment apart, which a scene does not tell. False where memory is short. */
+bool look_read(Look *look, const WeftScene *scene);
+bool look_copy(Look *copy, const Look *look);
+void look_free(Look *look);
+bool look_same(const Look *a, const Look *b);
+
+const WeftMaterial *look_material(const Look *look, int index);
+bool look_set_material(Look *look, int index, const WeftMaterial *material);
+bool look_same_material(const Look *a, const Look *b, int index);
+
+/* The nap brushed onto a material; NULL: none. */
+const WeftImage *look_nap(const Look *look, int material);
+/* A copy of it, or a plain one, that is taken over by look_set_nap: F strokes change it before. */
+Nap *nap_copy(const Look *look, int material, WeftImage **image);
+bool look_set_nap(Look *look, Nap *nap);
+void nap_free(Nap *nap);
+
+/* What of naps a scene has: the number of each one's texture. */
+typedef struct LookWorn {
+    int materials[LOOK_NAPS], textures[LOOK_NAPS];
+    int count;
+} LookWorn;
+
+/* Brings a scene that is dressed as `is` to `look`; both of that scene. changed receives what changed
+ * (WEFT_CHANGED_MATERIALS ...). On failure the scene is somewhere between. */
+WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
+                      const WeftLog *log, WeftError *error);
+
+#endif

@@ -1,0 +1,214 @@
+/* What a material is made of: choices and inputs, from the catalogue's tables. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "view/help.h"
+#include "view/inputs.h"
+#include "view/viewer.h"
+
+static const float degrees = 57.29577951f;
+
+/* Inputs lie under the heading whose word their name begins with; all others under the first. */
+static const struct {
+    const char *heading, *prefixes[4];
+    bool unfolded;
+} groups[] = {{"Base", {NULL}, true},
+              {"Sheen", {"sheen", "nap", NULL}, true},
+              {"Coat", {"clearcoat", NULL}, false},
+              {"Dust", {"dust", NULL}, false},
+              {"Emission", {"emission", NULL}, false}};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+static int group_of(const char *name) {
+    for (int g = 1; g < GROUPS; g++)
+        for (int k = 0; groups[g].prefixes[k]; k++)
+            if (strncmp(name, groups[g].prefixes[k], strlen(groups[g].prefixes[k])) == 0) return g;
+    return 0;
+}
+
+/* ---- choices ---- */
+
+/* Row 0 of a menu is auto. */
+static const char *choice_name(const void *user, int row) {
+    const char *id = row > 0 ? weft_material_choice_value(*(const int *)user, row - 1) : "auto";
+    return id ? id : "";
+}
+static const char *choice_help(const void *user, int row) { return help_choice(*(const int *)user, row - 1); }
+
+static void draw_choice(WeftMaterial *m, int choice) {
+    const UiChoices rows = {choice_values(choice) + 1, choice_name, choice_help, &choice};
+    int row = m->choices[choice] + 1;
+    char label[64];
+    snprintf(label, sizeof label, "%s", weft_material_choice_name(choice));
+    for (char *p = label; *p; p++)
+        if (*p == '_') *p = ' ';
+    if (ui_choice(label, &rows, &row)) weft_material_choose(m, choice, row - 1);
+}
+
+/* ---- inputs ---- */
+
+static bool draw_number(const WeftInputInfo *info, const char *label, float *value) {
+    bool angle = info->kind == WEFT_INPUT_ANGLE || info->kind == WEFT_INPUT_DIRECTION;
+    float shown = angle ? *value * degrees : *value;
+    bool wide = info->low > 0.0f && info->high / info->low > 100.0f;
+    const UiRange range = {info->low, info->high, info->initial, angle ? "deg" : NULL, wide};
+    if (!ui_slider(label, &range, &shown)) return false;
+    shown = fminf(fmaxf(shown, info->hard_low), info->hard_high);
+    *value = angle ? shown / degrees : shown;
+    return true;
+}
+
+static bool is_beyond(const WeftInputInfo *info, const WeftInput *input) {
+    bool angle = info->kind == WEFT_INPUT_ANGLE;
+    float scale = angle ? degrees : 1.0f;
+    if (info->kind == WEFT_INPUT_DIRECTION) return false;
+    for (int c = 0; c < (info->kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
+        if (scale * input->value[c] > info->high * 1.0001f || scale * input->value[c] < info->low - 1e-6f)
+            return true;
+    return false;
+}
+
+static void draw_input(WeftMaterial *m, int k) {
+    WeftInputInfo info;
+    char label[64];
+    WeftInput *input = &m->inputs[k];
+    weft_material_input_info(k, &info);
+    snprintf(label, sizeof label, "%s", info.name);
+    for (char *p = label; *p; p++)
+        if (*p == '_') *p = ' ';
+    const float initial[3] = {info.initial, info.initial, info.initial};
+    bool reads = weft_material_reads(m, k) != 0;
+    ui_faint(!reads);
+    bool changed = info.kind == WEFT_INPUT_COLOR ? ui_color(label, initial, input->value)
+                                                 : draw_number(&info, label, input->value);
+    ui_faint_end();
+    ui_tip(help_input(k));
+    if (changed) {
+        for (int c = 0; c < 3; c++)
+            input->value[c] =
+                fminf(fmaxf(input->value[c], info.kind == WEFT_INPUT_COLOR ? info.hard_low : input->value[c]),
+                      info.kind == WEFT_INPUT_COLOR ? info.hard_high : input->value[c]);
+        input->given = 1;
+    }
+    if (input->texture) {
+        char text[96];
+        snprintf(text, sizeof text, "no map##%s map", info.name);
+        ui_indent();
+        if (ui_small_button(text)) input->texture = 0;
+        ui_tip("The value multiplies a map. This takes the map away.");
+        ui_same_line();
+        snprintf(text, sizeof text, "times map %d", input->texture);
+        ui_text(text);
+        ui_indent_end();
+    }
+    if (is_beyond(&info, input)) {
+        char text[96];
+        snprintf(text, sizeof text, "beyond what is plausible: %g .. %g", (double)info.low,
+                 (double)info.high);
+        ui_warning(text);
+    }
+}
+
+/* ---- what else can be done with one ---- */
+
+static const char *material_name(const void *user, int k) {
+    return ((const Viewer *)user)->facts.materials[k];
+}
+static const char *variant_name(const void *user, int k) {
+    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "as the file has it";
+}
+static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "choose ..."; }
+static const char *preset_help(const void *user, int k) {
+    return k ? weft_preset_help(k - 1) : "Dresses the material in one that is ready made.";
+}
+
+static void draw_which(Viewer *v) {
+    const UiChoices materials = {v->look.material_count, material_name, NULL, v};
+    const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
+    int count = 0, preset = 0, variant = v->variant + 1;
+    while (weft_preset_name(count)) count++;
+    const UiChoices presets = {count + 1, preset_name, preset_help, v};
+    ui_choice("material", &materials, &v->material);
+    ui_tip("The material that is edited. A click on the picture chooses what is there.");
+    if (v->facts.info.variant_count && ui_choice("variant", &variants, &variant) && variant > 0) {
+        v->variant = variant - 1;
+        viewer_task(v, TASK_VARIANT, v->facts.variants[v->variant], 0, -1);
+    }
+    if (ui_choice("preset", &presets, &preset) && preset > 0) {
+        char path[128];
+        snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
+        viewer_task(v, TASK_DRESS, path, v->material, -1);
+    }
+}
+
+static void draw_buttons(Viewer *v, WeftMaterial *m) {
+    if (ui_button("Copy")) {
+        v->copied = *m;
+        v->has_copied = true;
+        viewer_say(v, false, "copied %s", v->facts.materials[v->material]);
+    }
+    ui_tip("Keeps this material to be pasted onto another (Ctrl+C).");
+    ui_same_line();
+    ui_disabled(!v->has_copied);
+    if (ui_button("Paste")) *m = v->copied;
+    ui_disabled_end();
+    ui_tip("Puts the copied material here (Ctrl+V).");
+    ui_same_line();
+    if (ui_button("Reset") && v->material < v->first.material_count)
+        *m = *look_material(&v->first, v->material);
+    ui_tip("Back to what the file says.");
+    ui_same_line();
+    if (ui_button("Profiles ...")) viewer_profiles(v);
+    ui_tip("A sheet of the scene under every engine's profile.");
+}
+
+typedef struct Lines {
+    char text[1024];
+    int count;
+} Lines;
+
+static void on_said(void *user, WeftMessage message, const char *text) {
+    Lines *lines = user;
+    size_t used = strlen(lines->text);
+    snprintf(lines->text + used, sizeof lines->text - used, "%s%s", used ? "\n" : "", text);
+    lines->count++;
+}
+
+static void draw_plausible(Viewer *v, const WeftMaterial *m) {
+    Lines lines = {.count = 0};
+    char label[64];
+    const WeftLog log = {on_said, &lines};
+    weft_material_plausible(m, v->facts.materials[v->material], &log);
+    snprintf(label, sizeof label,
+             lines.count ? "Plausibility: %d to look at###Plausibility" : "Plausibility: good###Plausibility",
+             lines.count);
+    if (ui_section(label, false)) {
+        if (lines.count)
+            ui_warning(lines.text);
+        else
+            ui_dim("Nothing in it is hardly real.");
+    }
+}
+
+static void draw_inputs(WeftMaterial *m, int group) {
+    for (int k = 0; weft_material_input_name(k); k++)
+        if (group_of(weft_material_input_name(k)) == group) draw_input(m, k);
+}
+
+void material_panel(Viewer *v) {
+    if (v->material >= v->look.material_count) v->material = 0;
+    if (!v->look.material_count) {
+        ui_dim("this scene has no materials");
+        return;
+    }
+    draw_which(v);
+    WeftMaterial m = *look_material(&v->look, v->material);
+    draw_buttons(v, &m);
+    draw_plausible(v, &m);
+    if (ui_section("Model", true))
+        for (int k = 0; weft_material_choice_name(k); k++) draw_choice(&m, k);
+    for (int g = 0; g < GROUPS; g++)
+        if (ui_section(groups[g].heading, groups[g].unfolded)) draw_inputs(&m, g);
+    viewer_set_material(v, v->material, &m);
+}

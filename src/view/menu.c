@@ -1,0 +1,164 @@
+/* The bars: menus and modes above, what goes on below. */
+#include <stdio.h>
+#include <string.h>
+
+#include "view/paths.h"
+#include "view/viewer.h"
+
+static void file_menu(Viewer *v) {
+    if (ui_menu_item("Open ...", "Ctrl+O", false, true)) viewer_dialog(v, "Open");
+    if (ui_menu("Open recent")) {
+        for (int k = 0; k < v->settings.recent_count; k++)
+            if (ui_menu_item(v->settings.recent[k], NULL, false, true)) {
+                char path[RECENT_PATH];
+                snprintf(path, sizeof path, "%s", v->settings.recent[k]); /* the list is about to change */
+                viewer_open(v, path);
+            }
+        if (!v->settings.recent_count) ui_menu_item("nothing yet", NULL, false, false);
+        ui_menu_end();
+    }
+    if (ui_menu("Built-in scenes")) {
+        for (int k = 0; weft_builtin_name(k); k++) {
+            char path[96];
+            snprintf(path, sizeof path, "builtin:%s", weft_builtin_name(k));
+            if (ui_menu_item(path, NULL, false, true)) viewer_open(v, path);
+            ui_tip(weft_builtin_help(k));
+        }
+        ui_menu_end();
+    }
+    ui_rule();
+    if (ui_menu_item("Save scene or material ...", "Ctrl+S", false, v->has_scene)) viewer_save(v, NULL);
+    if (ui_menu_item("Save a picture ...", "F12", false, v->has_scene)) viewer_shot(v, NULL);
+    if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->has_scene)) viewer_copy_command(v);
+    ui_rule();
+    if (ui_menu_item("Quit", "Ctrl+Q", false, true)) v->ending = true;
+}
+
+static void edit_menu(Viewer *v) {
+    if (ui_menu_item("Undo", "Ctrl+Z", false, v->history.now > 0)) viewer_undo(v);
+    if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->history.now < v->history.count)) viewer_redo(v);
+}
+
+static void view_menu(Viewer *v) {
+    if (ui_menu_item("Frame all", "F", false, v->has_scene)) viewer_frame_selection(v);
+    if (ui_menu_item("First camera", "Home", false, v->has_scene)) viewer_reset_camera(v);
+    ui_rule();
+    for (int k = 0; k < WEFT_PART_COUNT; k++) {
+        char key[8];
+        snprintf(key, sizeof key, "%d", k + 1);
+        if (ui_menu_item(weft_part_name(k), k < 9 ? key : NULL, (int)v->part == k, true))
+            v->part = (WeftPart)k;
+    }
+}
+
+static void compare_menu(Viewer *v) {
+    if (ui_menu_item("A | B, with a line", "C", v->split == SPLIT_LINE, v->has_scene))
+        viewer_split(v, v->split == SPLIT_LINE ? SPLIT_NONE : SPLIT_LINE);
+    if (ui_menu_item("A | B, side by side", NULL, v->split == SPLIT_SIDES, v->has_scene))
+        viewer_split(v, v->split == SPLIT_SIDES ? SPLIT_NONE : SPLIT_SIDES);
+    if (ui_menu_item("Edit the other", "X", false, v->split != SPLIT_NONE)) viewer_swap(v);
+    ui_rule();
+    if (ui_menu_item("Path traced", "Tab", v->mode == MODE_TRUTH, v->has_scene)) viewer_mode(v, MODE_TRUTH);
+    if (ui_menu_item("Difference", "Shift+Tab", v->mode == MODE_DIFFERENCE, v->has_scene))
+        viewer_mode(v, MODE_DIFFERENCE);
+    ui_rule();
+    if (ui_menu_item("All profiles", NULL, false, v->has_scene)) viewer_profiles(v);
+}
+
+static void draw_menus(Viewer *v) {
+    if (ui_menu("File")) {
+        file_menu(v);
+        ui_menu_end();
+    }
+    if (ui_menu("Edit")) {
+        edit_menu(v);
+        ui_menu_end();
+    }
+    if (ui_menu("View")) {
+        view_menu(v);
+        ui_menu_end();
+    }
+    if (ui_menu("Compare")) {
+        compare_menu(v);
+        ui_menu_end();
+    }
+    if (ui_menu("Help")) {
+        if (ui_menu_item("Keys and mouse", "?", v->help_open, true)) v->help_open = !v->help_open;
+        ui_menu_end();
+    }
+}
+
+static void draw_modes(Viewer *v) {
+    static const char *const modes[] = {"OpenGL", "Path traced", "Difference", NULL};
+    int mode = (int)v->mode;
+    if (ui_tabs("Mode", modes, &mode)) v->mode = (Mode)mode;
+    ui_tip("OpenGL, as an engine draws it; the path tracer's answer to exactly this view; how the two "
+           "differ. Tab "
+           "goes to the truth and back.");
+    ui_same_line();
+    ui_text("  ");
+    ui_same_line();
+    bool line = v->split == SPLIT_LINE;
+    if (ui_checkbox("A | B", &line)) viewer_split(v, line ? SPLIT_LINE : SPLIT_NONE);
+    ui_tip("Two settings in one picture, with a line between that can be dragged (C). X edits the other.");
+    ui_same_line();
+    bool probe = v->tool == TOOL_PROBE, brush = v->tool == TOOL_BRUSH;
+    if (ui_checkbox("Probe", &probe)) {
+        v->tool = probe ? TOOL_PROBE : TOOL_ORBIT;
+        if (probe) v->panel = 3;
+    }
+    ui_tip("A click tells what a pixel is made of (P).");
+    ui_same_line();
+    if (ui_checkbox("Brush", &brush)) v->tool = brush ? TOOL_BRUSH : TOOL_ORBIT;
+    ui_tip("Strokes lay the nap of a fibre sheen (B).");
+}
+
+void menu_draw(Viewer *v) {
+    int width, height;
+    window_size(v->window, &width, &height);
+    ui_scope("Menu");
+    if (ui_menu_bar()) {
+        draw_menus(v);
+        ui_menu_bar_end();
+    }
+    ui_scope_end();
+    float row = ui_line_height();
+    UiBox bar = {0.0f, row - 4.0f * ui_scale(), (float)width, v->stage.y - row + 4.0f * ui_scale()};
+    if (ui_panel("Bar", bar, false)) draw_modes(v);
+    ui_panel_end();
+}
+
+/* How many lines there are. */
+static int lines_of(const char *text) {
+    int count = 0;
+    for (; *text; text++) count += *text == '\n';
+    return count;
+}
+
+void status_draw(Viewer *v) {
+    int width, height;
+    char text[200], right[200];
+    window_size(v->window, &width, &height);
+    float top = v->stage.y + v->stage.height, scale = ui_scale();
+    UiBox bar = {0.0f, top, (float)width, (float)height - top};
+    ui_behind(true);
+    ui_fill(bar, 0xFF1C1B1Au);
+    snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
+             v->frame_seconds > 0.0 ? 1.0 / v->frame_seconds : 0.0, 1e3 * v->picture_seconds,
+             v->painted.width, v->painted.height,
+             v->late           ? "compiling"
+             : v->painted.busy ? "looking"
+                               : "ready");
+    float room = (float)width - ui_text_width(right) - 40.0f * scale;
+    int count = lines_of(v->warnings);
+    text[0] = '\0';
+    if (count) snprintf(text, sizeof text, "%d warnings (F8)   ", count);
+    UiBox left = {0.0f, top, room, bar.height};
+    ui_clip(&left);
+    ui_label(8.0f * scale, top + 4.0f * scale, 0xFF58C7F8u, text);
+    ui_label(8.0f * scale + ui_text_width(text), top + 4.0f * scale,
+             v->message_grave ? 0xFF58C7F8u : 0xFFB0B2B4u, v->message);
+    ui_clip(NULL);
+    ui_label((float)width - ui_text_width(right) - 12.0f * scale, top + 4.0f * scale, 0xFF909294u, right);
+    ui_behind(false);
+}

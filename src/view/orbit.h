@@ -1,0 +1,53 @@
+/* orbit.h - a camera that a hand moves: about a point, or through the scene
+ *
+ * Positions in metres, angles in radians; up is +y. */
+#ifndef WEFT_VIEW_ORBIT_H
+#define WEFT_VIEW_ORBIT_H
+
+#include <stdbool.h>
+
+#include "weft/scene.h"
+
+enum { ORBIT_TEXT = 160 };
+
+typedef struct Orbit {
+    float eye[3], target[3];
+    float fov;             /* vertical, degrees */
+    char name[ORBIT_TEXT]; /* of the scene's camera that it stands at, until it is moved; "" none */
+} Orbit;
+
+/* At a camera of the scene: as WeftRenderDesc.camera has it. False where there is no such camera. */
+bool orbit_at(Orbit *orbit, const WeftScene *scene, const char *camera, float aspect);
+
+/* About the target; right and down are positive. */
+void orbit_turn(Orbit *orbit, float across, float down);
+
+/* Eye and target move with what is under the mouse: shares of the picture's height. */
+void orbit_pan(Orbit *orbit, float across, float down);
+
+/* Towards the target, so that the distance is multiplied. */
+void orbit_dolly(Orbit *orbit, float factor);
+
+/* Looks elsewhere from where the eye is. */
+void orbit_look(Orbit *orbit, float across, float down);
+
+/* Moves the eye: along where it looks, to the right, up the world; metres. */
+void orbit_fly(Orbit *orbit, float forward, float right, float up);
+
+/* Puts all of a box into a picture of that aspect, from where it is looked at now. */
+void orbit_frame(Orbit *orbit, const float low[3], const float high[3], float aspect);
+
+/* As `weft render --camera` takes it. */
+const char *orbit_text(const Orbit *orbit, char text[ORBIT_TEXT]);
+
+/* Where a point of the world is in a picture, shares of its width and height from the top left; false where
+ * it is behind the eye. */
+bool orbit_project(const Orbit *orbit, const float point[3], float aspect, float at[2]);
+
+/* The ray through a place of a picture: direction is unit. */
+void orbit_ray(const Orbit *orbit, float aspect, float x, float y, float direction[3]);
+
+/* Right, up and forward, unit. */
+void orbit_axes(const Orbit *orbit, float right[3], float up[3], float forward[3]);
+
+#endif

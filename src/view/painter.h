@@ -1,0 +1,119 @@
+/* painter.h - the thread that owns the scene and draws it, so that the window never waits for a shader, a
+ * table or a file
+ *
+ * The window says what it wants to see, as often as it likes: the painter takes the latest, brings the scene
+ * to it and hands over a finished picture as a texture that both contexts share. What is done once (a file to
+ * write, a pixel to look at) is a task: tasks are done in their order and answered by news. */
+#ifndef WEFT_VIEW_PAINTER_H
+#define WEFT_VIEW_PAINTER_H
+
+#include "view/look.h"
+#include "view/orbit.h"
+#include "view/truth.h"
+#include "view/window.h"
+#include "weft/raster.h"
+
+typedef struct Painter Painter;
+
+/* How two looks share a picture. */
+typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
+
+/* What the window wants to see. Numbers that do not change the picture have no place here. */
+typedef struct Order {
+    Look look, other; /* `other` on the right, where they share it; empty otherwise */
+    Split split;
+    float at;            /* SPLIT_LINE: share of the width that is left of it */
+    WeftRasterView view; /* size, background, part, ambient; its camera is the text below */
+    char camera[ORBIT_TEXT];
+    WeftTonemap tonemap;
+    float exposure;
+    bool truth;   /* nothing is to be drawn: the path tracer does it */
+    bool compare; /* a linear copy is to be handed to the path tracer */
+} Order;
+
+typedef enum TaskKind {
+    TASK_SHOT,     /* a picture of `view`'s size to `path` */
+    TASK_SAVE,     /* the scene, or material `index`, to `path` */
+    TASK_PROBE,    /* what is at x, y of the order's picture */
+    TASK_PICK,     /* the same without the parts of its light */
+    TASK_PROFILES, /* a small picture of every profile */
+    TASK_DRESS,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
+    TASK_WEAR,     /* the maps of folder `path` on material `index`, -1: the cloth */
+    TASK_SCENE,    /* news alone: another scene was taken, or could not be */
+    TASK_VARIANT   /* `path` is a name */
+} TaskKind;
+
+typedef struct Task {
+    TaskKind kind;
+    char path[LOOK_PATH];
+    int index, input;
+    float x, y;
+    int width, height;
+    bool transparent, truth;
+    unsigned stamp; /* comes back with its news */
+} Task;
+
+/* The parts of a pixel. */
+typedef struct Probe {
+    bool hit;
+    int material;
+    float position[3], normal[3], texcoord[2], distance, texel;
+    float tangent[3], bitangent[3];
+    float value[WEFT_PART_COUNT][3];
+} Probe;
+
+typedef struct News {
+    TaskKind kind;
+    bool failed;
+    char text[512]; /* a line for people */
+    unsigned stamp;
+    Probe probe;
+    WeftImage image;   /* TASK_PROFILES: U8 RGB, owned */
+    bool look_changed; /* and `look` is what the scene is dressed as now; owned */
+    Look look;
+    int index;
+} News;
+
+/* What is told of the scene at hand. */
+typedef struct Painted {
+    unsigned texture; /* 0: nothing yet */
+    int width, height;
+    unsigned number; /* of the order it shows */
+    float seconds;   /* that it took */
+    float eye[3], target[3], fov;
+    int programs, compiled;
+    bool busy;           /* more is to come: shaders, or what the background looks for */
+    char complaint[512]; /* shader text that does not compile */
+    char failure[512];   /* why there is no newer picture */
+    char driver[128];
+} Painted;
+
+/* window must outlive it; truth too. shader_dir may be NULL. NULL where memory or a context is short. */
+Painter *painter_start(Window *window, Truth *truth, const char *shader_dir, int occlusion);
+void painter_stop(Painter *painter);
+
+/* Takes the scene over, and the look it has; the old one is released once the new one can be drawn. `orders`
+ * before this are forgotten. */
+void painter_give(Painter *painter, WeftScene *scene, const Look *look);
+
+/* Copies the order; returns its number. */
+unsigned painter_order(Painter *painter, const Order *order);
+void painter_task(Painter *painter, const Task *task);
+
+/* The newest picture; its texture stays as it is until the next call. True where it is another one. */
+bool painter_look(Painter *painter, Painted *painted);
+
+/* Whether a picture or news wait. */
+bool painter_fresh(Painter *painter);
+
+/* The oldest news; false where there is none. Release with news_free. */
+bool painter_news(Painter *painter, News *news);
+void news_free(News *news);
+
+/* Whether all that was asked for is done. */
+bool painter_idle(Painter *painter);
+
+/* Warnings that were said since the last call, one line each; NULL: none. Release with free. */
+char *painter_said(Painter *painter);
+
+#endif

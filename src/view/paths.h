@@ -1,0 +1,31 @@
+/* paths.h - what a file is to the window, by its name */
+#ifndef WEFT_VIEW_PATHS_H
+#define WEFT_VIEW_PATHS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum PathKind {
+    PATH_UNKNOWN,
+    PATH_SCENE,    /* .gltf .glb builtin: */
+    PATH_LIGHT,    /* .hdr .exr */
+    PATH_MATERIAL, /* .json preset: */
+    PATH_PICTURE,  /* .png .jpg .jpeg .tga */
+    PATH_FOLDER
+} PathKind;
+
+PathKind path_kind(const char *path);
+
+/* What follows the last slash. */
+const char *path_name(const char *path);
+
+/* The name without its suffix; what is not fit for a file becomes '-'. */
+void path_stem(const char *path, char *stem, size_t size);
+
+/* Whether the name holds a word, in any case. */
+bool path_contains(const char *path, const char *word);
+
+/* When and how long a file is, as one number that changes with either; 0: it is not there. */
+unsigned long long path_stamp(const char *path);
+
+#endif

@@ -1,0 +1,358 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/replay.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
+
+/* One frame's worth of an action. */
+typedef struct Motion {
+    enum { DO_EVENT, DO_POINT, DO_NOTHING } kind;
+    Event event;
+    char path[1024];  /* of the event */
+    char control[96]; /* DO_POINT: moves the mouse to a share of this control's box */
+    float x, y;
+} Motion;
+
+struct Replay {
+    char *path, *text, *next;
+    int line;
+    Motion motions[MOTIONS];
+    int count, first;
+    int tries;    /* that an action has been put off */
+    double since; /* when a wait began; 0: none is on */
+    bool stay;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+Replay *replay_open(const char *path, char why[512]) {
+    Replay *self = calloc(1, sizeof *self);
+    FILE *file = fopen(path, "rb");
+    if (self) {
+        self->path = strdup(path);
+        self->text = calloc(1, SIZE_MOST + 1);
+    }
+    size_t size = file && self && self->text ? fread(self->text, 1, SIZE_MOST, file) : 0;
+    bool whole = file && !ferror(file) && feof(file) && self && self->text && self->path;
+    if (file) fclose(file);
+    if (whole && strlen(self->text) == size) {
+        self->next = self->text;
+        return self;
+    }
+    snprintf(why, 512, "%.300s: %s", path, file ? "is no script, or too long a one" : "cannot be opened");
+    replay_close(self);
+    return NULL;
+}
+
+void replay_close(Replay *self) {
+    if (!self) return;
+    free(self->path);
+    free(self->text);
+    free(self);
+}
+
+/* ---- motions ---- */
+
+static void add(Replay *self, const Motion *motion) {
+    if (self->count < MOTIONS) self->motions[self->count++] = *motion;
+}
+
+static void add_event(Replay *self, Event event) { add(self, &(Motion){.kind = DO_EVENT, .event = event}); }
+
+static void add_drop(Replay *self, const char *path) {
+    Motion motion = {.kind = DO_EVENT, .event = {.kind = EVENT_DROP}};
+    snprintf(motion.path, sizeof motion.path, "%s", path);
+    add(self, &motion);
+}
+
+static void add_pause(Replay *self, int frames) {
+    for (int k = 0; k < frames; k++) add(self, &(Motion){.kind = DO_NOTHING});
+}
+
+static void add_point(Replay *self, const char *control, float x, float y) {
+    Motion motion = {.kind = DO_POINT, .x = x, .y = y};
+    snprintf(motion.control, sizeof motion.control, "%s", control);
+    add(self, &motion);
+}
+
+static void add_button(Replay *self, int button, bool down) {
+    add_event(self, (Event){.kind = EVENT_BUTTON, .code = button, .down = down});
+}
+
+static void add_click(Replay *self, const char *control, float x) {
+    add_point(self, control, x, 0.5f);
+    add_pause(self, 1);
+    add_button(self, 0, true);
+    add_button(self, 0, false);
+    add_pause(self, 2);
+}
+
+typedef struct KeyName {
+    const char *name;
+    int key;
+} KeyName;
+
+static int key_of(const char *name) {
+    static const KeyName keys[] = {{"tab", GLFW_KEY_TAB},
+                                   {"escape", GLFW_KEY_ESCAPE},
+                                   {"enter", GLFW_KEY_ENTER},
+                                   {"home", GLFW_KEY_HOME},
+                                   {"space", GLFW_KEY_SPACE},
+                                   {"shift", GLFW_KEY_LEFT_SHIFT},
+                                   {"control", GLFW_KEY_LEFT_CONTROL},
+                                   {"f1", GLFW_KEY_F1},
+                                   {"f8", GLFW_KEY_F8},
+                                   {"f12", GLFW_KEY_F12},
+                                   {"backspace", GLFW_KEY_BACKSPACE}};
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (strcmp(keys[k].name, name) == 0) return keys[k].key;
+    if (name[0] && !name[1] && name[0] >= 'a' && name[0] <= 'z') return name[0] - 'a' + 'A';
+    return name[0] && !name[1] && name[0] >= '0' && name[0] <= '9' ? name[0] : -1;
+}
+
+/* "control+shift+z" */
+static bool add_key(Replay *self, const char *text, bool down, bool up) {
+    bool control = strstr(text, "control+") != NULL, shift = strstr(text, "shift+") != NULL;
+    const char *plus = strrchr(text, '+'), *name = plus ? plus + 1 : text;
+    int key = key_of(name);
+    Event event = {.kind = EVENT_KEY,
+                   .code = key,
+                   .letter = (char)(name[1] ? 0 : name[0]),
+                   .control = control,
+                   .shift = shift};
+    event.down = true;
+    if (key >= 0 && down) add_event(self, event);
+    event.down = false;
+    event.control = event.shift = false;
+    if (key >= 0 && up) add_event(self, event);
+    add_pause(self, 1);
+    return key >= 0;
+}
+
+static void add_text(Replay *self, const char *text) {
+    for (; *text; text++) add_event(self, (Event){.kind = EVENT_TYPED, .code = (unsigned char)*text});
+    add_pause(self, 1);
+}
+
+/* Types a value into a slider. */
+static void add_value(Replay *self, const char *control, const char *value) {
+    add_point(self, control, 0.5f, 0.5f);
+    add_event(self, (Event){.kind = EVENT_KEY, .code = GLFW_KEY_LEFT_CONTROL, .down = true, .control = true});
+    add_pause(self, 1);
+    add_button(self, 0, true);
+    add_button(self, 0, false);
+    add_event(self, (Event){.kind = EVENT_KEY, .code = GLFW_KEY_LEFT_CONTROL, .down = false});
+    add_pause(self, 2);
+    add_text(self, value);
+    add_key(self, "enter", true, true);
+    add_pause(self, 2);
+}
+
+/* Moves the mouse with a button held, in small steps. */
+static void add_drag(Replay *self, const Viewer *v, int button, const float way[4]) {
+    enum { STEPS = 12 };
+    for (int k = 0; k <= STEPS; k++) {
+        float t = (float)k / STEPS;
+        float x = v->stage.x + v->stage.width * (way[0] + t * (way[2] - way[0]));
+        float y = v->stage.y + v->stage.height * (way[1] + t * (way[3] - way[1]));
+        add_event(self, (Event){.kind = EVENT_MOVE, .x = x, .y = y});
+        if (k == 0) add_pause(self, 1);
+        if (k == 0) add_button(self, button, true);
+    }
+    add_button(self, button, false);
+    add_pause(self, 1);
+}
+
+/* ---- the words of a script ---- */
+
+static char *take_word(char **text) {
+    char *p = *text + strspn(*text, " \t"), *word = p;
+    if (*p == '"') {
+        word = ++p;
+        p += strcspn(p, "\"");
+    } else {
+        p += strcspn(p, " \t");
+    }
+    if (*p) *p++ = '\0';
+    *text = p + strspn(p, " \t");
+    return word;
+}
+
+static bool is(const char *a, const char *b) { return strcmp(a, b) == 0; }
+
+static int button_of(const char *name) { return is(name, "right") ? 1 : is(name, "middle") ? 2 : 0; }
+
+/* Waits: true while it goes on. */
+static bool still_waiting(Replay *self, Viewer *v, const char *what) {
+    double start = self->since > 0.0 ? self->since : (self->since = now());
+    bool done = is(what, "rest")                    ? viewer_at_rest(v) && v->has_scene && ++self->tries > 4
+                : strncmp(what, "samples ", 8) == 0 ? v->traced.samples >= atof(what + 8)
+                : strncmp(what, "message ", 8) == 0 ? strstr(v->message, what + 8) != NULL
+                : strncmp(what, "seconds ", 8) == 0 ? now() - start > atof(what + 8)
+                                                    : ++self->tries > atoi(what);
+    if (done) self->since = 0.0, self->tries = 0;
+    return !done;
+}
+
+static bool write_command(const Viewer *v, const char *path) {
+    char *line = command_line(v, NULL);
+    FILE *file = fopen(path, "w");
+    bool good = line && file && fprintf(file, "%s\n", line) > 0;
+    if (file) good = fclose(file) == 0 && good;
+    free(line);
+    return good;
+}
+
+static bool window_shot(Viewer *v, const char *path) {
+    WeftImage image;
+    if (window_read(v->window, &image, NULL) != WEFT_OK) return false;
+    bool good = weft_image_write(path, &image, NULL) == WEFT_OK;
+    weft_image_free(&image);
+    return good;
+}
+
+/* A picture of the size of the stage. */
+static void scene_shot(Viewer *v, const char *path) {
+    v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
+    v->shot_truth = v->mode == MODE_TRUTH;
+    viewer_shot(v, path);
+}
+
+/* Events of mouse and keyboard. False where the word is none. */
+static bool do_input(Replay *self, Viewer *v, const char *word, char *rest, bool *good) {
+    float way[4];
+    if (is(word, "click"))
+        add_click(self, take_word(&rest), 0.5f);
+    else if (is(word, "key"))
+        *good = add_key(self, rest, true, true);
+    else if (is(word, "keydown"))
+        *good = add_key(self, rest, true, false);
+    else if (is(word, "keyup"))
+        *good = add_key(self, rest, false, true);
+    else if (is(word, "type"))
+        add_text(self, rest);
+    else if (is(word, "wheel"))
+        add_event(self, (Event){.kind = EVENT_WHEEL, .y = (float)atof(rest)});
+    else if (is(word, "drop"))
+        add_drop(self, rest);
+    else if (is(word, "drag")) {
+        int button = button_of(take_word(&rest));
+        *good = sscanf(rest, "%f %f %f %f", &way[0], &way[1], &way[2], &way[3]) == 4;
+        if (*good) add_drag(self, v, button, way);
+    } else if (is(word, "move")) {
+        *good = sscanf(rest, "%f %f", &way[0], &way[1]) == 2;
+        add_event(self, (Event){.kind = EVENT_MOVE,
+                                .x = v->stage.x + way[0] * v->stage.width,
+                                .y = v->stage.y + way[1] * v->stage.height});
+    } else if (is(word, "press"))
+        add_button(self, button_of(rest), true);
+    else if (is(word, "release"))
+        add_button(self, button_of(rest), false);
+    else if (is(word, "resize")) {
+        *good = sscanf(rest, "%f %f", &way[0], &way[1]) == 2;
+        add_event(self, (Event){.kind = EVENT_RESIZE, .x = way[0], .y = way[1]});
+        add_pause(self, 2);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, bool *good) {
+    if (is(word, "choose")) {
+        char *control = take_word(&rest), item[160];
+        snprintf(item, sizeof item, "%s/%s", control, take_word(&rest));
+        add_click(self, control, 0.5f);
+        add_click(self, item, 0.5f);
+    } else if (is(word, "slide")) {
+        char *control = take_word(&rest);
+        add_click(self, control, (float)atof(rest));
+    } else if (is(word, "set")) {
+        char *control = take_word(&rest);
+        add_value(self, control, rest);
+    } else if (is(word, "open"))
+        viewer_open(v, rest);
+    else if (is(word, "save"))
+        viewer_save(v, rest);
+    else if (is(word, "picture"))
+        scene_shot(v, rest);
+    else if (is(word, "window"))
+        *good = window_shot(v, rest);
+    else if (is(word, "command"))
+        *good = write_command(v, rest);
+    else if (is(word, "camera"))
+        snprintf(v->orbit.name, sizeof v->orbit.name, "%s", rest);
+    else if (is(word, "stay"))
+        self->stay = true;
+    else if (is(word, "quit"))
+        v->ending = true;
+    else
+        return false;
+    return true;
+}
+
+/* One frame of what is under way. False where a control is nowhere. */
+static bool do_motion(Replay *self, Viewer *v, char why[512]) {
+    Motion *m = &self->motions[self->first];
+    if (m->kind == DO_POINT) {
+        const UiControl *c = ui_control_find(m->control);
+        if (!c) {
+            ui_reveal(m->control);
+            if (++self->tries < TRIES) return true;
+            snprintf(why, 512, "%.200s:%d: there is no \"%.90s\" to point at", self->path, self->line,
+                     m->control);
+            return false;
+        }
+        window_push(v->window, &(Event){.kind = EVENT_MOVE,
+                                        .x = c->box.x + m->x * c->box.width,
+                                        .y = c->box.y + m->y * c->box.height});
+    } else if (m->kind == DO_EVENT) {
+        if (m->event.kind == EVENT_DROP) m->event.path = m->path;
+        window_push(v->window, &m->event);
+    }
+    self->tries = 0;
+    if (++self->first == self->count) self->first = self->count = 0;
+    return true;
+}
+
+bool replay_step(Replay *self, Viewer *v, char why[512]) {
+    if (self->count) return do_motion(self, v, why);
+    while (!self->count && !v->ending) {
+        char *line = self->next, copy[1200];
+        size_t length = strcspn(line, "\n");
+        if (!*line) {
+            if (!self->stay) v->ending = true;
+            return true;
+        }
+        snprintf(copy, sizeof copy, "%.*s", (int)(length < 1100 ? length : 1100), line);
+        char *rest = copy, *word = take_word(&rest);
+        bool good = true, waits = is(word, "wait");
+        if (waits && still_waiting(self, v, rest)) {
+            if (now() - self->since < 120.0) return true;
+            snprintf(why, 512, "%.200s:%d: waited in vain", self->path, self->line + 1);
+            return false;
+        }
+        self->line++;
+        self->next = line + length + (line[length] == '\n');
+        if (waits || !*word || *word == '#') continue;
+        if ((do_input(self, v, word, rest, &good) || do_action(self, v, word, rest, &good)) && good) {
+            if (self->count) return do_motion(self, v, why);
+            return true;
+        }
+        snprintf(why, 512, "%.200s:%d: \"%.100s\" is not an action, or cannot be done", self->path,
+                 self->line, word);
+        return false;
+    }
+    return true;
+}

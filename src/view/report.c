@@ -1,0 +1,93 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/report.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+/* Resident memory, MiB. */
+static double resident(void) {
+    long pages = 0, all = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file) return 0.0;
+    if (fscanf(file, "%ld %ld", &all, &pages) != 2) pages = 0;
+    fclose(file);
+    return (double)pages * (double)sysconf(_SC_PAGESIZE) / (1024.0 * 1024.0);
+}
+
+static json_t *material_json(const Viewer *v, int index) {
+    const WeftMaterial *m = look_material(&v->look, index);
+    json_t *object = json_object();
+    json_object_set_new(object, "name", json_string(v->facts.materials[index]));
+    for (int k = 0; weft_material_choice_name(k); k++) {
+        const char *id = m->choices[k] < 0 ? "auto" : weft_material_choice_value(k, m->choices[k]);
+        json_object_set_new(object, weft_material_choice_name(k), json_string(id ? id : ""));
+    }
+    for (int k = 0; weft_material_input_name(k); k++) {
+        const WeftInput *i = &m->inputs[k];
+        json_object_set_new(object, weft_material_input_name(k),
+                            json_pack("[f,f,f,i]", (double)i->value[0], (double)i->value[1],
+                                      (double)i->value[2], i->texture));
+    }
+    return object;
+}
+
+static json_t *box_json(const UiBox *b) {
+    return json_pack("[i,i,i,i]", (int)b->x, (int)b->y, (int)b->width, (int)b->height);
+}
+
+static json_t *controls_json(void) {
+    json_t *object = json_object();
+    for (int k = 0; k < ui_control_count(); k++)
+        json_object_set_new(object, ui_control(k)->name, box_json(&ui_control(k)->box));
+    return object;
+}
+
+void report_state(Viewer *v, bool settled) {
+    static const char *const modes[] = {"live", "truth", "difference"};
+    char camera[ORBIT_TEXT];
+    if (!settled) return;
+    json_t *materials = json_array();
+    for (int k = 0; k < v->look.material_count; k++) json_array_append_new(materials, material_json(v, k));
+    bool lost = false;
+    char *command = v->has_scene ? command_line(v, &lost) : NULL;
+    json_t *root = json_object();
+    json_object_set_new(root, "frame", json_integer(v->frame));
+    json_object_set_new(root, "rest", json_boolean(viewer_at_rest(v)));
+    json_object_set_new(root, "scene", json_string(v->has_scene ? v->facts.path : ""));
+    json_object_set_new(root, "camera", json_string(orbit_text(&v->orbit, camera)));
+    json_object_set_new(
+        root, "eye",
+        json_pack("[f,f,f]", (double)v->orbit.eye[0], (double)v->orbit.eye[1], (double)v->orbit.eye[2]));
+    json_object_set_new(root, "mode", json_string(modes[v->mode]));
+    json_object_set_new(root, "split", json_integer((int)v->split));
+    json_object_set_new(root, "part", json_string(weft_part_name((int)v->part)));
+    json_object_set_new(root, "material", json_integer(v->material));
+    json_object_set_new(root, "materials", materials);
+    json_object_set_new(root, "lights", json_integer(v->look.light_count));
+    json_object_set_new(root, "rotation", json_real((double)v->look.around.rotation));
+    json_object_set_new(root, "samples", json_real(v->traced.samples));
+    json_object_set_new(root, "relmse", json_real(v->traced.compared ? v->traced.difference.relmse : -1.0));
+    json_object_set_new(root, "message", json_string(v->message));
+    json_object_set_new(root, "complaint", json_string(v->shader_complaint));
+    json_object_set_new(root, "command", json_string(command ? command : ""));
+    json_object_set_new(root, "driver", json_string(v->painted.driver));
+    json_object_set_new(root, "picture", json_integer((json_int_t)v->painted.number));
+    json_object_set_new(root, "picture_ms", json_real(1e3 * v->picture_seconds));
+    json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame_seconds));
+    json_object_set_new(root, "worst_ms", json_real(1e3 * v->worst_seconds));
+    json_object_set_new(root, "resident_mib", json_real(resident()));
+    json_object_set_new(root, "stage", box_json(&v->stage));
+    json_object_set_new(root, "help", json_boolean(v->help_open));
+    json_object_set_new(root, "controls", controls_json());
+    char *text = json_dumps(root, JSON_COMPACT);
+    if (text) puts(text);
+    fflush(stdout);
+    v->worst_seconds = 0.0;
+    free(text);
+    free(command);
+    json_decref(root);
+}

@@ -1,0 +1,12 @@
+/* report.h - what the window shows, as lines of JSON for a program that drives it */
+#ifndef WEFT_VIEW_REPORT_H
+#define WEFT_VIEW_REPORT_H
+
+#include "view/viewer.h"
+
+/* Prints an object in one line on standard output where the window has come to rest since the last one:
+ * scene, camera, materials, lights, message, rates, memory, and every control that is shown with its place.
+ */
+void report_state(Viewer *v, bool settled);
+
+#endif

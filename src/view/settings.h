@@ -1,0 +1,33 @@
+/* settings.h - what is remembered from one run to the next: a small JSON in the user's configuration */
+#ifndef WEFT_VIEW_SETTINGS_H
+#define WEFT_VIEW_SETTINGS_H
+
+#include <stdbool.h>
+
+enum { RECENT_MOST = 10, RECENT_PATH = 1024 };
+
+typedef struct Settings {
+    int width, height; /* of the window */
+    float panel;       /* width of the side, design pixels */
+    int tonemap;
+    bool invert; /* looking up by pulling down */
+    float speed; /* of flying */
+    char recent[RECENT_MOST][RECENT_PATH];
+    int recent_count;
+    char folder[RECENT_PATH]; /* the browser's */
+} Settings;
+
+/* What it starts with. */
+Settings settings_default(void);
+
+/* From $XDG_CONFIG_HOME/weft/view.json, or ~/.config/weft/view.json; what is missing or makes no sense stays
+ * as it is. */
+void settings_read(Settings *settings);
+
+/* Writes it there, complete or not at all; false where that cannot be. */
+bool settings_write(const Settings *settings);
+
+/* Puts a path first. */
+void settings_opened(Settings *settings, const char *path);
+
+#endif

@@ -1,0 +1,336 @@
+/* The picture in the middle of the window, and what the mouse does on it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "view/inputs.h"
+#include "view/strokes.h"
+#include "view/viewer.h"
+
+enum { LEFT, RIGHT, MIDDLE };
+
+static const unsigned white = 0xFFFFFFFFu, dark = 0xB0000000u, accent = 0xFF4D8CDBu;
+
+static bool over_stage(const Viewer *v) {
+    const UiBox *s = &v->stage;
+    return v->input.x >= s->x && v->input.y >= s->y && v->input.x < s->x + s->width &&
+           v->input.y < s->y + s->height;
+}
+
+/* Where the mouse is on the picture, shares of its sides. */
+static void on_picture(const Viewer *v, float at[2]) {
+    at[0] = (v->input.x - v->stage.x) / v->stage.width;
+    at[1] = (v->input.y - v->stage.y) / v->stage.height;
+}
+
+/* ---- handles of lights ---- */
+
+static float scene_radius(const Viewer *v) {
+    float r = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float d = v->facts.info.high[k] - v->facts.info.low[k];
+        r += 0.25f * d * d;
+    }
+    return fmaxf(sqrtf(r), 1e-3f);
+}
+
+static float scene_middle(const Viewer *v, int k) {
+    return 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]);
+}
+
+/* The handle of a light; a sun's stands on a sphere around the scene. */
+static void handle_place(const Viewer *v, const WeftLight *light, float place[3]) {
+    memcpy(place, light->position, 3 * sizeof *place);
+    if (light->kind != WEFT_LIGHT_DIRECTIONAL) return;
+    const float *d = light->direction;
+    float n = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), r = 1.2f * scene_radius(v);
+    for (int k = 0; k < 3; k++) place[k] = scene_middle(v, k) - r * d[k] / fmaxf(n, 1e-6f);
+}
+
+static bool handle_at(const Viewer *v, int light, float at[2]) {
+    float place[3];
+    handle_place(v, &v->look.lights[light], place);
+    if (!orbit_project(&v->orbit, place, viewer_aspect(v), at)) return false;
+    at[0] = v->stage.x + at[0] * v->stage.width;
+    at[1] = v->stage.y + at[1] * v->stage.height;
+    return true;
+}
+
+static bool handles_shown(const Viewer *v) { return v->panel == 1 && v->mode == MODE_LIVE; }
+
+static int handle_under(const Viewer *v) {
+    float at[2], most = 12.0f * ui_scale();
+    for (int k = 0; k < v->look.light_count && handles_shown(v); k++)
+        if (handle_at(v, k, at) && hypotf(at[0] - v->input.x, at[1] - v->input.y) < most) return k;
+    return -1;
+}
+
+/* Moves a light with the mouse: in the plane that faces the eye, a sun over its sphere. */
+static void drag_light(Viewer *v) {
+    WeftLight *light = &v->look.lights[v->held_light];
+    float at[2], ray[3], place[3], right[3], up[3], forward[3];
+    on_picture(v, at);
+    orbit_ray(&v->orbit, viewer_aspect(v), at[0], at[1], ray);
+    orbit_axes(&v->orbit, right, up, forward);
+    handle_place(v, light, place);
+    float depth = 0.0f, along = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        depth += (place[k] - v->orbit.eye[k]) * forward[k];
+        along += ray[k] * forward[k];
+    }
+    if (!(along > 1e-3f)) return;
+    for (int k = 0; k < 3; k++) place[k] = v->orbit.eye[k] + depth / along * ray[k];
+    if (light->kind != WEFT_LIGHT_DIRECTIONAL) {
+        memcpy(light->position, place, sizeof place);
+        return;
+    }
+    float d[3], n = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        d[k] = scene_middle(v, k) - place[k];
+        n += d[k] * d[k];
+    }
+    for (int k = 0; k < 3 && n > 1e-12f; k++) light->direction[k] = d[k] / sqrtf(n);
+}
+
+/* ---- questions to the scene ---- */
+
+enum { ASK_SELECT = 1, ASK_BRUSH = 2, ASK_KINDS = 4 };
+
+static void ask(Viewer *v, TaskKind kind, unsigned why) {
+    Task task = {.kind = kind, .x = v->input.x - v->stage.x, .y = v->input.y - v->stage.y};
+    task.stamp = ++v->stamps * ASK_KINDS + why;
+    painter_task(v->painter, &task);
+}
+
+/* A stroke that lays no nap yet gives the material one that can be seen. */
+static void begin_nap(Viewer *v, int material) {
+    WeftMaterial m = *look_material(&v->look, material);
+    int nap = input_number("nap");
+    if (m.inputs[nap].value[0] > 0.0f) return;
+    m.inputs[nap].value[0] = 0.436332f; /* 25 degrees */
+    m.inputs[nap].given = 1;
+    viewer_set_material(v, material, &m);
+    if (!weft_material_reads(&m, nap))
+        viewer_say(v, true,
+                   "the sheen of this material has no nap: choose a fibre lobe, such as fibre-table");
+}
+
+static void brush_at(Viewer *v, const Probe *at) {
+    float d[2] = {0.0f, 0.0f};
+    if (v->brush.known)
+        for (int k = 0; k < 3; k++) {
+            d[0] += (at->position[k] - v->brush.at[k]) * at->tangent[k];
+            d[1] += (at->position[k] - v->brush.at[k]) * at->bitangent[k];
+        }
+    bool moved = hypotf(d[0], d[1]) > 0.05f * v->brush.radius;
+    if (!v->brush.known || moved) memcpy(v->brush.at, at->position, sizeof v->brush.at);
+    v->brush.known = true;
+    if (!moved) return;
+    WeftImage *image;
+    Nap *nap = nap_copy(&v->look, at->material, &image);
+    if (!nap) return;
+    begin_nap(v, at->material);
+    stroke_lay(image, at->texcoord, v->brush.radius * at->texel, d, v->brush.strength);
+    if (!look_set_nap(&v->look, nap))
+        viewer_say(v, true, "no more than %d materials can be brushed", LOOK_NAPS);
+    v->material = at->material;
+}
+
+void stage_picked(Viewer *v, const Probe *at, unsigned stamp) {
+    unsigned why = stamp % ASK_KINDS;
+    if (!at->hit || at->material < 0 || at->material >= v->look.material_count) {
+        v->brush.known = false;
+        return;
+    }
+    if (why == ASK_SELECT) {
+        v->material = at->material;
+        viewer_say(v, false, "%s", v->facts.materials[at->material]);
+    }
+    if (why == ASK_BRUSH) brush_at(v, at);
+}
+
+/* ---- what the mouse does ---- */
+
+static void begin_drag(Viewer *v, int button) {
+    float middle = v->stage.x + v->split_at * v->stage.width;
+    v->held_light = button == LEFT ? handle_under(v) : -1;
+    v->held_split = button == LEFT && v->split == SPLIT_LINE && v->mode == MODE_LIVE &&
+                    fabsf(v->input.x - middle) < 8.0f * ui_scale();
+    if (v->held_light >= 0) v->light = v->held_light;
+    v->brush.down = button == LEFT && v->tool == TOOL_BRUSH && v->held_light < 0 && !v->held_split;
+    v->brush.known = false;
+    if (v->brush.down) ask(v, TASK_PICK, ASK_BRUSH);
+    v->press_x = v->input.x, v->press_y = v->input.y;
+    v->moved = false;
+}
+
+static void turn_environment(Viewer *v, float across) {
+    float *r = &v->look.around.rotation;
+    *r = fmodf(*r + 180.0f * across, 360.0f);
+}
+
+static void drag(Viewer *v, float dx, float dy) {
+    float across = dx / v->stage.height, down = dy / v->stage.height, turn = 3.5f;
+    bool pans = v->pressed[MIDDLE] || (v->pressed[LEFT] && v->input.shift);
+    if (v->held_split) {
+        v->split_at = fminf(fmaxf((v->input.x - v->stage.x) / v->stage.width, 0.02f), 0.98f);
+    } else if (v->held_light >= 0) {
+        drag_light(v);
+    } else if (v->brush.down) {
+        ask(v, TASK_PICK, ASK_BRUSH);
+    } else if (pans) {
+        orbit_pan(&v->orbit, across, down);
+    } else if (v->pressed[LEFT] && v->input.control) {
+        turn_environment(v, across);
+    } else if (v->pressed[LEFT]) {
+        orbit_turn(&v->orbit, turn * across, turn * down);
+    } else if (v->pressed[RIGHT]) {
+        orbit_look(&v->orbit, 1.5f * across, v->settings.invert ? -1.5f * down : 1.5f * down);
+    }
+}
+
+static void end_drag(Viewer *v, int button) {
+    bool clicked = !v->moved && button == LEFT && v->held_light < 0 && !v->held_split;
+    if (clicked && v->tool == TOOL_PROBE) ask(v, TASK_PROBE, 0);
+    if (clicked && v->tool == TOOL_ORBIT) ask(v, TASK_PICK, ASK_SELECT);
+    v->held_light = -1;
+    v->held_split = v->brush.down = false;
+}
+
+static void fly(Viewer *v) {
+    const bool *key = v->input.key;
+    if (ui_types() || v->input.control || v->input.alt) return;
+    float ahead = (float)key['W'] - (float)key['S'], right = (float)key['D'] - (float)key['A'];
+    float rise = (float)key['E'] - (float)key['Q'];
+    if (ahead == 0.0f && right == 0.0f && rise == 0.0f) return;
+    float step = scene_radius(v) * v->settings.speed * v->input.seconds * (v->input.shift ? 4.0f : 1.0f);
+    orbit_fly(&v->orbit, step * ahead, step * right, step * rise);
+}
+
+void stage_input(Viewer *v) {
+    const UiInput *in = &v->input;
+    if (!v->has_scene) return;
+    bool free_mouse = over_stage(v) && !ui_wants_mouse();
+    for (int b = 0; b < 3; b++) {
+        if (in->button[b] && !v->pressed[b] && free_mouse) {
+            v->pressed[b] = v->stage_owns = true;
+            begin_drag(v, b);
+        } else if (!in->button[b] && v->pressed[b]) {
+            v->pressed[b] = false;
+            end_drag(v, b);
+        }
+    }
+    bool held = v->pressed[0] || v->pressed[1] || v->pressed[2];
+    float dx = in->x - v->last_x, dy = in->y - v->last_y;
+    v->last_x = in->x, v->last_y = in->y;
+    if (held && hypotf(in->x - v->press_x, in->y - v->press_y) > 3.0f) v->moved = true;
+    if (held && v->moved && (dx < 0.0f || dx > 0.0f || dy < 0.0f || dy > 0.0f)) drag(v, dx, dy);
+    if (free_mouse && in->wheel != 0.0f) orbit_dolly(&v->orbit, powf(0.88f, in->wheel));
+    if (!ui_wants_keys()) fly(v);
+}
+
+/* ---- what is drawn ---- */
+
+static void tag(float x, float y, const char *text) {
+    float pad = 5.0f * ui_scale(), width = ui_text_width(text);
+    ui_fill((UiBox){x, y, width + 2.0f * pad, 22.0f * ui_scale()}, dark);
+    ui_label(x + pad, y + 3.0f * ui_scale(), white, text);
+}
+
+static void draw_handles(const Viewer *v) {
+    float at[2];
+    for (int k = 0; k < v->look.light_count && handles_shown(v); k++) {
+        if (!handle_at(v, k, at)) continue;
+        bool chosen = k == v->light;
+        ui_disc(at[0], at[1], 7.0f * ui_scale(), dark);
+        ui_disc(at[0], at[1], 4.5f * ui_scale(), chosen ? accent : white);
+        char number[12];
+        snprintf(number, sizeof number, "%d", k + 1);
+        ui_label(at[0] + 9.0f * ui_scale(), at[1] - 8.0f * ui_scale(), white, number);
+    }
+}
+
+static void draw_split(const Viewer *v) {
+    const UiBox *s = &v->stage;
+    if (v->split == SPLIT_NONE || v->mode != MODE_LIVE) return;
+    float x = s->x + floorf((v->split == SPLIT_LINE ? v->split_at : 0.5f) * s->width);
+    ui_line(x, s->y, x, s->y + s->height, 0xD0FFFFFFu, 1.0f);
+    if (v->split == SPLIT_LINE) ui_disc(x, s->y + 0.5f * s->height, 6.0f * ui_scale(), white);
+    tag(s->x + 8.0f, s->y + 8.0f, v->side == 0 ? "A  (edited)" : "A");
+    const char *b = v->side == 1 ? "B  (edited)" : "B";
+    tag(s->x + s->width - ui_text_width(b) - 20.0f * ui_scale(), s->y + 8.0f, b);
+}
+
+static void draw_scale(const Viewer *v) {
+    const UiBox *s = &v->stage;
+    char text[160];
+    if (v->mode != MODE_DIFFERENCE || !v->traced.compared) return;
+    snprintf(text, sizeof text, "mean %.4f   relMSE %.5f   99%% within %.3f   %.0f spp",
+             v->traced.difference.mean, v->traced.difference.relmse, (double)v->traced.difference.high,
+             v->traced.samples);
+    tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), text);
+    snprintf(text, sizeof text, "blue: OpenGL is darker   red, yellow: brighter   ends at %.3f",
+             (double)v->traced.scale);
+    tag(s->x + 8.0f, s->y + s->height - 58.0f * ui_scale(), text);
+}
+
+static void draw_tags(const Viewer *v) {
+    const UiBox *s = &v->stage;
+    char text[128] = "";
+    if (v->mode == MODE_TRUTH)
+        snprintf(text, sizeof text, "path traced   %.0f of %d spp", v->traced.samples, TRACE_SAMPLES);
+    else if (v->mode == MODE_DIFFERENCE)
+        snprintf(text, sizeof text, "OpenGL less path traced");
+    else if (v->part != WEFT_PART_ALL)
+        snprintf(text, sizeof text, "%s alone", weft_part_name((int)v->part));
+    if (text[0]) tag(s->x + 8.0f, s->y + 8.0f, text);
+    if (v->mode != MODE_LIVE && v->desc->shader_dir)
+        tag(s->x + 8.0f, s->y + 34.0f * ui_scale(),
+            "shader text may be edited: OpenGL then differs from what is traced");
+    if (v->tool == TOOL_BRUSH)
+        tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), "brush: stroke the nap; B ends");
+    if (v->tool == TOOL_PROBE)
+        tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), "probe: click a pixel; P ends");
+}
+
+static void draw_progress(const Viewer *v) {
+    const UiBox *s = &v->stage;
+    char text[64] = "reading";
+    float share = loader_share(v->loader), width = 260.0f * ui_scale();
+    UiBox box = {s->x + 0.5f * (s->width - width), s->y + 0.5f * s->height, width, 5.0f * ui_scale()};
+    if (share >= 0.0f) snprintf(text, sizeof text, "reading %.0f %%", 100.0 * (double)share);
+    tag(box.x, box.y - 30.0f * ui_scale(), text);
+    ui_fill(box, dark);
+    box.width *= fminf(fmaxf(share, 0.02f), 1.0f);
+    ui_fill(box, accent);
+}
+
+static void draw_brush(const Viewer *v) {
+    if (v->tool != TOOL_BRUSH || !over_stage(v) || ui_wants_mouse()) return;
+    float d = 0.0f;
+    for (int k = 0; k < 3; k++)
+        d += (v->orbit.eye[k] - v->orbit.target[k]) * (v->orbit.eye[k] - v->orbit.target[k]);
+    float height = 2.0f * sqrtf(d) * tanf(0.5f * v->orbit.fov * 0.01745329f);
+    ui_ring(v->input.x, v->input.y, fmaxf(v->brush.radius / height * v->stage.height, 2.0f), white);
+}
+
+void stage_draw(Viewer *v) {
+    unsigned live = v->painted.texture;
+    ui_behind(true);
+    if (v->mode != MODE_LIVE && v->truth_texture)
+        ui_picture(v->truth_texture, v->stage, false);
+    else if (live)
+        ui_picture(live, v->stage, true);
+    ui_clip(&v->stage);
+    draw_split(v);
+    draw_handles(v);
+    draw_tags(v);
+    draw_scale(v);
+    draw_brush(v);
+    if (v->loader) draw_progress(v);
+    if (!v->has_scene && !v->loader && v->stage.height > 40.0f)
+        ui_label(v->stage.x + 0.5f * v->stage.width - 160.0f, v->stage.y + 0.5f * v->stage.height, white,
+                 "Drop a .glb or .gltf here, or File > Open ...");
+    ui_clip(NULL);
+    ui_behind(false);
+}

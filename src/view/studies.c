@@ -1,0 +1,68 @@
+#include "view/studies.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "view/inputs.h"
+#include "weft/sheet.h"
+
+enum { WIDTH = 300, COLUMNS = 4 };
+
+void study_start(Study *self, const Look *look, const WeftRasterView *view, const char *camera,
+                 WeftTonemap tonemap, float exposure, unsigned stamp) {
+    study_stop(self);
+    if (!look_copy(&self->look, look)) return;
+    self->under_way = true;
+    self->stamp = stamp;
+    self->view = *view;
+    self->view.part = WEFT_PART_ALL;
+    self->view.height = WIDTH * view->height / view->width;
+    self->view.width = WIDTH;
+    if (self->view.height < 1) self->view.height = 1;
+    if (self->view.height > 2 * WIDTH) self->view.height = 2 * WIDTH;
+    snprintf(self->camera, sizeof self->camera, "%s", camera);
+    self->tonemap = tonemap;
+    self->exposure = exposure;
+}
+
+void study_stop(Study *self) {
+    for (int k = 0; k < STUDY_MOST; k++) weft_image_free(&self->pictures[k]);
+    look_free(&self->look);
+    memset(self, 0, sizeof *self);
+}
+
+bool study_look(const Study *self, Look *look) {
+    bool good = look_copy(look, &self->look);
+    if (!good) *look = (Look){0};
+    for (int k = 0; k < look->material_count && good; k++) {
+        WeftMaterial m = *look_material(look, k);
+        weft_material_choose(&m, choice_number("profile"), self->next - 1);
+        good = look_set_material(look, k, &m);
+    }
+    return good;
+}
+
+WeftRasterView study_view(const Study *self) {
+    WeftRasterView view = self->view;
+    view.camera = self->camera;
+    return view;
+}
+
+void study_add(Study *self, WeftImage *linear) {
+    weft_image_tonemap(linear, self->tonemap, self->exposure, &self->pictures[self->next++], NULL);
+    weft_image_free(linear);
+}
+
+bool study_done(const Study *self) {
+    return self->next == STUDY_MOST || self->next > choice_values(choice_number("profile"));
+}
+
+bool study_sheet(const Study *self, WeftImage *sheet) {
+    WeftPanel panels[STUDY_MOST] = {0};
+    for (int k = 0; k < self->next; k++) {
+        panels[k].image = self->pictures[k].pixels ? &self->pictures[k] : NULL;
+        panels[k].title = k ? weft_material_choice_value(choice_number("profile"), k - 1) : "weft";
+    }
+    const WeftSheetDesc desc = {.panels = panels, .count = self->next, .columns = COLUMNS};
+    return weft_sheet_compose(&desc, sheet, NULL) == WEFT_OK;
+}

@@ -1,0 +1,38 @@
+/* studies.h - a small picture of the scene under every profile, one at a time, and the sheet of them all */
+#ifndef WEFT_VIEW_STUDIES_H
+#define WEFT_VIEW_STUDIES_H
+
+#include "view/look.h"
+#include "view/orbit.h"
+#include "weft/raster.h"
+
+enum { STUDY_MOST = 40 };
+
+/* Zero-initialise: none is under way. */
+typedef struct Study {
+    bool under_way;
+    unsigned stamp;
+    Look look;
+    WeftRasterView view;
+    char camera[ORBIT_TEXT];
+    WeftTonemap tonemap;
+    float exposure;
+    int next; /* picture: 0 is without a profile, k that of profile k - 1 */
+    WeftImage pictures[STUDY_MOST];
+} Study;
+
+/* Of what a look is; what is under way is given up. */
+void study_start(Study *study, const Look *look, const WeftRasterView *view, const char *camera,
+                 WeftTonemap tonemap, float exposure, unsigned stamp);
+void study_stop(Study *study);
+
+/* What the next picture is of, and how it is seen. False where memory is short; look is empty then. */
+bool study_look(const Study *study, Look *look);
+WeftRasterView study_view(const Study *study);
+void study_add(Study *study, WeftImage *linear); /* takes it over */
+bool study_done(const Study *study);
+
+/* U8 RGB. False where memory is short. */
+bool study_sheet(const Study *study, WeftImage *sheet);
+
+#endif

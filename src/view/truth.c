@@ -1,0 +1,305 @@
+#define _GNU_SOURCE /* setpriority of one thread */
+#include "view/truth.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+struct Truth {
+    Window *window;
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t change;
+    /* under the lock */
+    TruthOrder order;
+    unsigned number;        /* of the order, counted up */
+    const WeftScene *scene; /* may be read while `running` */
+    unsigned changed;
+    bool other; /* the scene is another one */
+    bool held, running, quit, waiting;
+    WeftImage reference; /* to compare with, newest; taken by the thread */
+    bool fresh;          /* `picture` was not taken yet */
+    TruthPicture picture;
+    WeftImage linear; /* what the picture was made of */
+    /* of the thread alone */
+    WeftRender *render;
+    TruthOrder done;
+    unsigned done_number;
+    bool current; /* `render` is of the scene and of `done` */
+    double samples;
+    WeftImage compared;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int should_stop(void *user, double fraction) {
+    Truth *self = user;
+    pthread_mutex_lock(&self->lock);
+    bool stop = self->waiting || self->quit || self->number != self->done_number;
+    pthread_mutex_unlock(&self->lock);
+    return stop;
+}
+
+static bool same_view(const TruthOrder *a, const TruthOrder *b) {
+    WeftRenderDesc x = a->desc, y = b->desc;
+    x.camera = y.camera = NULL;
+    return memcmp(&x, &y, sizeof x) == 0 && strcmp(a->camera, b->camera) == 0;
+}
+
+static void say(Truth *self, const char *failure) {
+    pthread_mutex_lock(&self->lock);
+    snprintf(self->picture.failure, sizeof self->picture.failure, "%.255s", failure);
+    self->fresh = true;
+    pthread_mutex_unlock(&self->lock);
+}
+
+/* Makes the render one of this order and of the scene as it is. */
+static bool begin(Truth *self, const TruthOrder *order, const WeftScene *scene, unsigned changed,
+                  bool other) {
+    WeftError error = {0};
+    WeftRenderDesc desc = order->desc;
+    WeftResult result;
+    desc.camera = order->camera;
+    if (other || !self->render) {
+        weft_render_free(self->render);
+        self->render = NULL;
+        result = weft_render_create(scene, &desc, &self->render, &error);
+    } else {
+        result = weft_render_restart(self->render, &desc, changed, &error);
+        if (result != WEFT_OK) {
+            weft_render_free(self->render);
+            self->render = NULL;
+        }
+    }
+    self->samples = 0.0;
+    self->current = result == WEFT_OK;
+    if (!self->current) say(self, error.text);
+    return self->current;
+}
+
+static WeftResult compare(Truth *self, const TruthOrder *order, const WeftImage *linear,
+                          TruthPicture *picture) {
+    const WeftImage *b = &self->compared;
+    if (!b->pixels || b->width != linear->width || b->height != linear->height) return WEFT_INPUT;
+    WeftResult result = weft_difference(b, linear, &picture->difference, NULL);
+    picture->scale = order->scale > 0.0f ? order->scale : fmaxf(picture->difference.high, 0.01f);
+    picture->compared = result == WEFT_OK;
+    return result == WEFT_OK ? weft_difference_image(b, linear, picture->scale, &picture->image, NULL)
+                             : result;
+}
+
+/* Adds an alpha of 1, as textures have it. */
+static void over(WeftImage *image, const float background[3]) {
+    unsigned char *p = image->pixels;
+    for (size_t k = 0; k < (size_t)image->width * (size_t)image->height; k++, p += 4)
+        for (int c = 0; c < 3; c++)
+            p[c] = (unsigned char)(0.5f + ((float)p[c] * (float)p[3] +
+                                           255.0f * background[c] * (float)(255 - p[3])) /
+                                              255.0f);
+}
+
+/* Shows what there is. */
+static void publish(Truth *self, const TruthOrder *order) {
+    TruthPicture picture = {.wanted_samples = order->samples};
+    WeftImage linear;
+    if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
+    WeftRenderInfo info = weft_render_info(self->render);
+    picture.samples = info.samples_per_pixel;
+    picture.seconds = info.render_seconds;
+    bool made = order->difference && compare(self, order, &linear, &picture) == WEFT_OK;
+    if (!made && !order->difference) {
+        made = weft_image_tonemap(&linear, order->tonemap, order->exposure, &picture.image, NULL) == WEFT_OK;
+        if (made && picture.image.channels == 4) over(&picture.image, order->background);
+    }
+    pthread_mutex_lock(&self->lock);
+    weft_image_free(&self->linear);
+    self->linear = linear;
+    if (made) {
+        weft_image_free(&self->picture.image);
+        self->picture = picture;
+        self->fresh = true;
+    }
+    pthread_mutex_unlock(&self->lock);
+    window_wake(self->window);
+}
+
+/* A few more samples, as many as half a second has. */
+static void refine(Truth *self, const TruthOrder *order) {
+    double start = now();
+    int left = order->samples - (int)self->samples;
+    int count = self->samples < 1.0 ? 1 : self->samples < 8.0 ? (int)self->samples : 8;
+    if (count > left) count = left;
+    while (count > 0) {
+        WeftResult result = weft_render_run(self->render, count, 0.0, should_stop, self);
+        self->samples = weft_render_info(self->render).samples_per_pixel;
+        left = order->samples - (int)self->samples;
+        if (count > left) count = left;
+        if (result != WEFT_OK || now() - start > 0.4) break;
+    }
+}
+
+static bool has_work(const Truth *self) {
+    if (!self->order.wanted || !self->scene || self->held || self->waiting) return false;
+    if (self->picture.failure[0] && self->number == self->done_number && !self->changed) return false;
+    return self->other || self->changed || self->number != self->done_number || self->reference.pixels ||
+           (self->current && self->samples < (double)self->order.samples);
+}
+
+/* One round; the lock is held before and after, not during. */
+static void round_of_work(Truth *self) {
+    TruthOrder order = self->order;
+    const WeftScene *scene = self->scene;
+    unsigned changed = self->changed;
+    bool other = self->other, redraw = self->number != self->done_number;
+    self->running = true;
+    self->changed = 0;
+    self->other = false;
+    self->done_number = self->number;
+    if (self->reference.pixels) {
+        weft_image_free(&self->compared);
+        self->compared = self->reference;
+        self->reference = (WeftImage){0};
+        redraw = true;
+    }
+    pthread_mutex_unlock(&self->lock);
+    bool begun = self->current || other || changed || !same_view(&order, &self->done) || !self->render;
+    bool anew = other || changed || !self->current || !same_view(&order, &self->done);
+    if (anew) begun = begin(self, &order, scene, changed, other);
+    self->done = order;
+    if (begun) {
+        bool more = self->samples < (double)order.samples;
+        if (redraw && !anew && self->samples >= 1.0)
+            publish(self, &order); /* the same samples, shown otherwise */
+        if (more) refine(self, &order);
+        if (more && self->samples >= 1.0) publish(self, &order);
+    }
+    pthread_mutex_lock(&self->lock);
+    self->running = false;
+    pthread_cond_broadcast(&self->change);
+}
+
+static void *work(void *user) {
+    Truth *self = user;
+    setpriority(PRIO_PROCESS, (id_t)gettid(), 10); /* the window comes first; threads made here inherit it */
+    pthread_mutex_lock(&self->lock);
+    while (!self->quit)
+        if (has_work(self))
+            round_of_work(self);
+        else
+            pthread_cond_wait(&self->change, &self->lock);
+    pthread_mutex_unlock(&self->lock);
+    return NULL;
+}
+
+Truth *truth_start(Window *window) {
+    Truth *self = calloc(1, sizeof *self);
+    if (!self) return NULL;
+    self->window = window;
+    pthread_mutex_init(&self->lock, NULL);
+    pthread_cond_init(&self->change, NULL);
+    if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
+    free(self);
+    return NULL;
+}
+
+void truth_stop(Truth *self) {
+    if (!self) return;
+    pthread_mutex_lock(&self->lock);
+    self->quit = true;
+    pthread_cond_broadcast(&self->change);
+    pthread_mutex_unlock(&self->lock);
+    pthread_join(self->thread, NULL);
+    weft_render_free(self->render);
+    weft_image_free(&self->reference);
+    weft_image_free(&self->compared);
+    weft_image_free(&self->picture.image);
+    weft_image_free(&self->linear);
+    pthread_mutex_destroy(&self->lock);
+    pthread_cond_destroy(&self->change);
+    free(self);
+}
+
+void truth_hold(Truth *self) {
+    pthread_mutex_lock(&self->lock);
+    self->waiting = true;
+    while (self->running) pthread_cond_wait(&self->change, &self->lock);
+    self->held = true;
+    pthread_mutex_unlock(&self->lock);
+}
+
+void truth_release(Truth *self, const WeftScene *scene, unsigned changed) {
+    pthread_mutex_lock(&self->lock);
+    self->held = self->waiting = false;
+    if (scene != self->scene) self->other = true;
+    if (scene != self->scene || changed) self->picture.failure[0] = '\0';
+    self->scene = scene;
+    self->changed |= changed;
+    pthread_cond_broadcast(&self->change);
+    pthread_mutex_unlock(&self->lock);
+}
+
+void truth_order(Truth *self, const TruthOrder *order) {
+    pthread_mutex_lock(&self->lock);
+    if (memcmp(&self->order, order, sizeof *order) != 0) {
+        self->order = *order;
+        self->number++;
+        self->picture.failure[0] = '\0';
+        pthread_cond_broadcast(&self->change);
+    }
+    pthread_mutex_unlock(&self->lock);
+}
+
+void truth_compare(Truth *self, WeftImage *linear) {
+    pthread_mutex_lock(&self->lock);
+    weft_image_free(&self->reference);
+    self->reference = *linear;
+    *linear = (WeftImage){0};
+    pthread_cond_broadcast(&self->change);
+    pthread_mutex_unlock(&self->lock);
+}
+
+bool truth_take(Truth *self, TruthPicture *picture) {
+    pthread_mutex_lock(&self->lock);
+    bool fresh = self->fresh;
+    if (fresh) {
+        *picture = self->picture;
+        self->picture.image = (WeftImage){0};
+        self->fresh = false;
+    }
+    pthread_mutex_unlock(&self->lock);
+    return fresh;
+}
+
+bool truth_fresh(Truth *self) {
+    pthread_mutex_lock(&self->lock);
+    bool fresh = self->fresh;
+    pthread_mutex_unlock(&self->lock);
+    return fresh;
+}
+
+bool truth_image(Truth *self, WeftImage *out) {
+    pthread_mutex_lock(&self->lock);
+    const WeftImage *from = &self->linear;
+    bool there =
+        from->pixels && weft_image_create(from->width, from->height, 4, WEFT_PIXEL_F32, out, NULL) == WEFT_OK;
+    if (there)
+        memcpy(out->pixels, from->pixels, (size_t)from->width * (size_t)from->height * 4 * sizeof(float));
+    pthread_mutex_unlock(&self->lock);
+    return there;
+}
+
+bool truth_resting(Truth *self) {
+    pthread_mutex_lock(&self->lock);
+    bool resting = !self->running && !has_work(self);
+    pthread_mutex_unlock(&self->lock);
+    return resting;
+}

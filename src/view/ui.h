@@ -1,0 +1,194 @@
+/* ui.h - widgets, in C: the bridge to Dear ImGui, which alone is C++
+ *
+ * One frame: ui_begin, widgets, ui_end. A widget is named by its label and by the scopes around it:
+ * "Material/ roughness"; after "##" a label is part of the name alone. Whatever was shown can be asked for by
+ * its name (ui_control), which is how a script finds it. Colours are 0xAABBGGRR, places in pixels from the
+ * top left. One thread, the one whose OpenGL context is current. */
+#ifndef WEFT_VIEW_UI_H
+#define WEFT_VIEW_UI_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Keys by their place on a keyboard of the United States, as GLFW numbers them (GLFW_KEY_W is the key above S
+ * on any layout). */
+enum { UI_KEYS = 512, UI_BUTTONS = 5, UI_TYPED = 32, UI_PRESSED = 16 };
+
+/* A key that went down: which, and what is written on it on this keyboard, in lower case; 0: no letter. */
+typedef struct UiPress {
+    int key;
+    char letter;
+    bool control, shift, alt, again; /* again: it is held, and repeats */
+} UiPress;
+
+/* What the user does with mouse and keys, as it is now; wheel and typed since the last frame. */
+typedef struct UiInput {
+    int width, height;       /* of the window */
+    float seconds;           /* since the last frame */
+    float x, y;              /* of the mouse; negative: elsewhere */
+    bool button[UI_BUTTONS]; /* left, right, middle */
+    float wheel, wheel_across;
+    bool key[UI_KEYS];
+    bool control, shift, alt;
+    unsigned typed[UI_TYPED]; /* code points */
+    int typed_count;
+    UiPress pressed[UI_PRESSED]; /* since the last frame */
+    int pressed_count;
+} UiInput;
+
+/* scale: pixels a design pixel (1: 96 dpi). The clipboard: functions that get and set the text of the window
+ * system; may be NULL. False where it cannot be set up. */
+typedef struct UiClipboard {
+    const char *(*get)(void *user);
+    void (*set)(void *user, const char *text);
+    void *user;
+} UiClipboard;
+
+bool ui_create(float scale, const UiClipboard *clipboard);
+void ui_destroy(void);
+
+void ui_begin(const UiInput *input);
+/* Draws everything into the framebuffer that is bound. */
+void ui_end(void);
+
+/* Whether the mouse or the keyboard is a widget's. */
+bool ui_wants_mouse(void);
+bool ui_wants_keys(void);
+/* Whether text is being typed. */
+bool ui_types(void);
+
+typedef enum UiCursor { UI_ARROW, UI_BEAM, UI_ACROSS, UI_HAND, UI_CURSORS } UiCursor;
+UiCursor ui_cursor(void);
+
+float ui_scale(void);
+float ui_line_height(void); /* of a row of widgets */
+float ui_text_width(const char *text);
+float ui_room(void); /* width that is left in this row */
+
+typedef struct UiBox {
+    float x, y, width, height;
+} UiBox;
+
+/* Places. A panel is a fixed region of the window; true where it is to be filled. End either way. */
+bool ui_panel(const char *name, UiBox box, bool scrolls);
+void ui_panel_end(void);
+/* A window that floats, with a cross that sets *open false. */
+bool ui_window(const char *name, UiBox first, bool *open);
+void ui_window_end(void);
+/* What stands above all else until it is closed; open it once, then call every frame. */
+void ui_dialog_open(const char *name);
+bool ui_dialog(const char *name, float width, float height);
+void ui_dialog_close(void);
+void ui_dialog_end(void);
+/* A box of its own within a panel, that scrolls. */
+bool ui_list(const char *name, float height);
+void ui_list_end(void);
+
+/* Part of the names of what follows. */
+void ui_scope(const char *name);
+void ui_scope_end(void);
+
+/* A heading that folds what is below it; true while unfolded. */
+bool ui_section(const char *label, bool unfolded);
+
+bool ui_menu_bar(void);
+void ui_menu_bar_end(void);
+bool ui_menu(const char *label);
+void ui_menu_end(void);
+bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool enabled);
+
+void ui_same_line(void);
+void ui_column(float share); /* goes on in this row, from that share of the width on */
+void ui_space(float height);
+void ui_rule(void);
+void ui_width(float width); /* of the next widget */
+void ui_disabled(bool disabled);
+void ui_disabled_end(void);
+void ui_faint(bool faint); /* what can be set and does nothing */
+void ui_faint_end(void);
+void ui_indent(void); /* to the column of values */
+void ui_indent_end(void);
+
+void ui_text(const char *text);
+void ui_wrapped(const char *text);
+void ui_dim(const char *text);
+void ui_warning(const char *text);
+
+/* What the widget before is about, shown when the mouse rests on it. NULL: nothing. */
+void ui_tip(const char *text);
+
+bool ui_button(const char *label);
+bool ui_small_button(const char *label);
+bool ui_checkbox(const char *label, bool *on);
+/* Buttons in a row of which one is chosen; names ends with NULL. */
+bool ui_tabs(const char *label, const char *const *names, int *chosen);
+bool ui_selectable(const char *label, bool chosen);
+
+/* A menu of count values; name and help (may be NULL) tell them by number. */
+typedef struct UiChoices {
+    int count;
+    const char *(*name)(const void *user, int value);
+    const char *(*help)(const void *user, int value);
+    const void *user;
+} UiChoices;
+bool ui_choice(const char *label, const UiChoices *choices, int *chosen);
+
+typedef struct UiRange {
+    float low, high;  /* that the slider spans */
+    float initial;    /* a double click goes there */
+    const char *unit; /* NULL: none */
+    bool logarithmic;
+} UiRange;
+
+/* True where it was changed. Ctrl-click types a value, which may lie beyond the range. */
+bool ui_slider(const char *label, const UiRange *range, float *value);
+bool ui_slider_int(const char *label, int low, int high, int *value);
+bool ui_numbers(const char *label, float step, float *values, int count);
+/* Linear Rec. 709, shown as sRGB; values beyond 1 stay. */
+bool ui_color(const char *label, const float initial[3], float color[3]);
+bool ui_input(const char *label, char *text, int size);
+void ui_progress(float share, const char *text); /* share below 0: under way */
+
+/* Whether the widget before is being changed, or was let go of in this frame. */
+bool ui_active(void);
+bool ui_released(void);
+bool ui_hovered(void);
+
+/* A place to draw in: `box` receives it. True while the mouse is over it or holds it. */
+bool ui_canvas(const char *label, float width, float height, UiBox *box);
+/* Draws on what is behind all panels, until false. */
+void ui_behind(bool behind);
+void ui_above(bool above);
+void ui_clip(const UiBox *box); /* NULL: no more */
+void ui_line(float x0, float y0, float x1, float y1, unsigned color, float thickness);
+void ui_curve(const float *xy, int count, unsigned color, float thickness);
+void ui_fill(UiBox box, unsigned color);
+void ui_frame(UiBox box, unsigned color);
+void ui_triangle(const float xy[6], unsigned color);
+void ui_disc(float x, float y, float radius, unsigned color);
+void ui_ring(float x, float y, float radius, unsigned color);
+void ui_label(float x, float y, unsigned color, const char *text);
+void ui_picture(unsigned texture, UiBox box, bool flipped);
+void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, float v1);
+
+/* A row of a plot over one number: the points and their colour. */
+
+/* What was shown in the last frame. */
+typedef struct UiControl {
+    char name[96];
+    UiBox box;
+} UiControl;
+int ui_control_count(void);
+const UiControl *ui_control(int index);
+const UiControl *ui_control_find(const char *name); /* NULL: it is not shown */
+/* Brings that control into view where it is in a panel that scrolls: at the next frame. */
+void ui_reveal(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+/* view.h - the window: open a cloth asset, switch every term, see the truth behind it */
+#ifndef WEFT_VIEW_VIEW_H
+#define WEFT_VIEW_VIEW_H
+
+#include <stdbool.h>
+
+#include "view/look.h"
+#include "weft/raster.h"
+
+/* What the window starts with. Texts must outlive it. */
+typedef struct ViewDesc {
+    const char *scene; /* NULL: the built-in cloth */
+    const char
+        *options; /* how the scene is dressed, as a command line has it: for the copied one; may be NULL */
+    /* Dresses and lights a scene that was just loaded; `around` receives the light from far away. May be
+     * NULL. */
+    WeftResult (*dress)(void *user, WeftScene *scene, Around *around, const WeftLog *log, WeftError *error);
+    void *user;
+    const char *camera; /* NULL: a built-in scene's first one, else auto */
+    WeftBackground background;
+    float background_color[3];
+    WeftTonemap tonemap;
+    float exposure;
+    const char *shader_dir; /* may be NULL */
+    const char *materials;  /* folder of maps to put onto the cloth; NULL: none */
+    int occlusion;
+    int width, height;  /* of the window; 0: as it was last time */
+    int frames;         /* ends after so many; 0: when it is closed */
+    const char *script; /* file of actions to replay; may be NULL */
+    bool unseen;        /* without a window */
+    bool report;        /* a line of JSON on standard output whenever it comes to rest */
+    bool forget;        /* settings are neither read nor written */
+} ViewDesc;
+
+/* Runs until it is closed. Returns an exit code; what went wrong is one line in `why`. */
+int view_run(const ViewDesc *desc, char why[512]);
+
+#endif

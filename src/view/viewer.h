@@ -1,0 +1,179 @@
+/* viewer.h - what the window knows: one struct that panels, stage and replay share, one frame after another
+ */
+#ifndef WEFT_VIEW_VIEWER_H
+#define WEFT_VIEW_VIEWER_H
+
+#include "view/history.h"
+#include "view/loader.h"
+#include "view/painter.h"
+#include "view/settings.h"
+#include "view/view.h"
+#include "view/watchman.h"
+#include "weft/measure.h"
+
+/* What the stage shows: OpenGL, the path tracer, or how they differ. */
+typedef enum Mode { MODE_LIVE, MODE_TRUTH, MODE_DIFFERENCE } Mode;
+typedef enum Tool { TOOL_ORBIT, TOOL_PROBE, TOOL_BRUSH } Tool;
+
+enum { TRACE_SAMPLES = 1024, MESSAGE_SIZE = 512 };
+
+/* The brush that lays the nap. */
+typedef struct Brush {
+    float radius;   /* m */
+    float strength; /* 0 .. 1, of a stroke */
+    bool down;      /* a stroke is under way */
+    bool known;     /* `at` is where it was last */
+    float at[3];
+} Brush;
+
+typedef struct Inspection Inspection;
+
+typedef struct Viewer {
+    const ViewDesc *desc;
+    Window *window;
+    Painter *painter;
+    Truth *truth;
+    Loader *loader; /* NULL: nothing is being read */
+    struct Replay *replay;
+    Watchman *watchman;
+    Settings settings;
+    UiInput input;
+    double clock; /* s, of this frame */
+    long long frame;
+    bool ending;
+
+    /* the scene */
+    bool has_scene;
+    bool dressed;            /* the first one is as the command line has it */
+    char watched[LOOK_PATH]; /* light whose file is watched */
+    Facts facts;
+    Look look, first, before; /* as it is edited; as it was read; as it was a frame ago */
+    Look other;               /* the other of A and B; empty without a comparison */
+    int side;                 /* which of them `look` is: 0 is A */
+    History history;
+    int material, light; /* that the panels show */
+    int variant;         /* -1: none was chosen */
+    WeftMaterial copied;
+    bool has_copied;
+
+    /* how it is seen */
+    Orbit orbit;
+    Mode mode;
+    Split split;
+    float split_at;
+    WeftBackground background;
+    float background_color[3];
+    WeftTonemap tonemap;
+    float exposure;
+    WeftPart part;
+    WeftAmbient ambient;
+    Tool tool;
+    Brush brush;
+    UiBox stage; /* pixels of the window */
+    int panel;   /* that is open at the side */
+
+    /* what came back */
+    Painted painted;
+    unsigned ordered; /* number of the last order */
+    Order order;      /* that it was; its looks are empty */
+    bool ask;         /* an order is due */
+    bool late;        /* the painter is at something long: it is not waited for */
+    unsigned truth_texture;
+    int truth_width, truth_height;
+    TruthPicture traced; /* without its image */
+    Probe probe;
+    bool has_probe;
+    unsigned profiles_texture; /* sheet of all profiles */
+    int profiles_width, profiles_height;
+    bool profiles_open, profiles_made;
+    WeftImage profiles;
+    Inspection *inspection;
+
+    /* words */
+    char message[MESSAGE_SIZE];
+    bool message_grave;
+    char warnings[8192]; /* of scene and files, one a line */
+    char shader_complaint[512];
+
+    /* dialogs */
+    struct Browser *browser;
+    bool help_open, warnings_open;
+    char open_dialog[32]; /* to be opened in this frame */
+    char save_path[LOOK_PATH], shot_path[LOOK_PATH];
+    int shot_width, shot_height;
+    bool shot_transparent, shot_truth;
+    char dropped[LOOK_PATH]; /* a picture that waits to be told what it is for */
+    int dropped_input;
+
+    /* of the mouse on the stage */
+    bool pressed[3], moved;
+    float press_x, press_y, last_x, last_y;
+    int held_light; /* whose handle is dragged, -1 none */
+    bool held_split;
+    bool stage_owns; /* the drag began there */
+    bool picking;
+    unsigned stamps;
+
+    /* rates */
+    double frame_seconds; /* mean of late */
+    double picture_seconds;
+    double worst_seconds; /* longest frame since the last report */
+} Viewer;
+
+/* A line for the status bar; a grave one is in a warning's colour. */
+void viewer_say(Viewer *v, bool grave, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Opens what a path is: a scene is read in the background; an environment lights the scene, a material file
+ * dresses it, a picture asks what it is for, a folder of maps is worn. */
+void viewer_open(Viewer *v, const char *path);
+
+/* What the user asks for by menu, key or replay. */
+void viewer_undo(Viewer *v);
+void viewer_redo(Viewer *v);
+void viewer_mode(Viewer *v, Mode mode);
+void viewer_split(Viewer *v, Split split);
+void viewer_swap(Viewer *v); /* edits the other of A and B */
+void viewer_frame_selection(Viewer *v);
+void viewer_reset_camera(Viewer *v);
+void viewer_shot(Viewer *v, const char *path);
+void viewer_save(Viewer *v, const char *path);
+void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int input);
+void viewer_copy_command(Viewer *v);
+void viewer_profiles(Viewer *v);
+void viewer_dialog(Viewer *v, const char *name);
+
+/* Changes a material of the look. */
+void viewer_set_material(Viewer *v, int index, const WeftMaterial *material);
+
+/* Whether all that was asked for is shown: nothing is being read, drawn or compiled. */
+bool viewer_at_rest(Viewer *v);
+
+/* "WxH" pixels of the stage. */
+float viewer_aspect(const Viewer *v);
+
+/* A texture from U8 RGB or RGBA. */
+void viewer_upload(unsigned *texture, const WeftImage *image);
+
+/* stage.c: the picture, and what the mouse does on it */
+void stage_input(Viewer *v);
+void stage_draw(Viewer *v);
+/* What lies where the mouse was: the answer to the question of that stamp. */
+void stage_picked(Viewer *v, const Probe *at, unsigned stamp);
+
+/* panels, one file each */
+void menu_draw(Viewer *v);
+void status_draw(Viewer *v);
+void material_panel(Viewer *v);
+void light_panel(Viewer *v);
+void view_panel(Viewer *v);
+void inspect_panel(Viewer *v);
+void dialogs_draw(Viewer *v);
+void keys_input(Viewer *v);
+void inspection_free(Inspection *inspection);
+bool inspection_busy(const Inspection *inspection); /* it measures on in the next frame */
+
+/* command.c: the command line that draws what the window shows. Release with free; NULL where memory is
+ * short; `lost` (may be NULL) is set where a painted nap is not in it. */
+char *command_line(const Viewer *v, bool *lost);
+
+#endif

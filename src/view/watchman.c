@@ -1,0 +1,60 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/watchman.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/paths.h"
+
+enum { FILES = 1024 };
+
+typedef struct File {
+    char *path;
+    int id;
+    unsigned long long told, seen; /* stamps: when it was last told of, and last looked at */
+    double since;                  /* it is as it was seen */
+} File;
+
+struct Watchman {
+    File files[FILES];
+    int count;
+    double looked;
+};
+
+Watchman *watchman_start(void) { return calloc(1, sizeof(Watchman)); }
+
+void watchman_forget(Watchman *self) {
+    for (int k = 0; k < self->count; k++) free(self->files[k].path);
+    self->count = 0;
+}
+
+void watchman_stop(Watchman *self) {
+    if (self) watchman_forget(self);
+    free(self);
+}
+
+void watchman_watch(Watchman *self, const char *path, int id) {
+    if (self->count == FILES) return;
+    unsigned long long stamp = path_stamp(path);
+    char *copy = strdup(path);
+    if (copy) self->files[self->count++] = (File){copy, id, stamp, stamp, 0.0};
+}
+
+int watchman_look(Watchman *self, double seconds) {
+    if (seconds - self->looked < 0.25) return -1;
+    self->looked = seconds;
+    for (int k = 0; k < self->count; k++) {
+        File *file = &self->files[k];
+        unsigned long long stamp = path_stamp(file->path);
+        if (stamp != file->seen) {
+            file->seen = stamp;
+            file->since = seconds;
+        }
+        /* What is gone may be on its way: editors write another file and rename it. */
+        if (!stamp || stamp == file->told || seconds - file->since < 0.3) continue;
+        file->told = stamp;
+        self->looked = 0.0; /* others may have changed as well */
+        return file->id;
+    }
+    return -1;
+}
