@@ -81,6 +81,7 @@ typedef struct Job {
     Span bytes;
     unsigned char *owned;
     const char *name; /* subject of messages */
+    const char *path; /* NULL: no file of its own */
     WeftResult result;
     WeftError error;
 } Job;
@@ -171,7 +172,7 @@ static int image_resolve(Jobs *jobs, int index) {
         AssetFile *file = file_refer(&asset->image_files, &uri_field, uri, SIZE_MAX);
         if (!file) return 0;
         job.bytes = file_bytes(&asset->image_files, asset, file);
-        job.name = file->path;
+        job.name = job.path = file->path;
         made = &file->image;
     } else if (view >= 0) {
         job.bytes = view_bytes(asset, view);
@@ -199,6 +200,7 @@ static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
         sampler_read(asset, source->sampler, made);
         if (*image < 0) *image = image_resolve(jobs, source->image);
         made->image = *image;
+        if (jobs->items[*image].path) made->path = asset_text(asset, jobs->items[*image].path);
     }
     return source->scene_texture + 1;
 }
