@@ -300,7 +300,8 @@ static size_t count_surfaces(Asset *asset) {
 
 void meshes_bake(Asset *asset) {
     WeftScene *scene = asset->scene;
-    scene->meshes = asset_array(asset, &scene->arena, count_surfaces(asset), sizeof *scene->meshes);
+    const size_t surfaces = count_surfaces(asset);
+    scene->meshes = asset_array(asset, &scene->arena, surfaces, sizeof *scene->meshes);
     if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->node_count; i++) {
         const Node *node = &asset->nodes[i];
@@ -313,6 +314,7 @@ void meshes_bake(Asset *asset) {
             if (bake.primitive->mode < 4 || bake.primitive->position < 0) continue;
             if (bake_primitive(&bake)) scene->mesh_count++;
             arena_free(&bake.scratch);
+            asset_progress(asset, 0.25, 0.5, (size_t)scene->mesh_count, surfaces);
         }
     }
 }
