@@ -7,6 +7,7 @@
 
 #include "names.h"
 #include "report.h"
+#include "weft/material.h"
 
 /* Options whose value is the id of a choice for all materials, in the order in which they are applied. */
 static const struct {
@@ -177,6 +178,17 @@ static bool check_sets(const Options *options) {
     return true;
 }
 
+static bool check_textures(const Options *options) {
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--texture", &cursor));) {
+        const char *file = dressing_of(text, true);
+        if (file > text && file - text <= TARGET_SIZE && memchr(text, '.', (size_t)(file - text))) continue;
+        report(WEFT_USAGE, "--texture: \"%.80s\" is not MATERIAL.INPUT=FILE", text);
+        return false;
+    }
+    return true;
+}
+
 bool dress_read(const Options *options, Dress *dress) {
     static const char *const targets[] = {"metallic", "specular", NULL};
     int target;
@@ -188,7 +200,7 @@ bool dress_read(const Options *options, Dress *dress) {
         return false;
     }
     return check_dressings(options, "--preset", false) && check_dressings(options, "--material", true) &&
-           check_sets(options) &&
+           check_dressings(options, "--materials", true) && check_textures(options) && check_sets(options) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
@@ -238,19 +250,43 @@ static WeftResult apply_axis(const Dress *dress, int axis, int k, WeftScene *sce
     return result;
 }
 
-/* Every --preset, or every --material. */
-static WeftResult apply_dressings(const Dress *dress, const char *option, WeftScene *scene,
-                                  const WeftLog *log, WeftError *error) {
-    bool is_file = strcmp(option, "--material") == 0;
+static WeftResult put_preset(WeftScene *scene, const char *material, const char *name, const WeftLog *log,
+                             WeftError *error) {
+    char preset[64];
+    snprintf(preset, sizeof preset, "preset:%s", name);
+    return weft_scene_dress(scene, material, preset, log, error);
+}
+
+static WeftResult put_folder(WeftScene *scene, const char *material, const char *folder, const WeftLog *log,
+                             WeftError *error) {
+    return weft_scene_wear_folder(scene, material, folder, NULL, log, error);
+}
+
+/* Options of the form [MAT=]NAME, or MAT.INPUT=NAME, in the order in which they are applied. */
+static const struct {
+    const char *option;
+    bool is_file;
+    WeftResult (*put)(WeftScene *scene, const char *on, const char *name, const WeftLog *log,
+                      WeftError *error);
+} dressings[] = {{"--preset", false, put_preset},
+                 {"--material", true, weft_scene_dress},
+                 {"--materials", true, put_folder},
+                 {"--texture", true, weft_scene_set_texture}};
+enum { DRESSINGS = sizeof dressings / sizeof *dressings };
+
+static WeftResult apply_dressings(const Dress *dress, WeftScene *scene, const WeftLog *log,
+                                  WeftError *error) {
     WeftResult result = WEFT_OK;
-    int cursor = 0;
-    for (const char *text; result == WEFT_OK && (text = option_next(dress->options, option, &cursor));) {
-        char material[MATERIAL_SIZE], preset[64];
-        const char *path = dressing_of(text, is_file);
-        bool named = path > text;
-        if (named) snprintf(material, sizeof material, "%.*s", (int)(path - 1 - text), text);
-        snprintf(preset, sizeof preset, "preset:%s", path);
-        result = weft_scene_dress(scene, named ? material : NULL, is_file ? path : preset, log, error);
+    for (int k = 0; k < DRESSINGS; k++) {
+        int cursor = 0;
+        const char *option = dressings[k].option;
+        for (const char *text; result == WEFT_OK && (text = option_next(dress->options, option, &cursor));) {
+            char on[TARGET_SIZE];
+            const char *name = dressing_of(text, dressings[k].is_file);
+            bool named = name > text;
+            if (named) snprintf(on, sizeof on, "%.*s", (int)(name - 1 - text), text);
+            result = dressings[k].put(scene, named ? on : NULL, name, log, error);
+        }
     }
     return result;
 }
@@ -301,8 +337,7 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
                *workflow = option_text(dress->options, "--convert");
     WeftResult result = WEFT_OK;
     if (variant) result = weft_scene_set_variant(scene, variant, error);
-    if (result == WEFT_OK) result = apply_dressings(dress, "--preset", scene, log, error);
-    if (result == WEFT_OK) result = apply_dressings(dress, "--material", scene, log, error);
+    if (result == WEFT_OK) result = apply_dressings(dress, scene, log, error);
     /* What is set warns of what it finds: so all of it twice, and only the second time, with the rest as it
      * will be, is anything heard. */
     for (int heard = 0; heard < 2; heard++) {

@@ -22,6 +22,8 @@ typedef struct Dress {
         OPTION_LIST("--preset", "[MAT=]NAME", "dress the cloth of the scene, or material MAT, in a preset"), \
         OPTION_LIST("--material", "[MAT=]FILE",                                                              \
                     "the same in a material file: a small JSON, see docs/materials.md"),                     \
+        OPTION_LIST("--materials", "[MAT=]DIR",                                                              \
+                    "put on it the maps of a folder by their names, as albedo.png or chair_Roughness.tga"),  \
         OPTION_TEXT("--workflow", "NAME,...", NULL, "what the inputs of all materials mean"),                \
         OPTION_TEXT("--profile", "NAME,...", NULL,                                                           \
                     "draw all materials as an engine does; none is weft's own way"),                         \
@@ -30,6 +32,8 @@ typedef struct Dress {
         OPTION_TEXT(                                                                                         \
             "--layer", "RULE,...", NULL,                                                                     \
             "how every sheen sits on its base; RULE,by=channel or RULE,by=max says by which colour"),        \
+        OPTION_LIST("--texture", "MAT.INPUT=FILE",                                                           \
+                    "put a picture on an input of material MAT; MAT.INPUT.g=FILE takes its green channel"),  \
         OPTION_LIST(                                                                                         \
             "--set", "MAT.INPUT=VALUE",                                                                      \
             "set an input of material MAT (name, index or *) to a number or r,g,b, or a choice to an "       \

@@ -19,6 +19,15 @@ void asset_fail(Asset *asset, WeftMessage message, const char *detail, ...) {
     }
 }
 
+bool asset_progress(Asset *asset, double low, double high, size_t done, size_t of) {
+    double share = of ? (double)done / (double)of : 1.0;
+    if (!asset->progress || !asset->progress(asset->user, low + (high - low) * share)) return true;
+    if (asset->result == WEFT_OK && asset->error)
+        *asset->error = (WeftError){.result = WEFT_INTERRUPTED, .text = "interrupted"};
+    if (asset->result == WEFT_OK) asset->result = WEFT_INTERRUPTED;
+    return false;
+}
+
 void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size) {
     if (size && count > (asset->limit - asset->spent) / size) {
         asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "%zu bytes of input decode to more than %zu bytes",

@@ -131,7 +131,9 @@ typedef struct Asset {
     bool in_memory;   /* then files beside it are refused */
     const WeftLog *log;
     WeftError *error;
-    WeftResult result; /* of the first failure */
+    WeftResult result;     /* of the first failure */
+    WeftProgress progress; /* NULL: nobody watches */
+    void *user;            /* of progress */
     WeftScene *scene;
     Arena arena; /* dies with the read */
 
@@ -160,6 +162,10 @@ typedef struct Asset {
 /* The sticky failure: keeps the first. detail is a printf format or NULL. */
 __attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage message, const char *detail,
                                                       ...);
+
+/* Tells whoever watches what share of the read is done, of the part that runs from low to high; false, with a
+ * sticky WEFT_INTERRUPTED, where it is to stop. For the thread that made the call alone. */
+bool asset_progress(Asset *asset, double low, double high, size_t done, size_t of);
 
 /* count * size zeroed bytes from an arena (the asset's or the scene's), charged to the limit for good; NULL
  * after a sticky GLTF_TOO_LARGE or MEMORY. */

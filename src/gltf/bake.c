@@ -10,6 +10,9 @@
 
 enum { TRIANGLES_MAX = 100000000 };
 
+/* How far from 1 the length of a unit vector may be that was computed in floats. */
+static const double UNIT_SLACK = 5e-7;
+
 /* No scene is larger, m: squares of coordinates must stay finite, and Embree ignores what lies beyond 1e18.
  */
 static const double COORDINATE_MAX = 1e15;
@@ -105,10 +108,12 @@ static void bake_positions(Bake *bake) {
     }
 }
 
-/* v to unit length in out; zeros where it has none. */
+/* v to unit length in out; zeros where it has none. What is of that length as far as floats can say stays, so
+ * that a scene that was saved is read as it was. */
 static bool store_unit(const double v[3], float out[3]) {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     bool good = length > 1e-150 && isfinite(length);
+    if (fabs(length - 1.0) < UNIT_SLACK) length = 1.0;
     for (int c = 0; c < 3; c++) out[c] = good ? (float)(v[c] / length) : 0.0f;
     return good;
 }
@@ -172,6 +177,7 @@ static void bake_tangents(Bake *bake) {
         double along = 0.0;
         if (!store_unit(v, t)) t[0] = 1.0f;
         for (int c = 0; c < 3; c++) along += (double)t[c] * (double)n[c];
+        if (fabs(along) < UNIT_SLACK) along = 0.0;
         for (int c = 0; c < 3; c++) v[c] = (double)t[c] - along * (double)n[c];
         if (fabs(along) > 0.9999999) { /* any axis that is not the normal's */
             int axis = fabsf(n[0]) < 0.7f ? 0 : 1;
@@ -300,7 +306,8 @@ static size_t count_surfaces(Asset *asset) {
 
 void meshes_bake(Asset *asset) {
     WeftScene *scene = asset->scene;
-    scene->meshes = asset_array(asset, &scene->arena, count_surfaces(asset), sizeof *scene->meshes);
+    const size_t surfaces = count_surfaces(asset);
+    scene->meshes = asset_array(asset, &scene->arena, surfaces, sizeof *scene->meshes);
     if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->node_count; i++) {
         const Node *node = &asset->nodes[i];
@@ -313,6 +320,7 @@ void meshes_bake(Asset *asset) {
             if (bake.primitive->mode < 4 || bake.primitive->position < 0) continue;
             if (bake_primitive(&bake)) scene->mesh_count++;
             arena_free(&bake.scratch);
+            asset_progress(asset, 0.25, 0.5, (size_t)scene->mesh_count, surfaces);
         }
     }
 }

@@ -58,6 +58,7 @@ void buffers_read(Asset *asset) {
         Field field = field_element(&list, i);
         Buffer *buffer = &asset->buffers[i];
         if (buffer->file) span_fill(&field, buffer, file_bytes(&asset->buffer_files, asset, buffer->file));
+        asset_progress(asset, 0.05, 0.25, i + 1, asset->buffer_count);
     }
     asset->input_bytes += asset->buffer_files.bytes;
     asset->limit = decoding_limit(asset->input_bytes);

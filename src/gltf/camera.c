@@ -18,11 +18,32 @@ static Vec3 column(const Transform *t, int c) {
 
 static double length(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/* Whether the columns are of unit length and stand on each other, right-handed, as far as floats can say:
+ * then they stay, so that a camera that was saved is read as it was. */
+static bool is_frame(const Transform *t) {
+    const double slack = 2e-7;
+    bool frame = true;
+    for (int a = 0; a < 3; a++)
+        for (int b = a; b < 3; b++) {
+            double dot = t->m[0][a] * t->m[0][b] + t->m[1][a] * t->m[1][b] + t->m[2][a] * t->m[2][b];
+            frame &= fabs(dot - (a == b ? 1.0 : 0.0)) < slack;
+        }
+    double across = t->m[1][0] * t->m[2][1] - t->m[2][0] * t->m[1][1];
+    return frame && fabs(across - t->m[0][2]) < slack;
+}
+
 /* Where a camera at the origin, looking along -z with +y up, comes to stand; scale does not count. False
  * where the transform leaves no direction. */
 static bool stand(const Transform *world, Camera *camera) {
     Transform frame = transform_identity; /* columns right, up, back */
     double back[3], up[3];
+    camera->eye = column(world, 3);
+    if (is_frame(world)) {
+        camera->right = column(world, 0);
+        camera->up = column(world, 1);
+        camera->forward = vec3_scale(column(world, 2), -1.0f);
+        return true;
+    }
     for (int i = 0; i < 3; i++) {
         back[i] = world->m[i][2];
         up[i] = world->m[i][1];
@@ -42,7 +63,6 @@ static bool stand(const Transform *world, Camera *camera) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         frame.m[i][0] = up[j] * back[k] - up[k] * back[j];
     }
-    camera->eye = column(world, 3);
     camera->right = column(&frame, 0);
     camera->up = column(&frame, 1);
     camera->forward = column(&frame, 2);

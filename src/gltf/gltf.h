@@ -15,4 +15,8 @@
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error);
 
+/* The same with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
+                             WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
+
 #endif

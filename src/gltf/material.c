@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "gltf/field.h"
+#include "scene/material_numbers.h"
+#include "scene/set.h"
 
 /* KHR_texture_transform: T R S. The asset TextureTransformTest shows which way the rotation turns: v runs
  * down, so that counter-clockwise is (c u + s v, c v - s u). */
@@ -155,10 +157,55 @@ static const struct {
            {"dustScale", INPUT_dust_scale}};
 enum { OWN = sizeof own / sizeof own[0] };
 
+/* One of extras.weft.inputs, which says all of an input: what is not there is as it is by default. */
+static void whole_input_read(const Field *field, InputId id, Input *input) {
+    const float most = FLT_MAX;
+    Field value = field_member(field, "value"), texture = field_member(field, "texture"),
+          texcoord = field_member(field, "texCoord"), channel = field_member(field, "channel"),
+          transform = field_member(field, "transform"), given = field_member(field, "given");
+    const int count = input_infos[id].kind == INPUT_COLOR ? 3 : 1;
+    *input = material_default("").inputs[id];
+    field_floats(&value, input->value, (size_t)count, -most, most);
+    for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
+    field_floats(&transform, input->transform, 6, -most, most);
+    input->texture = field_index(&texture, field->asset->texture_count) + 1;
+    input->texcoord = (uint8_t)field_size(&texcoord, 0, 0, 1);
+    input->channel = (uint8_t)field_size(&channel, 0, 0, 3);
+    input->given = field_bool(&given, false);
+}
+
+/* A choice by its id; one that a later version has is left to what the workflow says. */
+static void choice_read(const Field *field, ChoiceId choice, Material *material) {
+    WeftError error;
+    if (!field->json) return;
+    if (choice_value(choice, field_text(field, "auto"), &material->choices[choice], &error) == WEFT_OK)
+        return;
+    material->choices[choice] = CHOICE_AUTO;
+    field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", field_text(field, ""));
+}
+
+/* What weft_scene_save adds, so that a material comes back as it was. */
+static void saved_read(const Field *weft, Material *material) {
+    Field choices = field_member(weft, "choices"), list = field_member(weft, "inputs"),
+          cutoff = field_member(weft, "alphaCutoff");
+    for (int k = 0; k < CHOICE_COUNT; k++) {
+        Field field = field_member(&choices, weft_material_choice_name(k));
+        choice_read(&field, (ChoiceId)k, material);
+    }
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        Field field = field_member(&list, input_infos[k].name);
+        if (field.json) whole_input_read(&field, (InputId)k, &material->inputs[k]);
+    }
+    material->alpha_cutoff =
+        (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
+}
+
 /* extras.weft: what no extension of glTF says. Other extras are for others. */
-static void extras_read(const Field *material, Input *inputs) {
-    static const char *const keys[] = {"nap", "napRotation", "napTexture", "dustTexture"};
-    Field extras = field_member(material, "extras");
+static void extras_read(const Field *field, Material *material) {
+    static const char *const keys[] = {"nap",     "napRotation", "napTexture", "dustTexture",
+                                       "choices", "inputs",      "alphaCutoff"};
+    Input *inputs = material->inputs;
+    Field extras = field_member(field, "extras");
     if (!json_is_object(extras.json)) return;
     Field weft = field_member(&extras, "weft"), rotation = field_member(&weft, "napRotation"),
           texture = field_member(&weft, "napTexture");
@@ -168,6 +215,7 @@ static void extras_read(const Field *material, Input *inputs) {
     scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 1.57079633f, "napTexture", B);
     inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
     texture_read(&texture, &inputs[INPUT_nap_direction], 0);
+    saved_read(&weft, material);
     const char *key;
     json_t *value;
     json_object_foreach(weft.json, key, value) {
@@ -207,7 +255,7 @@ static Material material_read(const Field *field) {
     anisotropy_read(field, inputs);
     clearcoat_read(field, inputs);
     sheen_read(field, inputs);
-    extras_read(field, inputs);
+    extras_read(field, &material);
     return material;
 }
 

@@ -1,6 +1,7 @@
 #include "gltf/texture.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +82,7 @@ typedef struct Job {
     Span bytes;
     unsigned char *owned;
     const char *name; /* subject of messages */
+    const char *path; /* NULL: no file of its own */
     WeftResult result;
     WeftError error;
 } Job;
@@ -90,6 +92,9 @@ typedef struct Jobs {
     Job *items;               /* for each image of the scene */
     int *order;               /* of the images: the longest file first, so that it is not the last to end */
     pthread_mutex_t log_lock; /* a log is never called by two threads at once */
+    atomic_size_t decoded;    /* bytes of files */
+    size_t encoded;           /* of all files */
+    atomic_bool stopped;
 } Jobs;
 
 static void log_locked(void *user, WeftMessage message, const char *text) {
@@ -102,13 +107,16 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
 }
 
 static void decode(void *user, int turn, int thread) {
-    (void)thread;
     Jobs *jobs = user;
     int item = jobs->order[turn];
     Job *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
+    if (atomic_load(&jobs->stopped)) return;
     job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
                                          &jobs->asset->scene->images[item], &log, &job->error);
+    size_t decoded = atomic_fetch_add(&jobs->decoded, job->bytes.size) + job->bytes.size;
+    if (thread == 0 && !asset_progress(jobs->asset, 0.5, 1.0, decoded, jobs->encoded))
+        atomic_store(&jobs->stopped, true); /* the others finish what they have begun */
 }
 
 /* All images together may hold this many times the bytes of their files, or the floor where that is less: a
@@ -121,6 +129,7 @@ static void sizes_check(Jobs *jobs) {
         encoded += jobs->items[i].bytes.size;
         decoded += extent_bytes(jobs->items[i].bytes);
     }
+    jobs->encoded = encoded;
     size_t room = encoded * expansion > floor ? encoded * expansion : floor;
     if (decoded > room)
         asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu",
@@ -171,7 +180,7 @@ static int image_resolve(Jobs *jobs, int index) {
         AssetFile *file = file_refer(&asset->image_files, &uri_field, uri, SIZE_MAX);
         if (!file) return 0;
         job.bytes = file_bytes(&asset->image_files, asset, file);
-        job.name = file->path;
+        job.name = job.path = file->path;
         made = &file->image;
     } else if (view >= 0) {
         job.bytes = view_bytes(asset, view);
@@ -199,6 +208,7 @@ static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
         sampler_read(asset, source->sampler, made);
         if (*image < 0) *image = image_resolve(jobs, source->image);
         made->image = *image;
+        if (jobs->items[*image].path) made->path = asset_text(asset, jobs->items[*image].path);
     }
     return source->scene_texture + 1;
 }

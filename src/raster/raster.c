@@ -465,14 +465,27 @@ WeftResult weft_raster_settle(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-/* Textures that materials did not look up before are uploaded with all others. */
+/* What other pixels in its maps may change of a material beside its looks. */
+static void add_stale(const WeftRaster *self, const Material *material, MaterialsChange *change) {
+    const int opacity = material->inputs[INPUT_opacity].texture,
+              emission = material->inputs[INPUT_emission].texture;
+    change->coverage |= material->alpha_mode != ALPHA_OPAQUE && opacity &&
+                        textures_stale(&self->textures, self->scene, opacity - 1);
+    change->emission |= emission && textures_stale(&self->textures, self->scene, emission - 1);
+}
+
+/* Textures that materials did not look up before, or that are of another kind, are uploaded with all others;
+ * other pixels in the place of those that were, alone. */
 static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, const WeftLog *log,
                                    WeftError *error) {
     const WeftScene *scene = self->scene;
     GlTextures textures = self->textures;
     WeftResult result = WEFT_OK;
+    MaterialsChange stale = {0};
     bool serve = textures_serve(&textures, scene);
+    for (int k = 0; k < scene->material_count; k++) add_stale(self, &scene->materials[k], &stale);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (serve) result = textures_refresh(&self->textures, scene, self->desc.threads, error);
     if (!serve) result = textures_create(scene, self->desc.threads, &textures, log, error);
     if (result != WEFT_OK) return result;
     result = materials_update(&self->materials, scene, &textures, self->desc.threads, change, error);
@@ -481,6 +494,8 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
         self->textures = textures;
         self->plain = false;
     }
+    change->coverage |= stale.coverage;
+    change->emission |= stale.emission;
     self->programs.sheens = self->materials.sheens;
     self->programs.turn += change->tables;
     return result;

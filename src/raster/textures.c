@@ -11,18 +11,9 @@
 #include "raster/check.h"
 #include "weft/render.h"
 
-/* What the layers of one array texture have in common. */
-typedef struct Group {
-    int width, height;
-    GLenum format; /* of the driver's texels */
-    Wrap wrap_u, wrap_v;
-    bool nearest;
-    int layers;
-} Group;
-
 typedef struct Plan {
     const WeftScene *scene;
-    Group *groups;
+    TextureGroup *groups;
     int count;
     int side_most;   /* of the driver */
     int layers_most; /* likewise */
@@ -41,31 +32,34 @@ static GLenum format_of(const WeftImage *image, bool color) {
     return GL_RGBA16F; /* OpenGL ES 3.0 has no 16-bit integers that are filtered */
 }
 
-static bool same_group(const Plan *plan, const Group *a, const Group *b) {
-    bool size = plan->one_size || (a->width == b->width && a->height == b->height);
+static bool same_group(bool one_size, const TextureGroup *a, const TextureGroup *b) {
+    bool size = one_size || (a->width == b->width && a->height == b->height);
     return size && a->format == b->format && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v &&
            a->nearest == b->nearest;
+}
+
+/* The group that a texture asks for. */
+static TextureGroup group_for(const WeftScene *scene, int texture, bool color, int side_most) {
+    const Texture *t = &scene->textures[texture];
+    const WeftImage *image = &scene->images[t->image];
+    return (TextureGroup){.width = image->width < side_most ? image->width : side_most,
+                          .height = image->height < side_most ? image->height : side_most,
+                          .format = format_of(image, color),
+                          .wrap_u = t->wrap_u,
+                          .wrap_v = t->wrap_v,
+                          .nearest = t->nearest};
 }
 
 static void place(Plan *plan, int texture, bool color) {
     TexturePlace *at = &plan->places[2 * texture + color];
     if (at->group >= 0) return;
-    const Texture *t = &plan->scene->textures[texture];
-    const WeftImage *image = &plan->scene->images[t->image];
-    int most = plan->side_most;
-    Group group = {image->width < most ? image->width : most,
-                   image->height < most ? image->height : most,
-                   format_of(image, color),
-                   t->wrap_u,
-                   t->wrap_v,
-                   t->nearest,
-                   0};
+    TextureGroup group = group_for(plan->scene, texture, color, plan->side_most);
     int k = 0;
-    while (k < plan->count &&
-           !(same_group(plan, &plan->groups[k], &group) && plan->groups[k].layers < plan->layers_most))
+    while (k < plan->count && !(same_group(plan->one_size, &plan->groups[k], &group) &&
+                                plan->groups[k].layers < plan->layers_most))
         k++;
     if (k == plan->count) plan->groups[plan->count++] = group;
-    Group *home = &plan->groups[k];
+    TextureGroup *home = &plan->groups[k];
     if (group.width > home->width) home->width = group.width;
     if (group.height > home->height) home->height = group.height;
     *at = (TexturePlace){k, home->layers++};
@@ -107,14 +101,14 @@ static GLenum wrap_of(Wrap wrap) {
     return wrap == WRAP_CLAMP ? GL_CLAMP_TO_EDGE : wrap == WRAP_MIRROR ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-static int levels_of(const Group *group) {
+static int levels_of(const TextureGroup *group) {
     int levels = 1;
     for (int side = group->width > group->height ? group->width : group->height; side > 1; side /= 2)
         levels++;
     return group->nearest ? 1 : levels;
 }
 
-static void make_group(GLuint texture, const Group *group) {
+static void make_group(GLuint texture, const TextureGroup *group) {
     int levels = levels_of(group);
     bool whole = group->format != GL_RGBA16F;
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
@@ -147,7 +141,8 @@ static void spread(const WeftImage *image, unsigned char *to) {
 
 /* Any image as four channels of the group's size: integers of 8 bits stay, others become floats, a colour of
  * 16 bits decoded. texture_fetch scales. */
-static void put_texels(const WeftScene *scene, int texture, bool color, const Group *group, void *texels) {
+static void put_texels(const WeftScene *scene, int texture, bool color, const TextureGroup *group,
+                       void *texels) {
     const WeftImage *image = &scene->images[scene->textures[texture].image];
     bool whole = group->format != GL_RGBA16F;
     bool same = image->width == group->width && image->height == group->height;
@@ -182,10 +177,12 @@ typedef struct Layers {
     Layer items[WEFT_THREADS_MAX];
 } Layers;
 
-static size_t texel_size(const Group *group) { return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4; }
+static size_t texel_size(const TextureGroup *group) {
+    return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4;
+}
 
 /* Of the levels before that one. */
-static size_t level_at(const Group *group, int level) {
+static size_t level_at(const TextureGroup *group, int level) {
     size_t texels = 0;
     for (int w = group->width, h = group->height; level > 0; level--, w = halved(w), h = halved(h))
         texels += (size_t)w * (size_t)h;
@@ -195,7 +192,7 @@ static size_t level_at(const Group *group, int level) {
 static void make_layer(void *user, int item, int thread) {
     const Layers *layers = user;
     const Layer *layer = &layers->items[item];
-    const Group *group = &layers->plan->groups[layers->plan->places[layer->place].group];
+    const TextureGroup *group = &layers->plan->groups[layers->plan->places[layer->place].group];
     unsigned char *to = layer->texels;
     put_texels(layers->plan->scene, layer->place / 2, layer->place & 1, group, to);
     for (int level = 1, w = group->width, h = group->height; level < levels_of(group);
@@ -211,7 +208,7 @@ static void make_layer(void *user, int item, int thread) {
 
 static void upload_layer(const GlTextures *self, const Plan *plan, const Layer *layer) {
     TexturePlace at = plan->places[layer->place];
-    const Group *group = &plan->groups[at.group];
+    const TextureGroup *group = &plan->groups[at.group];
     glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[at.group]);
     for (int level = 0, w = group->width, h = group->height; level < levels_of(group);
          level++, w = halved(w), h = halved(h))
@@ -220,18 +217,23 @@ static void upload_layer(const GlTextures *self, const Plan *plan, const Layer *
                         (const unsigned char *)layer->texels + level_at(group, level));
 }
 
-/* As many at once as there are threads, so that no more are held than that. */
-static WeftResult fill_groups(GlTextures *self, const Plan *plan, int threads, WeftError *error) {
+static bool is_wanted(const GlTextures *self, const Plan *plan, int place, bool stale) {
+    return self->places[place].group >= 0 && (!stale || textures_stale(self, plan->scene, place / 2));
+}
+
+/* All that is placed, or of that what is stale. As many at once as there are threads, so that no more are
+ * held than that. */
+static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, int threads, WeftError *error) {
     const WeftScene *scene = plan->scene;
+    const int places = 2 * self->texture_count;
     Layers layers = {.plan = plan};
     WeftResult result = WEFT_OK;
     if (threads <= 0) threads = thread_count();
-    for (int g = 0; g < plan->count; g++) make_group(self->groups[g], &plan->groups[g]);
-    for (int k = 0; k < 2 * scene->texture_count && result == WEFT_OK;) {
+    for (int k = 0; k < places && result == WEFT_OK;) {
         int count = 0;
-        for (; k < 2 * scene->texture_count && count < threads && result == WEFT_OK; k++) {
-            if (self->places[k].group < 0) continue;
-            const Group *group = &plan->groups[self->places[k].group];
+        for (; k < places && count < threads && result == WEFT_OK; k++) {
+            if (!is_wanted(self, plan, k, stale)) continue;
+            const TextureGroup *group = &plan->groups[self->places[k].group];
             Layer layer = {k, alloc_array(level_at(group, levels_of(group)), 1)};
             if (!layer.texels) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
             layers.items[count++] = layer;
@@ -242,13 +244,15 @@ static WeftResult fill_groups(GlTextures *self, const Plan *plan, int threads, W
             free(layers.items[n].texels);
         }
     }
+    for (int k = 0; k < self->texture_count && result == WEFT_OK; k++)
+        self->turns[k] = scene->textures[k].turn;
     return result == WEFT_OK ? gl_check(error, "textures") : result;
 }
 
 static WeftResult upload(GlTextures *self, Plan *plan, int threads, const WeftLog *log, WeftError *error) {
     const char *name = plan->scene->name;
     if (make_plan(plan) > TEXTURE_SLOTS) {
-        plan->one_size = true;
+        plan->one_size = self->one_size = true;
         if (make_plan(plan) > TEXTURE_SLOTS)
             return fail(error, WEFT_MESSAGE_GL_MEMORY, name,
                         "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
@@ -256,7 +260,15 @@ static WeftResult upload(GlTextures *self, Plan *plan, int threads, const WeftLo
     }
     self->group_count = plan->count;
     glGenTextures(plan->count, self->groups);
-    return fill_groups(self, plan, threads, error);
+    for (int g = 0; g < plan->count; g++) make_group(self->groups[g], &plan->groups[g]);
+    return fill_groups(self, plan, false, threads, error);
+}
+
+WeftResult textures_refresh(GlTextures *self, const WeftScene *scene, int threads, WeftError *error) {
+    const Plan plan = {.scene = scene, .groups = self->kinds, .places = self->places};
+    bool stale = false;
+    for (int k = 0; k < self->texture_count; k++) stale |= textures_stale(self, scene, k);
+    return stale ? fill_groups(self, &plan, true, threads, error) : WEFT_OK;
 }
 
 WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
@@ -267,13 +279,13 @@ WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out,
     Plan plan = {.scene = scene};
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &plan.side_most);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &plan.layers_most);
-    plan.groups = alloc_array(count, sizeof(Group));
+    out->kinds = plan.groups = alloc_array(count, sizeof(TextureGroup));
+    out->turns = alloc_array(count, sizeof(unsigned));
     out->places = plan.places = alloc_array(count, sizeof(TexturePlace));
     out->groups = alloc_array(count, sizeof(GLuint));
-    bool held = plan.groups && plan.places && out->groups;
+    bool held = plan.groups && plan.places && out->groups && out->turns;
     WeftResult result =
         held ? upload(out, &plan, threads, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    free(plan.groups);
     if (result != WEFT_OK) textures_destroy(out);
     return result;
 }
@@ -281,11 +293,33 @@ WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out,
 void textures_destroy(GlTextures *self) {
     if (self->group_count) glDeleteTextures(self->group_count, self->groups);
     free(self->groups);
+    free(self->kinds);
+    free(self->turns);
     free(self->places);
     *self = (GlTextures){0};
 }
 
+bool textures_stale(const GlTextures *self, const WeftScene *scene, int texture) {
+    return texture < self->texture_count && self->turns[texture] != scene->textures[texture].turn;
+}
+
+/* Whether what a texture is now can lie where it was. */
+static bool fits(const GlTextures *self, const WeftScene *scene, int texture, int side_most) {
+    bool fit = true;
+    for (int color = 0; color < 2; color++) {
+        int group = self->places[2 * texture + color].group;
+        if (group < 0) continue;
+        TextureGroup wanted = group_for(scene, texture, color, side_most);
+        fit &= same_group(self->one_size, &self->kinds[group], &wanted);
+    }
+    return fit;
+}
+
 bool textures_serve(const GlTextures *self, const WeftScene *scene) {
+    GLint side_most;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side_most);
+    for (int k = 0; k < self->texture_count; k++)
+        if (textures_stale(self, scene, k) && !fits(self, scene, k, side_most)) return false;
     for (int m = 0; m < scene->material_count; m++) {
         int count = count_groups(self->places, self->texture_count, &scene->materials[m]);
         if (count < 0 || count > TEXTURE_SLOTS) return false;

@@ -17,11 +17,23 @@ typedef struct TexturePlace {
     int layer;
 } TexturePlace;
 
+/* What the layers of one array texture have in common. */
+typedef struct TextureGroup {
+    int width, height;
+    unsigned format; /* of the driver's texels */
+    Wrap wrap_u, wrap_v;
+    bool nearest;
+    int layers;
+} TextureGroup;
+
 typedef struct GlTextures {
-    unsigned *groups; /* array textures */
+    unsigned *groups;    /* array textures */
+    TextureGroup *kinds; /* of each */
     int group_count;
     TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
+    unsigned *turns;      /* of each texture of the scene, when it was uploaded */
     int texture_count;    /* that there were */
+    bool one_size;        /* images are scaled to that of their group */
 } GlTextures;
 
 /* Uploads what the materials that are worn look up, with smaller copies of it, made on `threads` threads (0:
@@ -34,8 +46,16 @@ void textures_destroy(GlTextures *textures);
 /* Whether an input of a material looks its texture up as a colour. */
 bool textures_color(const Material *material, int input);
 
-/* Whether all that materials look up by now is there, for each in no more than TEXTURE_SLOTS groups. */
+/* Whether all that materials look up by now is there, for each in no more than TEXTURE_SLOTS groups, and
+ * where pixels changed fits where the old ones are. */
 bool textures_serve(const GlTextures *textures, const WeftScene *scene);
+
+/* Whether a texture of the scene has other pixels than were uploaded. */
+bool textures_stale(const GlTextures *textures, const WeftScene *scene, int texture);
+
+/* Uploads those that are, which must serve, with their smaller copies. Fails with WEFT_MESSAGE_MEMORY or
+ * _GL_MEMORY. */
+WeftResult textures_refresh(GlTextures *textures, const WeftScene *scene, int threads, WeftError *error);
 
 /* Of what an input of a material looks up. */
 TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);

@@ -4,7 +4,9 @@
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "scene/dress.h"
 #include "scene/material_file.h"
+#include "scene/pictures.h"
 #include "scene/presets.h"
 #include "scene/set.h"
 #include "scene/tangents.h"
@@ -18,8 +20,6 @@ static bool shows(const Material *material, InputId color) {
     return input->value[0] > 0.0f || input->value[1] > 0.0f || input->value[2] > 0.0f;
 }
 
-/* What a wish that names no material means: all that have a sheen, or, where none has, all that send out no
- * light. */
 static bool is_cloth(const WeftScene *scene, int k) {
     bool any = false;
     for (int m = 0; m < scene->material_count; m++) any |= shows(&scene->materials[m], INPUT_sheen_color);
@@ -29,29 +29,23 @@ static bool is_cloth(const WeftScene *scene, int k) {
 
 /* Lengthens the scene's lists by those of the file and gives it the images. */
 static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
-    if (!file->texture_count) return true;
-    size_t images = (size_t)scene->image_count, textures = (size_t)scene->texture_count;
-    WeftImage *all_images =
-        arena_array(&scene->arena, images + (size_t)file->image_count, sizeof *all_images);
-    Texture *all_textures =
-        arena_array(&scene->arena, textures + (size_t)file->texture_count, sizeof *all_textures);
-    if (!all_images || !all_textures) return false;
-    if (images) memcpy(all_images, scene->images, images * sizeof *all_images);
-    if (textures) memcpy(all_textures, scene->textures, textures * sizeof *all_textures);
-    for (int k = 0; k < file->image_count; k++) {
-        all_images[images + (size_t)k] = file->images[k];
-        file->images[k] = (WeftImage){0};
-    }
+    int number[INPUT_COUNT], image[INPUT_COUNT];
+    for (int k = 0; k < file->image_count; k++) image[k] = -1;
     for (int k = 0; k < file->texture_count; k++) {
-        all_textures[textures + (size_t)k] = file->textures[k];
-        all_textures[textures + (size_t)k].image += scene->image_count;
+        Texture texture = file->textures[k];
+        int from = texture.image;
+        texture.path = arena_text(&scene->arena, file->paths[from]);
+        texture.image = image[from];
+        if (!texture.path) return false;
+        number[k] = image[from] < 0 ? picture_add(scene, &file->images[from], texture)
+                                    : picture_share(scene, texture);
+        if (!number[k]) return false;
+        image[from] = scene->textures[number[k] - 1].image;
     }
-    for (int k = 0; k < INPUT_COUNT; k++)
-        if (file->material.inputs[k].texture) file->material.inputs[k].texture += scene->texture_count;
-    scene->images = all_images;
-    scene->textures = all_textures;
-    scene->image_count += file->image_count;
-    scene->texture_count += file->texture_count;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        int *texture = &file->material.inputs[k].texture;
+        if (*texture) *texture = number[*texture - 1];
+    }
     return true;
 }
 
@@ -72,19 +66,30 @@ static Material dressed(const Material *old, const MaterialFile *file) {
     return fresh;
 }
 
-static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
+bool *materials_wished(WeftScene *scene, const char *material, WeftError *error) {
     int matched = 0;
-    for (int k = 0; k < scene->material_count && material; k++)
-        matched += material_matches(scene, k, material);
-    if (material && !matched) {
-        char names[NAMES_SIZE];
-        return fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
-                    scene_names(scene, weft_scene_material_name, names));
+    bool *wished = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *wished);
+    if (!wished) {
+        fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        return NULL;
     }
-    bool *wears = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *wears);
-    if (!wears || !adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int k = 0; k < scene->material_count; k++)
-        wears[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
+    for (int k = 0; k < scene->material_count; k++) {
+        wished[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
+        matched += wished[k];
+    }
+    if (!material || matched) return wished;
+    char names[NAMES_SIZE];
+    fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
+         scene_names(scene, weft_scene_material_name, names));
+    return NULL;
+}
+
+static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
+    WeftError said = {.result = WEFT_RESOURCES};
+    const bool *wears = materials_wished(scene, material, &said);
+    if (!wears && error) *error = said;
+    if (!wears) return said.result;
+    if (!adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene->material_count; k++)
         if (wears[k]) scene->materials[k] = dressed(&scene->materials[k], file);
     return tangents_complete(scene, error);

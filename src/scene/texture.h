@@ -12,6 +12,9 @@ typedef struct Texture {
     int image; /* index into the scene's images */
     Wrap wrap_u, wrap_v;
     bool nearest; /* no interpolation between texels */
+    /* Of its image, so that all textures of one have the same: */
+    const char *path; /* its file; NULL where it is none of its own */
+    unsigned turn;    /* another number for other pixels */
 } Texture;
 
 typedef struct Texel {

@@ -10,8 +10,10 @@
 #include <epoxy/gl.h>
 
 #include "raster/gl.h"
+#include "raster/made.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
+#include "weft/material.h"
 
 enum { SIDE = 64 };
 
@@ -278,6 +280,68 @@ static void environments_are_as_new(void **state) {
     weft_scene_free(scene);
 }
 
+/* A picture of so many pixels a side and channels. */
+static WeftImage pattern(int side, int channels, WeftPixelType type, int seed) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(side, side, channels, type, &image, NULL), WEFT_OK);
+    for (int k = 0; k < side * side * channels; k++) {
+        int value = (k * 37 + k / side * 11 + seed * 101) % 256;
+        if (type == WEFT_PIXEL_U8) ((unsigned char *)image.pixels)[k] = (unsigned char)value;
+        if (type == WEFT_PIXEL_F32) ((float *)image.pixels)[k] = (float)value / 255.0f;
+    }
+    return image;
+}
+
+static const struct {
+    int texture, side, channels;
+    WeftPixelType type;
+    bool made; /* all are uploaded anew */
+} puts_of[] = {{1, 8, 4, WEFT_PIXEL_U8, false},   {2, 8, 1, WEFT_PIXEL_U8, false},
+               {3, 16, 3, WEFT_PIXEL_F32, false}, {1, 8, 3, WEFT_PIXEL_U8, false},
+               {1, 16, 3, WEFT_PIXEL_U8, true},   {1, 16, 3, WEFT_PIXEL_F32, true},
+               {1, 16, 4, WEFT_PIXEL_F32, false}};
+
+/* Other pixels in the place of a texture's are seen, the same kind of them without another texture made: of a
+ * coloured map, of one that lets light pass, and of one that shines. */
+static void pixels_are_as_new(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = under_lamps();
+    WeftError error;
+    const WeftImage kinds[] = {pattern(8, 3, WEFT_PIXEL_U8, 0), pattern(8, 1, WEFT_PIXEL_U8, 1),
+                               pattern(16, 3, WEFT_PIXEL_F32, 2)};
+    static const InputId inputs[] = {INPUT_base_color, INPUT_opacity, INPUT_emission};
+    for (int k = 0; k < 3; k++) {
+        WeftImage image = kinds[k];
+        assert_int_equal(weft_scene_add_texture(scene, &image, &error), k + 1);
+        assert_null(image.pixels);
+        scene->materials[k == 2 ? 2 : 1].inputs[inputs[k]].texture = k + 1;
+    }
+    scene->materials[1].alpha_mode = ALPHA_MASK;
+    WeftRaster *raster = raster_of(scene);
+    WeftImage before = drawn(raster);
+    for (size_t k = 0; k < sizeof puts_of / sizeof *puts_of; k++) {
+        WeftImage image = pattern(puts_of[k].side, puts_of[k].channels, puts_of[k].type, (int)k + 5);
+        assert_int_equal(weft_scene_put_texture(scene, puts_of[k].texture, &image, &error), WEFT_OK);
+        COUNTED(COUNT)
+        made = 0;
+        if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        COUNTED(STOP_COUNTING)
+        if ((made > 0) != puts_of[k].made) fail_msg("pixels %zu: %d things were made", k, made);
+        WeftRaster *fresh = raster_of(scene);
+        WeftImage is = drawn(raster), should = drawn(fresh);
+        if (!is_same(&is, &should)) fail_msg("pixels %zu: not as a new raster draws them", k);
+        if (is_same(&is, &before)) fail_msg("pixels %zu: nothing has changed", k);
+        weft_raster_free(fresh);
+        weft_image_free(&before);
+        weft_image_free(&should);
+        before = is;
+    }
+    weft_image_free(&before);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 static char cache[] = "/tmp/weft-test-update-XXXXXX";
 
 static int begin(void **state) {
@@ -294,7 +358,7 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_are_as_new),
-                                       cmocka_unit_test(fits_are_as_new),
+                                       cmocka_unit_test(fits_are_as_new), cmocka_unit_test(pixels_are_as_new),
                                        cmocka_unit_test(environments_are_as_new)};
     return cmocka_run_group_tests(tests, begin, end);
 }

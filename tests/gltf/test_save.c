@@ -1,0 +1,278 @@
+/* What is saved as glTF comes back: the same picture byte by byte, the same materials; and what cannot be
+ * written leaves nothing. */
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+#include "weft/weft.h"
+
+static char folder[] = "/tmp/weft-test-save-XXXXXX";
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static WeftScene *load(const char *name) {
+    WeftScene *scene = NULL;
+    WeftError error;
+    if (weft_scene_load(name, &scene, NULL, &error) != WEFT_OK) fail_msg("%s: %s", name, error.text);
+    return scene;
+}
+
+/* Read without a word. */
+static void complain(void *user, WeftMessage message, const char *text) {
+    (void)user;
+    if (message != WEFT_MESSAGE_NONE) fail_msg("%s", text);
+}
+
+static WeftScene *saved(const WeftScene *scene, const char *name) {
+    char path[128];
+    WeftScene *back = NULL;
+    WeftError error;
+    const WeftLog log = {complain, NULL};
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (weft_scene_save(scene, path, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_scene_load(path, &back, &log, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return back;
+}
+
+static WeftImage drawn(const WeftScene *scene) {
+    const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = "0", .seed = 7};
+    WeftRender *render;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &render, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_render_run(render, 2, 0.0, NULL, NULL);
+    assert_int_equal(weft_render_image(render, &image, &error), WEFT_OK);
+    weft_render_free(render);
+    return image;
+}
+
+static void assert_same_textures(const WeftScene *a, int at_a, const WeftScene *b, int at_b) {
+    WeftImage x = weft_scene_texture(a, at_a), y = weft_scene_texture(b, at_b);
+    static const size_t sizes[] = {1, 2, 4};
+    assert_int_equal(at_a > 0, at_b > 0);
+    if (!at_a) return;
+    assert_true(x.width == y.width && x.height == y.height && x.channels == y.channels && x.type == y.type);
+    assert_memory_equal(x.pixels, y.pixels,
+                        (size_t)x.width * (size_t)x.height * (size_t)x.channels * sizes[x.type]);
+    assert_int_equal(a->textures[at_a - 1].wrap_u, b->textures[at_b - 1].wrap_u);
+    assert_int_equal(a->textures[at_a - 1].wrap_v, b->textures[at_b - 1].wrap_v);
+    assert_int_equal(a->textures[at_a - 1].nearest, b->textures[at_b - 1].nearest);
+}
+
+/* Materials byte by byte, but for the numbers of textures, which are as they are. */
+static void assert_same(const WeftScene *a, const WeftScene *b, const char *name) {
+    WeftError error;
+    assert_int_equal(a->material_count, b->material_count);
+    for (int k = 0; k < a->material_count; k++) {
+        WeftMaterial x, y;
+        assert_string_equal(weft_scene_material_name(a, k), weft_scene_material_name(b, k));
+        assert_int_equal(weft_scene_material(a, k, &x, &error), WEFT_OK);
+        assert_int_equal(weft_scene_material(b, k, &y, &error), WEFT_OK);
+        for (int i = 0; i < WEFT_INPUTS_MAX; i++) {
+            assert_same_textures(a, x.inputs[i].texture, b, y.inputs[i].texture);
+            x.inputs[i].texture = y.inputs[i].texture = 0;
+            if (memcmp(&x.inputs[i], &y.inputs[i], sizeof x.inputs[i]) != 0)
+                fail_msg("%s: %s of material %d", name, weft_material_input_name(i), k);
+        }
+        if (memcmp(&x, &y, sizeof x) != 0) fail_msg("%s: material %d", name, k);
+    }
+    assert_int_equal(a->variant_count, b->variant_count);
+    WeftImage p = drawn(a), q = drawn(b);
+    if (memcmp(p.pixels, q.pixels, 48 * 36 * 4 * sizeof(float)) != 0) {
+        float most = 0.0f;
+        for (int k = 0; k < 48 * 36 * 4; k++)
+            most = fmaxf(most, fabsf(((float *)p.pixels)[k] - ((float *)q.pixels)[k]));
+        fail_msg("%s: another picture, by %g at most", name, (double)most);
+    }
+    weft_image_free(&p);
+    weft_image_free(&q);
+}
+
+static void built_in_scenes_come_back(void **state) {
+    (void)state;
+    for (int k = 0; weft_builtin_name(k); k++) {
+        char path[64];
+        snprintf(path, sizeof path, "builtin:%s", weft_builtin_name(k));
+        WeftScene *scene = load(path), *packed = saved(scene, "a.glb"), *apart = saved(scene, "b.gltf");
+        assert_same(scene, packed, path);
+        assert_same(scene, apart, path);
+        WeftScene *again = saved(packed, "c.glb");
+        assert_same(scene, again, path);
+        weft_scene_free(again);
+        weft_scene_free(apart);
+        weft_scene_free(packed);
+        weft_scene_free(scene);
+    }
+}
+
+static void presets_come_back(void **state) {
+    (void)state;
+    for (int k = 0; weft_preset_name(k); k++) {
+        char path[64];
+        WeftError error;
+        WeftScene *scene = load("builtin:cloth");
+        snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
+        assert_int_equal(weft_scene_dress(scene, NULL, path, NULL, &error), WEFT_OK);
+        WeftScene *back = saved(scene, k % 2 ? "p.glb" : "p.gltf");
+        assert_same(scene, back, path);
+        weft_scene_free(back);
+        weft_scene_free(scene);
+    }
+}
+
+static WeftImage pattern(int side, int channels, WeftPixelType type) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(side, side, channels, type, &image, NULL), WEFT_OK);
+    for (int k = 0; k < side * side * channels; k++) {
+        if (type == WEFT_PIXEL_U8) ((uint8_t *)image.pixels)[k] = (uint8_t)(k * 37);
+        if (type == WEFT_PIXEL_U16) ((uint16_t *)image.pixels)[k] = (uint16_t)(k * 3701);
+        if (type == WEFT_PIXEL_F32) ((float *)image.pixels)[k] = (float)(k % 97) * 0.0103f;
+    }
+    return image;
+}
+
+static uint32_t dice = 1;
+static float roll(void) {
+    dice = dice * 1664525u + 1013904223u;
+    return (float)(dice >> 8) * 0x1p-24f;
+}
+
+/* Whatever numbers, maps and choices there are. */
+static void anything_comes_back(void **state) {
+    (void)state;
+    WeftError error;
+    WeftScene *scene = load("builtin:spheres");
+    for (int c = 0; c < 12; c++) {
+        WeftImage image = pattern(4 + c, c % 4 + 1, (WeftPixelType)(c / 4));
+        assert_int_equal(weft_scene_add_texture(scene, &image, &error), c + 1);
+        scene->textures[c].wrap_u = (Wrap)(c % 3);
+        scene->textures[c].wrap_v = (Wrap)(c / 3 % 3);
+        scene->textures[c].nearest = c % 5 == 0;
+    }
+    for (int k = 0; k < scene->material_count; k++) {
+        WeftMaterial m;
+        WeftInputInfo info;
+        assert_int_equal(weft_scene_material(scene, k, &m, &error), WEFT_OK);
+        for (int i = 0; weft_material_input_info(i, &info); i++) {
+            WeftInput *input = &m.inputs[i];
+            for (int c = 0; c < 3; c++) input->value[c] = roll() < 0.3f ? input->value[c] : roll();
+            if (roll() < 0.3f) input->texture = 1 + (int)(roll() * 11.99f);
+            input->texcoord = roll() < 0.2f;
+            input->channel = (int)(roll() * 3.99f);
+            input->given = roll() < 0.5f;
+            for (int c = 0; c < 6 && roll() < 0.3f; c++) input->transform[c] = roll();
+        }
+        for (int c = 0; weft_material_choice_name(c); c++)
+            for (int v = 0;
+                 weft_material_choice_value(c, v) && strcmp(weft_material_choice_name(c), "diffuse") != 0;
+                 v++)
+                if (roll() < 0.1f) m.choices[c] = v;
+        m.alpha_mode = (WeftAlphaMode)(k % 3);
+        m.alpha_cutoff = roll();
+        m.double_sided = k % 2;
+        m.unlit = k == 4;
+        if (weft_scene_put_material(scene, k, &m, &error) != WEFT_OK) fail_msg("%s", error.text);
+    }
+    const WeftLight lights[] = {
+        {.kind = WEFT_LIGHT_DIRECTIONAL, .direction = {0.3f, -1.0f, 0.2f}, .color = {3.0f, 2.5f, 0.1f}},
+        {.kind = WEFT_LIGHT_POINT,
+         .position = {1.1f, 3.0f, 0.7f},
+         .color = {20.3f, 0.7f, 12.0f},
+         .range = 9.5f},
+        {.kind = WEFT_LIGHT_SPOT,
+         .position = {-1.0f, 4.0f, 1.0f},
+         .direction = {0.1f, -1.0f, 0.0f},
+         .color = {30.0f, 31.0f, 32.0f},
+         .inner = 20.0f,
+         .outer = 20.0f},
+        {.kind = WEFT_LIGHT_SPOT,
+         .position = {-1.0f, 4.0f, 1.0f},
+         .direction = {0.0f, -1.0f, 0.0f},
+         .color = {0.1f, 0.2f, 0.3f},
+         .inner = 11.0f,
+         .outer = 33.3f}};
+    for (int k = 0; k < 4; k++) assert_int_equal(weft_scene_add_light(scene, &lights[k], &error), WEFT_OK);
+    WeftScene *packed = saved(scene, "any thing%.glb"), *apart = saved(scene, "any thing%.gltf");
+    const float grey[3] = {0.3f, 0.3f, 0.3f};
+    WeftScene *const all[] = {scene, packed, apart};
+    for (int k = 0; k < 3; k++)
+        assert_int_equal(weft_scene_set_environment_color(all[k], grey, &error), WEFT_OK);
+    assert_same(scene, packed, "anything, .glb");
+    assert_same(scene, apart, "anything, .gltf");
+    assert_non_null(weft_scene_texture_path(apart, 1));
+    assert_null(weft_scene_texture_path(packed, 1));
+    for (int k = 0; k < 3; k++) weft_scene_free(all[k]);
+}
+
+static int file_count(void) {
+    char command[96];
+    int count = -1;
+    snprintf(command, sizeof command, "ls -A %s | wc -l", folder);
+    FILE *pipe = popen(command, "r");
+    assert_true(pipe && fscanf(pipe, "%d", &count) == 1);
+    pclose(pipe);
+    return count;
+}
+
+static void what_cannot_be_written_leaves_nothing(void **state) {
+    (void)state;
+    WeftScene *scene = load("builtin:cloth");
+    WeftError error;
+    char path[128];
+    assert_int_equal(weft_scene_save(scene, "scene.obj", &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_SCENE_KIND);
+    assert_int_equal(weft_scene_save(scene, ".glb", &error), WEFT_INPUT);
+    static const char *const wrong[] = {"/nowhere/a.glb", "/nowhere/a.gltf"};
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(weft_scene_save(scene, wrong[k], &error), WEFT_RESOURCES);
+        assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+    }
+    snprintf(path, sizeof path, "%s/folder.glb", folder);
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_int_equal(weft_scene_save(scene, path, &error), WEFT_RESOURCES);
+    /* a disk that is full after 10000 bytes */
+    struct rlimit old, small = {10000, 10000};
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+    small.rlim_max = old.rlim_max;
+    signal(SIGXFSZ, SIG_IGN);
+    int before = file_count();
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    for (int k = 0; k < 2; k++) {
+        snprintf(path, sizeof path, "%s/full.%s", folder, k ? "gltf" : "glb");
+        WeftResult result = weft_scene_save(scene, path, &error);
+        assert_int_equal(result, WEFT_RESOURCES);
+        assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+        assert_int_equal(access(path, F_OK), -1);
+    }
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+    assert_int_equal(file_count(), before);
+    weft_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(built_in_scenes_come_back), cmocka_unit_test(presets_come_back),
+        cmocka_unit_test(anything_comes_back), cmocka_unit_test(what_cannot_be_written_leaves_nothing)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
