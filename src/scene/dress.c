@@ -22,7 +22,8 @@ static bool shows(const Material *material, InputId color) {
  * light. */
 static bool is_cloth(const WeftScene *scene, int k) {
     bool any = false;
-    for (int m = 0; m < scene->material_count; m++) any |= shows(&scene->materials[m], INPUT_sheen_color);
+    for (int m = 0; m < scene_own_materials(scene); m++)
+        any |= shows(&scene->materials[m], INPUT_sheen_color);
     const Material *material = &scene->materials[k];
     return any ? shows(material, INPUT_sheen_color) : !shows(material, INPUT_emission);
 }
@@ -74,18 +75,18 @@ static Material dressed(const Material *old, const MaterialFile *file) {
 
 static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
     int matched = 0;
-    for (int k = 0; k < scene->material_count && material; k++)
+    for (int k = 0; k < scene_own_materials(scene) && material; k++)
         matched += material_matches(scene, k, material);
     if (material && !matched) {
         char names[NAMES_SIZE];
         return fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
                     scene_names(scene, weft_scene_material_name, names));
     }
-    bool *wears = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *wears);
+    bool *wears = arena_array(&scene->arena, (size_t)scene_own_materials(scene), sizeof *wears);
     if (!wears || !adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int k = 0; k < scene->material_count; k++)
+    for (int k = 0; k < scene_own_materials(scene); k++)
         wears[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
-    for (int k = 0; k < scene->material_count; k++)
+    for (int k = 0; k < scene_own_materials(scene); k++)
         if (wears[k]) scene->materials[k] = dressed(&scene->materials[k], file);
     return tangents_complete(scene, error);
 }

@@ -83,7 +83,8 @@ static bool attach(Geometry *geometry, uint32_t id) {
 /* Up to here the slower build that traces faster takes less than the eye notices. */
 enum { FINE_BUILD_TRIANGLES = 200000 };
 
-WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error) {
+WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out,
+                           WeftError *error) {
     char config[64];
     snprintf(config, sizeof config, "threads=%d,set_affinity=0", threads);
     Geometry *geometry = alloc_array(1, sizeof *geometry);
@@ -93,7 +94,7 @@ WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, 
     geometry->accel = geometry->device ? rtcNewScene(geometry->device) : NULL;
     bool built = geometry->accel != NULL;
     uint32_t triangles = 0;
-    for (int k = 0; built && k < scene->mesh_count; k++) {
+    for (int k = 0; built && k < meshes; k++) {
         if (!scene->meshes[k].triangle_count) continue;
         built = attach(geometry, (uint32_t)k);
         triangles += scene->meshes[k].triangle_count;

@@ -133,7 +133,9 @@ static WeftResult build(WeftRender *render, WeftError *error) {
         if (!render->tiles || !render->sums)
             result = fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
     }
-    if (result == WEFT_OK) result = geometry_create(render->scene, d->threads, &render->geometry, error);
+    if (result == WEFT_OK)
+        result =
+            geometry_create(render->scene, render->scene->mesh_count, d->threads, &render->geometry, error);
     if (result == WEFT_OK) result = lights_create(render->scene, &render->lights, error);
     if (result == WEFT_OK) result = make_materials(render, error);
     if (result == WEFT_OK)
