@@ -10,6 +10,9 @@ typedef struct Geometry Geometry;
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error);
 void geometry_free(Geometry *geometry);
 
+/* Whether it does for the materials as they are now: what of them it was built for. */
+bool geometry_serves(const Geometry *geometry);
+
 typedef struct Ray {
     Vec3 origin, direction; /* unit */
     float near, far;
