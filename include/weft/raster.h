@@ -70,10 +70,11 @@ WEFT_API void weft_raster_free(WeftRaster *raster);
  * and its placement. What is the same is left alone: a parameter is a few bytes to upload, and tables to
  * fit where it shapes a lobe; a term compiles a shader, at the next picture, unless there was one for it
  * before; another image in the environment is
- * filtered, with progress; a texture that was not looked up before uploads all textures. Shapes are not
- * looked at. What is seen of the sky is found anew, in the background, where the environment was turned or
- * light passes elsewhere. Fails as weft_raster_create does, or with WEFT_INTERRUPTED; pictures are then
- * partly of the scene as it was, until an update does not fail. */
+ * filtered, with progress; a texture that was not looked up before uploads all textures. The only shapes that
+ * change are those of lights: to move one uploads its corners, to add or remove one uploads all meshes. What
+ * is seen of the sky is found anew, in the background, where the environment was turned or light passes
+ * elsewhere; lights do not count for that. Fails as weft_raster_create does, or with WEFT_INTERRUPTED;
+ * pictures are then partly of the scene as it was, until an update does not fail. */
 WEFT_API WeftResult weft_raster_update(WeftRaster *raster, const WeftLog *log, WeftError *error);
 
 enum { WEFT_RASTER_POLYGONS = 8 };

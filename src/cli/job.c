@@ -53,6 +53,8 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     if (result == WEFT_OK)
         result = weft_scene_set_environment_placement(*scene, (float)request->env_rotation,
                                                       (float)request->env_strength, error);
+    while (result == WEFT_OK && request->no_lights && weft_scene_info(*scene).light_count > 0)
+        result = weft_scene_remove_light(*scene, 0, error);
     for (int k = 0; k < request->light_count && result == WEFT_OK; k++)
         result = weft_scene_add_light(*scene, &request->lights[k], error);
     return result;

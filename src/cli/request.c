@@ -30,9 +30,12 @@ const Option request_options[] = {
         "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a studio]"),
     OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
     OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
-    OPTION_LIST("--light", "LIGHT",
-                "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\" or "
-                "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\", each x,y,z or r,g,b, cones in degrees"),
+    OPTION_LIST(
+        "--light", "LIGHT",
+        "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "
+        "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "
+        "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in "
+        "degrees, 3 to 8 corners; none drops those before it, the file's too"),
     OPTION_NUMBER("--turntable", "COUNT", NULL, 1, 10000,
                   "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
 
@@ -129,33 +132,44 @@ static bool take_numbers(const char **text, int count, float *out) {
 }
 
 static bool parse_light(const char *text, WeftLight *light) {
-    static const char *const prefixes[] = {"sun;", "point;", "spot;"};
-    float cone[2] = {0.0f, 45.0f};
+    static const char *const prefixes[] = {"sun;", "point;", "spot;", "polygon;"}; /* as WeftLightKind */
+    float cone[2] = {0.0f, 45.0f}, shape[2] = {4.0f, 0.0f};
     int kind = 0;
-    while (kind < 3 && strncmp(text, prefixes[kind], strlen(prefixes[kind])) != 0) kind++;
-    if (kind == 3) return false;
+    while (kind <= WEFT_LIGHT_POLYGON && strncmp(text, prefixes[kind], strlen(prefixes[kind])) != 0) kind++;
+    if (kind > WEFT_LIGHT_POLYGON) return false;
     *light = (WeftLight){.kind = (WeftLightKind)kind};
     text += strlen(prefixes[kind]);
-    bool good = (kind == 0 || take_numbers(&text, 3, light->position)) &&
-                (kind == 1 || take_numbers(&text, 3, light->direction)) &&
-                take_numbers(&text, 3, light->color);
-    if (good && kind == 2 && *text) good = take_numbers(&text, 2, cone);
+    bool polygon = kind == WEFT_LIGHT_POLYGON;
+    bool good = (kind == WEFT_LIGHT_DIRECTIONAL || take_numbers(&text, 3, light->position)) &&
+                (kind == WEFT_LIGHT_POINT || take_numbers(&text, 3, light->direction)) &&
+                (!polygon || take_numbers(&text, 2, light->size)) && take_numbers(&text, 3, light->color);
+    if (good && kind == WEFT_LIGHT_SPOT && *text) good = take_numbers(&text, 2, cone);
+    if (good && polygon && *text) good = take_numbers(&text, 2, shape);
+    good = good && shape[0] >= 3.0f && shape[0] <= 8.0f && !(shape[0] > floorf(shape[0]));
+    if (!good || *text) return false;
     light->inner = cone[0];
     light->outer = cone[1];
-    return good && !*text;
+    light->corners = polygon ? (int)shape[0] : 0;
+    light->roll = shape[1];
+    return true;
 }
 
 static bool read_lights(const Options *options, Request *request) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--light", &cursor));) {
+        if (strcmp(text, "none") == 0) {
+            request->light_count = 0;
+            request->no_lights = true;
+            continue;
+        }
         if (request->light_count == REQUEST_LIGHTS_MOST) {
             report(WEFT_USAGE, "--light: more than %d", REQUEST_LIGHTS_MOST);
             return false;
         }
         if (!parse_light(text, &request->lights[request->light_count++])) {
             report(WEFT_USAGE,
-                   "--light: \"%.80s\" is not sun;x,y,z;r,g,b or point;x,y,z;r,g,b or "
-                   "spot;x,y,z;x,y,z;r,g,b;inner,outer",
+                   "--light: \"%.80s\" is not none, sun;x,y,z;r,g,b, point;x,y,z;r,g,b, "
+                   "spot;x,y,z;x,y,z;r,g,b;inner,outer or polygon;x,y,z;x,y,z;w,h;r,g,b;corners,roll",
                    text);
             return false;
         }

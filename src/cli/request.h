@@ -32,6 +32,7 @@ typedef struct Request {
     int turntable; /* pictures around the scene; 0: one */
     WeftLight lights[REQUEST_LIGHTS_MOST];
     int light_count;
+    bool no_lights; /* not those of the file */
 } Request;
 
 /* How many pictures stand beside each other. */

@@ -125,8 +125,10 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         Uniforms uniforms = {0};
         GlMaterial *material = &self->all[k];
         size_t at = (size_t)k * (size_t)self->stride;
-        memcpy(material->fits, old->all[k].fits, sizeof material->fits);
-        memcpy(uniforms.fits, old->blocks + at + offsetof(Uniforms, fits), sizeof uniforms.fits);
+        if (k < old->count) {
+            memcpy(material->fits, old->all[k].fits, sizeof material->fits);
+            memcpy(uniforms.fits, old->blocks + at + offsetof(Uniforms, fits), sizeof uniforms.fits);
+        }
         if (material->worn) {
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
@@ -152,19 +154,22 @@ static void add_change(const GlMaterial *old, const GlMaterial *fresh, Materials
 }
 
 /* Uploads what differs, and tells what that means. */
-static void upload(const GlMaterials *old, const GlMaterials *fresh, int mesh_count,
+static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
                    MaterialsChange *change) {
-    size_t worn = (size_t)mesh_count * sizeof *fresh->of_mesh;
+    static const GlMaterial none;
+    size_t worn = (size_t)own_meshes * sizeof *fresh->of_mesh;
     change->tables = !old->sheens || sheen_tables_differ(old->sheens, fresh->sheens);
     change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, worn) != 0;
+    change->emission |= old->mesh_count != fresh->mesh_count;
     glBindBuffer(GL_UNIFORM_BUFFER, fresh->uniforms);
     for (int k = 0; k < fresh->count; k++) {
         size_t at = (size_t)k * (size_t)fresh->stride;
         const unsigned char *block = fresh->blocks + at;
-        bool same = old->uploaded && memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
-        if (same && is_same(&old->all[k], &fresh->all[k])) continue;
-        add_change(&old->all[k], &fresh->all[k], change);
-        if (!same) glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)at, (GLsizeiptr)sizeof(Uniforms), block);
+        const GlMaterial *before = k < old->count ? &old->all[k] : &none;
+        bool same = old->uploaded && k < old->count && memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
+        if (!same || !is_same(before, &fresh->all[k])) add_change(before, &fresh->all[k], change);
+        if (!same || fresh->uniforms != old->uniforms)
+            glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)at, (GLsizeiptr)sizeof(Uniforms), block);
     }
 }
 
@@ -173,8 +178,15 @@ static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *err
     self->all = alloc_array((size_t)self->count, sizeof(GlMaterial));
     self->blocks = alloc_array((size_t)self->count, (size_t)self->stride);
     self->of_mesh = alloc_array((size_t)scene->mesh_count, sizeof(int));
+    self->mesh_count = scene->mesh_count;
     bool held = self->all && self->blocks && self->of_mesh;
     return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
+static void make_uniforms(GlMaterials *self) {
+    glGenBuffers(1, &self->uniforms);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->uniforms);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)self->count * self->stride, NULL, GL_DYNAMIC_DRAW);
 }
 
 /* All but what another has too. */
@@ -190,16 +202,19 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
     GlMaterials fresh = *self;
     *change = (MaterialsChange){0};
     fresh.sheens = NULL;
+    fresh.count = scene->material_count;
     WeftResult result = hold(&fresh, scene, error);
+    if (fresh.count != self->count) make_uniforms(&fresh);
     if (result == WEFT_OK) result = sheen_tables_renew(self->sheens, scene, threads, &fresh.sheens, error);
     if (result == WEFT_OK && !take(&fresh, self, scene, textures, threads))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = families_make(scene, textures, fresh.all, error);
     if (result == WEFT_OK) {
-        upload(self, &fresh, scene->mesh_count, change);
+        upload(self, &fresh, scene_own_meshes(scene), change);
         result = gl_check(error, "materials");
         self->uploaded = fresh.uploaded = result == WEFT_OK;
     }
+    if (fresh.count != self->count) glDeleteBuffers(1, result == WEFT_OK ? &self->uniforms : &fresh.uniforms);
     let_go(result == WEFT_OK ? self : &fresh, result == WEFT_OK ? &fresh : self);
     if (result == WEFT_OK) *self = fresh;
     return result;
@@ -211,11 +226,8 @@ static WeftResult make_buffer(GlMaterials *self, const WeftScene *scene, WeftErr
     self->count = scene->material_count;
     self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
     WeftResult result = hold(self, scene, error);
-    if (result != WEFT_OK) return result;
-    glGenBuffers(1, &self->uniforms);
-    glBindBuffer(GL_UNIFORM_BUFFER, self->uniforms);
-    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)self->count * self->stride, self->blocks, GL_DYNAMIC_DRAW);
-    return WEFT_OK;
+    if (result == WEFT_OK) make_uniforms(self);
+    return result;
 }
 
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,

@@ -32,7 +32,8 @@ typedef struct GlMaterials {
     int stride;
     unsigned char *blocks; /* what is in it, once it is uploaded */
     bool uploaded;
-    int *of_mesh;        /* the material of each mesh */
+    int *of_mesh; /* the material of each mesh, of which there are so many */
+    int mesh_count;
     SheenTables *sheens; /* what programs read behind their own tables */
 } GlMaterials;
 
@@ -47,8 +48,9 @@ typedef struct MaterialsChange {
     bool emission; /* what sends out light is another, or does it otherwise */
 } MaterialsChange;
 
-/* Takes the materials as they are now, with as many as there were; textures must serve them. What is the same
- * is neither fitted nor uploaded again. Fails as materials_create does; the materials are then as they were.
+/* Takes the materials as they are now, of which only lights' may come and go; textures must serve them. What
+ * is the same is neither fitted nor uploaded again. Fails as materials_create does; the materials are then as
+ * they were.
  */
 WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, const GlTextures *textures,
                             int threads, MaterialsChange *change, WeftError *error);

@@ -26,6 +26,12 @@ static int tangents_of(const WeftScene *scene) {
     return count;
 }
 
+static uint32_t own_vertices(const WeftScene *scene) {
+    uint32_t count = 0;
+    for (int m = 0; m < scene_own_meshes(scene); m++) count += scene->meshes[m].vertex_count;
+    return count;
+}
+
 /* One attribute of all meshes, one after the other; 0, or white, where a mesh has none. An attribute that no
  * mesh has takes no memory: the shader reads the constant that meshes_bind sets. */
 static WeftResult upload(GLuint buffer, const WeftScene *scene, int attribute, size_t count,
@@ -91,6 +97,8 @@ WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error
         result = upload(out->attributes[a], scene, a, vertices, error);
     glBindVertexArray(0);
     out->vertex_count = (uint32_t)vertices;
+    out->own_count = own_vertices(scene);
+    out->mesh_count = scene->mesh_count;
     out->tangents = tangents_of(scene);
     if (result != WEFT_OK) meshes_destroy(out);
     return result;
@@ -107,24 +115,85 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
     return result;
 }
 
-WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
-    const size_t stride = OCCLUSION_VALUES * sizeof(float);
+static const GLsizeiptr seen_size = OCCLUSION_VALUES * sizeof(float);
+
+/* Makes the buffer of what vertices see, all but what those of the own meshes do, and has it looked up. */
+static WeftResult begin_occlusion(GlMeshes *self, bool lamps, WeftError *error) {
+    size_t others = self->vertex_count - self->own_count;
+    float *unknown = alloc_array(others, (size_t)seen_size);
+    if (!unknown) return fail(error, WEFT_MESSAGE_MEMORY, "occlusion", NULL);
+    for (size_t k = 0; k < others * OCCLUSION_VALUES; k++)
+        unknown[k] = k % OCCLUSION_VALUES < 2 ? 1.0f : -1.0f;
     if (!self->occlusion) glGenBuffers(1, &self->occlusion);
     glBindVertexArray(self->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(stride * self->vertex_count), values, GL_STATIC_DRAW);
-    for (size_t k = 0, at = 0; k < 3; at += k++ ? 4 : 2) {
+    glBufferData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->vertex_count, NULL, GL_STATIC_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others,
+                    unknown);
+    free(unknown);
+    for (size_t k = 0, at = 0; k < (lamps ? 3 : 1); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
-        glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+        glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)seen_size,
                               (const void *)(at * sizeof(float)));
         glEnableVertexAttribArray(attribute);
     }
+    self->lamps = lamps;
+    return WEFT_OK;
+}
+
+WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
+    WeftResult result = begin_occlusion(self, true, error);
+    if (result != WEFT_OK) return result;
+    glBufferSubData(GL_ARRAY_BUFFER, 0, seen_size * (GLsizeiptr)self->own_count, values);
     return gl_check(error, "occlusion");
 }
 
 void meshes_forget_lamps(GlMeshes *self) {
     glBindVertexArray(self->vertices);
     for (GLuint k = 0; k < 2; k++) glDisableVertexAttribArray(AT_LAMPS + k);
+    self->lamps = false;
+}
+
+static bool same_counts(const GlMeshes *self, const WeftScene *scene) {
+    uint32_t vertices = self->own_count;
+    bool same = self->mesh_count == scene->mesh_count;
+    for (int m = scene_own_meshes(scene); m < scene->mesh_count && same; m++) {
+        same = self->first[m + 1] - self->first[m] == 3 * scene->meshes[m].triangle_count;
+        vertices += scene->meshes[m].vertex_count;
+    }
+    return same && vertices == self->vertex_count;
+}
+
+static void move_lights(const GlMeshes *self, const WeftScene *scene) {
+    GLsizeiptr at = (GLsizeiptr)self->own_count * 3 * (GLsizeiptr)sizeof(float);
+    glBindBuffer(GL_ARRAY_BUFFER, self->attributes[AT_POSITION]);
+    for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++) {
+        GLsizeiptr size = (GLsizeiptr)scene->meshes[m].vertex_count * 3 * (GLsizeiptr)sizeof(float);
+        glBufferSubData(GL_ARRAY_BUFFER, at, size, scene->meshes[m].position);
+        at += size;
+    }
+}
+
+WeftResult meshes_reshape(GlMeshes *self, const WeftScene *scene, WeftError *error) {
+    GlMeshes fresh;
+    if (same_counts(self, scene)) {
+        move_lights(self, scene);
+        return gl_check(error, "lights");
+    }
+    WeftResult result = meshes_create(scene, &fresh, error);
+    if (result == WEFT_OK && self->occlusion) result = begin_occlusion(&fresh, self->lamps, error);
+    if (result == WEFT_OK && self->occlusion) {
+        glBindBuffer(GL_COPY_READ_BUFFER, self->occlusion);
+        glBindBuffer(GL_COPY_WRITE_BUFFER, fresh.occlusion);
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
+                            seen_size * (GLsizeiptr)self->own_count);
+        glBindBuffer(GL_COPY_READ_BUFFER, 0);
+        glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+        result = gl_check(error, "occlusion");
+    }
+    meshes_destroy(result == WEFT_OK ? self : &fresh);
+    if (result == WEFT_OK) *self = fresh;
+    return result;
 }
 
 void meshes_destroy(GlMeshes *self) {

@@ -21,10 +21,11 @@ enum {
 typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
-    unsigned occlusion; /* buffer, 0 until there is one */
-    uint32_t vertex_count;
-    int tangents;    /* of how many meshes they are uploaded */
-    uint32_t *first; /* a mesh's first index; mesh_count + 1 entries, owned */
+    unsigned occlusion;               /* buffer, 0 until there is one */
+    bool lamps;                       /* it knows of them */
+    uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
+    int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
+    uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */
 } GlMeshes;
 
 /* Uploads all meshes. Zero on failure: WEFT_MESSAGE_MEMORY, _GL_MEMORY, the latter beyond 2^31 corners too.
@@ -32,16 +33,20 @@ typedef struct GlMeshes {
 WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
-/* Gives each vertex what it sees of the sky and of lamps, as occlusion_values has it; all of the sky until
- * then, and of lamps nothing is known. */
+/* Gives each vertex of the scene's own meshes what it sees of the sky and of lamps, as occlusion_values has
+ * it; others, and all until then, see all of the sky, and of lamps nothing is known. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
 
 /* From now on nothing is known of lamps, which are others. */
 void meshes_forget_lamps(GlMeshes *meshes);
 
-/* Uploads tangents, which setting a material may have given to meshes; nothing else of a mesh changes. Fails
- * as meshes_create does; it is then as it was. */
+/* Uploads tangents, which setting a material may have given to meshes. Fails as meshes_create does; it is
+ * then as it was. */
 WeftResult meshes_update(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
+
+/* Takes other shapes of lights; what vertices see stays. Where there are as many vertices and triangles, only
+ * the places of the lights' vertices are uploaded. Fails as meshes_create does; it is then as it was. */
+WeftResult meshes_reshape(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
 
 /* Binds the vertex array, and sets the constants that stand for what is not in it. */
 void meshes_bind(const GlMeshes *meshes);

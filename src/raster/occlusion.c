@@ -19,7 +19,8 @@ enum { BLOCK = 256 }; /* vertices in one go */
 enum { LOOK = 2 };
 
 struct Occlusion {
-    WeftScene scene; /* as it was: what its lists hold stays, the lists of meshes and materials are copies */
+    WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
+                        meshes and materials are copies */
     Geometry *geometry;
     float *values;
     uint32_t *first; /* vertex of a mesh */
@@ -102,7 +103,7 @@ static void look(void *user, int item, int thread) {
 /* What is not opaque hides by its textures: too much to hash. */
 static bool is_opaque(const WeftScene *scene) {
     bool opaque = true;
-    for (int m = 0; m < scene->mesh_count; m++)
+    for (int m = 0; m < scene_own_meshes(scene); m++)
         opaque &= scene->materials[scene->meshes[m].material].alpha_mode == ALPHA_OPAQUE;
     return opaque;
 }
@@ -152,8 +153,9 @@ static void *work(void *user) {
 }
 
 static bool copy_scene(Occlusion *self, const WeftScene *scene) {
-    size_t meshes = (size_t)scene->mesh_count, materials = (size_t)scene->material_count;
+    size_t meshes = (size_t)scene_own_meshes(scene), materials = (size_t)scene->material_count;
     self->scene = *scene;
+    self->scene.mesh_count = scene_own_meshes(scene);
     self->scene.meshes = alloc_array(meshes, sizeof(Mesh));
     self->scene.materials = alloc_array(materials, sizeof(Material));
     if (!self->scene.meshes || !self->scene.materials) return false;
@@ -172,7 +174,8 @@ static bool known(Occlusion *self, const WeftLog *log) {
 }
 
 static WeftResult begin(Occlusion *self, WeftError *error) {
-    WeftResult result = geometry_create(&self->scene, self->threads, &self->geometry, error);
+    WeftResult result =
+        geometry_create(&self->scene, self->scene.mesh_count, self->threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
     if (self->joined) work(self); /* no thread to be had: now, then */
@@ -190,10 +193,10 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->lamp_count = how->lamp_count < OCCLUSION_LAMPS ? how->lamp_count : OCCLUSION_LAMPS;
     for (int k = 0; k < self->lamp_count; k++) self->lamps[k] = how->lamps[k];
     self->joined = true;
-    self->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
+    self->first = alloc_array((size_t)scene_own_meshes(scene) + 1, sizeof(uint32_t));
     bool held = self->first && copy_scene(self, scene);
     if (held) {
-        for (int m = 0; m < scene->mesh_count; m++)
+        for (int m = 0; m < self->scene.mesh_count; m++)
             self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
         self->values = alloc_array(values_count(self), sizeof(float));
     }

@@ -10,23 +10,31 @@ typedef struct Range {
     float near, far;
 } Range;
 
-/* From the nearest to the farthest corner of the scene's box, along the axis of the view; with perspective at
- * least that share of the way. */
+static void reach_out(Range *range, const View *view, Vec3 p) {
+    float depth = vec3_dot(vec3_sub(p, view->eye), view->forward);
+    range->near = fminf(range->near, depth);
+    range->far = fmaxf(range->far, depth);
+}
+
+/* From the nearest to the farthest corner of the scene's box and of its lights, along the axis of the view;
+ * with perspective at least that share of the way. */
 static Range depth_range(const WeftScene *scene, const View *view, float least) {
-    float near = INFINITY, far = -INFINITY;
+    Range range = {INFINITY, -INFINITY};
     for (int k = 0; k < 8; k++) {
         Vec3 corner = {k & 1 ? scene->high.x : scene->low.x, k & 2 ? scene->high.y : scene->low.y,
                        k & 4 ? scene->high.z : scene->low.z};
-        float depth = vec3_dot(vec3_sub(corner, view->eye), view->forward);
-        near = fminf(near, depth);
-        far = fmaxf(far, depth);
+        reach_out(&range, view, corner);
     }
-    float margin = 1e-3f * fmaxf(far - near, 1e-6f) + 1e-6f;
-    near -= margin;
-    far += margin;
-    if (view->orthographic) return (Range){near, far};
-    far = fmaxf(far, 1e-5f);
-    return (Range){fmaxf(near, least * far), far};
+    for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++)
+        for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
+            reach_out(&range, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
+    float margin = 1e-3f * fmaxf(range.far - range.near, 1e-6f) + 1e-6f;
+    range.near -= margin;
+    range.far += margin;
+    if (view->orthographic) return range;
+    range.far = fmaxf(range.far, 1e-5f);
+    range.near = fmaxf(range.near, least * range.far);
+    return range;
 }
 
 /* q, from the eye, to clip space: x = q.across / |across|^2, likewise y, w the depth. */

@@ -53,6 +53,19 @@ void queue_update(Queue *self, const WeftScene *scene) {
         if (blends(scene, m)) self->order[self->count++] = m;
 }
 
+WeftResult queue_reshape(Queue *self, const WeftScene *scene, WeftError *error) {
+    Queue fresh;
+    if (self->count == scene->mesh_count) {
+        for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++) measure(self, scene, m);
+        return WEFT_OK;
+    }
+    WeftResult result = queue_create(scene, &fresh, error);
+    if (result != WEFT_OK) return result;
+    queue_destroy(self);
+    *self = fresh;
+    return WEFT_OK;
+}
+
 void queue_destroy(Queue *self) {
     free(self->order);
     free(self->depth);

@@ -20,6 +20,9 @@ void queue_destroy(Queue *queue);
 /* Asks the materials again which meshes blend. */
 void queue_update(Queue *queue, const WeftScene *scene);
 
+/* Takes other shapes of lights. Fails as queue_create does; it is then as it was. */
+WeftResult queue_reshape(Queue *queue, const WeftScene *scene, WeftError *error);
+
 /* Sorts for a view; allocates nothing, and takes little time where the view has moved little. */
 void queue_sort(Queue *queue, const WeftScene *scene, const View *view);
 

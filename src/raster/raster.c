@@ -36,7 +36,7 @@ struct WeftRaster {
     GlEnvironment environment;
     unsigned background;                  /* program, 0 until it is needed */
     bool shines;                          /* the environment does */
-    unsigned turn;                        /* of the environment that was uploaded */
+    unsigned turn, shape_turn;            /* of the environment and of the shapes that were uploaded */
     Occlusion *occlusion;                 /* NULL where none is wanted, or once it is uploaded */
     AmbientLamp lamps[AMBIENT_LAMPS_MAX]; /* that it looked for, or looks for */
     int lamp_count;
@@ -137,6 +137,7 @@ static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error)
     int threads = self->desc.threads;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     WeftResult result = meshes_create(scene, &self->meshes, error);
+    self->shape_turn = scene->shape_turn;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, threads, &self->materials, error);
@@ -501,14 +502,24 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
     return result;
 }
 
+/* Takes other shapes of lights, whose maps see each other. */
+static WeftResult update_shapes(WeftRaster *self, WeftError *error) {
+    if (self->shape_turn == self->scene->shape_turn) return WEFT_OK;
+    WeftResult result = meshes_reshape(&self->meshes, self->scene, error);
+    if (result == WEFT_OK) result = queue_reshape(&self->queue, self->scene, error);
+    self->shadows.drawn = false;
+    return result;
+}
+
 static WeftResult update_lights(WeftRaster *self, const MaterialsChange *change, WeftError *error) {
     LightPolygons polygons;
-    if (change->emission) {
+    if (change->emission || self->shape_turn != self->scene->shape_turn) {
         if (!light_polygons_find(&polygons, self->scene, PICTURE_POLYGONS_MOST))
             return fail(error, WEFT_MESSAGE_MEMORY, self->scene->name, NULL);
         light_polygons_free(&self->polygons);
         self->polygons = polygons;
     }
+    self->shape_turn = self->scene->shape_turn;
     if (change->coverage) self->shadows.drawn = false;
     return shadows_update(&self->shadows, self->scene, &self->polygons, error);
 }
@@ -518,7 +529,8 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     MaterialsChange change;
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    result = meshes_update(&self->meshes, self->scene, error);
+    result = update_shapes(self, error);
+    if (result == WEFT_OK) result = meshes_update(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = update_materials(self, &change, log, error);
     if (result == WEFT_OK) self->look |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);

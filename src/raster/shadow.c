@@ -32,11 +32,11 @@ static Box mesh_box(const Mesh *mesh) {
     return box;
 }
 
-/* The box of all meshes smaller than a size, and the largest among them. */
+/* The box of the scene's own meshes smaller than a size, and the largest among them. */
 static Box smaller_box(const WeftScene *scene, float size, float *largest) {
     Box sum = box_empty();
     *largest = 0.0f;
-    for (int m = 0; m < scene->mesh_count; m++) {
+    for (int m = 0; m < scene_own_meshes(scene); m++) {
         Box box = mesh_box(&scene->meshes[m]);
         if (!(box_size(box) < size)) continue;
         *largest = fmaxf(*largest, box_size(box));

@@ -34,7 +34,7 @@ WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons,
                           WeftError *error);
 void shadows_destroy(Shadows *shadows);
 
-/* Chooses again, for other lights and the same meshes; maps that see something else are to be drawn anew.
+/* Chooses again, for other lights; maps that see something else are to be drawn anew.
  * Fails as shadows_create does, and there are then none. */
 WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
                           WeftError *error);

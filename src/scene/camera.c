@@ -26,7 +26,7 @@ static Camera frame_scene(const WeftScene *scene, float aspect) {
             vec3(0.0f, 0.0f, 0.0f));
     float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect;
     float right = -INFINITY, left = -INFINITY, above = -INFINITY, below = -INFINITY;
-    for (int m = 0; m < scene->mesh_count; m++)
+    for (int m = 0; m < scene_own_meshes(scene); m++)
         for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++) {
             Vec3 p = vec3_load(scene->meshes[m].position + 3 * (size_t)k);
             float x = vec3_dot(p, camera.right), y = vec3_dot(p, camera.up), z = vec3_dot(p, camera.forward);
@@ -103,4 +103,19 @@ void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], flo
     memcpy(eye, e, sizeof e);
     memcpy(target, t, sizeof t);
     *fov = camera->yfov * (180.0f / 3.14159265f);
+}
+
+WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,
+                             WeftError *error) {
+    Camera camera;
+    *out = (WeftCamera){0};
+    if (!(aspect > 0.0f && isfinite(aspect)))
+        return fail(error, WEFT_MESSAGE_DESC, "camera", "aspect %g", (double)aspect);
+    WeftResult result = camera_find(scene, text, aspect, &camera, error);
+    if (result != WEFT_OK) return result;
+    camera_tell(scene, &camera, out->eye, out->target, &out->fov);
+    const float up[3] = {camera.up.x, camera.up.y, camera.up.z};
+    memcpy(out->up, up, sizeof up);
+    if (camera.orthographic) out->fov = 0.0f;
+    return WEFT_OK;
 }

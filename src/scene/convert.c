@@ -35,7 +35,7 @@ WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *los
     int target = choice_find(CHOICE_convert, workflow);
     if (target < 0)
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, workflow, "convert to metallic or to specular");
-    for (int k = 0; k < scene->material_count; k++) {
+    for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         Choices choices = material_choices(material);
         material->choices[CHOICE_convert] = choices.convert = target;

@@ -22,7 +22,8 @@ static bool shows(const Material *material, InputId color) {
 
 static bool is_cloth(const WeftScene *scene, int k) {
     bool any = false;
-    for (int m = 0; m < scene->material_count; m++) any |= shows(&scene->materials[m], INPUT_sheen_color);
+    for (int m = 0; m < scene_own_materials(scene); m++)
+        any |= shows(&scene->materials[m], INPUT_sheen_color);
     const Material *material = &scene->materials[k];
     return any ? shows(material, INPUT_sheen_color) : !shows(material, INPUT_emission);
 }
@@ -73,7 +74,7 @@ bool *materials_wished(WeftScene *scene, const char *material, WeftError *error)
         fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
         return NULL;
     }
-    for (int k = 0; k < scene->material_count; k++) {
+    for (int k = 0; k < scene_own_materials(scene); k++) {
         wished[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
         matched += wished[k];
     }
@@ -90,7 +91,7 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     if (!wears && error) *error = said;
     if (!wears) return said.result;
     if (!adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (int k = 0; k < scene->material_count; k++)
+    for (int k = 0; k < scene_own_materials(scene); k++)
         if (wears[k]) scene->materials[k] = dressed(&scene->materials[k], file);
     return tangents_complete(scene, error);
 }

@@ -44,20 +44,20 @@ void scene_bounds(WeftScene *scene) {
 }
 
 WeftSceneInfo weft_scene_info(const WeftScene *scene) {
-    WeftSceneInfo info = {.mesh_count = scene->mesh_count,
-                          .material_count = scene->material_count,
-                          .light_count = scene->light_count,
+    WeftSceneInfo info = {.mesh_count = scene_own_meshes(scene),
+                          .material_count = scene_own_materials(scene),
+                          .light_count = scene->light_count + scene->polygon_light_count,
                           .camera_count = scene->camera_count,
                           .variant_count = scene->variant_count,
                           .image_count = scene->image_count,
                           .low = {scene->low.x, scene->low.y, scene->low.z},
                           .high = {scene->high.x, scene->high.y, scene->high.z}};
-    for (int m = 0; m < scene->mesh_count; m++) info.triangle_count += scene->meshes[m].triangle_count;
+    for (int m = 0; m < info.mesh_count; m++) info.triangle_count += scene->meshes[m].triangle_count;
     return info;
 }
 
 const char *weft_scene_material_name(const WeftScene *scene, int index) {
-    return index >= 0 && index < scene->material_count ? scene->materials[index].name : NULL;
+    return index >= 0 && index < scene_own_materials(scene) ? scene->materials[index].name : NULL;
 }
 
 const char *weft_scene_camera_name(const WeftScene *scene, int index) {
@@ -146,45 +146,5 @@ WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation
         return fail(error, WEFT_MESSAGE_DESC, "environment strength", NULL);
     scene->environment.rotation = fmodf(rotation, 360.0f) * (3.14159265f / 180.0f);
     scene->environment.strength = strength;
-    return WEFT_OK;
-}
-
-static bool all_finite(const float v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
-
-static WeftResult check_light(const WeftLight *l, WeftError *error) {
-    const char *wrong = NULL;
-    bool beams = l->kind != WEFT_LIGHT_POINT;
-    if ((unsigned)l->kind > WEFT_LIGHT_SPOT) wrong = "kind";
-    if (!all_finite(l->position)) wrong = "position";
-    if (beams && (!all_finite(l->direction) || !(vec3_length(vec3_load(l->direction)) > 0.0f)))
-        wrong = "direction";
-    for (int c = 0; c < 3; c++)
-        if (!(isfinite(l->color[c]) && l->color[c] >= 0.0f)) wrong = "color";
-    if (!(isfinite(l->range) && l->range >= 0.0f)) wrong = "range";
-    if (!(l->inner >= 0.0f && l->outer <= 90.0f && (l->inner <= l->outer || !(l->outer > 0.0f))))
-        wrong = "cone";
-    return wrong ? fail(error, WEFT_MESSAGE_DESC, "light", "%s", wrong) : WEFT_OK;
-}
-
-WeftResult weft_scene_add_light(WeftScene *scene, const WeftLight *l, WeftError *error) {
-    WeftResult result = check_light(l, error);
-    if (result != WEFT_OK) return result;
-    size_t count = (size_t)scene->light_count;
-    Light *lights = arena_array(&scene->arena, count + 1, sizeof *lights);
-    if (!lights) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    if (count) memcpy(lights, scene->lights, count * sizeof *lights);
-    const float degree = 3.14159265f / 180.0f, outer = l->outer > 0.0f ? l->outer : 45.0f;
-    Light *light = &lights[count];
-    *light = (Light){.name = "",
-                     .kind = (LightKind)l->kind,
-                     .position = vec3_load(l->position),
-                     .direction = vec3_normal_or(vec3_load(l->direction), vec3(0.0f, -1.0f, 0.0f)),
-                     .intensity = 1.0f,
-                     .range = l->range,
-                     .cos_inner = cosf(l->inner * degree),
-                     .cos_outer = cosf(outer * degree)};
-    memcpy(light->color, l->color, sizeof light->color);
-    scene->lights = lights;
-    scene->light_count++;
     return WEFT_OK;
 }

@@ -42,6 +42,13 @@ typedef struct Light {
     float cos_inner, cos_outer; /* spot: full inside the inner cone, none outside the outer */
 } Light;
 
+/* A light that is a flat mesh. The scene's last meshes and materials are those of its polygon lights, in
+ * their order: lights.c sees to that. */
+typedef struct PolygonLight {
+    WeftLight light; /* as it was given, its defaults filled in */
+    int place;       /* among all lights as callers count them; punctual ones fill the places between */
+} PolygonLight;
+
 typedef struct Camera {
     const char *name;
     Vec3 eye, right, up, forward; /* right, up, forward orthonormal; the camera looks along forward */
@@ -78,9 +85,20 @@ struct WeftScene {
     Camera *cameras;
     const char **variants;
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
+    int light_room, polygon_light_count, polygon_light_room; /* room: as many as the lists have memory for */
+    PolygonLight *polygon_lights;
+    unsigned shape_turn; /* another number for other shapes: those of lights, which alone may change */
     Environment environment;
-    Vec3 low, high; /* bounding box of all vertices; low > high when there are none */
+    Vec3 low, high; /* bounding box of its own vertices; low > high when there are none */
 };
+
+/* How many meshes and materials are the scene's own, and none of its lights'. */
+static inline int scene_own_meshes(const WeftScene *scene) {
+    return scene->mesh_count - scene->polygon_light_count;
+}
+static inline int scene_own_materials(const WeftScene *scene) {
+    return scene->material_count - scene->polygon_light_count;
+}
 
 /* An empty scene with the studio environment, or NULL when memory is short. */
 WeftScene *scene_create(const char *name);

@@ -141,7 +141,7 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
     if (result != WEFT_OK) return result;
     const Material *first = NULL;
     bool idle = wants_sheen(&setting); /* there is none */
-    for (int k = 0; k < scene->material_count; k++) {
+    for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         if (!material_matches(scene, k, name)) continue;
         material_set(material, &setting);

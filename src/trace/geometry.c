@@ -12,6 +12,8 @@ struct Geometry {
     const WeftScene *scene;
     RTCDevice device;
     RTCScene accel;
+    bool *asked; /* of a mesh: see is_asked */
+    int meshes;
 };
 
 static struct RTCRay to_embree(const Ray *ray) {
@@ -63,17 +65,28 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
     if (!present(scene, &hit, (Vec3){r->dir_x, r->dir_y, r->dir_z}, r->id)) a->valid[0] = 0;
 }
 
+/* Whether a shadow ray must ask what it has hit. */
+static bool is_asked(const WeftScene *scene, int mesh) {
+    const Material *material = &scene->materials[scene->meshes[mesh].material];
+    return !material->double_sided || material->alpha_mode != ALPHA_OPAQUE;
+}
+
+bool geometry_serves(const Geometry *geometry) {
+    bool serves = true;
+    for (int k = 0; k < geometry->meshes && serves; k++)
+        serves = geometry->asked[k] == is_asked(geometry->scene, k);
+    return serves;
+}
+
 static bool attach(Geometry *geometry, uint32_t id) {
     const Mesh *mesh = &geometry->scene->meshes[id];
-    const Material *material = &geometry->scene->materials[mesh->material];
     RTCGeometry g = rtcNewGeometry(geometry->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!g) return false;
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0,
                                3 * sizeof(float), mesh->vertex_count);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    if (!material->double_sided || material->alpha_mode != ALPHA_OPAQUE)
-        rtcSetGeometryOccludedFilterFunction(g, filter);
+    if (geometry->asked[id]) rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
     rtcReleaseGeometry(g);
@@ -83,17 +96,25 @@ static bool attach(Geometry *geometry, uint32_t id) {
 /* Up to here the slower build that traces faster takes less than the eye notices. */
 enum { FINE_BUILD_TRIANGLES = 200000 };
 
-WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error) {
+WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out,
+                           WeftError *error) {
     char config[64];
     snprintf(config, sizeof config, "threads=%d,set_affinity=0", threads);
     Geometry *geometry = alloc_array(1, sizeof *geometry);
     if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     geometry->scene = scene;
+    geometry->meshes = meshes;
+    geometry->asked = alloc_array((size_t)meshes, sizeof *geometry->asked);
+    if (!geometry->asked) {
+        free(geometry);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
+    for (int k = 0; k < meshes; k++) geometry->asked[k] = is_asked(scene, k);
     geometry->device = rtcNewDevice(config);
     geometry->accel = geometry->device ? rtcNewScene(geometry->device) : NULL;
     bool built = geometry->accel != NULL;
     uint32_t triangles = 0;
-    for (int k = 0; built && k < scene->mesh_count; k++) {
+    for (int k = 0; built && k < meshes; k++) {
         if (!scene->meshes[k].triangle_count) continue;
         built = attach(geometry, (uint32_t)k);
         triangles += scene->meshes[k].triangle_count;
@@ -117,6 +138,7 @@ void geometry_free(Geometry *geometry) {
     if (!geometry) return;
     if (geometry->accel) rtcReleaseScene(geometry->accel);
     if (geometry->device) rtcReleaseDevice(geometry->device);
+    free(geometry->asked);
     free(geometry);
 }
 

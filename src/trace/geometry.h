@@ -6,9 +6,12 @@
 
 typedef struct Geometry Geometry;
 
-/* Builds the acceleration structure over the scene's meshes, whose arrays it shares. */
-WeftResult geometry_create(const WeftScene *scene, int threads, Geometry **out, WeftError *error);
+/* Builds the acceleration structure over the scene's first `meshes` meshes, whose arrays it shares. */
+WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error);
 void geometry_free(Geometry *geometry);
+
+/* Whether it does for the materials as they are now: what of them it was built for. */
+bool geometry_serves(const Geometry *geometry);
 
 typedef struct Ray {
     Vec3 origin, direction; /* unit */

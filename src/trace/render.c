@@ -6,6 +6,7 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "scene/camera.h"
+#include "scene/polygons.h"
 #include "scene/shade.h"
 #include "scene/sheen_tables.h"
 #include "trace/path.h"
@@ -33,6 +34,7 @@ struct WeftRender {
     Lights *lights;
     SheenTables *tables;
     PathMaterial *materials; /* their sheen_e point into tables */
+    int material_count;
     PathContext context;
     Camera camera;
     View view;
@@ -77,13 +79,20 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
+/* Tables that still serve are kept. */
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
     size_t count = (size_t)scene->material_count;
+    SheenTables *tables;
+    WeftResult result = sheen_tables_renew(render->tables, scene, render->desc.threads, &tables, error);
+    if (result != WEFT_OK) return result;
+    sheen_tables_free_but(render->tables, tables);
+    render->tables = tables;
+    free(render->materials);
+    render->material_count = (int)count;
     render->materials = alloc_array(count, sizeof(PathMaterial));
     if (!render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    WeftResult result = sheen_tables_create(scene, render->desc.threads, &render->tables, error);
-    for (size_t k = 0; k < count && result == WEFT_OK; k++) {
+    for (size_t k = 0; k < count; k++) {
         const Material *material = &scene->materials[k];
         PathMaterial *known = &render->materials[k];
         known->material = *material;
@@ -95,7 +104,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
             known->textured |= known->material.inputs[input].texture != 0;
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
     }
-    return result;
+    return WEFT_OK;
 }
 
 /* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one
@@ -119,23 +128,59 @@ static void filter_make(float filter[FILTER_STEPS + 1]) {
     for (; step <= FILTER_STEPS; step++) filter[step] = (float)radius;
 }
 
-static WeftResult build(WeftRender *render, WeftError *error) {
+/* The picture's own: camera and an empty film. */
+static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     const WeftRenderDesc *d = &render->desc;
     float aspect = (float)d->width / (float)d->height;
     WeftResult result = camera_find(render->scene, d->camera, aspect, &render->camera, error);
+    if (result != WEFT_OK) return result;
     render->view = view_of(&render->camera, aspect);
     render->x0 = d->crop[0], render->y0 = d->crop[1], render->width = d->crop[2], render->height = d->crop[3];
     render->tiles_across = (render->width + TILE - 1) / TILE;
     render->tile_count = render->tiles_across * ((render->height + TILE - 1) / TILE);
-    if (result == WEFT_OK) {
-        render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
-        render->sums = alloc_array((size_t)render->width * (size_t)render->height, 4 * sizeof(float));
-        if (!render->tiles || !render->sums)
-            result = fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
-    }
-    if (result == WEFT_OK) result = geometry_create(render->scene, d->threads, &render->geometry, error);
-    if (result == WEFT_OK) result = lights_create(render->scene, &render->lights, error);
-    if (result == WEFT_OK) result = make_materials(render, error);
+    free(render->tiles);
+    free(render->sums);
+    render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
+    render->sums = alloc_array((size_t)render->width * (size_t)render->height, 4 * sizeof(float));
+    render->render_seconds = 0.0;
+    if (render->tiles && render->sums) return WEFT_OK;
+    render->tile_count = 0;
+    return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
+}
+
+static WeftResult make_geometry(WeftRender *render, WeftError *error) {
+    geometry_free(render->geometry);
+    render->geometry = NULL;
+    return geometry_create(render->scene, render->scene->mesh_count, render->desc.threads, &render->geometry,
+                           error);
+}
+
+static WeftResult make_lights(WeftRender *render, WeftError *error) {
+    lights_free(render->lights);
+    render->lights = NULL;
+    return lights_create(render->scene, &render->lights, error);
+}
+
+/* Whether a material shines, or did. */
+static bool any_emits(const WeftRender *render) {
+    bool any = false;
+    for (int k = 0; k < render->material_count; k++)
+        any |= material_emits(&render->scene->materials[k]) || material_emits(&render->materials[k].material);
+    return any;
+}
+
+/* Makes what was changed, and what could not be made before. A material may be what shines, and what shadow
+ * rays must ask. */
+static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
+    const WeftRenderDesc *d = &render->desc;
+    if (!render->materials || render->material_count != render->scene->material_count) changed = ~0u;
+    bool shapes = changed & WEFT_CHANGED_SHAPES || !render->geometry || !geometry_serves(render->geometry);
+    bool lights = changed & (WEFT_CHANGED_SHAPES | WEFT_CHANGED_LIGHTS) || !render->lights ||
+                  (changed && any_emits(render));
+    WeftResult result = begin_picture(render, error);
+    if (result == WEFT_OK && shapes) result = make_geometry(render, error);
+    if (result == WEFT_OK && lights) result = make_lights(render, error);
+    if (result == WEFT_OK && changed) result = make_materials(render, error);
     if (result == WEFT_OK)
         render->context = (PathContext){.scene = render->scene,
                                         .geometry = render->geometry,
@@ -148,10 +193,10 @@ static WeftResult build(WeftRender *render, WeftError *error) {
     return result;
 }
 
-WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
-                              WeftError *error) {
+WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
+                               WeftError *error) {
     double start = now();
-    *out = NULL;
+    const WeftScene *scene = render->scene;
     WeftRenderDesc d = *desc;
     set_defaults(&d);
     WeftResult result = check_desc(&d, error);
@@ -162,14 +207,21 @@ WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc
                                                                      : WEFT_BACKGROUND_ENVIRONMENT;
     if (desc->background == WEFT_BACKGROUND_AUTO)
         for (int c = 0; c < 3; c++) d.background_color[c] = 0.62f; /* a light grey paper roll */
+    render->desc = d;
+    result = build(render, changed, error);
+    render->desc.camera = NULL; /* borrowed only during this call */
+    render->build_seconds = now() - start;
+    return result;
+}
+
+WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
+                              WeftError *error) {
+    *out = NULL;
     WeftRender *render = alloc_array(1, sizeof *render);
     if (!render) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     render->scene = scene;
-    render->desc = d;
     filter_make(render->filter);
-    result = build(render, error);
-    render->desc.camera = NULL; /* borrowed only during this call */
-    render->build_seconds = now() - start;
+    WeftResult result = weft_render_restart(render, desc, 0, error);
     if (result == WEFT_OK)
         *out = render;
     else

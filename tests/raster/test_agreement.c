@@ -25,7 +25,7 @@ static void find_inside(const WeftScene *scene, const char *camera_name) {
     Camera camera;
     WeftError error;
     assert_int_equal(camera_find(scene, camera_name, (float)WIDTH / HEIGHT, &camera, &error), WEFT_OK);
-    assert_int_equal(geometry_create(scene, 2, &geometry, &error), WEFT_OK);
+    assert_int_equal(geometry_create(scene, scene->mesh_count, 2, &geometry, &error), WEFT_OK);
     View view = view_of(&camera, (float)WIDTH / HEIGHT);
     for (int k = 0; k < PIXELS; k++) {
         float x = ((float)(k % WIDTH) + 0.5f) / WIDTH, y = ((float)(k / WIDTH) + 0.5f) / HEIGHT;

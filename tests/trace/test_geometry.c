@@ -13,7 +13,7 @@
 static Geometry *build(WeftScene *scene) {
     Geometry *geometry = NULL;
     scene_bounds(scene);
-    assert_int_equal(geometry_create(scene, 2, &geometry, NULL), WEFT_OK);
+    assert_int_equal(geometry_create(scene, scene->mesh_count, 2, &geometry, NULL), WEFT_OK);
     return geometry;
 }
 

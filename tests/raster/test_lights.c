@@ -1,0 +1,173 @@
+/* Polygon lights that a caller adds, moves and takes away: the path tracer and the rasteriser see the same,
+ * and after each update a picture is that of a new raster. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "raster/gl.h"
+#include "trace/scenes.h"
+
+enum { SIDE = 72 };
+
+static const WeftLight panel = {.kind = WEFT_LIGHT_POLYGON,
+                                .position = {-0.6f, 1.0f, -0.4f},
+                                .direction = {0.4f, -1.0f, 0.6f},
+                                .color = {5.0f, 4.0f, 3.0f},
+                                .size = {0.9f, 0.7f},
+                                .roll = 20.0f};
+static const WeftLight lamp = {.kind = WEFT_LIGHT_SPOT,
+                               .position = {1.0f, 2.0f, 1.0f},
+                               .direction = {-1.0f, -2.0f, -1.0f},
+                               .color = {4.0f, 4.0f, 4.0f}};
+
+/* A ball with a sheen on a floor. */
+static WeftScene *ball_scene(void) {
+    WeftScene *scene = test_scene();
+    Material *ball = test_material(scene, 0.4f);
+    test_color(ball, INPUT_sheen_color, 0.6f);
+    ball->inputs[INPUT_sheen_roughness].value[0] = 0.5f;
+    ball->inputs[INPUT_specular].value[0] = 1.0f;
+    test_sphere(scene, vec3(0.0f, 0.0f, 0.0f), 0.5f);
+    test_material(scene, 0.5f);
+    test_quad(scene, vec3(-2.0f, -0.5f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    scene_bounds(scene);
+    test_environment(scene, 0.1f);
+    return scene;
+}
+
+static const WeftRasterView view = {.width = SIDE,
+                                    .height = SIDE,
+                                    .samples = 1,
+                                    .camera = "0,0.9,3.4;0,0.2,0;32",
+                                    .background = WEFT_BACKGROUND_COLOR};
+
+static WeftRaster *raster_of(const WeftScene *scene) {
+    WeftRaster *raster;
+    WeftError error;
+    const WeftRasterDesc desc = {.threads = 1, .occlusion = 16, .no_cache = 1};
+    if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK ||
+        weft_raster_settle(raster, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    return raster;
+}
+
+static WeftImage drawn(WeftRaster *raster, const WeftRasterView *how) {
+    WeftImage image = {0};
+    WeftError error;
+    if (weft_raster_draw(raster, how, &error) != WEFT_OK ||
+        weft_raster_image(raster, &image, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    return image;
+}
+
+static bool is_same(const WeftImage *a, const WeftImage *b) {
+    return memcmp(a->pixels, b->pixels, (size_t)SIDE * SIDE * 4 * sizeof(float)) == 0;
+}
+
+static void both_engines_agree(void **state) {
+    (void)state;
+    need_gl();
+    WeftRasterView bare = view;
+    bare.no_shadows = 1;
+    for (int corners = 3; corners <= 8; corners += corners == 4 ? 4 : 1) {
+        WeftScene *scene = ball_scene();
+        WeftLight light = panel;
+        light.corners = corners;
+        test_environment(scene, 0.0f);
+        assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
+        WeftRaster *raster = raster_of(scene);
+        const WeftRenderDesc desc = {.width = SIDE,
+                                     .height = SIDE,
+                                     .max_depth = 1,
+                                     .camera = view.camera,
+                                     .background = WEFT_BACKGROUND_COLOR,
+                                     .sampling = WEFT_SAMPLING_LIGHT,
+                                     .pixel_centre = 1,
+                                     .no_shadows = 1};
+        WeftImage image = drawn(raster, &bare), reference = test_render(scene, desc, 256);
+        double off = 0.0, sum = 0.0;
+        int shines = 0, shines_there = 0;
+        for (int k = 0; k < SIDE * SIDE * 4; k++) {
+            double x = (double)((float *)image.pixels)[k], y = (double)((float *)reference.pixels)[k];
+            shines += k % 4 == 0 && x > 4.0;
+            shines_there += k % 4 == 0 && y > 4.0;
+            if (k % 4 == 3 || x > 2.9 || y > 2.9) continue; /* the lamp itself */
+            off += fabs(x - y), sum += y;
+        }
+        print_message("%d corners: %.2f %% from the path tracer\n", corners, 100.0 * off / sum);
+        assert_true(sum > 100.0 && off < 0.04 * sum);
+        assert_true(shines > 10 && abs(shines - shines_there) < 6);
+        weft_image_free(&image);
+        weft_image_free(&reference);
+        weft_raster_free(raster);
+        weft_scene_free(scene);
+    }
+}
+
+static void put(WeftScene *scene, int index, float x, int corners) {
+    WeftLight light = panel;
+    light.position[0] = x;
+    light.corners = corners;
+    assert_int_equal(weft_scene_put_light(scene, index, &light, NULL), WEFT_OK);
+}
+
+static void change(WeftScene *scene, int step) {
+    WeftLight light = panel;
+    switch (step) {
+    case 0: assert_int_equal(weft_scene_add_light(scene, &panel, NULL), WEFT_OK); break;
+    case 1: put(scene, 0, 0.5f, 4); break;
+    case 2: put(scene, 0, 0.5f, 7); break;
+    case 3: assert_int_equal(weft_scene_add_light(scene, &lamp, NULL), WEFT_OK); break;
+    case 4:
+        light.position[2] = 1.0f;
+        light.color[0] = 9.0f;
+        assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
+        break;
+    case 5: assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK); break;
+    case 6: assert_int_equal(weft_scene_put_light(scene, 1, &lamp, NULL), WEFT_OK); break; /* another kind */
+    case 7: put(scene, 0, -0.2f, 3); break;
+    case 8:
+        light = lamp;
+        light.position[0] = -1.0f;
+        assert_int_equal(weft_scene_put_light(scene, 1, &light, NULL), WEFT_OK);
+        break;
+    default: assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK); break;
+    }
+}
+
+static void updates_are_as_new(void **state) {
+    (void)state;
+    need_gl();
+    enum { CHANGES = 11 };
+    WeftScene *scene = ball_scene();
+    WeftRaster *raster = raster_of(scene);
+    WeftError error;
+    WeftImage before = drawn(raster, &view), first = drawn(raster, &view);
+    for (int k = 0; k < CHANGES; k++) {
+        change(scene, k);
+        if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        WeftRaster *fresh = raster_of(scene);
+        WeftImage is = drawn(raster, &view), should = drawn(fresh, &view);
+        if (!is_same(&is, &should)) fail_msg("change %d: not as a new raster draws it", k);
+        if (is_same(&is, &before)) fail_msg("change %d: nothing has changed", k);
+        weft_image_free(&before);
+        weft_image_free(&should);
+        weft_raster_free(fresh);
+        before = is;
+    }
+    assert_true(is_same(&before, &first)); /* no light is left */
+    weft_image_free(&before);
+    weft_image_free(&first);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(both_engines_agree),
+                                       cmocka_unit_test(updates_are_as_new)};
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
+}
