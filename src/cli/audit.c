@@ -175,9 +175,9 @@ static void json_write(const Audit *audit) {
     Json json = {.stream = stdout};
     json_open(&json, NULL, '{');
     json_text(&json, "file", audit->path);
-    json_integer(&json, "width", audit->file.width);
-    json_integer(&json, "height", audit->file.height);
-    json_integer(&json, "channel", audit->channel);
+    json_whole(&json, "width", audit->file.width);
+    json_whole(&json, "height", audit->file.height);
+    json_whole(&json, "channel", audit->channel);
     json_text(&json, "lobe", lobe_id(audit));
     json_text(&json, "part", part_names[found->part]);
     json_text(&json, "axes", weft_table_form_text(&found->form, elements));
@@ -186,8 +186,8 @@ static void json_write(const Audit *audit) {
     json_bool(&json, "axes_fit", found->fits != 0);
     json_open(&json, "largest", '{');
     json_number(&json, "error", found->largest);
-    json_integer(&json, "x", found->place.x);
-    json_integer(&json, "y", found->place.y);
+    json_whole(&json, "x", found->place.x);
+    json_whole(&json, "y", found->place.y);
     json_float(&json, "cos_o", found->place.cos_o);
     json_float(&json, "parameter", found->place.value);
     json_float(&json, "table", found->place.table);
@@ -198,8 +198,8 @@ static void json_write(const Audit *audit) {
     json_number(&json, "max", audit->most);
     json_number(&json, "beyond", found->beyond);
     json_number(&json, "correlation", found->together);
-    json_integer(&json, "texels", found->texels);
-    json_integer(&json, "left_out", found->left_out);
+    json_whole(&json, "texels", found->texels);
+    json_whole(&json, "left_out", found->left_out);
     json_number(&json, "quadrature", found->error);
     json_open(&json, "findings", '[');
     for (int k = 0; k < found->faults; k++) {

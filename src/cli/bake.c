@@ -185,14 +185,14 @@ static void json_write(const Bake *bake) {
     json_open(&json, NULL, '{');
     json_text(&json, "kind", bake->desc.kind);
     if (bake->desc.lobe) json_text(&json, "lobe", weft_lobe_info(bake->lobe.lobe)->id);
-    json_integer(&json, "width", bake->table.width);
-    json_integer(&json, "height", bake->table.height);
+    json_whole(&json, "width", bake->table.width);
+    json_whole(&json, "height", bake->table.height);
     json_text(&json, "channels", info->channels);
     if (bake->kind->formed) json_text(&json, "axes", weft_table_form_text(&bake->desc.form, elements));
     json_number(&json, "tolerance", bake->common.tolerance);
     json_number(&json, "error", info->error);
-    json_integer(&json, "unmet", info->unmet);
-    json_integer(&json, "beyond", info->beyond);
+    json_whole(&json, "unmet", info->unmet);
+    json_whole(&json, "beyond", info->beyond);
     json_float(&json, "low", info->low);
     json_float(&json, "high", info->high);
     json_number(&json, "seconds", bake->seconds);

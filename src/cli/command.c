@@ -31,3 +31,22 @@ char *command_text(const Options *options) {
     *to = '\0';
     return text;
 }
+
+/* Each is an option and its value: "--preset velvet". */
+char *command_dress_text(const Options *options) {
+    static const char *const names[] = {"--variant",  "--preset",  "--material", "--materials",
+                                        "--workflow", "--profile", "--diffuse",  "--sheen",
+                                        "--layer",    "--texture", "--set",      "--convert"};
+    size_t room = 1;
+    for (int k = 0; k < options->argument_count; k++) room += 16 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(room), *to = text;
+    if (!text) return NULL;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        int cursor = 0;
+        for (const char *value; (value = option_next(options, names[k], &cursor));)
+            to = argument_write(argument_write(to, names[k]), value);
+    }
+    *to = '\0';
+    if (text[0]) memmove(text, text + 1, strlen(text)); /* the blank before the first */
+    return text;
+}

@@ -35,7 +35,7 @@ static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupt
         if (request->engine == ENGINE_BOTH)
             snprintf(shot->label, sizeof shot->label, "%s", k ? "raster" : "trace");
         else
-            dress_label(&request->dress, k, shot->label);
+            dress_label(&request->staging.dress, k, shot->label);
         shot->job.engine = request->engine == ENGINE_BOTH ? (Engine)k : request->engine;
         result = job_run(&shot->job, error);
         job_close(&shot->job);
@@ -80,7 +80,7 @@ static WeftResult measure(Comparison *all, WeftError *error) {
 
 /* What the pictures differ by. */
 static const char *varied(const Request *request) {
-    return request->engine == ENGINE_BOTH ? "engine" : request->dress.varied + 2;
+    return request->engine == ENGINE_BOTH ? "engine" : request->staging.dress.varied + 2;
 }
 
 /* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. One
@@ -101,7 +101,7 @@ static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *er
                             .note = "of linear radiance, the channel that differs most"};
     }
     char caption[512];
-    snprintf(caption, sizeof caption, "%.200s, by %s", all->request->scene, varied(all->request));
+    snprintf(caption, sizeof caption, "%.200s, by %s", all->request->staging.scene, varied(all->request));
     const WeftSheetDesc desc = {
         .caption = caption, .panels = panels, .count = rows * columns, .columns = columns};
     return weft_sheet_compose(&desc, sheet, error);
@@ -113,7 +113,8 @@ static void figures(const Comparison *all) {
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
         json_open(&json, NULL, '{');
-        json_text(&json, all->request->engine == ENGINE_BOTH ? "engine" : dress_varied(&all->request->dress),
+        json_text(&json,
+                  all->request->engine == ENGINE_BOTH ? "engine" : dress_varied(&all->request->staging.dress),
                   shot->label);
         json_open(&json, "difference", '{');
         json_number(&json, "mean", shot->difference.mean);

@@ -117,19 +117,19 @@ static void json_write(const Diff *diff) {
     json_open(&json, NULL, '{');
     json_text(&json, "image", diff->paths[0]);
     json_text(&json, "reference", diff->paths[1]);
-    json_integer(&json, "width", diff->map.width);
-    json_integer(&json, "height", diff->map.height);
+    json_whole(&json, "width", diff->map.width);
+    json_whole(&json, "height", diff->map.height);
     json_text(&json, "metric", weft_metric_name(diff->desc.metric));
     json_number(&json, "value", found->value);
     json_float(&json, "high", found->high);
     json_open(&json, "worst", '{');
     json_float(&json, "value", found->worst);
-    json_integer(&json, "x", found->worst_x);
-    json_integer(&json, "y", found->worst_y);
+    json_whole(&json, "x", found->worst_x);
+    json_whole(&json, "y", found->worst_y);
     json_close(&json, '}');
     if (found->exposures) {
         json_open(&json, "exposures", '{');
-        json_integer(&json, "count", found->exposures);
+        json_whole(&json, "count", found->exposures);
         json_float(&json, "low", found->exposure_low);
         json_float(&json, "high", found->exposure_high);
         json_close(&json, '}');

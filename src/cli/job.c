@@ -38,25 +38,13 @@ WeftResult failure(WeftError *error, WeftResult result, const char *text) {
     return result;
 }
 
-/* Loads the scene and dresses and lights it: the asset first, then ever more particular wishes. */
+/* Loads the scene and dresses and lights it. */
 static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     const Request *request = job->request;
     int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
     const WeftLog log = {.fn = warn, .user = job->warnings};
-    const char *env = option_text(request->options, "--env");
-    WeftResult result = weft_scene_load(request->scene, scene, &log, error);
-    if (result == WEFT_OK) result = dress_apply(&request->dress, picture, *scene, &log, error);
-    if (result == WEFT_OK && request->env_is_color)
-        result = weft_scene_set_environment_color(*scene, request->env_color, error);
-    else if (result == WEFT_OK && env)
-        result = weft_scene_set_environment_file(*scene, env, &log, error);
-    if (result == WEFT_OK)
-        result = weft_scene_set_environment_placement(*scene, (float)request->env_rotation,
-                                                      (float)request->env_strength, error);
-    while (result == WEFT_OK && request->no_lights && weft_scene_info(*scene).light_count > 0)
-        result = weft_scene_remove_light(*scene, 0, error);
-    for (int k = 0; k < request->light_count && result == WEFT_OK; k++)
-        result = weft_scene_add_light(*scene, &request->lights[k], error);
+    WeftResult result = weft_scene_load(request->staging.scene, scene, &log, error);
+    if (result == WEFT_OK) result = staging_apply(&request->staging, picture, *scene, &log, error);
     return result;
 }
 
@@ -92,7 +80,7 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
 /* A built-in scene has a camera that shows it best. */
 static const char *camera_of(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
-    bool builtin = strncmp(job->request->scene, "builtin:", 8) == 0;
+    bool builtin = strncmp(job->request->staging.scene, "builtin:", 8) == 0;
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 
@@ -176,8 +164,8 @@ WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
     camera = camera_of(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
     if (result == WEFT_OK)
-        result = weft_image_tonemap(&job->linear, (WeftTonemap)job->request->tonemap,
-                                    (float)job->request->exposure, &job->display, error);
+        result = weft_image_tonemap(&job->linear, (WeftTonemap)job->request->staging.tonemap,
+                                    (float)job->request->staging.exposure, &job->display, error);
     return result;
 }
 
@@ -214,12 +202,12 @@ void job_json(const Job *job, Json *json) {
     const Request *request = job->request;
     const WeftRenderInfo *info = &job->info;
     int cursor = 0;
-    json_text(json, "scene", request->scene);
+    json_text(json, "scene", request->staging.scene);
     json_text(json, "engine", job->engine == ENGINE_RASTER ? "raster" : "trace");
     if (job->engine == ENGINE_RASTER) json_text(json, "driver", job->driver);
-    json_integer(json, "triangles", job->triangles);
-    json_integer(json, "width", job->width);
-    json_integer(json, "height", job->height);
+    json_whole(json, "triangles", job->triangles);
+    json_whole(json, "width", job->width);
+    json_whole(json, "height", job->height);
     json_number(json, "samples_per_pixel", info->samples_per_pixel);
     json_bool(json, "interrupted", job->interrupted);
     json_open(json, "seconds", '{');
@@ -228,7 +216,7 @@ void job_json(const Job *job, Json *json) {
     json_number(json, "render", info->render_seconds);
     json_close(json, '}');
     if (job->engine == ENGINE_TRACE) {
-        json_integer(json, "rays", info->rays);
+        json_whole(json, "rays", info->rays);
         json_number(json, "samples_per_second", job_samples_per_second(job));
         json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
     }
@@ -237,7 +225,7 @@ void job_json(const Job *job, Json *json) {
     json_floats(json, "target", info->camera_target, 3);
     json_float(json, "fov", info->camera_fov);
     json_close(json, '}');
-    json_integer(json, "peak_memory_bytes", peak_memory());
+    json_whole(json, "peak_memory_bytes", peak_memory());
     json_open(json, "outputs", '[');
     for (const char *path; (path = option_next(request->options, "-o", &cursor));)
         json_text(json, NULL, path);

@@ -77,7 +77,7 @@ void json_bool(Json *json, const char *key, bool value) {
     fputs(value ? "true" : "false", json->stream);
 }
 
-void json_integer(Json *json, const char *key, long long value) {
+void json_whole(Json *json, const char *key, long long value) {
     lead(json, key);
     fprintf(json->stream, "%lld", value);
 }

@@ -22,7 +22,7 @@ void json_close(Json *json, char bracket);
 
 void json_text(Json *json, const char *key, const char *text);
 void json_bool(Json *json, const char *key, bool value);
-void json_integer(Json *json, const char *key, long long value);
+void json_whole(Json *json, const char *key, long long value);
 
 /* Nine significant digits. */
 void json_number(Json *json, const char *key, double value);

@@ -26,7 +26,7 @@ static void json_albedo(Json *json, const WeftPassport *p) {
     if (tinted) json_close(json, ']');
     json_float(json, "most", p->albedo_most);
     json_place(json, "at", &p->albedo_place);
-    json_integer(json, "above_one", p->albedo_above);
+    json_whole(json, "above_one", p->albedo_above);
     json_close(json, '}');
 }
 
@@ -56,11 +56,11 @@ static void json_sampling(Json *json, const WeftPassport *p) {
     json_open(json, "sampling", '{');
     json_float(json, "integral_most", p->pdf_most);
     json_place(json, "integral_at", &p->pdf_place);
-    json_integer(json, "tests", p->tests);
+    json_whole(json, "tests", p->tests);
     json_number(json, "p_least", p->p);
     json_place(json, "p_at", &p->p_place);
     json_number(json, "significance", weft_passport_significance(p->p, p->tests));
-    json_integer(json, "stray", p->stray);
+    json_whole(json, "stray", p->stray);
     json_float(json, "missed", p->missed);
     json_place(json, "missed_at", &p->missed_place);
     json_floats(json, "cos_o", p->views, WEFT_PASSPORT_VIEWS);
@@ -79,10 +79,10 @@ static void json_sampling(Json *json, const WeftPassport *p) {
 
 static void json_sweep(Json *json, const WeftPassport *p) {
     json_open(json, "sweep", '{');
-    json_integer(json, "results", p->sweep_count);
-    json_integer(json, "not_finite", p->sweep_infinite);
-    json_integer(json, "negative", p->sweep_negative);
-    json_integer(json, "below_horizon", p->sweep_below);
+    json_whole(json, "results", p->sweep_count);
+    json_whole(json, "not_finite", p->sweep_infinite);
+    json_whole(json, "negative", p->sweep_negative);
+    json_whole(json, "below_horizon", p->sweep_below);
     json_close(json, '}');
 }
 
@@ -98,8 +98,8 @@ static void json_half(Json *json, const WeftPassport *p) {
     json_open(json, "half", '{');
     json_bool(json, "measured", p->half_measured);
     if (p->half_measured) {
-        json_integer(json, "results", p->half_count);
-        json_integer(json, "bad", p->half_bad);
+        json_whole(json, "results", p->half_count);
+        json_whole(json, "bad", p->half_bad);
         json_open(json, "floor", '[');
         for (int row = 0; row < p->rows; row++) json_floor(json, NULL, p->half_floor[row]);
         json_close(json, ']');

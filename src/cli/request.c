@@ -17,29 +17,12 @@ const Option request_options[] = {
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
-    OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),
-    OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),
-    OPTION_TEXT("--background", "WHAT", "auto", "auto, environment, transparent or a linear r,g,b"),
 
-    OPTION_HEADING("View and light"),
-    OPTION_TEXT("--camera", "CAMERA", NULL,
-                "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "
-                "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),
-    OPTION_TEXT(
-        "--env", "FILE|r,g,b", NULL,
-        "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a studio]"),
-    OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),
-    OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),
-    OPTION_LIST(
-        "--light", "LIGHT",
-        "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "
-        "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "
-        "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in "
-        "degrees, 3 to 8 corners; none drops those before it, the file's too"),
+    STAGING_OPTIONS,
+
+    OPTION_HEADING("Several pictures"),
     OPTION_NUMBER("--turntable", "COUNT", NULL, 1, 10000,
                   "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
-
-    DRESS_OPTIONS,
 
     OPTION_HEADING("Engine"),
     OPTION_TEXT("--engine", "ENGINE", "trace",
@@ -74,23 +57,6 @@ const Option request_options[] = {
     OPTION_END,
 };
 
-/* "r,g,b", or one number for all three. */
-static bool colors_parse(const char *text, double c[3]) {
-    if (!numbers_parse(text, 1, c)) return numbers_parse(text, 3, c);
-    c[1] = c[2] = c[0];
-    return true;
-}
-
-static bool colors(const char *text, float color[3]) {
-    double c[3];
-    bool good = colors_parse(text, c);
-    for (int k = 0; good && k < 3; k++) {
-        good = c[k] >= 0.0 && c[k] <= 1e30;
-        if (good) color[k] = (float)c[k];
-    }
-    return good;
-}
-
 static bool read_crop(const Options *options, WeftRenderDesc *desc) {
     const char *text = option_text(options, "--crop");
     double v[4];
@@ -108,75 +74,6 @@ static bool read_crop(const Options *options, WeftRenderDesc *desc) {
     return false;
 }
 
-static bool read_background(const Options *options, WeftRenderDesc *desc) {
-    static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", NULL};
-    int choice = WEFT_BACKGROUND_COLOR;
-    bool good = colors(option_text(options, "--background"), desc->background_color) ||
-                (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);
-    desc->background = (WeftBackground)choice;
-    return good;
-}
-
-/* The next part of a text, up to a semicolon, as numbers. */
-static bool take_numbers(const char **text, int count, float *out) {
-    char part[128];
-    double v[3];
-    size_t size = strcspn(*text, ";");
-    if (size == 0 || size >= sizeof part) return false;
-    memcpy(part, *text, size);
-    part[size] = '\0';
-    *text += size + ((*text)[size] == ';');
-    if (!numbers_parse(part, count, v)) return false;
-    for (int k = 0; k < count; k++) out[k] = (float)v[k];
-    return true;
-}
-
-static bool parse_light(const char *text, WeftLight *light) {
-    static const char *const prefixes[] = {"sun;", "point;", "spot;", "polygon;"}; /* as WeftLightKind */
-    float cone[2] = {0.0f, 45.0f}, shape[2] = {4.0f, 0.0f};
-    int kind = 0;
-    while (kind <= WEFT_LIGHT_POLYGON && strncmp(text, prefixes[kind], strlen(prefixes[kind])) != 0) kind++;
-    if (kind > WEFT_LIGHT_POLYGON) return false;
-    *light = (WeftLight){.kind = (WeftLightKind)kind};
-    text += strlen(prefixes[kind]);
-    bool polygon = kind == WEFT_LIGHT_POLYGON;
-    bool good = (kind == WEFT_LIGHT_DIRECTIONAL || take_numbers(&text, 3, light->position)) &&
-                (kind == WEFT_LIGHT_POINT || take_numbers(&text, 3, light->direction)) &&
-                (!polygon || take_numbers(&text, 2, light->size)) && take_numbers(&text, 3, light->color);
-    if (good && kind == WEFT_LIGHT_SPOT && *text) good = take_numbers(&text, 2, cone);
-    if (good && polygon && *text) good = take_numbers(&text, 2, shape);
-    good = good && shape[0] >= 3.0f && shape[0] <= 8.0f && !(shape[0] > floorf(shape[0]));
-    if (!good || *text) return false;
-    light->inner = cone[0];
-    light->outer = cone[1];
-    light->corners = polygon ? (int)shape[0] : 0;
-    light->roll = shape[1];
-    return true;
-}
-
-static bool read_lights(const Options *options, Request *request) {
-    int cursor = 0;
-    for (const char *text; (text = option_next(options, "--light", &cursor));) {
-        if (strcmp(text, "none") == 0) {
-            request->light_count = 0;
-            request->no_lights = true;
-            continue;
-        }
-        if (request->light_count == REQUEST_LIGHTS_MOST) {
-            report(WEFT_USAGE, "--light: more than %d", REQUEST_LIGHTS_MOST);
-            return false;
-        }
-        if (!parse_light(text, &request->lights[request->light_count++])) {
-            report(WEFT_USAGE,
-                   "--light: \"%.80s\" is not none, sun;x,y,z;r,g,b, point;x,y,z;r,g,b, "
-                   "spot;x,y,z;x,y,z;r,g,b;inner,outer or polygon;x,y,z;x,y,z;w,h;r,g,b;corners,roll",
-                   text);
-            return false;
-        }
-    }
-    return true;
-}
-
 /* What goes with a choice of engine, and what does not. */
 static bool read_engine(const Options *options, Request *request) {
     static const char *const engines[] = {"trace", "raster", "both", NULL}; /* as Engine */
@@ -190,16 +87,16 @@ static bool read_engine(const Options *options, Request *request) {
                 option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--occlusion", &occlusion) &&
-                option_integer(options, "--turntable", &request->turntable) && read_lights(options, request);
+                option_integer(options, "--turntable", &request->turntable);
     request->engine = (Engine)engine;
     request->ambient = (WeftAmbient)ambient;
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
                                        .shader_dir = option_text(options, "--shader-dir"),
                                        .threads = request->desc.threads,
                                        .occlusion = occlusion};
-    if (good && request->engine == ENGINE_BOTH && request->dress.count > 1) {
+    if (good && request->engine == ENGINE_BOTH && request->staging.dress.count > 1) {
         report(WEFT_USAGE, "--engine both: %s has several ids already; one option may",
-               request->dress.varied);
+               request->staging.dress.varied);
         return false;
     }
     if (good && request->turntable && request_count(request) > 1) {
@@ -210,17 +107,7 @@ static bool read_engine(const Options *options, Request *request) {
 }
 
 int request_count(const Request *request) {
-    return request->engine == ENGINE_BOTH ? 2 : request->dress.count;
-}
-
-/* What reads as a color is a radiance and never the name of a file. */
-static bool read_env(const Options *options, Request *request) {
-    const char *text = option_text(options, "--env");
-    double c[3];
-    request->env_is_color = text && colors_parse(text, c);
-    if (!request->env_is_color || colors(text, request->env_color)) return true;
-    report(WEFT_USAGE, "--env: \"%.80s\" is not a radiance, which is from 0 to 1e30", text);
-    return false;
+    return request->engine == ENGINE_BOTH ? 2 : request->staging.dress.count;
 }
 
 static bool read_desc(const Options *options, WeftRenderDesc *desc) {
@@ -230,44 +117,23 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
                 option_integer(options, "--height", &desc->height) && read_crop(options, desc) &&
                 option_integer(options, "--max-depth", &desc->max_depth) &&
                 option_integer(options, "--seed", &seed) &&
-                option_integer(options, "--threads", &desc->threads) && read_background(options, desc) &&
+                option_integer(options, "--threads", &desc->threads) &&
                 option_choice(options, "--sampling", strategies, &sampling);
     desc->seed = (uint32_t)seed;
     desc->sampling = (WeftSampling)sampling;
-    desc->camera = option_text(options, "--camera");
     return good;
 }
 
-/* Whether what begins with "builtin:" is built in. */
-static bool check_scene(const char *scene) {
-    static const char prefix[] = "builtin:";
-    if (strncmp(scene, prefix, strlen(prefix)) != 0) return true;
-    const char *name = scene + strlen(prefix);
-    Nearest nearest = {.typed = name};
-    char list[256] = "", hint[96];
-    for (int k = 0; weft_builtin_name(k); k++) {
-        if (strcmp(weft_builtin_name(k), name) == 0) return true;
-        nearest_offer(&nearest, weft_builtin_name(k));
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "",
-                 weft_builtin_name(k));
-    }
-    report(WEFT_USAGE, "%.200s: %s: there is %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
-           nearest_hint(&nearest, hint, sizeof hint));
-    return false;
-}
-
 bool request_read(const Options *options, Request *request) {
-    static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
-    *request = (Request){
-        .options = options, .scene = options->operands[0], .quiet = option_given(options, "--quiet")};
-    bool good = check_scene(request->scene) && read_desc(options, &request->desc) &&
-                read_env(options, request) && option_integer(options, "--spp", &request->spp) &&
-                option_number(options, "--time-limit", &request->time_limit) &&
-                option_number(options, "--exposure", &request->exposure) &&
-                option_number(options, "--env-rotation", &request->env_rotation) &&
-                option_number(options, "--env-strength", &request->env_strength) &&
-                option_choice(options, "--tonemap", curves, &request->tonemap) &&
-                dress_read(options, &request->dress) && read_engine(options, request);
+    *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
+    bool good = read_desc(options, &request->desc) &&
+                staging_read(options, options->operands[0], &request->staging) &&
+                option_integer(options, "--spp", &request->spp) &&
+                option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request);
+    request->desc.camera = request->staging.camera;
+    request->desc.background = request->staging.background;
+    memcpy(request->desc.background_color, request->staging.background_color,
+           sizeof request->desc.background_color);
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
 }

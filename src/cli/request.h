@@ -2,7 +2,7 @@
 #ifndef WEFT_CLI_REQUEST_H
 #define WEFT_CLI_REQUEST_H
 
-#include "dress.h"
+#include "staging.h"
 #include "weft/raster.h"
 
 enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
@@ -11,28 +11,19 @@ extern const Option request_options[];
 
 typedef enum Engine { ENGINE_TRACE, ENGINE_RASTER, ENGINE_BOTH } Engine;
 
-enum { REQUEST_LIGHTS_MOST = 64 };
-
 /* What the command line asks for, checked. */
 typedef struct Request {
     const Options *options;
-    const char *scene;
-    Dress dress;
+    Staging staging;
     WeftRenderDesc desc;
     int spp; /* 0: until the time is up */
-    double time_limit, exposure, env_rotation, env_strength;
-    int tonemap; /* WeftTonemap */
-    bool env_is_color;
-    float env_color[3];
+    double time_limit;
     bool quiet;
     Engine engine;
     WeftRasterDesc raster;
     int msaa, polygons;
     WeftAmbient ambient;
     int turntable; /* pictures around the scene; 0: one */
-    WeftLight lights[REQUEST_LIGHTS_MOST];
-    int light_count;
-    bool no_lights; /* not those of the file */
 } Request;
 
 /* How many pictures stand beside each other. */

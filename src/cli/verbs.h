@@ -5,5 +5,8 @@
 #include "options.h"
 
 extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake, verb_diff;
+#ifdef WEFT_VIEW
+extern const Verb verb_view;
+#endif
 
 #endif

@@ -91,7 +91,7 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
 
 static void put_light(Line *line, const WeftLight *l) {
     const float *p = l->position, *d = l->direction, *c = l->color;
-    char word[400], place[120], way[120], color[120];
+    char word[640], place[120], way[120], color[120];
     snprintf(place, sizeof place, "%.7g,%.7g,%.7g", (double)p[0], (double)p[1], (double)p[2]);
     snprintf(way, sizeof way, "%.7g,%.7g,%.7g", (double)d[0], (double)d[1], (double)d[2]);
     snprintf(color, sizeof color, "%.7g,%.7g,%.7g", (double)c[0], (double)c[1], (double)c[2]);

@@ -21,31 +21,27 @@ static const char *light_name(const void *user, int k) {
     return text;
 }
 
-/* A new one shines from above the eye onto the middle of the scene. */
+/* A new one shines from beside and above the eye onto what is looked at. */
 static void add_light(Viewer *v, WeftLightKind kind) {
     if (v->look.light_count == LOOK_LIGHTS) {
         viewer_say(v, true, "no more than %d lights", LOOK_LIGHTS);
         return;
     }
     WeftLight light;
-    float size = 0.0f, far = 0.0f;
+    float right[3], up[3], forward[3], far = v->reach;
     memset(&light, 0, sizeof light); /* compared byte by byte */
     light.kind = kind;
-    for (int k = 0; k < 3; k++) {
-        float middle = 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]), d = v->orbit.eye[k] - middle;
-        size = fmaxf(size, v->facts.info.high[k] - v->facts.info.low[k]);
-        light.position[k] = middle + 0.6f * d;
-        far += d * d;
-    }
-    light.position[1] += 0.7f * size;
-    for (int k = 0; k < 3; k++)
-        light.direction[k] = 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]) - light.position[k];
-    float r2 = light.direction[0] * light.direction[0] + light.direction[1] * light.direction[1] +
-               light.direction[2] * light.direction[2];
-    float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f : kind == WEFT_LIGHT_POLYGON ? 12.0f : 3.0f * r2;
+    orbit_axes(&v->orbit, right, up, forward);
+    for (int k = 0; k < 3; k++) light.direction[k] = 0.6f * forward[k] + 0.5f * right[k];
+    light.direction[1] -= 0.6f;
+    float n = hypotf(hypotf(light.direction[0], light.direction[1]), light.direction[2]);
+    for (int k = 0; k < 3; k++) light.direction[k] /= fmaxf(n, 1e-6f);
+    for (int k = 0; k < 3; k++) light.position[k] = v->home[k] - far * light.direction[k];
+    float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f
+                  : kind == WEFT_LIGHT_POLYGON   ? 12.0f
+                                                 : 3.0f * far * far;
     for (int k = 0; k < 3; k++) light.color[k] = color;
-    light.size[0] = light.size[1] = 0.5f * size;
-    light.corners = kind == WEFT_LIGHT_POLYGON ? 4 : 0;
+    if (kind == WEFT_LIGHT_POLYGON) light.size[0] = light.size[1] = 0.4f * far, light.corners = 4;
     if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
     v->light = v->look.light_count;
     v->look.lights[v->look.light_count++] = light;

@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/painter.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -156,9 +157,30 @@ static WeftResult draw_both(Painter *self, const Order *order, int target, WeftE
     return result == WEFT_OK ? draw_one(self, order, &order->look, left, target, error) : result;
 }
 
+/* A camera of the scene turns about what is in the middle of its picture. */
+static void focus(Painter *self, const Order *order, Painted *p) {
+    WeftPicked at;
+    float d[3], n = 0.0f;
+    if (strchr(order->camera, ';')) return;
+    if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return;
+    int width = order->view.width, height = order->view.height;
+    if (!weft_pick_at(self->pick, order->camera, width, height, 0.5f * (float)width, 0.5f * (float)height,
+                      &at))
+        return;
+    for (int k = 0; k < 3; k++) {
+        d[k] = p->target[k] - p->eye[k];
+        n += d[k] * d[k];
+    }
+    for (int k = 0; k < 3 && n > 0.0f; k++) p->target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
+}
+
 static void publish(Painter *self, const Order *order, unsigned number, int target, double seconds,
                     const WeftError *error) {
     WeftRasterInfo info = weft_raster_info(self->raster);
+    Painted seen = {.fov = info.camera_fov};
+    memcpy(seen.eye, info.camera_eye, sizeof seen.eye);
+    memcpy(seen.target, info.camera_target, sizeof seen.target);
+    focus(self, order, &seen);
     pthread_mutex_lock(&self->lock);
     Painted *p = &self->painted;
     if (target >= 0) {
@@ -168,9 +190,9 @@ static void publish(Painter *self, const Order *order, unsigned number, int targ
         self->newest = target;
     }
     p->number = number;
-    memcpy(p->eye, info.camera_eye, sizeof p->eye);
-    memcpy(p->target, info.camera_target, sizeof p->target);
-    p->fov = info.camera_fov;
+    memcpy(p->eye, seen.eye, sizeof p->eye);
+    memcpy(p->target, seen.target, sizeof p->target);
+    p->fov = seen.fov;
     p->programs = info.programs, p->compiled = info.compiled;
     p->busy = info.making != 0;
     snprintf(p->complaint, sizeof p->complaint, "%s", info.complaint);

@@ -25,26 +25,13 @@ static void on_picture(const Viewer *v, float at[2]) {
 
 /* ---- handles of lights ---- */
 
-static float scene_radius(const Viewer *v) {
-    float r = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        float d = v->facts.info.high[k] - v->facts.info.low[k];
-        r += 0.25f * d * d;
-    }
-    return fmaxf(sqrtf(r), 1e-3f);
-}
-
-static float scene_middle(const Viewer *v, int k) {
-    return 0.5f * (v->facts.info.low[k] + v->facts.info.high[k]);
-}
-
 /* The handle of a light; a sun's stands on a sphere around the scene. */
 static void handle_place(const Viewer *v, const WeftLight *light, float place[3]) {
     memcpy(place, light->position, 3 * sizeof *place);
     if (light->kind != WEFT_LIGHT_DIRECTIONAL) return;
     const float *d = light->direction;
-    float n = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), r = 1.2f * scene_radius(v);
-    for (int k = 0; k < 3; k++) place[k] = scene_middle(v, k) - r * d[k] / fmaxf(n, 1e-6f);
+    float n = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), r = v->reach;
+    for (int k = 0; k < 3; k++) place[k] = v->home[k] - r * d[k] / fmaxf(n, 1e-6f);
 }
 
 static bool handle_at(const Viewer *v, int light, float at[2]) {
@@ -86,7 +73,7 @@ static void drag_light(Viewer *v) {
     }
     float d[3], n = 0.0f;
     for (int k = 0; k < 3; k++) {
-        d[k] = scene_middle(v, k) - place[k];
+        d[k] = v->home[k] - place[k];
         n += d[k] * d[k];
     }
     for (int k = 0; k < 3 && n > 1e-12f; k++) light->direction[k] = d[k] / sqrtf(n);
@@ -203,7 +190,7 @@ static void fly(Viewer *v) {
     float ahead = (float)key['W'] - (float)key['S'], right = (float)key['D'] - (float)key['A'];
     float rise = (float)key['E'] - (float)key['Q'];
     if (ahead == 0.0f && right == 0.0f && rise == 0.0f) return;
-    float step = scene_radius(v) * v->settings.speed * v->input.seconds * (v->input.shift ? 4.0f : 1.0f);
+    float step = v->reach * v->settings.speed * v->input.seconds * (v->input.shift ? 4.0f : 1.0f);
     orbit_fly(&v->orbit, step * ahead, step * right, step * rise);
 }
 

@@ -116,6 +116,7 @@ static void start_seeing(Viewer *v, const Loaded *loaded) {
     }
     v->material = v->light = 0;
     v->variant = -1;
+    v->at_home = false;
     v->has_probe = false;
     for (int k = 0; k < loaded->look.material_count; k++) /* the first that has a sheen */
         if (weft_material_reads(look_material(&loaded->look, k), input_number("sheen_roughness"))) {
@@ -265,6 +266,21 @@ static void send_order(Viewer *v) {
     v->order = order;
     v->ask = false;
     v->has_probe = false;
+}
+
+/* Where a camera of the scene stands is known once it has been drawn through. */
+static void take_camera(Viewer *v) {
+    const Painted *p = &v->painted;
+    if (!v->orbit.name[0] || p->number != v->ordered || !p->texture) return;
+    memcpy(v->orbit.eye, p->eye, sizeof p->eye);
+    memcpy(v->orbit.target, p->target, sizeof p->target);
+    if (p->fov > 0.0f) v->orbit.fov = p->fov;
+    if (v->at_home) return;
+    v->at_home = true;
+    memcpy(v->home, p->target, sizeof v->home);
+    v->reach = 0.0f;
+    for (int k = 0; k < 3; k++) v->reach = hypotf(v->reach, p->eye[k] - p->target[k]);
+    v->reach = fmaxf(0.5f * v->reach, 1e-3f);
 }
 
 /* A picture of what was just asked for is waited for a little, so that it is seen in the same frame. */
@@ -533,6 +549,7 @@ static void run_frame(Viewer *v, double started) {
     stage_input(v);
     send_order(v);
     await_picture(v);
+    take_camera(v);
     take_news(v);
     take_truth(v);
     draw_frame(v);

@@ -58,6 +58,9 @@ typedef struct Viewer {
 
     /* how it is seen */
     Orbit orbit;
+    bool at_home;  /* home and reach are known */
+    float home[3]; /* what the first camera looks at, m */
+    float reach;   /* half the distance from there, m: how large things are */
     Mode mode;
     Split split;
     float split_at;

@@ -1,0 +1,151 @@
+#include "staging.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "names.h"
+#include "report.h"
+#include "weft/image.h"
+
+/* "r,g,b", or one number for all three. */
+static bool colors_parse(const char *text, double c[3]) {
+    if (!numbers_parse(text, 1, c)) return numbers_parse(text, 3, c);
+    c[1] = c[2] = c[0];
+    return true;
+}
+
+static bool colors(const char *text, float color[3]) {
+    double c[3];
+    bool good = colors_parse(text, c);
+    for (int k = 0; good && k < 3; k++) {
+        good = c[k] >= 0.0 && c[k] <= 1e30;
+        if (good) color[k] = (float)c[k];
+    }
+    return good;
+}
+
+static bool read_background(const Options *options, Staging *staging) {
+    static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", NULL};
+    int choice = WEFT_BACKGROUND_COLOR;
+    bool good = colors(option_text(options, "--background"), staging->background_color) ||
+                (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);
+    staging->background = (WeftBackground)choice;
+    return good;
+}
+
+/* The next part of a text, up to a semicolon, as numbers. */
+static bool take_numbers(const char **text, int count, float *out) {
+    char part[128];
+    double v[3];
+    size_t size = strcspn(*text, ";");
+    if (size == 0 || size >= sizeof part) return false;
+    memcpy(part, *text, size);
+    part[size] = '\0';
+    *text += size + ((*text)[size] == ';');
+    if (!numbers_parse(part, count, v)) return false;
+    for (int k = 0; k < count; k++) out[k] = (float)v[k];
+    return true;
+}
+
+static bool parse_light(const char *text, WeftLight *light) {
+    static const char *const prefixes[] = {"sun;", "point;", "spot;", "polygon;"}; /* as WeftLightKind */
+    float cone[2] = {0.0f, 45.0f}, shape[2] = {4.0f, 0.0f};
+    int kind = 0;
+    while (kind <= WEFT_LIGHT_POLYGON && strncmp(text, prefixes[kind], strlen(prefixes[kind])) != 0) kind++;
+    if (kind > WEFT_LIGHT_POLYGON) return false;
+    *light = (WeftLight){.kind = (WeftLightKind)kind};
+    text += strlen(prefixes[kind]);
+    bool polygon = kind == WEFT_LIGHT_POLYGON;
+    bool good = (kind == WEFT_LIGHT_DIRECTIONAL || take_numbers(&text, 3, light->position)) &&
+                (kind == WEFT_LIGHT_POINT || take_numbers(&text, 3, light->direction)) &&
+                (!polygon || take_numbers(&text, 2, light->size)) && take_numbers(&text, 3, light->color);
+    if (good && kind == WEFT_LIGHT_SPOT && *text) good = take_numbers(&text, 2, cone);
+    if (good && polygon && *text) good = take_numbers(&text, 2, shape);
+    good = good && shape[0] >= 3.0f && shape[0] <= 8.0f && !(shape[0] > floorf(shape[0]));
+    if (!good || *text) return false;
+    light->inner = cone[0];
+    light->outer = cone[1];
+    light->corners = polygon ? (int)shape[0] : 0;
+    light->roll = shape[1];
+    return true;
+}
+
+static bool read_lights(const Options *options, Staging *staging) {
+    int cursor = 0;
+    for (const char *text; (text = option_next(options, "--light", &cursor));) {
+        if (strcmp(text, "none") == 0) {
+            staging->light_count = 0;
+            staging->no_lights = true;
+            continue;
+        }
+        if (staging->light_count == STAGING_LIGHTS_MOST) {
+            report(WEFT_USAGE, "--light: more than %d", STAGING_LIGHTS_MOST);
+            return false;
+        }
+        if (!parse_light(text, &staging->lights[staging->light_count++])) {
+            report(WEFT_USAGE,
+                   "--light: \"%.80s\" is not none, sun;x,y,z;r,g,b, point;x,y,z;r,g,b, "
+                   "spot;x,y,z;x,y,z;r,g,b;inner,outer or polygon;x,y,z;x,y,z;w,h;r,g,b;corners,roll",
+                   text);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What reads as a color is a radiance and never the name of a file. */
+static bool read_env(const Options *options, Staging *staging) {
+    const char *text = staging->env = option_text(options, "--env");
+    double c[3];
+    staging->env_is_color = text && colors_parse(text, c);
+    if (!staging->env_is_color || colors(text, staging->env_color)) return true;
+    report(WEFT_USAGE, "--env: \"%.80s\" is not a radiance, which is from 0 to 1e30", text);
+    return false;
+}
+
+/* Whether what begins with "builtin:" is built in. */
+static bool check_scene(const char *scene) {
+    static const char prefix[] = "builtin:";
+    if (strncmp(scene, prefix, strlen(prefix)) != 0) return true;
+    const char *name = scene + strlen(prefix);
+    Nearest nearest = {.typed = name};
+    char list[256] = "", hint[96];
+    for (int k = 0; weft_builtin_name(k); k++) {
+        if (strcmp(weft_builtin_name(k), name) == 0) return true;
+        nearest_offer(&nearest, weft_builtin_name(k));
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "",
+                 weft_builtin_name(k));
+    }
+    report(WEFT_USAGE, "%.200s: %s: there is %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
+           nearest_hint(&nearest, hint, sizeof hint));
+    return false;
+}
+
+bool staging_read(const Options *options, const char *scene, Staging *staging) {
+    static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
+    *staging = (Staging){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
+    return check_scene(scene) && read_background(options, staging) && read_env(options, staging) &&
+           option_number(options, "--exposure", &staging->exposure) &&
+           option_number(options, "--env-rotation", &staging->env_rotation) &&
+           option_number(options, "--env-strength", &staging->env_strength) &&
+           option_choice(options, "--tonemap", curves, &staging->tonemap) &&
+           dress_read(options, &staging->dress) && read_lights(options, staging);
+}
+
+WeftResult staging_apply(const Staging *staging, int k, WeftScene *scene, const WeftLog *log,
+                         WeftError *error) {
+    WeftResult result = dress_apply(&staging->dress, k, scene, log, error);
+    if (result == WEFT_OK && staging->env_is_color)
+        result = weft_scene_set_environment_color(scene, staging->env_color, error);
+    else if (result == WEFT_OK && staging->env)
+        result = weft_scene_set_environment_file(scene, staging->env, log, error);
+    if (result == WEFT_OK)
+        result = weft_scene_set_environment_placement(scene, (float)staging->env_rotation,
+                                                      (float)staging->env_strength, error);
+    while (result == WEFT_OK && staging->no_lights && weft_scene_info(scene).light_count > 0)
+        result = weft_scene_remove_light(scene, 0, error);
+    for (int j = 0; j < staging->light_count && result == WEFT_OK; j++)
+        result = weft_scene_add_light(scene, &staging->lights[j], error);
+    return result;
+}

@@ -1,0 +1,59 @@
+/* staging.h - what a scene is, how it is dressed and lit, and from where it is seen: what every verb that
+ * shows one asks for */
+#ifndef WEFT_CLI_STAGING_H
+#define WEFT_CLI_STAGING_H
+
+#include "dress.h"
+#include "weft/render.h"
+
+enum { STAGING_LIGHTS_MOST = 64 };
+
+/* The rows of the option table. */
+#define STAGING_OPTIONS                                                                                      \
+    OPTION_HEADING("View and light"),                                                                        \
+        OPTION_TEXT("--camera", "CAMERA", NULL,                                                              \
+                    "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "      \
+                    "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),                 \
+        OPTION_TEXT("--env", "FILE|r,g,b", NULL,                                                             \
+                    "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a " \
+                    "studio]"),                                                                              \
+        OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6,                                           \
+                      "turn the environment about the vertical"),                                            \
+        OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),                     \
+        OPTION_LIST(                                                                                         \
+            "--light", "LIGHT",                                                                              \
+            "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "                               \
+            "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "                                              \
+            "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in " \
+            "degrees, 3 to 8 corners; none drops those before it, the file's too"),                          \
+        OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                    \
+        OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),            \
+        OPTION_TEXT("--background", "WHAT", "auto", "auto, environment, transparent or a linear r,g,b"),     \
+                                                                                                             \
+        DRESS_OPTIONS
+
+typedef struct Staging {
+    const Options *options;
+    const char *scene;
+    Dress dress;
+    const char *camera, *env; /* NULL: none was named */
+    double exposure, env_rotation, env_strength;
+    int tonemap; /* WeftTonemap */
+    bool env_is_color;
+    float env_color[3];
+    WeftBackground background;
+    float background_color[3];
+    WeftLight lights[STAGING_LIGHTS_MOST];
+    int light_count;
+    bool no_lights; /* not those of the file */
+} Staging;
+
+/* Reads and checks all that can be judged without the scene. False after one line on standard error. */
+bool staging_read(const Options *options, const char *scene, Staging *staging);
+
+/* Does to a fresh scene what the options say of picture number k: the asset first, then ever more particular
+ * wishes. */
+WeftResult staging_apply(const Staging *staging, int k, WeftScene *scene, const WeftLog *log,
+                         WeftError *error);
+
+#endif

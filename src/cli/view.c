@@ -1,0 +1,116 @@
+/* view.c - `weft view`: the window */
+#include "view/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "report.h"
+#include "staging.h"
+#include "verbs.h"
+
+static const Option view_options[] = {
+    OPTION_HEADING("Window"),
+    OPTION_NUMBER("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
+    OPTION_NUMBER("--height", "PIXELS", NULL, 240, 16384, "height of the window [as it was last time, 720]"),
+    OPTION_NUMBER(
+        "--occlusion", "RAYS", "64", 0, 4096,
+        "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+    OPTION_TEXT("--shader-dir", "DIR", NULL,
+                "shader text found here wins over the built-in one, and is compiled anew as it changes"),
+
+    STAGING_OPTIONS,
+
+    OPTION_HEADING("Automation"),
+    OPTION_TEXT("--script", "FILE", NULL, "do what FILE says, as if by hand: docs/view.md has its words"),
+    OPTION_NUMBER("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames"),
+    OPTION_SWITCH("--windowless", "draw where nobody sees it, for replays without a display"),
+    OPTION_SWITCH("--forget", "neither read nor write what is remembered from run to run"),
+    OPTION_SWITCH("--json",
+                  "print a line of JSON whenever the window comes to rest: what it shows, and where its "
+                  "controls are"),
+    OPTION_END,
+};
+
+static WeftResult dress_scene(void *user, WeftScene *scene, Around *around, const WeftLog *log,
+                              WeftError *error) {
+    const Staging *staging = user;
+    around->rotation = (float)staging->env_rotation;
+    around->strength = (float)staging->env_strength;
+    if (staging->env_is_color) {
+        around->kind = AROUND_COLOR;
+        memcpy(around->color, staging->env_color, sizeof around->color);
+    } else if (staging->env && strlen(staging->env) < sizeof around->path) {
+        around->kind = AROUND_FILE;
+        strcpy(around->path, staging->env);
+    }
+    return staging_apply(staging, 0, scene, log, error);
+}
+
+/* A folder of maps beside the program, or where it was started, is worn by itself. */
+static const char *materials_beside(char path[4096]) {
+    static const char folder[] = "Models/Materials/0";
+    struct stat s;
+    if (stat(folder, &s) == 0 && S_ISDIR(s.st_mode)) return folder;
+    ssize_t length = readlink("/proc/self/exe", path, 4096 - sizeof folder - 1);
+    while (length > 0 && path[length - 1] != '/') length--;
+    if (length <= 0) return NULL;
+    memcpy(path + length, folder, sizeof folder);
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode) ? path : NULL;
+}
+
+static bool read_sizes(const Options *options, ViewDesc *desc) {
+    return option_integer(options, "--width", &desc->width) &&
+           option_integer(options, "--height", &desc->height) &&
+           option_integer(options, "--frames", &desc->frames) &&
+           option_integer(options, "--occlusion", &desc->occlusion);
+}
+
+static int view_verb_run(const Options *options) {
+    Staging staging;
+    ViewDesc desc = {.scene = options->operand_count ? options->operands[0] : NULL};
+    char why[512], beside[4096];
+    if (!staging_read(options, desc.scene ? desc.scene : "builtin:cloth", &staging) ||
+        !read_sizes(options, &desc))
+        return WEFT_USAGE;
+    if (staging.dress.count > 1)
+        return report(WEFT_USAGE, "%s: the window shows one picture: give one id", staging.dress.varied);
+    desc.dress = dress_scene;
+    desc.user = &staging;
+    desc.camera = staging.camera;
+    desc.background = staging.background;
+    memcpy(desc.background_color, staging.background_color, sizeof desc.background_color);
+    desc.tonemap = (WeftTonemap)staging.tonemap;
+    desc.exposure = (float)staging.exposure;
+    desc.shader_dir = option_text(options, "--shader-dir");
+    if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
+    desc.script = option_text(options, "--script");
+    desc.unseen = option_given(options, "--windowless");
+    desc.forget = option_given(options, "--forget");
+    desc.report = option_given(options, "--json");
+    char *dressed = command_dress_text(options);
+    desc.options = dressed;
+    int code = view_run(&desc, why);
+    free(dressed);
+    return code ? report(code, "%s", why) : 0;
+}
+
+const Verb verb_view = {
+    .name = "view",
+    .operands = "[SCENE] [options]",
+    .help = "opens a window on a scene: every term, its light, and the truth behind it",
+    .operands_least = 0,
+    .operands_most = 1,
+    .options = view_options,
+    .notes = "SCENE is a .gltf or .glb file or builtin:NAME; without it, builtin:cloth. Files can be\n"
+             "dropped on the window: scenes, light (.hdr .exr), materials (.json), pictures. What\n"
+             "changes on disk is read again. ? in the window tells keys and mouse.\n\n"
+             "Examples\n"
+             "  weft view SheenChair.glb\n"
+             "  weft view builtin:cloth --preset velvet --light \"sun;-1,-2,-1;3,3,3\"\n"
+             "  weft view velvet.glb --materials maps/ --env studio.hdr\n"
+             "  weft view --windowless --script tour.txt --frames 2000\n",
+    .run = view_verb_run,
+};
