@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "report.h"
+#include "save.h"
 #include "weft/weft.h"
 
 /* Keeps the line for --json and shows it. Short of memory it is only shown. */
@@ -155,6 +156,7 @@ WeftResult job_open(Job *job, WeftError *error) {
     WeftResult result = scene_open(job, &job->scene, error);
     job->load_seconds = clock_seconds() - started;
     if (result == WEFT_OK) job->triangles = weft_scene_info(job->scene).triangle_count;
+    if (result == WEFT_OK && job->number == 0) result = save_all(job->request->options, job->scene, error);
     return result;
 }
 

@@ -18,6 +18,16 @@ static void summary(const Job *job) {
            1e-6 * job_samples_per_second(job), files);
 }
 
+/* Only what --save asks for. */
+static int save_run(const Request *request, Warnings *warnings) {
+    Job job = {.request = request, .warnings = warnings, .engine = request->engine};
+    WeftError error = {0};
+    WeftResult result = job_open(&job, &error);
+    if (result != WEFT_OK) report_error(&error);
+    job_free(&job);
+    return (int)result;
+}
+
 static int single_run(const Request *request, Warnings *warnings) {
     Job job = {.request = request, .warnings = warnings, .engine = request->engine};
     WeftError error = {0};
@@ -47,7 +57,9 @@ static int render_run(const Options *options) {
     if (result != 0) return result;
     interrupt_watch();
     Warnings warnings = {.quiet = request.quiet};
-    result = request_count(&request) > 1 ? compare_run(&request, &warnings) : single_run(&request, &warnings);
+    result = !option_given(options, "-o")  ? save_run(&request, &warnings)
+             : request_count(&request) > 1 ? compare_run(&request, &warnings)
+                                           : single_run(&request, &warnings);
     warnings_free(&warnings);
     return result;
 }
@@ -73,6 +85,7 @@ const Verb verb_render = {
              "  weft render builtin:cloth -o denim.png --preset denim\n"
              "  weft render builtin:cloth -o mine.png --material Cloth=mine.json \\\n"
              "       --set '*.sheen_roughness=0.3'\n"
+             "  weft render chair.glb --save velvet-chair.glb --preset velvet\n"
              "  weft render builtin:cloth -o sheet.png \\\n"
              "       --sheen ashikhmin-neubelt,charlie-neubelt\n"
              "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n"

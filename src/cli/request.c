@@ -8,12 +8,16 @@
 #include "names.h"
 #include "output.h"
 #include "report.h"
+#include "save.h"
 
 const Option request_options[] = {
     OPTION_HEADING("Pictures"),
     OPTION_LIST("-o", "OUT",
                 "write OUT: .exr, .hdr and .npy linear, .png as displayed; of several pictures a sheet with "
                 "their differences, .png"),
+    OPTION_LIST("--save", "FILE",
+                "write the scene as it was dressed and lit, .glb or .gltf, or the cloth's material, .json; "
+                "without -o nothing else"),
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
@@ -141,7 +145,9 @@ bool request_read(const Options *options, Request *request) {
 int request_outputs_check(const Request *request) {
     const Options *options = request->options;
     int cursor = 0, result = 0;
-    if (!option_given(options, "-o"))
+    result = save_check(options);
+    if (result != 0) return result;
+    if (!option_given(options, "-o") && !option_given(options, "--save"))
         return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr, .hdr or .npy file");
     for (const char *path; (path = option_next(options, "-o", &cursor));)
         if (!weft_image_suffix_known(path))

@@ -7,6 +7,7 @@
 #include "gltf/mesh.h"
 #include "gltf/pose.h"
 #include "gltf/tangent.h"
+#include "scene/tangents.h"
 
 enum { TRIANGLES_MAX = 100000000 };
 
@@ -218,25 +219,14 @@ static void bake_colors(Bake *bake) {
     }
 }
 
-/* The input whose map tangents of this material are for, or NULL where it needs none. */
-static const Input *tangent_input(const Material *material) {
-    static const int maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction,
-                               INPUT_nap_direction};
-    const Input *inputs = material->inputs;
-    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
-        if (inputs[maps[i]].texture) return &inputs[maps[i]];
-    if (inputs[INPUT_anisotropy].value[0] > 0.0f) return &inputs[INPUT_anisotropy];
-    return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
-}
-
 static void complete_tangents(Bake *bake) {
     const WeftScene *scene = bake->asset->scene;
     Mesh *mesh = bake->mesh;
-    const Input *input = tangent_input(&scene->materials[mesh->material]);
+    const Input *input = tangents_input(&scene->materials[mesh->material]);
     for (int v = 0; v < scene->variant_count && mesh->variant_material && !input; v++)
         if (mesh->variant_material[v] >= 0)
-            input = tangent_input(&scene->materials[mesh->variant_material[v]]);
-    if (input && !mesh->tangent && mesh->texcoord[input->texcoord]) tangents_make(bake->asset, mesh, input);
+            input = tangents_input(&scene->materials[mesh->variant_material[v]]);
+    if (input && !mesh->tangent && tangents_possible(mesh, input)) tangents_make(bake->asset, mesh, input);
 }
 
 static void mark_materials(Asset *asset, const Mesh *mesh) {

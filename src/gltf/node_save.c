@@ -45,18 +45,41 @@ static void attribute_put(Saving *saving, const Mesh *mesh, json_t *attributes, 
     saving_put(saving, attributes, name, json_integer(index));
 }
 
+/* Whether a map of a material is looked up by that set of texture coordinates. */
+static bool looks_up(const Material *material, int set) {
+    bool any = false;
+    for (int k = 0; k < INPUT_COUNT; k++)
+        any |= material->inputs[k].texture && material->inputs[k].texcoord == set;
+    return any;
+}
+
+static bool needs_set(const WeftScene *scene, const Mesh *mesh, int set) {
+    bool needs = looks_up(&scene->materials[mesh->material], set);
+    for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
+        if (mesh->variant_material[v] >= 0)
+            needs |= looks_up(&scene->materials[mesh->variant_material[v]], set);
+    return needs;
+}
+
+/* Zeros stand in for a set that there is not and that a map needs, or the set behind it: so it reads. */
+static void texcoords_find(Saving *saving, const Mesh *mesh, const float *sets[2]) {
+    for (int k = 1; k >= 0; k--) {
+        sets[k] = mesh->texcoord[k];
+        if (sets[k] || !(needs_set(saving->scene, mesh, k) || (k == 0 && sets[1]))) continue;
+        sets[k] = arena_array(&saving->arena, mesh->vertex_count, 2 * sizeof(float));
+        if (!sets[k]) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+    }
+}
+
 static json_t *attributes_save(Saving *saving, const Mesh *mesh) {
     json_t *attributes = json_object();
-    const float *first = mesh->texcoord[0];
-    if (!first && mesh->texcoord[1]) { /* there is no second set without a first: it reads as zeros */
-        first = arena_array(&saving->arena, mesh->vertex_count, 2 * sizeof *first);
-        if (!first) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
-    }
+    const float *sets[2];
+    texcoords_find(saving, mesh, sets);
     attribute_put(saving, mesh, attributes, "POSITION", mesh->position, 3);
     attribute_put(saving, mesh, attributes, "NORMAL", mesh->normal, 3);
     attribute_put(saving, mesh, attributes, "TANGENT", mesh->normal ? mesh->tangent : NULL, 4);
-    attribute_put(saving, mesh, attributes, "TEXCOORD_0", first, 2);
-    attribute_put(saving, mesh, attributes, "TEXCOORD_1", mesh->texcoord[1], 2);
+    attribute_put(saving, mesh, attributes, "TEXCOORD_0", sets[0], 2);
+    attribute_put(saving, mesh, attributes, "TEXCOORD_1", sets[1], 2);
     attribute_put(saving, mesh, attributes, "COLOR_0", mesh->color, 4);
     return attributes;
 }

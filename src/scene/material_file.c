@@ -136,19 +136,32 @@ static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
 /* As in KHR_texture_transform: scale, then turn, then shift. */
 static void place(Input *input, const float scale[2], float degrees, const float offset[2]) {
     float angle = degrees * (3.14159265f / 180.0f), c = cosf(angle), s = sinf(angle);
-    const float m[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+    const float m[6] = {c * scale[0], s * scale[1], offset[0], 0.0f - s * scale[0], c * scale[1], offset[1]};
     memcpy(input->transform, m, sizeof m);
+}
+
+static void six(Reader *r, const json_t *json, const char *what, float m[6]) {
+    if (!json_is_array(json) || json_array_size(json) != 6) refuse(r, "%s is six numbers", what);
+    for (size_t k = 0; k < json_array_size(json) && k < 6; k++)
+        m[k] = number(r, json_array_get(json, k), what);
+}
+
+/* One word, or one along u and one along v. */
+static void read_wrap(Reader *r, const json_t *json, Texture *texture) {
+    static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL}; /* as Wrap */
+    bool two = json_is_array(json) && json_array_size(json) == 2;
+    texture->wrap_u = (Wrap)one_of(r, two ? json_array_get(json, 0) : json, "wrap", wraps);
+    texture->wrap_v = two ? (Wrap)one_of(r, json_array_get(json, 1), "wrap", wraps) : texture->wrap_u;
 }
 
 /* {"texture": FILE, ...} */
 static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
-    static const char *const channels[] = {"r", "g", "b", "a", NULL}, *const wraps[] = {"repeat", "mirror",
-                                                                                        "clamp",
-                                                                                        NULL}; /* as Wrap */
+    static const char *const channels[] = {"r", "g", "b", "a", NULL};
     MaterialFile *out = r->out;
     float scale[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f}, degrees = 0.0f;
     Texture texture = {0};
     const char *key, *file = NULL;
+    bool direct = false;
     json_t *value;
     json_object_foreach(object, key, value) {
         if (strcmp(key, "texture") == 0) {
@@ -170,7 +183,10 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
         } else if (strcmp(key, "rotation") == 0) {
             degrees = number(r, value, key);
         } else if (strcmp(key, "wrap") == 0) {
-            texture.wrap_u = texture.wrap_v = (Wrap)one_of(r, value, key, wraps);
+            read_wrap(r, value, &texture);
+        } else if (strcmp(key, "transform") == 0) {
+            six(r, value, key, input->transform);
+            direct = true;
         } else if (strcmp(key, "nearest") == 0 && json_is_boolean(value)) {
             texture.nearest = json_is_true(value);
         } else {
@@ -182,7 +198,7 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
             refuse(r, "it is placed beyond 1e6");
     if (!file) refuse(r, "the object lacks \"texture\"");
     if (!file || r->result != WEFT_OK) return;
-    place(input, scale, degrees, offset);
+    if (!direct) place(input, scale, degrees, offset);
     texture.image = image_index(r, file);
     out->textures[out->texture_count++] = texture;
     input->texture = out->texture_count;
@@ -247,6 +263,9 @@ static void read_rest(Reader *r, const json_t *json) {
         if (!json_is_boolean(json)) refuse(r, "expected true or false");
         out->material.double_sided = json_is_true(json);
         out->sided_named = true;
+    } else if (strcmp(key, "unlit") == 0) {
+        if (!json_is_boolean(json)) refuse(r, "expected true or false");
+        out->material.unlit = json_is_true(json);
     } else {
         r->key = "";
         refuse(r, "\"%.40s\" is not a key: `weft models` lists inputs and choices", key);

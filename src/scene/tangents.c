@@ -12,6 +12,14 @@ const Input *tangents_input(const Material *material) {
     return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
 }
 
+bool tangents_possible(const Mesh *mesh, const Input *input) {
+    const float *uv = mesh->texcoord[input->texcoord];
+    bool same = true;
+    for (size_t k = 2; uv && same && k < 2 * (size_t)mesh->vertex_count; k++)
+        same = !(uv[k] < uv[k % 2]) && !(uv[k] > uv[k % 2]);
+    return uv && !same;
+}
+
 typedef struct Vec2 {
     float u, v;
 } Vec2;
@@ -60,7 +68,7 @@ WeftResult tangents_complete(WeftScene *scene, WeftError *error) {
     for (int m = 0; m < scene->mesh_count; m++) {
         Mesh *mesh = &scene->meshes[m];
         const Input *input = tangents_input(&scene->materials[mesh->material]);
-        if (!input || mesh->tangent || !mesh->texcoord[input->texcoord]) continue;
+        if (!input || mesh->tangent || !tangents_possible(mesh, input)) continue;
         if (!mesh_tangents(scene, mesh, input)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     return WEFT_OK;

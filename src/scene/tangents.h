@@ -10,6 +10,9 @@
 /* The input whose map tangents of this material are for, or NULL where it needs none. */
 const Input *tangents_input(const Material *material);
 
+/* Whether the mesh has texture coordinates for it that say where u grows: not all the same. */
+bool tangents_possible(const Mesh *mesh, const Input *input);
+
 /* Gives every mesh that needs tangents, has texture coordinates and no tangents, some: at each vertex the sum
  * over its triangles, each weighted by its size. A map that is mirrored across an edge needs vertices of its
  * own on either side, as files have them. Fails with MEMORY. */

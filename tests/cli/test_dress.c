@@ -80,6 +80,25 @@ static void profiles_are_not_converted(void **state) {
                       LIST("--workflow=specular", "--set=*.specular_color=0.5,0,0")));
 }
 
+static void pictures_are_put_on(void **state) {
+    (void)state;
+    Ran ran = run_shell("mkdir -p maps && \"$0\" render builtin:cloth --width 8 --height 8 --spp 1 --quiet "
+                        "-o maps/Cloth_Albedo.png && cp maps/Cloth_Albedo.png =odd.png");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    assert_true(same(LIST("--texture=cloth.base_color=maps/Cloth_Albedo.png"), LIST("--materials=maps")));
+    assert_true(same(LIST("--materials=cloth=maps"), LIST("--materials=maps")));
+    assert_true(same(LIST("--texture=cloth.base_color==odd.png"), LIST("--materials=maps")));
+    assert_false(same(LIST("--materials=maps"), LIST("--material=with.json")));
+    /* over a material, under --set */
+    assert_true(same(LIST("--materials=maps", "--material=with.json"),
+                     LIST("--material=with.json", "--materials=maps")));
+    assert_true(same(LIST("--set=cloth.base_color=0.2", "--texture=cloth.base_color=maps/Cloth_Albedo.png"),
+                     LIST("--set=cloth.base_color=0.2")));
+    ran = run_shell("rm -r maps");
+    ran_free(&ran);
+}
+
 static void files_have_any_name(void **state) {
     (void)state;
     assert_true(same(LIST("--material=a=red.json"), LIST("--material=cloth=a=red.json")));
@@ -126,6 +145,10 @@ static void mistakes_are_named(void **state) {
     refused(LIST("--sheen=charlie"), 2, several);
     refused(LIST("--sheen=ggx,charlie"), 2, several);
     refused(LIST("--set=*.sheen_lobe=charlie"), 2, several);
+    refused(LIST("--texture=base_color"), 2, "is not MATERIAL.INPUT=FILE");
+    refused(LIST("--texture=*.base_colour=red.json"), 2, "base_colour");
+    refused(LIST("--texture=*.base_color=none.png"), 3, "none.png");
+    refused(LIST("--materials=nowhere"), 3, "nowhere");
     refused(LIST("--profile=filament"), 2, "filament-cloth, filament-sheen");
     refused(LIST("--profile=kronos"), 2, "did you mean khronos?");
     refused(LIST("--profile=khronos,"), 2, "--profile: \"\" is not a profile");
@@ -308,17 +331,12 @@ static void every_axis_makes_a_sheet(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(materials_have_any_name),
-        cmocka_unit_test(what_is_stronger_wins),
-        cmocka_unit_test(files_have_any_name),
-        cmocka_unit_test(profiles_are_not_converted),
-        cmocka_unit_test(aliases_are_taken),
-        cmocka_unit_test(mistakes_are_named),
-        cmocka_unit_test(conversion_says_what_it_loses),
-        cmocka_unit_test(a_sheet_holds_the_pictures),
-        cmocka_unit_test(every_axis_makes_a_sheet),
-        cmocka_unit_test(blanks_around_ids_are_none),
-        cmocka_unit_test(choices_without_effect_are_told),
+        cmocka_unit_test(materials_have_any_name),    cmocka_unit_test(what_is_stronger_wins),
+        cmocka_unit_test(files_have_any_name),        cmocka_unit_test(pictures_are_put_on),
+        cmocka_unit_test(profiles_are_not_converted), cmocka_unit_test(aliases_are_taken),
+        cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(conversion_says_what_it_loses),
+        cmocka_unit_test(a_sheet_holds_the_pictures), cmocka_unit_test(every_axis_makes_a_sheet),
+        cmocka_unit_test(blanks_around_ids_are_none), cmocka_unit_test(choices_without_effect_are_told),
         cmocka_unit_test(the_whole_is_judged),
     };
     return cmocka_run_group_tests(tests, begin, work_end);

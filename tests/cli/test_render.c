@@ -133,6 +133,29 @@ static void materials_can_be_set(void **state) {
                      "x: is not a material variant");
 }
 
+/* Alone, or beside a picture, which is that of what was saved. */
+static void scenes_are_saved(void **state) {
+    (void)state;
+    quietly(LIST("render", "builtin:cloth", "--preset=denim", "--save=saved.glb", "--save=saved.gltf",
+                 "--save=saved.json"));
+    quietly(LIST("render", "builtin:cloth", "--preset=denim", TINY, "--quiet", "--camera=0", "-o", "a.exr",
+                 "--save=b.glb"));
+    size_t size;
+    char *one = file_bytes("a.exr", &size);
+    static const char *const again[] = {"saved.glb", "saved.gltf", "b.glb"};
+    for (int k = 0; k < 3; k++) {
+        quietly(LIST("render", again[k], TINY, "--quiet", "--camera=0", "-o", "c.exr"));
+        assert_true(same_bytes("c.exr", one, size));
+    }
+    quietly(LIST("render", "builtin:cloth", TINY, "--quiet", "--camera=0", "--material=saved.json", "-o",
+                 "c.exr"));
+    assert_true(same_bytes("c.exr", one, size));
+    free(one);
+    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2, "not a .glb, .gltf or .json");
+    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=none/a.glb"), 4, "none/a.glb");
+    assert_complaint(NULL, LIST("render", "none.gltf", "--save=a.glb"), 3, "none.gltf");
+}
+
 static void json_holds_the_figures(void **state) {
     (void)state;
     static const char odd[] = "o\"\\\n\xc3\xa4\xff.png"; /* quote, backslash, newline, UTF-8 and not */
@@ -320,6 +343,7 @@ int main(void) {
         cmocka_unit_test(light_and_picture_options_work),
         cmocka_unit_test(crop_is_a_part_of_the_whole),
         cmocka_unit_test(materials_can_be_set),
+        cmocka_unit_test(scenes_are_saved),
         cmocka_unit_test(json_holds_the_figures),
         cmocka_unit_test(time_limit_ends_it_well),
         cmocka_unit_test(interrupt_writes_what_there_is),

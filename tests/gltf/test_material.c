@@ -395,6 +395,52 @@ static void reads_variants(void **state) {
     assert_refused(read_rest(form, SQUARE_URI, 2, 3), WEFT_MESSAGE_GLTF_REFERENCE, "variants[0]: 3 of 3");
 }
 
+/* What weft_scene_save writes: whole inputs and choices, kept within what they may be. */
+static void reads_what_was_saved(void **state) {
+    (void)state;
+    Reading *reading = read_material(
+        textures(), "'extras':{'weft':{'choices':{'workflow':'cloth','layer':'of the future','nothing':'x'},"
+                    "'inputs':{'base_color':{'value':[0.1,0.2,0.3],'texture':1,'texCoord':1,'given':true,"
+                    "'transform':[1,2,3,4,5,6]},'roughness':{'value':[9],'channel':2},"
+                    "'nap':{'value':[1e300]},'normal':{},'nothing':{'value':7}},'alphaCutoff':0.25}}");
+    assert_read(reading);
+    const Material *m = reading->scene->materials;
+    assert_int_equal(m->choices[CHOICE_workflow], 3);
+    assert_int_equal(m->choices[CHOICE_layer], -1);
+    assert_input(reading, INPUT_base_color, 0.1f, 0.2f, 0.3f, 0);
+    assert_true(m->inputs[INPUT_base_color].given && m->inputs[INPUT_base_color].texcoord == 1);
+    assert_near(m->inputs[INPUT_base_color].transform[5], 6.0f, 0.0f);
+    assert_near(m->inputs[INPUT_roughness].value[0], 2.0f, 0.0f);
+    assert_int_equal(m->inputs[INPUT_roughness].channel, 2);
+    assert_near(m->inputs[INPUT_nap].value[0], 1.5707963f, 1e-6f);
+    assert_near(m->alpha_cutoff, 0.25f, 0.0f);
+    done(reading);
+    static const struct {
+        const char *weft, *text;
+    } wrong[] = {
+        {"'choices':7", "materials[0].extras.weft.choices: expected an object"},
+        {"'choices':{'workflow':7}", "materials[0].extras.weft.choices.workflow: expected a string"},
+        {"'inputs':[]", "materials[0].extras.weft.inputs: expected an object"},
+        {"'inputs':{'nap':7}", "materials[0].extras.weft.inputs.nap: expected an object"},
+        {"'inputs':{'nap':{'value':7}}", "materials[0].extras.weft.inputs.nap.value: expected an array"},
+        {"'inputs':{'nap':{'value':[1,2]}}", "materials[0].extras.weft.inputs.nap.value: expected an array"},
+        {"'inputs':{'nap':{'channel':4}}",
+         "materials[0].extras.weft.inputs.nap.channel: expected an integer"},
+        {"'inputs':{'nap':{'texCoord':-1}}",
+         "materials[0].extras.weft.inputs.nap.texCoord: expected an integer"},
+        {"'inputs':{'nap':{'transform':[1]}}",
+         "materials[0].extras.weft.inputs.nap.transform: expected an array"},
+        {"'alphaCutoff':'x'", "materials[0].extras.weft.alphaCutoff: expected a number"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char extras[160];
+        snprintf(extras, sizeof extras, "'extras':{'weft':{%s}}", wrong[k].weft);
+        assert_refused(read_material("", extras), WEFT_MESSAGE_GLTF_SCHEMA, wrong[k].text);
+    }
+    assert_refused(read_material("", "'extras':{'weft':{'inputs':{'nap':{'texture':3}}}}"),
+                   WEFT_MESSAGE_GLTF_REFERENCE, "materials[0].extras.weft.inputs.nap.texture: 3 of 0");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(has_the_defaults),    cmocka_unit_test(reads_everything),
@@ -402,7 +448,7 @@ int main(void) {
         cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
         cmocka_unit_test(limits_images),       cmocka_unit_test(falls_back),
         cmocka_unit_test(reads_variants),      cmocka_unit_test(reads_the_nap),
-        cmocka_unit_test(reads_the_dust),
+        cmocka_unit_test(reads_the_dust),      cmocka_unit_test(reads_what_was_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -324,6 +324,11 @@ static void survives_degenerate_map(void **state) {
     flat.texcoord[1] = NAN;
     Reading *reading = read_mapped(&flat, with_normals, "");
     assert_read(reading);
+    assert_null(reading->scene->meshes->tangent); /* of one point of the map: as without */
+    done(reading);
+    flat.texcoord[2] = 0.5f;
+    reading = read_mapped(&flat, with_normals, "");
+    assert_read(reading);
     assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED], 1);
     const Mesh *mesh = reading->scene->meshes;
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {

@@ -1,0 +1,54 @@
+#include "save.h"
+
+#include <stdbool.h>
+#include <string.h>
+#include <strings.h>
+
+#include "output.h"
+#include "report.h"
+#include "weft/material.h"
+#include "weft/save.h"
+
+static bool ends(const char *path, const char *suffix) {
+    size_t length = strlen(path), size = strlen(suffix);
+    return length > size && strcasecmp(path + length - size, suffix) == 0;
+}
+
+int save_check(const Options *options) {
+    int cursor = 0, result = 0;
+    for (const char *path; !result && (path = option_next(options, "--save", &cursor));) {
+        if (!ends(path, ".glb") && !ends(path, ".gltf") && !ends(path, ".json"))
+            return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf or .json file", path);
+        result = output_probe(path);
+    }
+    return result;
+}
+
+static bool shows(const WeftMaterial *material, const char *name) {
+    int k = 0;
+    while (weft_material_input_name(k) && strcmp(weft_material_input_name(k), name) != 0) k++;
+    const float *v = material->inputs[k].value;
+    return v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f;
+}
+
+/* The first material of the cloth, as --material has it: one with a sheen or, where none has, one that sends
+ * out no light. */
+static int find_cloth(const WeftScene *scene) {
+    int count = weft_scene_info(scene).material_count;
+    for (int wanted = 0; wanted < 2; wanted++)
+        for (int k = 0; k < count; k++) {
+            WeftMaterial material;
+            if (weft_scene_material(scene, k, &material, NULL) != WEFT_OK) continue;
+            if (wanted ? !shows(&material, "emission") : shows(&material, "sheen_color")) return k;
+        }
+    return 0;
+}
+
+WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    int cursor = 0;
+    for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));)
+        result = ends(path, ".json") ? weft_scene_save_material(scene, find_cloth(scene), path, error)
+                                     : weft_scene_save(scene, path, error);
+    return result;
+}

@@ -1,0 +1,15 @@
+/* save.h - what --save writes of a scene: all of it as glTF, or one material as JSON */
+#ifndef WEFT_CLI_SAVE_H
+#define WEFT_CLI_SAVE_H
+
+#include "options.h"
+#include "weft/scene.h"
+
+/* Whether every --save names a kind of file and a place that can be written. Returns 0, or an exit code after
+ * one line. */
+int save_check(const Options *options);
+
+/* Writes every --save. */
+WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error);
+
+#endif

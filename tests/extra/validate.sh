@@ -1,0 +1,29 @@
+#!/bin/sh
+# Saves every built-in scene, and one in every preset, as .glb and .gltf, and has the Khronos validator find no
+# error in them: tests/extra/validate.sh PROGRAM FOLDER. Fetches the validator into FOLDER with npm.
+set -eu
+program=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+for tool in node npm; do
+    command -v "$tool" >/dev/null || {
+        echo "weft: $tool is not here: script/install extra" >&2
+        exit 4
+    }
+done
+mkdir -p "$2"
+cd "$2"
+[ -d node_modules/gltf-validator ] || npm install --silent --no-save --prefix . gltf-validator@2.0.0-dev.3.10
+rm -rf saved
+mkdir saved
+for scene in cloth sewing spheres; do
+    "$program" render "builtin:$scene" --save "saved/$scene.glb" --save "saved/$scene.gltf"
+done
+for preset in "$here"/../../scenes/presets/*.json; do
+    preset=$(basename "$preset" .json)
+    "$program" render builtin:cloth --preset "$preset" --save "saved/$preset.glb" --save "saved/$preset.gltf"
+done
+"$program" render builtin:spheres --set '*.clearcoat=0.5' --set '*.anisotropy=0.5' --set '*.emission=2' \
+    --texture "*.nap=$here/../../examples/nap/nap.png" --texture "*.base_color=$here/../../examples/nap/nap.png" \
+    --light 'sun;-1,-2,-1;3,3,3' --light 'spot;0,5,0;0,-1,0;9,9,9;20,20' --light 'point;1,2,3;20,1,1' \
+    --save saved/everything.glb --save saved/everything.gltf
+node "$here/validate.mjs" saved/*.glb saved/*.gltf
