@@ -29,6 +29,7 @@ typedef struct Request {
     WeftRasterDesc raster;
     int msaa, polygons;
     WeftAmbient ambient;
+    WeftPart part;
     int turntable; /* pictures around the scene; 0: one */
     WeftLight lights[REQUEST_LIGHTS_MOST];
     int light_count;
