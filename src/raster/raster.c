@@ -291,8 +291,22 @@ static void set_state(WeftRaster *self) {
     meshes_bind(&self->meshes);
 }
 
-static void begin(WeftRaster *self, const WeftRasterView *view) {
-    glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
+/* Clears all of the picture and then keeps to the crop. With several samples drivers may disagree about those
+ * beside its edge, which is why more is drawn than is looked at. */
+static void clear(const Target *target, const WeftRasterView *view, const int box[4]) {
+    bool several = target->drawn != target->resolved;
+    int more = several ? 1 : 0;
+    if (several && (box[2] < view->width || box[3] < view->height)) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target->drawn);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box[0] - more, box[1] - more, box[2] + 2 * more, box[3] + 2 * more);
+}
+
+static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
     glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
     const Environment *e = &self->scene->environment;
@@ -304,10 +318,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view) {
         c = constant;
     }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const int *crop = view->crop; /* the driver's rows run from the bottom */
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(crop[0], view->height - crop[1] - crop[3], crop[2], crop[3]);
+    clear(&self->target, view, box);
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
@@ -562,10 +573,12 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
         result = target_resize(&self->target, view.width, view.height, view.samples, error);
     if (result == WEFT_OK) {
         set_picture(self, &seen, &self->shadows);
-        begin(self, &view);
+        /* the driver's rows run from the bottom */
+        const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
+        begin(self, &view, box);
         result = draw_all(self, &seen, &view, error);
         glDisable(GL_SCISSOR_TEST);
-        target_resolve(&self->target);
+        target_resolve(&self->target, box);
     }
     context_leave(self->context, &outer);
     return result;

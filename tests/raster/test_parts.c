@@ -118,8 +118,8 @@ static void catalogue_sums_up(void **state) {
     static const char *const choices[] = {"layer", "sheen_lobe", "profile", "workflow", "diffuse"};
     WeftScene *scene = dusty_ball();
     WeftRaster *raster = raster_of(scene);
-    static const int few[] = {LAYER_SEED, LOBE_CHARLIE_KHRONOS, 3}; /* a shader takes seconds to compile */
-    for (int k = 0; k < (test_long() ? 5 : test_short() ? 1 : 3); k++)
+    static const int few[] = {LAYER_SEED, LOBE_CHARLIE_KHRONOS}; /* a shader takes seconds to compile */
+    for (int k = 0; k < (test_long() ? 5 : test_short() ? 1 : 2); k++)
         choices_sum_up(scene, raster, choices[k], test_long() ? 0 : few[k], test_long() ? 1 : 100);
     weft_raster_free(raster);
     weft_scene_free(scene);
@@ -199,7 +199,8 @@ static void crops_are_cut_out(void **state) {
             const float *a = (const float *)whole.pixels + 4 * (y * SIDE + x);
             const float *b = (const float *)cropped.pixels + 4 * (y * SIDE + x);
             bool in = x >= 5 && x < 17 && y >= 9 && y < 17;
-            assert_float_equal(b[0], in ? a[0] : 0.25f, 0.0f);
+            if (fabsf(b[0] - (in ? a[0] : 0.25f)) > 0.0f)
+                fail_msg("%d, %d: %g and %g", x, y, (double)a[0], (double)b[0]);
             assert_float_equal(b[1], in ? a[1] : 0.0f, 0.0f);
         }
     part.crop[2] = SIDE;
