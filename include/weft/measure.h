@@ -7,6 +7,7 @@
 
 #include "weft/lobe.h"
 #include "weft/material.h"
+#include "weft/raster.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -127,15 +128,18 @@ WEFT_API WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPasspor
 WEFT_API double weft_passport_significance(double p, int tests);
 
 /* What a material reflects, with its numbers and choices and without its textures, in the frame of
- * include/weft/lobe.h; it is prepared once and then asked many times. */
+ * include/weft/lobe.h; it is prepared once and then asked many times. Dust lies as it does where it is most.
+ * Of layer rule "stochastic", what bounced between sheen and base is in WEFT_PART_ALL alone. */
 typedef struct WeftReflection WeftReflection;
 
+/* Fails with WEFT_MESSAGE_PARAM_VALUE (not finite, or a choice that there is not) or _MEMORY. Numbers are
+ * clamped as weft_scene_set does. */
 WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
                                            WeftError *error);
 WEFT_API void weft_reflection_free(WeftReflection *reflection); /* may be NULL */
 
 /* f of count directions wi towards the light, 1/sr, without the cosine; of the parts that WeftPart numbers:
- * WEFT_PART_ALL .. WEFT_PART_DUST. wo and wi are unit. */
+ * WEFT_PART_ALL .. WEFT_PART_DUST, 0 of others. wo and wi are unit; 0 where one is below the horizon. */
 WEFT_API void weft_reflection_eval(const WeftReflection *reflection, int part, const float wo[3], int count,
                                    const float (*wi)[3], float (*f)[3]);
 

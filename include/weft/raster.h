@@ -118,8 +118,8 @@ typedef struct WeftRasterView {
     float background_color[3];
     WeftAmbient ambient;
     int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
-    int no_shadows; /* not 0: lights reach every point that faces them */
-    WeftPart part;
+    int no_shadows;     /* not 0: lights reach every point that faces them */
+    WeftPart part;      /* other than all: nothing, transparent, is behind */
     int crop[4];        /* x, y, width, height from the top left: nothing else is drawn; all 0: everything */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
 } WeftRasterView;

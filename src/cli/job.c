@@ -127,7 +127,9 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .ambient = job->request->ambient,
                            .polygons = job->request->polygons ? job->request->polygons : -1,
                            .camera = camera,
+                           .part = job->request->part,
                            .background = desc->background};
+    memcpy(view.crop, desc->crop, sizeof view.crop);
     memcpy(view.background_color, desc->background_color, sizeof view.background_color);
     WeftResult result = WEFT_OK;
     if (!job->raster)

@@ -43,6 +43,10 @@ const Option request_options[] = {
         "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
+    OPTION_TEXT(
+        "--part", "PART", "all",
+        "raster: all, or the light of one slot: diffuse, specular, sheen, coat or dust; or a property: "
+        "base-color, normal, roughness, sheen-color, sheen-roughness or texcoord"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
 
     OPTION_HEADING("Sampling of the path tracer"),
@@ -84,20 +88,28 @@ static bool read_engine(const Options *options, Request *request) {
     static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */
     static const char *const ambients[] = {"best",   "irradiance", "mirror",
                                            "fitted", "none",       NULL}; /* as WeftAmbient */
-    int engine = 0, kind = 0, ambient = 0, occlusion = 0;
+    const char *parts[WEFT_PART_COUNT + 1];
+    int engine = 0, kind = 0, ambient = 0, part = 0, occlusion = 0;
+    for (int k = 0; k <= WEFT_PART_COUNT; k++) parts[k] = weft_part_name(k);
     bool good = option_choice(options, "--engine", engines, &engine) &&
                 option_choice(options, "--gl", gl_versions, &kind) &&
                 option_choice(options, "--ambient", ambients, &ambient) &&
+                option_choice(options, "--part", parts, &part) &&
                 option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--occlusion", &occlusion) &&
                 option_integer(options, "--turntable", &request->turntable);
     request->engine = (Engine)engine;
     request->ambient = (WeftAmbient)ambient;
+    request->part = (WeftPart)part;
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
                                        .shader_dir = option_text(options, "--shader-dir"),
                                        .threads = request->desc.threads,
                                        .occlusion = occlusion};
+    if (good && part && request->engine != ENGINE_RASTER) {
+        report(WEFT_USAGE, "--part: needs --engine raster, the path tracer has no parts");
+        return false;
+    }
     if (good && request->engine == ENGINE_BOTH && request->staging.dress.count > 1) {
         report(WEFT_USAGE, "--engine both: %s has several ids already; one option may",
                request->staging.dress.varied);

@@ -23,6 +23,7 @@ typedef struct Request {
     WeftRasterDesc raster;
     int msaa, polygons;
     WeftAmbient ambient;
+    WeftPart part;
     int turntable; /* pictures around the scene; 0: one */
 } Request;
 

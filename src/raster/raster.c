@@ -15,6 +15,7 @@
 #include "raster/materials.h"
 #include "raster/meshes.h"
 #include "raster/occlusion.h"
+#include "raster/part.h"
 #include "raster/picture.h"
 #include "raster/programs.h"
 #include "raster/queue.h"
@@ -244,6 +245,13 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
     if ((unsigned)view->background > WEFT_BACKGROUND_COLOR)
         return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
+    if ((unsigned)view->part >= WEFT_PART_COUNT)
+        return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
+    const int *c = view->crop;
+    if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > view->width - c[0] ||
+        c[3] > view->height - c[1])
+        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
+                    c[3], view->width, view->height);
     return WEFT_OK;
 }
 
@@ -253,6 +261,9 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     if (!view->samples) view->samples = DEFAULT_SAMPLES;
     if (!view->polygons) view->polygons = WEFT_RASTER_POLYGONS;
     if (view->polygons < 0) view->polygons = 0;
+    if (!view->crop[0] && !view->crop[1] && !view->crop[2] && !view->crop[3])
+        view->crop[2] = view->width, view->crop[3] = view->height;
+    if (view->part != WEFT_PART_ALL) view->background = WEFT_BACKGROUND_TRANSPARENT;
     if (view->background != WEFT_BACKGROUND_AUTO) return;
     bool studio = scene->environment.kind == ENVIRONMENT_STUDIO;
     view->background = studio ? WEFT_BACKGROUND_COLOR : WEFT_BACKGROUND_ENVIRONMENT;
@@ -280,8 +291,22 @@ static void set_state(WeftRaster *self) {
     meshes_bind(&self->meshes);
 }
 
-static void begin(WeftRaster *self, const WeftRasterView *view) {
-    glBindFramebuffer(GL_FRAMEBUFFER, self->target.drawn);
+/* Clears all of the picture and then keeps to the crop. With several samples drivers may disagree about those
+ * beside its edge, which is why more is drawn than is looked at. */
+static void clear(const Target *target, const WeftRasterView *view, const int box[4]) {
+    bool several = target->drawn != target->resolved;
+    int more = several ? 1 : 0;
+    if (several && (box[2] < view->width || box[3] < view->height)) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target->drawn);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box[0] - more, box[1] - more, box[2] + 2 * more, box[3] + 2 * more);
+}
+
+static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
     glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
     const Environment *e = &self->scene->environment;
@@ -293,7 +318,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view) {
         c = constant;
     }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    clear(&self->target, view, box);
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
@@ -364,6 +389,8 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
 
 static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
     ShaderKey key = material->key;
+    key.part = (int)view->part;
+    if (part_is_property(key.part)) return key;
     add_lights(self, view, &key);
     if (key.ambient) material_in_light(material, self->environment.parts.lamp_kappa, &key);
     return key;
@@ -561,9 +588,12 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
         result = target_resize(&self->target, view.width, view.height, view.samples, error);
     if (result == WEFT_OK) {
         set_picture(self, &seen, &self->shadows);
-        begin(self, &view);
+        /* the driver's rows run from the bottom */
+        const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
+        begin(self, &view, box);
         result = draw_all(self, &seen, &view, error);
-        target_resolve(&self->target);
+        glDisable(GL_SCISSOR_TEST);
+        target_resolve(&self->target, box);
     }
     context_leave(self->context, &outer);
     return result;

@@ -4,6 +4,7 @@
 #include "raster/shader.h"
 
 #include "raster/environment.h"
+#include "raster/part.h"
 
 #include "scene/shade.h"
 #include "shading/choice.h"
@@ -205,9 +206,9 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
-    if (!slots) return;
-    text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
-    text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
+    if (slots) text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
+    if (slots || key->part == WEFT_PART_TEXCOORD)
+        text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
 }
 
 static void put_table(Text *text, const ShaderKey *key) {
@@ -472,6 +473,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     const KeySlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     if (turns(key, &found)) text_define(text, "TURNS", "1");
+    part_text(key->part, text);
     put_lights(text, key);
     put_lobes(text, key, &found);
     if (key->polygons) text_lobe_tables(text);

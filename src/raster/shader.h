@@ -44,6 +44,7 @@ typedef struct ShaderKey {
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
+    int part; /* WeftPart */
     int alpha_mode, unlit, double_sided, colored;
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;

@@ -70,11 +70,12 @@ void target_destroy(Target *self) {
     *self = (Target){0};
 }
 
-void target_resolve(const Target *self) {
+void target_resolve(const Target *self, const int box[4]) {
     if (self->drawn == self->resolved) return;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, self->drawn);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, self->resolved);
-    glBlitFramebuffer(0, 0, self->width, self->height, 0, 0, self->width, self->height, GL_COLOR_BUFFER_BIT,
+    int right = box[0] + box[2], top = box[1] + box[3];
+    glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
 }
 

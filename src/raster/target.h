@@ -18,8 +18,8 @@ typedef struct Target {
 WeftResult target_resize(Target *target, int width, int height, int samples, WeftError *error);
 void target_destroy(Target *target);
 
-/* Makes the mean of the samples, which `resolved` then holds. */
-void target_resolve(const Target *target);
+/* Makes the mean of the samples, which `resolved` then holds, in a box: x, y from below, width, height. */
+void target_resolve(const Target *target, const int box[4]);
 
 /* F32 RGBA, premultiplied colours divided by their alpha. */
 WeftResult target_read(const Target *target, WeftImage *out, WeftError *error);

@@ -146,10 +146,11 @@ FN Rgb stack_polygon(Stack m, Dir o, Polygon p) {
     AreaDensity specular = area_density(m.specular.lobe, o), sheen = area_density(m.sheen.lobe, o);
     AreaDensity dust = area_density(m.dust.lobe, o);
     for (int pass = 0; pass < 5; pass++) {
-        Slots only =
-            slots_of(pass == 0 && HAS_DIFFUSE(m), HAS_SPECULAR(m) && pass == (specular.narrow ? 1 : 0),
-                     HAS_SHEEN(m) && pass == (sheen.narrow ? 2 : 0), HAS_COAT(m) && pass == 4,
-                     HAS_DUST(m) && pass == (dust.narrow ? 3 : 0));
+        Slots only = slots_of(SHOWS_DIFFUSE && HAS_DIFFUSE(m) && pass == 0,
+                              SHOWS_SPECULAR && HAS_SPECULAR(m) && pass == (specular.narrow ? 1 : 0),
+                              SHOWS_SHEEN && HAS_SHEEN(m) && pass == (sheen.narrow ? 2 : 0),
+                              SHOWS_COAT && HAS_COAT(m) && pass == 4,
+                              SHOWS_DUST && HAS_DUST(m) && pass == (dust.narrow ? 3 : 0));
         AreaDensity d = area_cosine(o);
         Dir from = o;
         if (pass == 1) d = specular;

@@ -198,7 +198,8 @@ FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
 
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
 FN StackValue stack_value(Stack m, Angles a, Angles coat) {
-    return stack_value_of(m, slots_of(true, true, true, true, true), a, coat);
+    Slots only = slots_of(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
+    return stack_value_of(m, only, a, coat);
 }
 
 #endif

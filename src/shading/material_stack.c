@@ -10,13 +10,21 @@ static Dir from_coat(const Stack *s, Dir w) {
                w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
 }
 
+static Angles coat_angles(const Stack *stack, Dir o, Dir i, Angles a) {
+    return stack->coat.pick > 0.0f ? angles_between(stack_to_coat(*stack, o), stack_to_coat(*stack, i)) : a;
+}
+
+StackValue stack_eval_of(const Stack *stack, Slots only, Dir o, Dir i) {
+    if (o.z <= 0.0f || i.z <= 0.0f) return (StackValue){0};
+    Angles a = angles_between(o, i);
+    return stack_value_of(*stack, only, a, coat_angles(stack, o, i, a));
+}
+
 StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed) {
     StackValue value = {0};
     if (o.z <= 0.0f || i.z <= 0.0f) return value; /* whatever the coat's own normal may see */
     Angles a = angles_between(o, i);
-    value = stack_value(
-        *stack, a,
-        stack->coat.pick > 0.0f ? angles_between(stack_to_coat(*stack, o), stack_to_coat(*stack, i)) : a);
+    value = stack_value(*stack, a, coat_angles(stack, o, i, a));
     if (stack->layer == LAYER_STOCHASTIC && stack->sheen.pick > 0.0f) {
         Rgb more = sheet_bounces(stack, o, i, seed);
         value.f_cos = rgb_add(value.f_cos, more);

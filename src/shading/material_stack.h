@@ -16,6 +16,9 @@ ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *ch
  * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
 ONE_COPY StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed);
 
+/* The same of some of the slots, and of layer rule stochastic without its walk. */
+ONE_COPY StackValue stack_eval_of(const Stack *stack, Slots only, Dir o, Dir i);
+
 /* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
 ONE_COPY Dir stack_sample(const Stack *stack, Dir o, float u, float v);
 

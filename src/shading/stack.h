@@ -85,6 +85,16 @@ STRUCT(StackValue) {
 #define IS_WORN(m)      ((m).color.r + (m).color.g + (m).color.b > 0.0f)
 #endif
 
+/* Whether what a slot reflects is looked at. A shader that shows a part of the light says so; what the others
+ * do to that part stays. */
+#ifndef SHOWS_DIFFUSE
+#define SHOWS_DIFFUSE  true
+#define SHOWS_SPECULAR true
+#define SHOWS_SHEEN    true
+#define SHOWS_COAT     true
+#define SHOWS_DUST     true
+#endif
+
 FN Slot slot_empty(void) {
     Slot s;
     s.lobe = lobe_default(LOBE_LAMBERT);

@@ -1,6 +1,7 @@
 /* forward.glsl - a fragment: its surface, its stack of lobes, and the light that they send to the eye
  *
- * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table. */
+ * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table, SHOWS_... of
+ * a part of the light, and PROPERTY where a property is shown in its place. */
 in highp vec3 from_eye;
 in highp vec3 vertex_normal;
 #ifdef TURNS
@@ -121,10 +122,14 @@ void main() {
     Facing at = fragment_facing(wo);
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);
-    Rgb sum = s.base_color;
+    Frame f = frame_of(at, s, wo);
+#ifdef PROPERTY
+    fragment = vec4(PROPERTY * opacity, opacity);
+#else
+    Rgb sum = rgb_scale(s.base_color, SHOWS_EMISSION);
     if (!MATERIAL_UNLIT) {
-        sum = rgb_scale(s.emission, gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0);
-        Frame f = frame_of(at, s, wo);
+        float shines = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
+        sum = rgb_scale(s.emission, SHOWS_EMISSION * shines);
         Dir o = frame_to(f, wo);
         s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m = surface_stack(s, material_choices(), material_table(), o);
@@ -133,4 +138,5 @@ void main() {
         sum = rgb_add(sum, ambient_light_of(m, f, o, s.occlusion));
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
+#endif
 }
