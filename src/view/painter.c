@@ -49,8 +49,9 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Watchman *watchman; /* of the files of textures */
-    Study study;        /* that is under way */
+    Watchman *watchman;   /* of the files of textures */
+    double whole_seconds; /* that a picture of all pixels takes */
+    Study study;          /* that is under way */
     unsigned textures[RING], targets[RING];
     int widths[RING], heights[RING];
 };
@@ -129,32 +130,79 @@ static WeftResult wear(Painter *self, const Look *look, WeftError *error) {
     return result == WEFT_OK ? updated : result;
 }
 
-static WeftResult draw_one(Painter *self, const Order *order, const Look *look, const int clip[4], int target,
+/* One look in a part of a picture; as much of it as `strip` has of its height. */
+static WeftResult draw_one(Painter *self, const Order *order, const Look *look, const int part[4], int target,
                            WeftError *error) {
     WeftRasterView view = order->view;
     view.camera = order->camera;
+    bool sides = order->split == SPLIT_SIDES, number = order->view.part >= WEFT_PART_BASE_COLOR;
+    int height = order->view.height;
     WeftResult result = wear(self, look, error);
-    if (order->split == SPLIT_SIDES) view.width = order->view.width / 2;
-    if (order->split == SPLIT_LINE) memcpy(view.crop, clip, sizeof view.crop);
+    if (sides) view.width = order->view.width / 2;
+    const int crop[4] = {sides ? 0 : part[0], part[1], sides && part[2] > view.width ? view.width : part[2],
+                         part[3]};
+    memcpy(view.crop, crop, sizeof view.crop);
     if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
-    bool number = order->view.part >= WEFT_PART_BASE_COLOR;
-    WeftRasterShow show = {.framebuffer = self->targets[target],
-                           .x = order->split == SPLIT_SIDES ? clip[0] : 0,
-                           .background = {0.16f, 0.16f, 0.17f},
-                           .tonemap = number ? WEFT_TONEMAP_NONE : order->tonemap,
-                           .exposure = number ? 0.0f : order->exposure};
-    if (clip[2]) memcpy(show.clip, clip, sizeof show.clip);
+    const WeftRasterShow show = {.framebuffer = self->targets[target],
+                                 .x = sides ? part[0] : 0,
+                                 .clip = {part[0], height - part[1] - part[3], part[2], part[3]},
+                                 .background = {0.16f, 0.16f, 0.17f},
+                                 .tonemap = number ? WEFT_TONEMAP_NONE : order->tonemap,
+                                 .exposure = number ? 0.0f : order->exposure};
     return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;
 }
 
-static WeftResult draw_both(Painter *self, const Order *order, int target, WeftError *error) {
-    int width = order->view.width, height = order->view.height, middle = width / 2;
-    if (order->split == SPLIT_NONE) return draw_one(self, order, &order->look, (int[4]){0}, target, error);
+/* The rows from y on, of one look or of both. */
+static WeftResult draw_rows(Painter *self, const Order *order, int y, int rows, int target,
+                            WeftError *error) {
+    int width = order->view.width, middle = width / 2;
+    const int all[4] = {0, y, width, rows};
+    if (order->split == SPLIT_NONE) return draw_one(self, order, &order->look, all, target, error);
     if (order->split == SPLIT_LINE) middle = (int)(order->at * (float)width);
     middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
-    const int left[4] = {0, 0, middle, height}, right[4] = {middle, 0, width - middle, height};
+    const int left[4] = {0, y, middle, rows}, right[4] = {middle, y, width - middle, rows};
     WeftResult result = draw_one(self, order, &order->other, right, target, error);
     return result == WEFT_OK ? draw_one(self, order, &order->look, left, target, error) : result;
+}
+
+static bool is_outdated(Painter *self, unsigned number) {
+    pthread_mutex_lock(&self->lock);
+    bool outdated = self->quit || self->gift || self->number != number;
+    pthread_mutex_unlock(&self->lock);
+    return outdated;
+}
+
+/* Draws row by row where all of it takes long, so that another order need not wait. *whole tells whether none
+ * came between. */
+static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target, bool *whole,
+                               WeftError *error) {
+    const double patience = 0.08;
+    int height = order->view.height, strips = order->quick ? 1 : (int)(self->whole_seconds / patience) + 1;
+    WeftResult result = WEFT_OK;
+    if (strips > 40) strips = 40;
+    if (strips > height) strips = height;
+    *whole = true;
+    for (int k = 0; k < strips && result == WEFT_OK && *whole; k++) {
+        int y = height * k / strips, end = height * (k + 1) / strips;
+        result = draw_rows(self, order, y, end - y, target, error);
+        if (strips > 1) glFinish();
+        if (k + 1 < strips) *whole = !is_outdated(self, number);
+    }
+    glFinish(); /* before another context reads it */
+    return result;
+}
+
+/* Fewer pixels where a whole picture would take longer than a thirtieth of a second. */
+static Order coarser(const Painter *self, const Order *order) {
+    Order less = *order; /* its looks are borrowed */
+    double share = 0.030 / fmax(self->whole_seconds, 1e-6);
+    int by = share >= 1.0 ? 1 : (int)ceil(sqrt(1.0 / share));
+    if (!order->quick || by <= 1) return less;
+    if (by > 8) by = 8;
+    less.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
+    less.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
+    less.view.samples = 1;
+    return less;
 }
 
 /* A camera of the scene turns about what is in the middle of its picture. */
@@ -174,8 +222,8 @@ static void focus(Painter *self, const Order *order, Painted *p) {
     for (int k = 0; k < 3 && n > 0.0f; k++) p->target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
 }
 
-static void publish(Painter *self, const Order *order, unsigned number, int target, double seconds,
-                    const WeftError *error) {
+static void publish(Painter *self, const Order *order, const Order *drawn, unsigned number, int target,
+                    double seconds, const WeftError *error) {
     WeftRasterInfo info = weft_raster_info(self->raster);
     Painted seen = {.fov = info.camera_fov};
     memcpy(seen.eye, info.camera_eye, sizeof seen.eye);
@@ -186,7 +234,9 @@ static void publish(Painter *self, const Order *order, unsigned number, int targ
     if (target >= 0) {
         p->texture = self->textures[target];
         p->width = order->view.width, p->height = order->view.height;
+        p->coarse = drawn->view.width != order->view.width;
         p->seconds = (float)seconds;
+        p->whole_seconds = (float)self->whole_seconds;
         self->newest = target;
     }
     p->number = number;
@@ -208,21 +258,36 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
+/* What all pixels take, from what some did; time that went into shaders says nothing. */
+static void note_seconds(Painter *self, const Order *order, const Order *drawn, double seconds) {
+    double part =
+        (double)drawn->view.width * drawn->view.height / ((double)order->view.width * order->view.height);
+    double whole = (seconds - 0.002) / part;
+    self->whole_seconds =
+        part < 1.0 ? 0.5 * (self->whole_seconds + fmin(whole, 4.0 * self->whole_seconds)) : seconds;
+}
+
 static void draw(Painter *self, const Order *order, unsigned number) {
     WeftError error = {0};
-    int target = -1;
-    double start = now();
+    int target = -1, compiled = weft_raster_info(self->raster).compiled;
+    bool whole = true;
+    Order drawn = coarser(self, order);
     WeftResult result = wear(self, &order->look, &error);
+    double start = now();
     if (!order->truth || order->compare) {
-        target = take_target(self, order->view.width, order->view.height);
-        WeftResult drawn = draw_both(self, order, target, result == WEFT_OK ? &error : NULL);
-        if (result == WEFT_OK) result = drawn;
-        if (drawn == WEFT_OK && order->compare) hand_linear(self);
-        if (drawn == WEFT_OK) glFinish(); /* before another context reads it */
-        if (drawn != WEFT_OK) target = -1;
+        target = take_target(self, drawn.view.width, drawn.view.height);
+        if (order->compare) self->whole_seconds = 0.0; /* in one piece: it is read back */
+        WeftResult done =
+            draw_picture(self, &drawn, number, target, &whole, result == WEFT_OK ? &error : NULL);
+        if (result == WEFT_OK) result = done;
+        if (done == WEFT_OK && order->compare) hand_linear(self);
+        if (done != WEFT_OK) target = -1;
+        bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
+        if (fair) note_seconds(self, order, &drawn, now() - start);
     }
+    if (!whole) return; /* another order came between */
     if (result == WEFT_OK) error.text[0] = '\0';
-    publish(self, order, number, target, now() - start, &error);
+    publish(self, order, &drawn, number, target, now() - start, &error);
 }
 
 /* ---- scenes ---- */
@@ -263,6 +328,8 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look) {
         self->is = *look;
         self->worn = (LookWorn){0};
         self->started = false;
+        self->whole_seconds = 0.2; /* until it is known */
+        self->whole_seconds = 0.2; /* until it is known */
         watch_textures(self);
     } else {
         weft_scene_free(scene);

@@ -27,7 +27,9 @@ typedef struct Order {
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;
-    bool truth;   /* nothing is to be drawn: the path tracer does it */
+    bool quick; /* more orders are likely to follow: a coarser picture will do where a whole one takes long */
+    bool quick; /* more orders are likely to follow: a coarser picture will do where a whole one takes long */
+    bool truth; /* nothing is to be drawn: the path tracer does it */
     bool compare; /* a linear copy is to be handed to the path tracer */
 } Order;
 
@@ -78,8 +80,10 @@ typedef struct News {
 typedef struct Painted {
     unsigned texture; /* 0: nothing yet */
     int width, height;
-    unsigned number; /* of the order it shows */
-    float seconds;   /* that it took */
+    unsigned number;     /* of the order it shows */
+    bool coarse;         /* of fewer pixels than were asked for; the texture is stretched over them */
+    float seconds;       /* that it took */
+    float whole_seconds; /* that one of all pixels takes */
     float eye[3], target[3], fov;
     int programs, compiled;
     bool busy;           /* more is to come: shaders, or what the background looks for */

@@ -259,7 +259,10 @@ static void send_order(Viewer *v) {
     if (!v->has_scene || v->stage.width < 1.0f) return;
     Order order = make_order(v);
     bool changed = v->ask || !same_order(&order, &v->order) || !look_same(&v->look, &v->before);
-    if (!changed) return;
+    if (changed) v->changed = now();
+    bool finer = v->painted.coarse && v->painted.number == v->ordered && now() - v->changed > 0.12;
+    if (!changed && !finer) return;
+    order.quick = !finer;
     v->ordered = painter_order(v->painter, &order);
     order_truth(v, &order);
     order.look = order.other = (Look){0};
@@ -479,7 +482,8 @@ void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
 
 bool viewer_at_rest(Viewer *v) {
     return !v->loader && painter_idle(v->painter) && (!v->has_scene || v->painted.number == v->ordered) &&
-           !v->painted.busy && !v->ask && (v->mode == MODE_LIVE || truth_resting(v->truth));
+           !v->painted.busy && !v->painted.coarse && !v->ask &&
+           (v->mode == MODE_LIVE || truth_resting(v->truth));
 }
 
 /* ---- one frame ---- */
@@ -612,7 +616,7 @@ static double patience(const Viewer *v, int due) {
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};
     for (int k = 0; k < 6; k++) flies |= v->input.key[keys[k]];
     if (due > 0 || flies || v->replay) return 0.0;
-    return 0.25;
+    return v->painted.coarse ? 0.05 : 0.25;
 }
 
 static int run(Viewer *v, char why[512]) {
@@ -628,6 +632,7 @@ static int run(Viewer *v, char why[512]) {
         poll_loader(v);
         any |= poll_files(v, started);
         any |= painter_fresh(v->painter) || truth_fresh(v->truth) || v->loader || v->painted.number != shown;
+        any |= v->painted.coarse && v->painted.number == v->ordered;
         if (any || inspection_busy(v->panel == 3 ? v->inspection : NULL)) due = 3;
         if (window_hidden(v->window) || (due <= 0 && !v->replay)) {
             v->clock = started;

@@ -80,6 +80,7 @@ typedef struct Viewer {
     unsigned ordered; /* number of the last order */
     Order order;      /* that it was; its looks are empty */
     bool ask;         /* an order is due */
+    double changed;   /* when the last one was another than the one before, s */
     bool late;        /* the painter is at something long: it is not waited for */
     unsigned truth_texture;
     int truth_width, truth_height;
