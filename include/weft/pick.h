@@ -1,7 +1,7 @@
 /* pick.h - what lies under a pixel
  *
- * Shapes are those of when the picker was made, and none of lights; materials are read as they are. One thread at a time, not
- * beside calls that change the scene. */
+ * Shapes are those of when the picker was made, and none of lights; materials are read as they are. One
+ * thread at a time, not beside calls that change the scene. */
 #ifndef WEFT_PICK_H
 #define WEFT_PICK_H
 

@@ -191,13 +191,29 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
     return WEFT_OK;
 }
 
+/* The configuration of someone else's context, which may have none. */
+static bool find_config(GlContext *self) {
+    EGLint id = 0, count = 0;
+    self->config = EGL_NO_CONFIG_KHR;
+    if (!eglQueryContext(self->display, self->context, EGL_CONFIG_ID, &id)) return false;
+    const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
+    return id == 0 || (eglChooseConfig(self->display, wanted, &self->config, 1, &count) && count == 1);
+}
+
 GlContext *context_share(const GlContext *of) {
-    GlContext *self = of->adopted ? NULL : alloc_array(1, sizeof *self);
+    GlContext *self = of->adopted && of->adopted != egl_current ? NULL : alloc_array(1, sizeof *self);
     if (!self) return NULL;
     GlOuter outer = outer_now();
+    bool pixel = of->surface != EGL_NO_SURFACE, known = true;
     *self = *of;
+    if (of->adopted) {
+        self->adopted = NULL;
+        self->display = eglGetCurrentDisplay();
+        known = find_config(self);
+        pixel = !epoxy_has_egl_extension(self->display, "EGL_KHR_surfaceless_context");
+    }
     eglBindAPI(api_of(self->language));
-    bool made = make_context(self, of->context, of->surface != EGL_NO_SURFACE);
+    bool made = known && make_context(self, of->context, pixel);
     eglBindAPI(outer.api);
     if (made) return self;
     free(self);

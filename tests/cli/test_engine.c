@@ -23,7 +23,9 @@ static void raster_draws(void **state) {
     Ran ran =
         run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "--engine",
                             "raster", "--gl=es", "--json", "--light", "sun;-1,-2,-1;3,3,3", "--polygons=0",
-                            "--occlusion=4", "--ambient=irradiance", "--crop=10,5,20,15"));
+                            "--occlusion=4", "--ambient=irradiance", "--crop=10,5,20,15", "--part=sheen",
+                            "--light=none", "--light=polygon;0,3,0;0,-1,0;1,2;5,5,5", "--light",
+                            "polygon;0,3,0;0,-1,0;1,2;5,5,5;6,30"));
     if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
     json_t *all = json_loads(ran.out, 0, NULL);
     assert_non_null(all);
@@ -82,11 +84,18 @@ static void what_makes_no_sense_is_refused(void **state) {
                                          "point;1,2,3",
                                          "spot;0,0,0;0,1,0;1,1,1;9",
                                          "sun;1,2,3;1,1,1;4",
-                                         "sun;0,0,x;1,1,1"};
+                                         "sun;0,0,x;1,1,1",
+                                         "polygon;0,3,0;0,-1,0;1;5,5,5",
+                                         "polygon;0,3,0;0,-1,0;1,2;5,5,5;9,0",
+                                         "polygon;0,3,0;0,-1,0;1,2;5,5,5;4.5,0"};
     for (size_t k = 0; k < sizeof lights / sizeof lights[0]; k++)
         refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", lights[k]), "--light");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "sun;0,0,0;1,1,1"), "light");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "polygon;0,3,0;0,-1,0;0,2;5,5,5"),
+            "size");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=vulkan"), "--engine");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--part=gloss"), "--part");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--part=sheen"), "--part");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--ambient=dark"), "--ambient");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"),
             "both");

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 #include <epoxy/egl.h>
 
+#include "raster/context.h"
 #include "raster/made.h"
 #include "trace/scenes.h"
 
@@ -410,6 +411,30 @@ static void rasters_share_a_context(void **state) {
     close_window(&w);
 }
 
+/* What other threads make for it, as shaders are, is there in it. */
+static void objects_are_shared_with_it(void **state) {
+    (void)state;
+    need_egl();
+    for (int gl = WEFT_GL_DESKTOP; gl <= WEFT_GL_ES; gl++) {
+        Window w = open_window((WeftGl)gl);
+        GlContext *adopted;
+        GlOuter outer;
+        assert_int_equal(context_adopt(&adopted, NULL), WEFT_OK);
+        GlContext *other = context_share(adopted);
+        assert_non_null(other);
+        assert_true(context_enter(other, &outer));
+        GLuint program = glCreateProgram();
+        glFinish();
+        context_leave(other, &outer);
+        assert_true(eglGetCurrentContext() == w.context);
+        assert_true(glIsProgram(program));
+        context_destroy(other);
+        assert_true(glIsProgram(program) && eglGetCurrentContext() == w.context);
+        context_destroy(adopted);
+        close_window(&w);
+    }
+}
+
 static void a_context_must_be_there(void **state) {
     (void)state;
     need_egl();
@@ -547,11 +572,16 @@ static void text_is_taken_anew(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(desktop_shows_what_tonemap_makes), cmocka_unit_test(es_shows_what_tonemap_makes),
-        cmocka_unit_test(pictures_are_clipped_and_scaled),  cmocka_unit_test(any_state_will_do_for_desktop),
-        cmocka_unit_test(any_state_will_do_for_es),         cmocka_unit_test(rasters_share_a_context),
-        cmocka_unit_test(a_context_must_be_there),          cmocka_unit_test(wrong_shows_are_refused),
-        cmocka_unit_test(steady_frames_make_nothing),       cmocka_unit_test(text_is_taken_anew)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(desktop_shows_what_tonemap_makes),
+                                       cmocka_unit_test(es_shows_what_tonemap_makes),
+                                       cmocka_unit_test(pictures_are_clipped_and_scaled),
+                                       cmocka_unit_test(any_state_will_do_for_desktop),
+                                       cmocka_unit_test(any_state_will_do_for_es),
+                                       cmocka_unit_test(rasters_share_a_context),
+                                       cmocka_unit_test(objects_are_shared_with_it),
+                                       cmocka_unit_test(a_context_must_be_there),
+                                       cmocka_unit_test(wrong_shows_are_refused),
+                                       cmocka_unit_test(steady_frames_make_nothing),
+                                       cmocka_unit_test(text_is_taken_anew)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }
