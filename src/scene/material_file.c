@@ -154,14 +154,44 @@ static void read_wrap(Reader *r, const json_t *json, Texture *texture) {
     texture->wrap_v = two ? (Wrap)one_of(r, json_array_get(json, 1), "wrap", wraps) : texture->wrap_u;
 }
 
+/* Where a texture lies. */
+typedef struct Placing {
+    float scale[2], offset[2], degrees;
+    float matrix[6];
+    bool whole; /* by the matrix */
+} Placing;
+
+/* Whether the key is about that. */
+static bool read_placing(Reader *r, const char *key, const json_t *value, Placing *placing) {
+    if (strcmp(key, "scale") == 0) {
+        pair(r, value, key, placing->scale);
+    } else if (strcmp(key, "offset") == 0) {
+        pair(r, value, key, placing->offset);
+    } else if (strcmp(key, "rotation") == 0) {
+        placing->degrees = number(r, value, key);
+    } else if (strcmp(key, "transform") == 0) {
+        six(r, value, key, placing->matrix);
+        placing->whole = true;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static void check_placing(Reader *r, const Placing *placing) {
+    for (int k = 0; k < 2; k++)
+        if (fabsf(placing->scale[k]) > 1e6f || fabsf(placing->offset[k]) > 1e6f ||
+            fabsf(placing->degrees) > 1e6f)
+            refuse(r, "it is placed beyond 1e6");
+}
+
 /* {"texture": FILE, ...} */
 static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
     static const char *const channels[] = {"r", "g", "b", "a", NULL};
     MaterialFile *out = r->out;
-    float scale[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f}, degrees = 0.0f;
+    Placing placing = {.scale = {1.0f, 1.0f}};
     Texture texture = {0};
     const char *key, *file = NULL;
-    bool direct = false;
     json_t *value;
     json_object_foreach(object, key, value) {
         if (strcmp(key, "texture") == 0) {
@@ -176,29 +206,21 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
             float set = number(r, value, key);
             if (set < 0.0f || set > 1.0f || set > floorf(set)) refuse(r, "texcoord is 0 or 1");
             input->texcoord = set > 0.5f;
-        } else if (strcmp(key, "scale") == 0) {
-            pair(r, value, key, scale);
-        } else if (strcmp(key, "offset") == 0) {
-            pair(r, value, key, offset);
-        } else if (strcmp(key, "rotation") == 0) {
-            degrees = number(r, value, key);
         } else if (strcmp(key, "wrap") == 0) {
             read_wrap(r, value, &texture);
-        } else if (strcmp(key, "transform") == 0) {
-            six(r, value, key, input->transform);
-            direct = true;
         } else if (strcmp(key, "nearest") == 0 && json_is_boolean(value)) {
             texture.nearest = json_is_true(value);
-        } else {
+        } else if (!read_placing(r, key, value, &placing)) {
             refuse(r, "\"%.40s\" is not a key of a texture", key);
         }
     }
-    for (int k = 0; k < 2; k++)
-        if (fabsf(scale[k]) > 1e6f || fabsf(offset[k]) > 1e6f || fabsf(degrees) > 1e6f)
-            refuse(r, "it is placed beyond 1e6");
+    check_placing(r, &placing);
     if (!file) refuse(r, "the object lacks \"texture\"");
     if (!file || r->result != WEFT_OK) return;
-    if (!direct) place(input, scale, degrees, offset);
+    if (placing.whole)
+        memcpy(input->transform, placing.matrix, sizeof placing.matrix);
+    else
+        place(input, placing.scale, placing.degrees, placing.offset);
     texture.image = image_index(r, file);
     out->textures[out->texture_count++] = texture;
     input->texture = out->texture_count;
