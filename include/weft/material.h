@@ -95,6 +95,11 @@ WEFT_API const char *weft_scene_texture_path(const WeftScene *scene, int index);
  * that picture have them. Fails with WEFT_MESSAGE_DESC; image is then the caller's still. */
 WEFT_API WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image, WeftError *error);
 
+/* Reads a texture's own file again, counted from 1, as it does where the file has changed. Fails as
+ * weft_image_read does, or with WEFT_MESSAGE_DESC where it has none; the scene is then as it was. */
+WEFT_API WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log,
+                                            WeftError *error);
+
 /* A texture's pixels, counted from 1, of the scene: all zero where there is none. Not to be freed. */
 WEFT_API WeftImage weft_scene_texture(const WeftScene *scene, int index);
 

@@ -142,14 +142,14 @@ static WeftResult no_material(const WeftScene *scene, int index, WeftError *erro
 
 WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out, WeftError *error) {
     memset(out, 0, sizeof *out);
-    if (index < 0 || index >= scene->material_count) return no_material(scene, index, error);
+    if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
     put_numbers(&scene->materials[index], out);
     return WEFT_OK;
 }
 
 WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMaterial *numbers,
                                    WeftError *error) {
-    if (index < 0 || index >= scene->material_count) return no_material(scene, index, error);
+    if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
     WeftResult result = check_numbers(scene, numbers, error);
     if (result != WEFT_OK) return result;
     Material before = scene->materials[index], material = material_of_numbers(numbers);

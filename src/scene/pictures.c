@@ -79,6 +79,15 @@ WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image,
     return result;
 }
 
+WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log, WeftError *error) {
+    WeftImage image;
+    const char *path = weft_scene_texture_path(scene, index);
+    if (!path) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d has no file of its own", index);
+    WeftResult result = weft_image_read(path, &image, log, error);
+    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, &image, path);
+    return result;
+}
+
 int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftError *error) {
     if (check_image(image, error) != WEFT_OK) return 0;
     int number = picture_add(scene, image, (Texture){0});

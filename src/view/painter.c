@@ -437,16 +437,11 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
 /* A file whose picture does not come whole leaves the one before, until it changes again. */
 static WeftResult reload(Painter *self, int texture, WeftError *error) {
     const WeftLog log = log_of(self);
-    WeftImage image;
-    WeftResult result = weft_image_read(weft_scene_texture_path(self->scene, texture), &image, &log, error);
-    if (result != WEFT_OK) return result;
     truth_hold(self->truth);
-    result = weft_scene_put_texture(self->scene, texture, &image, error);
-    truth_release(self->truth, self->scene, WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS);
-    weft_image_free(&image);
-    if (result == WEFT_OK) result = weft_raster_update(self->raster, &log, error);
-    self->stale = true;
-    return result;
+    WeftResult result = weft_scene_read_texture(self->scene, texture, &log, error);
+    truth_release(self->truth, self->scene,
+                  result == WEFT_OK ? WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS : 0);
+    return result == WEFT_OK ? weft_raster_update(self->raster, &log, error) : result;
 }
 
 static WeftResult pick(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {

@@ -28,7 +28,6 @@ typedef struct Order {
     WeftTonemap tonemap;
     float exposure;
     bool quick; /* more orders are likely to follow: a coarser picture will do where a whole one takes long */
-    bool quick; /* more orders are likely to follow: a coarser picture will do where a whole one takes long */
     bool truth; /* nothing is to be drawn: the path tracer does it */
     bool compare; /* a linear copy is to be handed to the path tracer */
 } Order;

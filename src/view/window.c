@@ -125,7 +125,11 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    /* Beside an EGL context shaders are compiled in parallel; where there is none, by what the system has. */
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     self->seen = glfwCreateWindow(desc->width, desc->height, desc->title, NULL, NULL);
+    if (!self->seen) glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
+    if (!self->seen) self->seen = glfwCreateWindow(desc->width, desc->height, desc->title, NULL, NULL);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     if (self->seen) self->worker = glfwCreateWindow(16, 16, desc->title, NULL, self->seen);
     if (!self->worker) {
