@@ -49,9 +49,10 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Watchman *watchman;   /* of the files of textures */
-    double whole_seconds; /* that a picture of all pixels takes */
-    Study study;          /* that is under way */
+    Watchman *watchman;                   /* of the files of textures */
+    double whole_seconds, smooth_seconds; /* that a picture of all pixels takes, and one with smooth edges */
+    bool smooth_known;
+    Study study; /* that is under way */
     unsigned textures[RING], targets[RING];
     int widths[RING], heights[RING];
 };
@@ -172,37 +173,47 @@ static bool is_outdated(Painter *self, unsigned number) {
     return outdated;
 }
 
-/* Draws row by row where all of it takes long, so that another order need not wait. *whole tells whether none
- * came between. */
-static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target, bool *whole,
-                               WeftError *error) {
-    const double patience = 0.08;
-    int height = order->view.height, strips = order->quick ? 1 : (int)(self->whole_seconds / patience) + 1;
+/* Draws so many rows at a time as a twentieth of a second has: another order need not wait long, nor does a
+ * window whose driver draws one thing after the other. *whole tells whether no order came between. */
+static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target,
+                               double expected, bool *whole, WeftError *error) {
+    const double piece = 0.05;
+    int height = order->view.height, y = 0;
+    double row = expected / height; /* seconds that one takes */
     WeftResult result = WEFT_OK;
-    if (strips > 40) strips = 40;
-    if (strips > height) strips = height;
     *whole = true;
-    for (int k = 0; k < strips && result == WEFT_OK && *whole; k++) {
-        int y = height * k / strips, end = height * (k + 1) / strips;
-        result = draw_rows(self, order, y, end - y, target, error);
-        if (strips > 1) glFinish();
-        if (k + 1 < strips) *whole = !is_outdated(self, number);
+    while (y < height && result == WEFT_OK && *whole) {
+        double start = now();
+        int rows = order->compare ? height : (int)fmin(piece / fmax(row, 1e-9), height), left = height - y;
+        if (rows < 8) rows = 8;
+        if (rows > left || left - rows < rows / 4) rows = left;
+        result = draw_rows(self, order, y, rows, target, error);
+        glFinish();
+        row = 0.5 * (row + fmin((now() - start) / rows, 8.0 * row));
+        y += rows;
+        if (y < height) *whole = !is_outdated(self, number);
     }
-    glFinish(); /* before another context reads it */
     return result;
 }
 
-/* Fewer pixels where a whole picture would take longer than a thirtieth of a second. */
-static Order coarser(const Painter *self, const Order *order) {
-    Order less = *order; /* its looks are borrowed */
-    double share = 0.030 / fmax(self->whole_seconds, 1e-6);
-    int by = share >= 1.0 ? 1 : (int)ceil(sqrt(1.0 / share));
-    if (!order->quick || by <= 1) return less;
-    if (by > 8) by = 8;
-    less.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
-    less.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
-    less.view.samples = 1;
-    return less;
+/* What can be drawn in the time there is: smooth edges in a second, all pixels in what is left of a
+ * thirtieth; or at least what is asked for. */
+static Effort effort_of(const Painter *self, const Order *order) {
+    if (order->compare) return EFFORT_SMOOTH;
+    double smooth = fmin(self->smooth_seconds, 1e3);
+    if (smooth < 0.030 || (order->effort == EFFORT_SMOOTH && smooth < 1.0)) return EFFORT_SMOOTH;
+    return order->effort > EFFORT_COARSE || self->whole_seconds < 0.030 ? EFFORT_WHOLE : EFFORT_COARSE;
+}
+
+static Order with_effort(const Painter *self, const Order *order, Effort effort) {
+    Order drawn = *order; /* its looks are borrowed */
+    if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
+    if (effort != EFFORT_COARSE) return drawn;
+    int by = (int)ceil(sqrt(self->whole_seconds / 0.030));
+    by = by < 2 ? 2 : by > 8 ? 8 : by;
+    drawn.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
+    drawn.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
+    return drawn;
 }
 
 /* A camera of the scene turns about what is in the middle of its picture. */
@@ -222,7 +233,7 @@ static void focus(Painter *self, const Order *order, Painted *p) {
     for (int k = 0; k < 3 && n > 0.0f; k++) p->target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
 }
 
-static void publish(Painter *self, const Order *order, const Order *drawn, unsigned number, int target,
+static void publish(Painter *self, const Order *order, Effort effort, unsigned number, int target,
                     double seconds, const WeftError *error) {
     WeftRasterInfo info = weft_raster_info(self->raster);
     Painted seen = {.fov = info.camera_fov};
@@ -234,7 +245,7 @@ static void publish(Painter *self, const Order *order, const Order *drawn, unsig
     if (target >= 0) {
         p->texture = self->textures[target];
         p->width = order->view.width, p->height = order->view.height;
-        p->coarse = drawn->view.width != order->view.width;
+        p->effort = effort;
         p->seconds = (float)seconds;
         p->whole_seconds = (float)self->whole_seconds;
         self->newest = target;
@@ -258,36 +269,41 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
-/* What all pixels take, from what some did; time that went into shaders says nothing. */
-static void note_seconds(Painter *self, const Order *order, const Order *drawn, double seconds) {
-    double part =
-        (double)drawn->view.width * drawn->view.height / ((double)order->view.width * order->view.height);
-    double whole = (seconds - 0.002) / part;
-    self->whole_seconds =
-        part < 1.0 ? 0.5 * (self->whole_seconds + fmin(whole, 4.0 * self->whole_seconds)) : seconds;
+/* What pictures take, from what this one did; time that went into shaders says nothing. */
+static void note_seconds(Painter *self, Effort effort, double part, double seconds) {
+    double whole = seconds / part,
+           *known = effort == EFFORT_SMOOTH ? &self->smooth_seconds : &self->whole_seconds;
+    *known = part < 1.0 ? 0.5 * (*known + fmin(whole, 4.0 * *known)) : whole;
+    if (effort != EFFORT_SMOOTH && !self->smooth_known) self->smooth_seconds = 4.0 * self->whole_seconds;
+    self->smooth_known |= effort == EFFORT_SMOOTH;
 }
 
 static void draw(Painter *self, const Order *order, unsigned number) {
     WeftError error = {0};
     int target = -1, compiled = weft_raster_info(self->raster).compiled;
     bool whole = true;
-    Order drawn = coarser(self, order);
+    Effort effort = effort_of(self, order);
+    Order drawn = with_effort(self, order, effort);
+    double part =
+        (double)drawn.view.width * drawn.view.height / ((double)order->view.width * order->view.height);
+    double expected = effort == EFFORT_SMOOTH ? self->smooth_seconds : part * self->whole_seconds;
     WeftResult result = wear(self, &order->look, &error);
     double start = now();
     if (!order->truth || order->compare) {
         target = take_target(self, drawn.view.width, drawn.view.height);
-        if (order->compare) self->whole_seconds = 0.0; /* in one piece: it is read back */
         WeftResult done =
-            draw_picture(self, &drawn, number, target, &whole, result == WEFT_OK ? &error : NULL);
+            draw_picture(self, &drawn, number, target, expected, &whole, result == WEFT_OK ? &error : NULL);
         if (result == WEFT_OK) result = done;
         if (done == WEFT_OK && order->compare) hand_linear(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
-        if (fair) note_seconds(self, order, &drawn, now() - start);
+        if (fair) note_seconds(self, effort, part, now() - start);
     }
     if (!whole) return; /* another order came between */
     if (result == WEFT_OK) error.text[0] = '\0';
-    publish(self, order, &drawn, number, target, now() - start, &error);
+    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= 1.0;
+    publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
+            &error);
 }
 
 /* ---- scenes ---- */
@@ -328,8 +344,12 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look) {
         self->is = *look;
         self->worn = (LookWorn){0};
         self->started = false;
-        self->whole_seconds = 0.2; /* until it is known */
-        self->whole_seconds = 0.2; /* until it is known */
+        self->whole_seconds = 2.0; /* until it is known */
+        self->smooth_seconds = 8.0;
+        self->smooth_known = false;
+        self->whole_seconds = 2.0; /* until it is known */
+        self->smooth_seconds = 8.0;
+        self->smooth_known = false;
         watch_textures(self);
     } else {
         weft_scene_free(scene);

@@ -18,6 +18,10 @@ typedef struct Painter Painter;
 /* How two looks share a picture. */
 typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
 
+/* How well a picture is drawn: while the hand moves one of fewer pixels may do, where a whole one takes long;
+ * edges are smoothed last. */
+typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
+
 /* What the window wants to see. Numbers that do not change the picture have no place here. */
 typedef struct Order {
     Look look, other; /* `other` on the right, where they share it; empty otherwise */
@@ -27,9 +31,9 @@ typedef struct Order {
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;
-    bool quick; /* more orders are likely to follow: a coarser picture will do where a whole one takes long */
-    bool truth; /* nothing is to be drawn: the path tracer does it */
-    bool compare; /* a linear copy is to be handed to the path tracer */
+    Effort effort; /* that is asked for at the least */
+    bool truth;    /* nothing is to be drawn: the path tracer does it */
+    bool compare;  /* a linear copy is to be handed to the path tracer */
 } Order;
 
 typedef enum TaskKind {
@@ -80,7 +84,7 @@ typedef struct Painted {
     unsigned texture; /* 0: nothing yet */
     int width, height;
     unsigned number;     /* of the order it shows */
-    bool coarse;         /* of fewer pixels than were asked for; the texture is stretched over them */
+    Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
     float seconds;       /* that it took */
     float whole_seconds; /* that one of all pixels takes */
     float eye[3], target[3], fov;

@@ -326,6 +326,8 @@ static bool do_motion(Replay *self, Viewer *v, char why[512]) {
     return true;
 }
 
+bool replay_acts(const Replay *self) { return self->count > 0; }
+
 bool replay_step(Replay *self, Viewer *v, char why[512]) {
     if (self->count) return do_motion(self, v, why);
     while (!self->count && !v->ending) {

@@ -204,6 +204,7 @@ void ui_begin(const UiInput *input) {
     io.MouseWheel = input->wheel;
     io.MouseWheelH = input->wheel_across;
     for (int k = 0; k < UI_KEYS; k++) io.KeysDown[k] = input->key[k];
+    if (!io.WantTextInput) io.KeysDown[GLFW_KEY_TAB] = false; /* the window's own, but while text is typed */
     io.KeyCtrl = input->control;
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;

@@ -254,15 +254,21 @@ static void order_truth(Viewer *v, const Order *order) {
     truth_order(v->truth, &t);
 }
 
+/* Whether the picture that is shown is right but for its finish. */
+static bool can_be_finer(const Viewer *v) {
+    return v->has_scene && v->painted.number == v->ordered && v->painted.texture &&
+           v->painted.effort < EFFORT_SMOOTH;
+}
+
 /* Sends what is wanted where it is something else than before. */
 static void send_order(Viewer *v) {
     if (!v->has_scene || v->stage.width < 1.0f) return;
     Order order = make_order(v);
     bool changed = v->ask || !same_order(&order, &v->order) || !look_same(&v->look, &v->before);
     if (changed) v->changed = now();
-    bool finer = v->painted.coarse && v->painted.number == v->ordered && now() - v->changed > 0.12;
+    bool finer = can_be_finer(v) && now() - v->changed > 0.12;
     if (!changed && !finer) return;
-    order.quick = !finer;
+    order.effort = finer ? (Effort)(v->painted.effort + 1) : EFFORT_COARSE;
     v->ordered = painter_order(v->painter, &order);
     order_truth(v, &order);
     order.look = order.other = (Look){0};
@@ -482,7 +488,7 @@ void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
 
 bool viewer_at_rest(Viewer *v) {
     return !v->loader && painter_idle(v->painter) && (!v->has_scene || v->painted.number == v->ordered) &&
-           !v->painted.busy && !v->painted.coarse && !v->ask &&
+           !v->painted.busy && (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
            (v->mode == MODE_LIVE || truth_resting(v->truth));
 }
 
@@ -561,7 +567,7 @@ static void run_frame(Viewer *v, double started) {
     note_history(v);
     v->worst_seconds = fmax(v->worst_seconds, now() - started);
     v->frame_seconds += 0.1 * (now() - started - v->frame_seconds);
-    v->picture_seconds += 0.2 * ((double)v->painted.seconds - v->picture_seconds);
+    v->picture_seconds = (double)v->painted.whole_seconds;
 }
 
 static bool start(Viewer *v, char why[512]) {
@@ -615,8 +621,9 @@ static double patience(const Viewer *v, int due) {
     bool flies = false;
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};
     for (int k = 0; k < 6; k++) flies |= v->input.key[keys[k]];
-    if (due > 0 || flies || v->replay) return 0.0;
-    return v->painted.coarse ? 0.05 : 0.25;
+    if (due > 0 || flies) return 0.0;
+    if (v->replay) return 0.005;
+    return can_be_finer(v) ? 0.05 : 0.25;
 }
 
 static int run(Viewer *v, char why[512]) {
@@ -632,15 +639,16 @@ static int run(Viewer *v, char why[512]) {
         poll_loader(v);
         any |= poll_files(v, started);
         any |= painter_fresh(v->painter) || truth_fresh(v->truth) || v->loader || v->painted.number != shown;
-        any |= v->painted.coarse && v->painted.number == v->ordered;
+        any |= can_be_finer(v) && v->mode == MODE_LIVE;
+        if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
         if (any || inspection_busy(v->panel == 3 ? v->inspection : NULL)) due = 3;
-        if (window_hidden(v->window) || (due <= 0 && !v->replay)) {
+        if (window_hidden(v->window) || due <= 0) {
             v->clock = started;
             continue;
         }
         due--;
         run_frame(v, started);
-        if (v->desc->report) report_state(v, due <= 0);
+        if (v->desc->report) report_state(v, due == 0);
         if (v->desc->frames && v->frame >= v->desc->frames) break;
     }
     return 0;
