@@ -173,24 +173,27 @@ static bool is_outdated(Painter *self, unsigned number) {
     return outdated;
 }
 
-/* Draws so many rows at a time as a twentieth of a second has: another order need not wait long, nor does a
- * window whose driver draws one thing after the other. *whole tells whether no order came between. */
+/* Draws so many rows at a time as a twentieth of a second has, about: another order need not wait long, nor
+ * does a window whose driver draws one thing after the other. More rows cost less than in proportion, so that
+ * their number is found by doubling and halving. *whole tells whether no order came between. */
 static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target,
                                double expected, bool *whole, WeftError *error) {
     const double piece = 0.05;
     int height = order->view.height, y = 0;
-    double row = expected / height; /* seconds that one takes */
+    int rows = expected < 3.0 * piece ? height : (int)(height * piece / expected);
     WeftResult result = WEFT_OK;
     *whole = true;
     while (y < height && result == WEFT_OK && *whole) {
         double start = now();
-        int rows = order->compare ? height : (int)fmin(piece / fmax(row, 1e-9), height), left = height - y;
+        int left = height - y;
         if (rows < 8) rows = 8;
-        if (rows > left || left - rows < rows / 4) rows = left;
+        if (order->compare || rows > left || left - rows < rows / 4) rows = left;
         result = draw_rows(self, order, y, rows, target, error);
         glFinish();
-        row = 0.5 * (row + fmin((now() - start) / rows, 8.0 * row));
         y += rows;
+        double took = now() - start;
+        if (took < 1.5 * piece) rows *= 2;
+        if (took > 2.0 * piece) rows /= 2;
         if (y < height) *whole = !is_outdated(self, number);
     }
     return result;
