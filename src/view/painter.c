@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/painter.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ struct Painter {
     bool started;
     Watchman *watchman;                   /* of the files of textures */
     double whole_seconds, smooth_seconds; /* that a picture of all pixels takes, and one with smooth edges */
-    bool smooth_known;
+    bool smooth_known, surprised;
     Study study; /* that is under way */
     unsigned textures[RING], targets[RING];
     int widths[RING], heights[RING];
@@ -272,10 +273,13 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
-/* What pictures take, from what this one did; time that went into shaders says nothing. */
+/* What pictures take, from what this one did. One that takes far longer than those before counts only if the
+ * next one does, too: drivers compile as they draw. */
 static void note_seconds(Painter *self, Effort effort, double part, double seconds) {
     double whole = seconds / part,
            *known = effort == EFFORT_SMOOTH ? &self->smooth_seconds : &self->whole_seconds;
+    self->surprised = !self->surprised && whole > 3.0 * *known;
+    if (self->surprised) return;
     *known = part < 1.0 ? 0.5 * (*known + fmin(whole, 4.0 * *known)) : whole;
     if (effort != EFFORT_SMOOTH && !self->smooth_known) self->smooth_seconds = 4.0 * self->whole_seconds;
     self->smooth_known |= effort == EFFORT_SMOOTH;
@@ -300,6 +304,8 @@ static void draw(Painter *self, const Order *order, unsigned number) {
         if (done == WEFT_OK && order->compare) hand_linear(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
+        if (weft_raster_info(self->raster).compiled != compiled)
+            malloc_trim(0); /* compilers leave much behind */
         if (fair) note_seconds(self, effort, part, now() - start);
     }
     if (!whole) return; /* another order came between */

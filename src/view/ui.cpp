@@ -209,6 +209,9 @@ void ui_begin(const UiInput *input) {
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;
     for (int k = 0; k < input->typed_count; k++) io.AddInputCharacter(input->typed[k]);
+    /* Escape and the arrows are a popup's, and nobody else's. */
+    io.ConfigFlags =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? ImGuiConfigFlags_NavEnableKeyboard : 0;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     ui->last.swap(ui->shown);
