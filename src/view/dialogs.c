@@ -158,7 +158,7 @@ static void draw_profiles(Viewer *v) {
     float s = ui_scale();
     if (ui_window("All profiles", (UiBox){20.0f * s, 70.0f * s, 860.0f * s, 600.0f * s}, &v->profiles_open)) {
         ui_scope("All profiles");
-        if (!v->profiles_made) ui_progress(-1.0f, "drawing the scene under every profile");
+        if (!v->profiles_made) ui_progress(-1.0f, "drawing the material under every profile");
         if (ui_button("Draw again")) viewer_profiles(v);
         ui_tip("Of the scene as it is now.");
         ui_same_line();

@@ -18,6 +18,8 @@
 
 enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096 };
 
+static const double smooth_most = 4.0; /* s, that smooth edges may take */
+
 struct Painter {
     Window *window;
     Truth *truth;
@@ -200,12 +202,12 @@ static WeftResult draw_picture(Painter *self, const Order *order, unsigned numbe
     return result;
 }
 
-/* What can be drawn in the time there is: smooth edges in a second, all pixels in what is left of a
+/* What can be drawn in the time there is: smooth edges in a few seconds, all pixels in what is left of a
  * thirtieth; or at least what is asked for. */
 static Effort effort_of(const Painter *self, const Order *order) {
     if (order->compare) return EFFORT_SMOOTH;
     double smooth = fmin(self->smooth_seconds, 1e3);
-    if (smooth < 0.030 || (order->effort == EFFORT_SMOOTH && smooth < 1.0)) return EFFORT_SMOOTH;
+    if (smooth < 0.030 || (order->effort == EFFORT_SMOOTH && smooth < smooth_most)) return EFFORT_SMOOTH;
     return order->effort > EFFORT_COARSE || self->whole_seconds < 0.030 ? EFFORT_WHOLE : EFFORT_COARSE;
 }
 
@@ -310,7 +312,7 @@ static void draw(Painter *self, const Order *order, unsigned number) {
     }
     if (!whole) return; /* another order came between */
     if (result == WEFT_OK) error.text[0] = '\0';
-    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= 1.0;
+    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
     publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
             &error);
 }
@@ -528,8 +530,8 @@ static void do_task(Painter *self, const Task *task, const Order *order) {
     case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
     case TASK_SCENE: return;
     case TASK_PROFILES:
-        study_start(&self->study, &order->look, &order->view, order->camera, order->tonemap, order->exposure,
-                    task->stamp);
+        study_start(&self->study, &order->look, task->index, &order->view, order->camera, order->tonemap,
+                    order->exposure, task->stamp);
         return;
     case TASK_DRESS:
     case TASK_WEAR:

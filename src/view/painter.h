@@ -41,7 +41,7 @@ typedef enum TaskKind {
     TASK_SAVE,     /* the scene, or material `index`, to `path` */
     TASK_PROBE,    /* what is at x, y of the order's picture */
     TASK_PICK,     /* the same without the parts of its light */
-    TASK_PROFILES, /* a small picture of every profile */
+    TASK_PROFILES, /* small pictures with material `index` under every profile */
     TASK_DRESS,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
     TASK_WEAR,     /* the maps of folder `path` on material `index`, -1: the cloth */
     TASK_SCENE,    /* news alone: another scene was taken, or could not be */

@@ -475,7 +475,7 @@ void viewer_copy_command(Viewer *v) {
 void viewer_profiles(Viewer *v) {
     v->profiles_open = true;
     v->profiles_made = false;
-    viewer_task(v, TASK_PROFILES, NULL, 0, -1);
+    viewer_task(v, TASK_PROFILES, NULL, v->material, -1);
 }
 
 void viewer_dialog(Viewer *v, const char *name) {
