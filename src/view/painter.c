@@ -16,9 +16,10 @@
 #include "weft/pick.h"
 #include "weft/save.h"
 
-enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096 };
+enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096, COARSE_MOST = 8 };
 
-static const double smooth_most = 4.0; /* s, that smooth edges may take */
+static const double smooth_most = 4.0;     /* s, that smooth edges may take */
+static const double frame_seconds = 0.036; /* that a picture may, while the hand moves */
 
 struct Painter {
     Window *window;
@@ -52,8 +53,9 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Watchman *watchman;                   /* of the files of textures */
-    double whole_seconds, smooth_seconds; /* that a picture of all pixels takes, and one with smooth edges */
+    Watchman *watchman; /* of the files of textures */
+    int coarse;         /* pixels a side that become one while the hand moves */
+    double coarse_seconds, whole_seconds, smooth_seconds; /* that pictures take */
     bool smooth_known, surprised;
     Study study; /* that is under way */
     unsigned textures[RING], targets[RING];
@@ -202,24 +204,45 @@ static WeftResult draw_picture(Painter *self, const Order *order, unsigned numbe
     return result;
 }
 
-/* What can be drawn in the time there is: smooth edges in a few seconds, all pixels in what is left of a
- * thirtieth; or at least what is asked for. */
+/* What can be drawn in the time there is: smooth edges in a few seconds, or at once where they take no longer
+ * than a frame may; all pixels where that has proved quick enough; or at least what is asked for. */
 static Effort effort_of(const Painter *self, const Order *order) {
-    if (order->compare) return EFFORT_SMOOTH;
-    double smooth = fmin(self->smooth_seconds, 1e3);
-    if (smooth < 0.030 || (order->effort == EFFORT_SMOOTH && smooth < smooth_most)) return EFFORT_SMOOTH;
-    return order->effort > EFFORT_COARSE || self->whole_seconds < 0.030 ? EFFORT_WHOLE : EFFORT_COARSE;
+    if (order->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
+    if (order->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
+    return order->effort > EFFORT_COARSE || self->coarse == 1 ? EFFORT_WHOLE : EFFORT_COARSE;
 }
 
 static Order with_effort(const Painter *self, const Order *order, Effort effort) {
     Order drawn = *order; /* its looks are borrowed */
+    int by = effort == EFFORT_COARSE ? self->coarse : 1;
     if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
-    if (effort != EFFORT_COARSE) return drawn;
-    int by = (int)ceil(sqrt(self->whole_seconds / 0.030));
-    by = by < 2 ? 2 : by > 8 ? 8 : by;
     drawn.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
     drawn.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
     return drawn;
+}
+
+static double *seconds_of(Painter *self, Effort effort) {
+    return effort == EFFORT_SMOOTH  ? &self->smooth_seconds
+           : effort == EFFORT_WHOLE ? &self->whole_seconds
+                                    : &self->coarse_seconds;
+}
+
+/* Learns from the time that a picture took: how coarse those have to be that are drawn while the hand moves,
+ * and what the others take. One that takes far longer than those before counts only if the next one does,
+ * too: drivers compile as they draw. */
+static void learn(Painter *self, const Order *order, Effort effort, double seconds) {
+    double *known = seconds_of(self, effort);
+    self->surprised = !self->surprised && seconds > 3.0 * *known;
+    if (self->surprised) return;
+    *known = seconds;
+    if (effort == EFFORT_WHOLE && !self->smooth_known) self->smooth_seconds = 4.0 * seconds;
+    self->smooth_known |= effort == EFFORT_SMOOTH;
+    if (order->effort != EFFORT_COARSE || effort == EFFORT_SMOOTH) return;
+    double finer = self->coarse > 1 ? (double)self->coarse / (self->coarse - 1) : 1.0;
+    if (seconds > frame_seconds && self->coarse < COARSE_MOST)
+        self->coarse++;
+    else if (self->coarse > 1 && seconds * finer * finer < frame_seconds)
+        self->coarse--;
 }
 
 /* A camera of the scene turns about what is in the middle of its picture. */
@@ -275,27 +298,13 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
-/* What pictures take, from what this one did. One that takes far longer than those before counts only if the
- * next one does, too: drivers compile as they draw. */
-static void note_seconds(Painter *self, Effort effort, double part, double seconds) {
-    double whole = seconds / part,
-           *known = effort == EFFORT_SMOOTH ? &self->smooth_seconds : &self->whole_seconds;
-    self->surprised = !self->surprised && whole > 3.0 * *known;
-    if (self->surprised) return;
-    *known = part < 1.0 ? 0.5 * (*known + fmin(whole, 4.0 * *known)) : whole;
-    if (effort != EFFORT_SMOOTH && !self->smooth_known) self->smooth_seconds = 4.0 * self->whole_seconds;
-    self->smooth_known |= effort == EFFORT_SMOOTH;
-}
-
 static void draw(Painter *self, const Order *order, unsigned number) {
     WeftError error = {0};
     int target = -1, compiled = weft_raster_info(self->raster).compiled;
     bool whole = true;
     Effort effort = effort_of(self, order);
     Order drawn = with_effort(self, order, effort);
-    double part =
-        (double)drawn.view.width * drawn.view.height / ((double)order->view.width * order->view.height);
-    double expected = effort == EFFORT_SMOOTH ? self->smooth_seconds : part * self->whole_seconds;
+    double expected = *seconds_of(self, effort);
     WeftResult result = wear(self, &order->look, &error);
     double start = now();
     if (!order->truth || order->compare) {
@@ -308,7 +317,7 @@ static void draw(Painter *self, const Order *order, unsigned number) {
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
         if (weft_raster_info(self->raster).compiled != compiled)
             malloc_trim(0); /* compilers leave much behind */
-        if (fair) note_seconds(self, effort, part, now() - start);
+        if (fair) learn(self, order, effort, now() - start);
     }
     if (!whole) return; /* another order came between */
     if (result == WEFT_OK) error.text[0] = '\0';
@@ -355,10 +364,11 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look) {
         self->is = *look;
         self->worn = (LookWorn){0};
         self->started = false;
-        self->whole_seconds = 2.0; /* until it is known */
         self->smooth_seconds = 8.0;
         self->smooth_known = false;
-        self->whole_seconds = 2.0; /* until it is known */
+        self->coarse = 4; /* these until they are known */
+        self->coarse_seconds = 1.0;
+        self->whole_seconds = 2.0;
         self->smooth_seconds = 8.0;
         self->smooth_known = false;
         watch_textures(self);
