@@ -504,7 +504,7 @@ static void note_history(Viewer *v) {
             v->before = copy;
         }
     }
-    if (!held) history_close(&v->history);
+    if (!held && !ui_types()) history_close(&v->history); /* a drag is one step, and so is what is typed */
 }
 
 static void lay_out(Viewer *v) {
