@@ -34,9 +34,9 @@ char *command_text(const Options *options) {
 
 /* Each is an option and its value: "--preset velvet". */
 char *command_dress_text(const Options *options) {
-    static const char *const names[] = {"--variant",  "--preset",  "--material", "--materials",
-                                        "--workflow", "--profile", "--diffuse",  "--sheen",
-                                        "--layer",    "--texture", "--set",      "--convert"};
+    static const char *const names[] = {"--variant", "--preset",  "--material", "--materials", "--workflow",
+                                        "--profile", "--diffuse", "--sheen",    "--layer",     "--texture",
+                                        "--set",     "--convert", "--light"};
     size_t room = 1;
     for (int k = 0; k < options->argument_count; k++) room += 16 + 4 * strlen(options->arguments[k]);
     char *text = malloc(room), *to = text;

@@ -8,7 +8,8 @@
  * memory is short. Release with free. */
 char *command_text(const Options *options);
 
-/* What was typed of the options that dress a scene, as one could type it; else as above. */
+/* What was typed of the options that dress a scene and light it from near, as one could type it; else as
+ * above. */
 char *command_dress_text(const Options *options);
 
 #endif

@@ -60,7 +60,8 @@ void note(const char *label) {
         ImGui::SetScrollHereY(0.5f);
         ui->reveal.clear();
     }
-    if (ImGui::IsItemVisible()) ui->shown.push_back(control);
+    ImVec2 middle = at(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)); /* where a script points at */
+    if (ImGui::IsRectVisible(middle, at(middle.x + 1.0f, middle.y + 1.0f))) ui->shown.push_back(control);
 }
 
 /* Labels stand left of widgets: a column of names, one of values. */

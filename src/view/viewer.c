@@ -319,6 +319,13 @@ static void take_truth(Viewer *v) {
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
 }
 
+/* The look is another one, of which history knows. */
+static void settle_look(Viewer *v) {
+    look_free(&v->before);
+    look_copy(&v->before, &v->look);
+    v->ask = true;
+}
+
 static void take_dressed(Viewer *v, News *news) {
     Around around = v->look.around;
     history_close(&v->history);
@@ -328,6 +335,7 @@ static void take_dressed(Viewer *v, News *news) {
     v->look = news->look;
     v->look.around = around;
     news->look_changed = false;
+    settle_look(v);
 }
 
 static void take_news(Viewer *v) {
@@ -376,17 +384,15 @@ void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int inpu
 }
 
 void viewer_undo(Viewer *v) {
-    if (history_undo(&v->history, &v->look))
-        viewer_say(v, false, "undone");
-    else
-        viewer_say(v, false, "there is nothing to undo");
+    bool done = history_undo(&v->history, &v->look);
+    if (done) settle_look(v);
+    viewer_say(v, false, done ? "undone" : "there is nothing to undo");
 }
 
 void viewer_redo(Viewer *v) {
-    if (history_redo(&v->history, &v->look))
-        viewer_say(v, false, "done again");
-    else
-        viewer_say(v, false, "there is nothing to do again");
+    bool done = history_redo(&v->history, &v->look);
+    if (done) settle_look(v);
+    viewer_say(v, false, done ? "done again" : "there is nothing to do again");
 }
 
 void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
@@ -409,9 +415,7 @@ void viewer_swap(Viewer *v) {
     v->other = kept;
     v->side = !v->side;
     history_free(&v->history); /* its steps are the other side's */
-    look_free(&v->before);
-    look_copy(&v->before, &v->look);
-    v->ask = true;
+    settle_look(v);
 }
 
 void viewer_frame_selection(Viewer *v) {
@@ -504,7 +508,7 @@ static void note_history(Viewer *v) {
             v->before = copy;
         }
     }
-    if (!held) history_close(&v->history);
+    if (!held && !ui_types()) history_close(&v->history); /* a drag is one step, and so is what is typed */
 }
 
 static void lay_out(Viewer *v) {

@@ -1,0 +1,475 @@
+/* The parts of the window that need none: the camera, history, the watchman, strokes, names of files, and how
+ * a command line is quoted. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "view/inputs.h"
+#include "view/paths.h"
+#include "view/strokes.h"
+#include "view/viewer.h"
+
+static char folder[] = "/tmp/weft-parts-XXXXXX";
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    unlink("file");
+    return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+static void assert_near(float a, float b, float within) {
+    if (!(fabsf(a - b) <= within)) fail_msg("%.9g is not %.9g", (double)a, (double)b);
+}
+
+static void assert_near3(const float a[3], const float b[3], float within) {
+    for (int k = 0; k < 3; k++) assert_near(a[k], b[k], within);
+}
+
+/* ---- the camera ---- */
+
+static const Orbit cameras[] = {{.eye = {0.4f, 1.0f, 1.9f}, .target = {0.0f, 0.5f, 0.0f}, .fov = 30.0f},
+                                {.eye = {-3.0f, 0.1f, -2.0f}, .target = {1.0f, 2.0f, 0.3f}, .fov = 75.0f},
+                                {.eye = {0.0f, 9.0f, 0.001f}, .target = {0.0f, 0.0f, 0.0f}, .fov = 12.0f}};
+enum { CAMERAS = sizeof cameras / sizeof *cameras };
+
+static float length(const float a[3], const float b[3]) {
+    return sqrtf((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                 (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static void a_ray_meets_what_is_projected(void **state) {
+    (void)state;
+    for (int c = 0; c < CAMERAS; c++)
+        for (int k = 0; k < 60; k++) {
+            float aspect = k % 3 == 0 ? 0.5f : 1.7f, x = (float)(k % 7) / 6.0f, y = (float)(k % 11) / 10.0f;
+            float ray[3], point[3], at[2], behind[3];
+            orbit_ray(&cameras[c], aspect, x, y, ray);
+            assert_near(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2], 1.0f, 1e-5f);
+            for (int j = 0; j < 3; j++) {
+                point[j] = cameras[c].eye[j] + (0.5f + (float)k) * ray[j];
+                behind[j] = cameras[c].eye[j] - 2.0f * ray[j];
+            }
+            assert_true(orbit_project(&cameras[c], point, aspect, at));
+            assert_near(at[0], x, 2e-4f);
+            assert_near(at[1], y, 2e-4f);
+            assert_false(orbit_project(&cameras[c], behind, aspect, at));
+        }
+}
+
+static void it_turns_about_its_target(void **state) {
+    (void)state;
+    for (int c = 0; c < CAMERAS; c++) {
+        Orbit o = cameras[c];
+        float far = length(o.eye, o.target);
+        for (int k = 0; k < 200; k++) {
+            orbit_turn(&o, 0.37f, k % 50 < 25 ? 0.4f : -0.4f); /* into both poles */
+            assert_near3(o.target, cameras[c].target, 0.0f);
+            assert_near(length(o.eye, o.target), far, 1e-3f * far);
+            float flat = hypotf(o.eye[0] - o.target[0], o.eye[2] - o.target[2]);
+            assert_true(flat > 0.01f * far);
+        }
+    }
+    Orbit o = cameras[0];
+    snprintf(o.name, sizeof o.name, "0");
+    orbit_turn(&o, 0.5f, 0.2f);
+    assert_string_equal(o.name, ""); /* it is no camera of the scene any more */
+    orbit_turn(&o, -0.5f, -0.2f);
+    assert_near3(o.eye, cameras[0].eye, 1e-5f);
+}
+
+static void it_looks_pans_flies_and_comes_nearer(void **state) {
+    (void)state;
+    for (int c = 0; c < CAMERAS; c++) {
+        Orbit o = cameras[c];
+        float far = length(o.eye, o.target), at[2], right[3], up[3], forward[3], moved[3];
+        orbit_look(&o, 0.1f, -0.05f);
+        assert_near3(o.eye, cameras[c].eye, 0.0f);
+        assert_near(length(o.eye, o.target), far, 1e-3f * far);
+
+        o = cameras[c]; /* what was under the mouse stays there */
+        orbit_pan(&o, 0.25f, -0.1f);
+        assert_true(orbit_project(&o, cameras[c].target, 1.0f, at));
+        assert_near(at[0], 0.75f, 1e-4f);
+        assert_near(at[1], 0.4f, 1e-4f);
+
+        o = cameras[c];
+        orbit_dolly(&o, 0.5f);
+        assert_near3(o.target, cameras[c].target, 0.0f);
+        assert_near(length(o.eye, o.target), 0.5f * far, 1e-4f * far);
+        for (int k = 0; k < 100; k++) orbit_dolly(&o, 0.1f);
+        assert_true(length(o.eye, o.target) > 0.0f && isfinite(o.eye[0]));
+        for (int k = 0; k < 100; k++) orbit_dolly(&o, 10.0f);
+        assert_true(length(o.eye, o.target) < 2e5f);
+
+        o = cameras[c];
+        orbit_axes(&o, right, up, forward);
+        orbit_fly(&o, 2.0f, -1.0f, 0.5f);
+        for (int k = 0; k < 3; k++) moved[k] = cameras[c].eye[k] + 2.0f * forward[k] - right[k];
+        moved[1] += 0.5f;
+        assert_near3(o.eye, moved, 1e-4f);
+        assert_near(length(o.eye, o.target), far, 1e-3f * far);
+        for (int k = 0; k < 50; k++) orbit_fly(&o, 1e5f, NAN, INFINITY);
+        for (int k = 0; k < 3; k++) assert_true(fabsf(o.eye[k]) <= 1e6f);
+    }
+}
+
+static void all_of_a_box_is_framed(void **state) {
+    (void)state;
+    static const float boxes[][2][3] = {{{-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}},
+                                        {{5.0f, 0.0f, -2.0f}, {5.1f, 4.0f, 30.0f}},
+                                        {{0.0f, 0.0f, 0.0f}, {1e-3f, 2e-3f, 0.0f}}};
+    static const float aspects[] = {0.3f, 1.0f, 2.4f};
+    for (int k = 0; k < CAMERAS * 9; k++) {
+        Orbit o = cameras[k % CAMERAS];
+        const float(*box)[3] = boxes[k / CAMERAS % 3];
+        float aspect = aspects[k / CAMERAS / 3], least = 1.0f, most = 0.0f;
+        orbit_frame(&o, box[0], box[1], aspect);
+        for (int corner = 0; corner < 8; corner++) {
+            float p[3], at[2];
+            for (int j = 0; j < 3; j++) p[j] = box[corner >> j & 1][j];
+            assert_true(orbit_project(&o, p, aspect, at));
+            for (int j = 0; j < 2; j++) {
+                assert_in_range((int)(1000.0f * at[j]), 0, 1000);
+                least = fminf(least, at[j]), most = fmaxf(most, at[j]);
+            }
+        }
+        assert_true(most - least > 0.1f); /* and not from far away */
+    }
+}
+
+static void a_camera_is_read_as_it_is_written(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    char text[ORBIT_TEXT];
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    for (int c = 0; c < CAMERAS; c++) {
+        Orbit again;
+        assert_true(orbit_at(&again, scene, orbit_text(&cameras[c], text), 1.5f));
+        assert_near3(again.eye, cameras[c].eye, 1e-5f);
+        float right[3], up[3], forward[3], ahead[3];
+        orbit_axes(&cameras[c], right, up, forward);
+        orbit_axes(&again, right, up, ahead);
+        assert_near3(ahead, forward, 1e-4f);
+        assert_near(again.fov, cameras[c].fov, 1e-4f);
+        assert_string_equal(again.name, "");
+    }
+    Orbit first, none;
+    assert_true(orbit_at(&first, scene, "0", 1.5f));
+    assert_string_equal(orbit_text(&first, text), "0");
+    assert_false(orbit_at(&none, scene, "nobody", 1.5f));
+    weft_scene_free(scene);
+}
+
+/* ---- looks to go back to ---- */
+
+/* A look with one light that is as bright as a number. */
+static Look look_of(int number) {
+    Look look = {.light_count = 1, .around = {.strength = 1.0f}};
+    look.lights[0].color[0] = (float)number;
+    return look;
+}
+
+static int number_of(const Look *look) { return (int)look->lights[0].color[0]; }
+
+static void change(History *history, Look *look, int number) {
+    history_keep(history, look);
+    look->lights[0].color[0] = (float)number;
+}
+
+static void what_was_done_is_undone(void **state) {
+    (void)state;
+    History *history = calloc(1, sizeof *history);
+    Look look = look_of(0);
+    assert_non_null(history);
+    assert_false(history_undo(history, &look));
+    assert_false(history_redo(history, &look));
+    for (int k = 1; k <= 3; k++) {
+        change(history, &look, 10 * k);
+        change(history, &look, 10 * k + 1); /* the same drag: one step */
+        history_close(history);
+    }
+    static const int back[] = {21, 11, 0}, forth[] = {11, 21, 31};
+    for (int pass = 0; pass < 2; pass++) {
+        for (int k = 0; k < 3; k++) {
+            assert_true(history_undo(history, &look));
+            assert_int_equal(number_of(&look), back[k]);
+        }
+        assert_false(history_undo(history, &look));
+        for (int k = 0; k < 3; k++) {
+            assert_true(history_redo(history, &look));
+            assert_int_equal(number_of(&look), forth[k]);
+        }
+        assert_false(history_redo(history, &look));
+    }
+    assert_true(history_undo(history, &look));
+    change(history, &look, 99); /* what was undone is gone */
+    history_close(history);
+    assert_false(history_redo(history, &look));
+    assert_true(history_undo(history, &look));
+    assert_int_equal(number_of(&look), 21);
+    look_free(&look);
+    history_free(history);
+    free(history);
+}
+
+static void the_oldest_steps_are_forgotten(void **state) {
+    (void)state;
+    History *history = calloc(1, sizeof *history);
+    Look look = look_of(0);
+    int undone = 0;
+    assert_non_null(history);
+    for (int k = 1; k <= HISTORY_STEPS + 50; k++) {
+        change(history, &look, k);
+        history_close(history);
+    }
+    while (history_undo(history, &look)) assert_int_equal(number_of(&look), HISTORY_STEPS + 49 - undone++);
+    assert_int_equal(undone, HISTORY_STEPS);
+    look_free(&look);
+    history_free(history);
+    free(history);
+}
+
+static void looks_share_and_part(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    Look a, b;
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(look_read(&a, scene) && look_copy(&b, &a));
+    weft_scene_free(scene);
+    assert_true(look_same(&a, &b));
+    WeftMaterial m = *look_material(&a, 0);
+    int roughness = input_number("roughness");
+    assert_true(roughness >= 0);
+    assert_int_equal(input_number("nonsense"), -1);
+    m.inputs[roughness].value[0] = 0.123f;
+    assert_true(look_set_material(&b, 0, &m));
+    assert_false(look_same(&a, &b));
+    assert_false(look_same_material(&a, &b, 0));
+    assert_true(look_same_material(&a, &b, 1));
+    assert_true(look_set_material(&b, 0, look_material(&a, 0)));
+    assert_true(look_same(&a, &b));
+    WeftImage *image;
+    Nap *nap = nap_copy(&b, 0, &image);
+    assert_non_null(nap);
+    assert_true(look_set_nap(&b, nap));
+    assert_false(look_same(&a, &b));
+    assert_ptr_equal(look_nap(&b, 0), image);
+    assert_null(look_nap(&b, 1));
+    for (int k = 1; k < LOOK_NAPS; k++) assert_true(look_set_nap(&b, nap_copy(&b, k, &image)));
+    assert_false(look_set_nap(&b, nap_copy(&b, LOOK_NAPS, &image))); /* no more */
+    look_free(&a);
+    look_free(&b);
+}
+
+/* ---- files of others ---- */
+
+static void write_file(const char *text) {
+    FILE *stream = fopen("file", "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void a_half_written_file_is_waited_for(void **state) {
+    (void)state;
+    Watchman *man = watchman_start();
+    assert_non_null(man);
+    write_file("one");
+    watchman_watch(man, "file", 7);
+    watchman_watch(man, "absent", 8);
+    assert_int_equal(watchman_look(man, 100.0), -1);
+    write_file("one and a half");
+    assert_int_equal(watchman_look(man, 100.1), -1); /* not so often */
+    assert_int_equal(watchman_look(man, 101.0), -1); /* it has just changed */
+    write_file("one and a half, and more");
+    assert_int_equal(watchman_look(man, 102.0), -1); /* and again */
+    assert_int_equal(watchman_look(man, 102.26), -1);
+    assert_int_equal(watchman_look(man, 103.0), 7);  /* it stands still */
+    assert_int_equal(watchman_look(man, 104.0), -1); /* told once */
+    assert_int_equal(unlink("file"), 0);
+    assert_int_equal(watchman_look(man, 105.0), -1);
+    assert_int_equal(watchman_look(man, 106.0), -1); /* gone is no change */
+    write_file("and back");
+    assert_int_equal(watchman_look(man, 107.0), -1);
+    assert_int_equal(watchman_look(man, 108.0), 7);
+    watchman_forget(man);
+    write_file("nobody looks");
+    assert_int_equal(watchman_look(man, 109.0), -1);
+    assert_int_equal(watchman_look(man, 110.0), -1);
+    watchman_stop(man);
+}
+
+static void kinds_of_files_are_told_by_name(void **state) {
+    (void)state;
+    static const struct {
+        const char *path;
+        PathKind kind;
+    } files[] = {{"a.glb", PATH_SCENE},      {"a b/c.GLTF", PATH_SCENE}, {"builtin:cloth", PATH_SCENE},
+                 {"x.hdr", PATH_LIGHT},      {"x.EXR", PATH_LIGHT},      {"m.json", PATH_MATERIAL},
+                 {"p.png", PATH_PICTURE},    {"p.jpeg", PATH_PICTURE},   {"p.tga", PATH_PICTURE},
+                 {"/tmp", PATH_FOLDER},      {"a.glb/x", PATH_UNKNOWN},  {"glb", PATH_UNKNOWN},
+                 {"", PATH_UNKNOWN},         {"a.", PATH_UNKNOWN},       {"preset:velvet", PATH_MATERIAL},
+                 {"a.glb.txt", PATH_UNKNOWN}};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++)
+        if (path_kind(files[k].path) != files[k].kind) fail_msg("\"%s\"", files[k].path);
+    assert_string_equal(path_name("/a/b.c"), "b.c");
+    assert_string_equal(path_name("b.c"), "b.c");
+    assert_true(path_contains("/x/Velvet_NORMAL.png", "normal"));
+    assert_false(path_contains("/normal/velvet.png", "normal"));
+    static const char *const stems[][2] = {{"/a/chair.v2.glb", "chair.v2"},
+                                           {"builtin:cloth", "cloth"},
+                                           {"a\nb.glb", "a-b"},
+                                           {".hidden", ".hidden"},
+                                           {"builtin:../../x", "..-..-x"}};
+    for (size_t k = 0; k < sizeof stems / sizeof *stems; k++) {
+        char stem[64], tight[4];
+        path_stem(stems[k][0], stem, sizeof stem);
+        if (k < 4) assert_string_equal(stem, stems[k][1]);
+        assert_null(strchr(stem, '/'));
+        path_stem(stems[k][0], tight, sizeof tight);
+        assert_true(strlen(tight) < sizeof tight);
+    }
+    assert_true(path_stamp("/nowhere") == 0);
+    write_file("1");
+    unsigned long long stamp = path_stamp("file");
+    assert_true(stamp != 0 && stamp == path_stamp("file"));
+    write_file("12");
+    assert_true(stamp != path_stamp("file"));
+}
+
+/* ---- the nap ---- */
+
+enum { SIDE = 64 };
+
+static WeftImage plain_nap(void) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(SIDE, SIDE, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    unsigned char *p = image.pixels;
+    for (int k = 0; k < SIDE * SIDE; k++, p += 3) p[0] = 255, p[1] = p[2] = 128;
+    return image;
+}
+
+static const unsigned char *texel(const WeftImage *image, int x, int y) {
+    return (const unsigned char *)image->pixels + 3 * ((y & (SIDE - 1)) * SIDE + (x & (SIDE - 1)));
+}
+
+static float pointing(const WeftImage *image, int x, int y, int axis) {
+    return (float)texel(image, x, y)[axis] / 127.5f - 1.0f;
+}
+
+static void strokes_turn_what_lies_beneath(void **state) {
+    (void)state;
+    const float places[][2] = {{0.5f, 0.5f}, {0.0f, 0.0f}, {0.99f, 0.01f}, {-3.25f, 7.75f}};
+    const float across[2] = {0.0f, 3.0f};
+    for (int k = 0; k < 4; k++) {
+        WeftImage image = plain_nap();
+        int x = (int)floorf(places[k][0] * SIDE), y = (int)floorf(places[k][1] * SIDE), turned = 0;
+        for (int pass = 0; pass < 20; pass++) stroke_lay(&image, places[k], 0.125f, across, 0.7f);
+        assert_near(pointing(&image, x, y, 0), 0.0f, 0.05f);
+        assert_near(pointing(&image, x, y, 1), 1.0f, 0.02f);
+        for (int j = 0; j < SIDE; j++)
+            for (int i = 0; i < SIDE; i++) {
+                float a = pointing(&image, i, j, 0), b = pointing(&image, i, j, 1);
+                assert_near(a * a + b * b, 1.0f, 0.03f);
+                turned += b > 0.5f;
+            }
+        assert_in_range(turned, 60, 204);                        /* a disc of 8 texels has 201 */
+        assert_near(pointing(&image, x + 10, y, 0), 1.0f, 0.0f); /* beyond it nothing */
+        assert_near(pointing(&image, x + 32, y + 32, 0), 1.0f, 0.0f);
+        weft_image_free(&image);
+    }
+    WeftImage image = plain_nap();
+    const float back[2] = {-1.0f, 0.0f}, middle[2] = {0.5f, 0.5f};
+    for (int pass = 0; pass < 20; pass++) stroke_lay(&image, middle, 0.125f, back, 0.5f);
+    assert_near(pointing(&image, SIDE / 2, SIDE / 2, 0), -1.0f, 0.02f); /* opposite to what it was */
+    weft_image_free(&image);
+}
+
+static void strokes_of_nothing_do_nothing(void **state) {
+    (void)state;
+    WeftImage image = plain_nap(), plain = plain_nap();
+    const float middle[2] = {0.5f, 0.5f}, up[2] = {0.0f, 1.0f}, none[2] = {0.0f, 0.0f};
+    const float nowhere[2] = {NAN, 0.5f}, away[2] = {0.5f, INFINITY}, wild[2] = {NAN, NAN};
+    stroke_lay(&image, middle, 0.125f, none, 1.0f);
+    stroke_lay(&image, middle, 0.0f, up, 1.0f);
+    stroke_lay(&image, middle, NAN, up, 1.0f);
+    stroke_lay(&image, nowhere, 0.1f, up, 1.0f);
+    stroke_lay(&image, away, 0.1f, up, 1.0f);
+    stroke_lay(&image, middle, 0.1f, wild, 1.0f);
+    assert_memory_equal(image.pixels, plain.pixels, 3 * SIDE * SIDE);
+    stroke_lay(&image, middle, 1e9f, up, 1.0f); /* no more than once around */
+    weft_image_free(&image);
+    weft_image_free(&plain);
+}
+
+/* ---- the command line ---- */
+
+static void a_shell_reads_what_was_meant(void **state) {
+    (void)state;
+    static const char *const names[] = {"plain.glb", "it's a file.glb", "$HOME `x` \"y\" \\z;&|*?~#!.glb",
+                                        "''",        "tab\there.glb",   "-o"};
+    static const ViewDesc desc = {.options = NULL};
+    Viewer *v = calloc(1, sizeof *v);
+    assert_non_null(v);
+    v->desc = &desc;
+    v->orbit = cameras[1];
+    v->order.view.width = 320, v->order.view.height = 200;
+    v->look.around = v->first.around = (Around){.kind = AROUND_FILE, .strength = 1.0f};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        snprintf(v->facts.path, sizeof v->facts.path, "%s", names[k]);
+        snprintf(v->look.around.path, sizeof v->look.around.path, "%s", names[k]);
+        bool lost = true;
+        char *line = command_line(v, &lost), shell[2048], word[512], camera[ORBIT_TEXT];
+        const char *const expected[] = {
+            "render",   names[k],   "--env", names[k],     "--width",
+            "320",      "--height", "200",   "--camera",   orbit_text(&v->orbit, camera),
+            "--engine", "raster",   "-o",    "picture.png"};
+        assert_non_null(line);
+        assert_false(lost);
+        snprintf(shell, sizeof shell, "weft() { printf '%%s\\n' \"$@\"; }; %s", line);
+        FILE *pipe = popen(shell, "r");
+        assert_non_null(pipe);
+        for (size_t j = 0; j < sizeof expected / sizeof *expected; j++) {
+            assert_non_null(fgets(word, sizeof word, pipe));
+            word[strcspn(word, "\n")] = '\0';
+            assert_string_equal(word, expected[j]);
+        }
+        assert_null(fgets(word, sizeof word, pipe));
+        assert_int_equal(pclose(pipe), 0);
+        free(line);
+    }
+    free(v);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_meets_what_is_projected),
+                                       cmocka_unit_test(it_turns_about_its_target),
+                                       cmocka_unit_test(it_looks_pans_flies_and_comes_nearer),
+                                       cmocka_unit_test(all_of_a_box_is_framed),
+                                       cmocka_unit_test(a_camera_is_read_as_it_is_written),
+                                       cmocka_unit_test(what_was_done_is_undone),
+                                       cmocka_unit_test(the_oldest_steps_are_forgotten),
+                                       cmocka_unit_test(looks_share_and_part),
+                                       cmocka_unit_test(a_half_written_file_is_waited_for),
+                                       cmocka_unit_test(kinds_of_files_are_told_by_name),
+                                       cmocka_unit_test(strokes_turn_what_lies_beneath),
+                                       cmocka_unit_test(strokes_of_nothing_do_nothing),
+                                       cmocka_unit_test(a_shell_reads_what_was_meant)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
