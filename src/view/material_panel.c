@@ -136,7 +136,7 @@ static const char *material_name(const void *user, int k) {
     return ((const Viewer *)user)->facts.materials[k];
 }
 static const char *variant_name(const void *user, int k) {
-    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "as the file has it";
+    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "choose ...";
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "choose ..."; }
 static const char *preset_help(const void *user, int k) {
@@ -153,7 +153,7 @@ static void draw_which(Viewer *v) {
     ui_tip("The material that is edited. A click on the picture chooses what is there.");
     if (v->facts.info.variant_count && ui_choice("variant", &variants, &variant) && variant > 0) {
         v->variant = variant - 1;
-        viewer_task(v, TASK_VARIANT, v->facts.variants[v->variant], 0, -1);
+        viewer_task(v, TASK_VARIANT, NULL, v->variant, -1);
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
