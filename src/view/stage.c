@@ -115,7 +115,7 @@ static void begin_nap(Viewer *v, int material) {
     viewer_set_material(v, material, &m);
     if (!weft_material_reads(&m, nap))
         viewer_say(v, true,
-                   "the sheen of this material has no nap: choose a fibre lobe, such as fibre-table");
+                   "the sheen of this material has no nap: choose the lobe fibre");
 }
 
 /* Along the way from where the brush was; over a seam of the map it begins anew. */

@@ -113,7 +113,7 @@ static void draw_tools(Viewer *v) {
     ui_tip("How far one pass turns the fibres.");
     v->brush.radius = fminf(fmaxf(v->brush.radius, 1e-4f), 100.0f);
     v->brush.strength = fminf(fmaxf(v->brush.strength, 0.0f), 1.0f);
-    ui_dim("Fibre lobes have a nap: fibre-table, fibre, ltc-fibre.");
+    ui_dim("The lobe fibre has a nap.");
 }
 
 void view_panel(Viewer *v) {
