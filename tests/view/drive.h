@@ -161,6 +161,25 @@ static inline WeftImage picture_read(const char *path) {
     return image;
 }
 
+/* A script that is being written; empty it with script_begin. */
+static char script[65536];
+
+static inline void script_begin(void) { script[0] = '\0'; }
+
+static inline void say(const char *format, ...) {
+    size_t used = strlen(script);
+    va_list list;
+    va_start(list, format);
+    int more = vsnprintf(script + used, sizeof script - used, format, list);
+    va_end(list);
+    assert_true(more >= 0 && (size_t)more < sizeof script - used);
+}
+
+/* A picture, which is waited for. */
+static inline void say_picture(const char *path) {
+    say("wait rest\npicture %s\nwait message wrote %s\n", path, path);
+}
+
 /* relMSE of two pictures on disk. */
 static inline double pictures_differ(const char *a, const char *b) {
     WeftImage x = picture_read(a), y = picture_read(b);
