@@ -94,6 +94,9 @@ WEFT_API const char *weft_material_choice_name(int index);
 WEFT_API const char *weft_material_choice_help(int index);
 WEFT_API const char *weft_material_choice_value(int index, int value);
 
+/* Whether a material may be made with it: a diffuse term as the diffuse lobe, any lobe as a sheen. */
+WEFT_API int weft_material_choice_fits(int index, int value);
+
 /* Lights the scene from a lat-long image file (its columns run towards +x, row 0 is up), or from the six
  * faces of a cube: path is their folder or one of them, called posx negx posy negy posz negz or px nx py ny
  * pz nz in any case, square, of one size, and lying as OpenGL has them. */

@@ -210,14 +210,36 @@ static Program *find(Programs *programs, const ShaderKey *key) {
 bool programs_want(Programs *programs, const ShaderKey *key) {
     Program *p = find(programs, key);
     if (!p) return false;
+    p->used = programs->tick;
     if (p->stale && !p->wanted) programs->wanted++;
     p->wanted = p->stale;
     return true;
 }
 
+/* Drops the program that was drawn with longest ago; false where all that are left were of late. */
+static bool forget_oldest(Programs *programs) {
+    Program **oldest = NULL;
+    for (Program **at = &programs->first; *at; at = &(*at)->next)
+        if (!oldest || (*at)->used <= (*oldest)->used) oldest = at;
+    if (!oldest || programs->tick - (*oldest)->used < PROGRAMS_LATE) return false;
+    Program *p = *oldest;
+    *oldest = p->next;
+    drop(p);
+    free(p);
+    return true;
+}
+
+static void forget(Programs *programs) {
+    int count = 0;
+    for (const Program *p = programs->first; p; p = p->next) count++;
+    while (count > PROGRAMS_KEPT && forget_oldest(programs)) count--;
+}
+
 bool programs_build(Programs *programs, const GlContext *context) {
     int count = 0;
+    programs->tick++;
     if (!programs->wanted) return true;
+    forget(programs);
     Job *jobs = alloc_array((size_t)programs->wanted, sizeof *jobs);
     if (!jobs) return false;
     for (Program *p = programs->first; p; p = p->next) {

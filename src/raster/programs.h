@@ -23,6 +23,7 @@ typedef struct Program {
     int samplers;    /* array elements counted one by one */
     bool stale;      /* its text may have changed */
     bool wanted;     /* and it is to be compiled */
+    unsigned used;   /* tick of the picture that it was last drawn with */
     WeftError error; /* of the last attempt; its program before stays in use */
 } Program;
 
@@ -34,7 +35,11 @@ typedef struct Programs {
     unsigned turn;             /* another number for others, which programs take at their next use */
     int compiled;              /* so far */
     int wanted;                /* in the list */
+    unsigned tick;             /* pictures so far */
 } Programs;
+
+/* So many programs are kept beyond those of the last few pictures: each may be some ten megabytes of code. */
+enum { PROGRAMS_KEPT = 16, PROGRAMS_LATE = 8 };
 
 /* Notes that a key will be drawn with; false where memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);

@@ -37,6 +37,10 @@ const char *weft_material_choice_value(int index, int value) {
     return index >= 0 && index < CHOICE_COUNT ? choice_id((ChoiceId)index, value) : NULL;
 }
 
+int weft_material_choice_fits(int choice, int value) {
+    return weft_material_choice_value(choice, value) && choice_fits((ChoiceId)choice, value);
+}
+
 int material_choice(const char *name) {
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (strcmp(choice_texts[k][0], name) == 0) return k;

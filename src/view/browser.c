@@ -59,7 +59,7 @@ static void list(Browser *self) {
             self->more = true;
             break;
         }
-        strcpy(self->entries[self->count].name, d->d_name);
+        snprintf(self->entries[self->count].name, NAME, "%s", d->d_name);
         self->entries[self->count++].folder = folder;
     }
     closedir(dir);
@@ -69,7 +69,7 @@ static void list(Browser *self) {
 static bool enter(Browser *self, const char *folder) {
     char real[4096];
     if (!realpath(folder, real) || strlen(real) >= PATH) return false;
-    strcpy(self->folder, real);
+    snprintf(self->folder, PATH, "%s", real);
     list(self);
     return true;
 }
@@ -81,7 +81,7 @@ Browser *browser_create(const char *folder) {
         free(self);
         return NULL;
     }
-    if (!(folder && folder[0] && enter(self, folder)) && !enter(self, ".")) strcpy(self->folder, "/");
+    if (!(folder && folder[0] && enter(self, folder)) && !enter(self, ".")) snprintf(self->folder, PATH, "/");
     return self;
 }
 
@@ -89,6 +89,8 @@ void browser_free(Browser *self) {
     if (self) free(self->entries);
     free(self);
 }
+
+void browser_refresh(Browser *self) { list(self); }
 
 const char *browser_folder(const Browser *self) { return self->folder; }
 

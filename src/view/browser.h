@@ -12,6 +12,9 @@ void browser_free(Browser *browser);
 
 const char *browser_folder(const Browser *browser);
 
+/* Looks at the folder again. */
+void browser_refresh(Browser *browser);
+
 /* Draws it in what is left of a dialog, `height` pixels high. Returns a path once one is chosen, valid until
  * the next call. */
 const char *browser_draw(Browser *browser, float height);

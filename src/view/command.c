@@ -61,10 +61,10 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     double scale =
         info.kind == WEFT_INPUT_ANGLE || info.kind == WEFT_INPUT_DIRECTION ? 57.29577951308232 : 1.0;
     if (info.kind == WEFT_INPUT_COLOR)
-        snprintf(word, sizeof word, "%d.%s=%.7g,%.7g,%.7g", material, info.name, (double)x[0], (double)x[1],
+        snprintf(word, sizeof word, "%d.%s=%.9g,%.9g,%.9g", material, info.name, (double)x[0], (double)x[1],
                  (double)x[2]);
     else
-        snprintf(word, sizeof word, "%d.%s=%.7g", material, info.name, scale * (double)x[0]);
+        snprintf(word, sizeof word, "%d.%s=%.9g", material, info.name, scale * (double)x[0]);
     put(line, " --set");
     put_word(line, word);
 }
@@ -79,6 +79,10 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
         weft_material_choose(&was, k, is->choices[k]);
     }
+    *lost |= is->alpha_mode != was.alpha_mode && !differs(is->inputs[input_number("opacity")].value[0],
+                                                          was.inputs[input_number("opacity")].value[0]);
+    *lost |= is->unlit != was.unlit || is->double_sided != was.double_sided ||
+             differs(is->alpha_cutoff, was.alpha_cutoff);
     for (int k = 0; weft_material_input_name(k); k++) {
         const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
         bool changed = differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) ||
@@ -92,18 +96,18 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
 static void put_light(Line *line, const WeftLight *l) {
     const float *p = l->position, *d = l->direction, *c = l->color;
     char word[640], place[120], way[120], color[120];
-    snprintf(place, sizeof place, "%.7g,%.7g,%.7g", (double)p[0], (double)p[1], (double)p[2]);
-    snprintf(way, sizeof way, "%.7g,%.7g,%.7g", (double)d[0], (double)d[1], (double)d[2]);
-    snprintf(color, sizeof color, "%.7g,%.7g,%.7g", (double)c[0], (double)c[1], (double)c[2]);
+    snprintf(place, sizeof place, "%.9g,%.9g,%.9g", (double)p[0], (double)p[1], (double)p[2]);
+    snprintf(way, sizeof way, "%.9g,%.9g,%.9g", (double)d[0], (double)d[1], (double)d[2]);
+    snprintf(color, sizeof color, "%.9g,%.9g,%.9g", (double)c[0], (double)c[1], (double)c[2]);
     switch (l->kind) {
     case WEFT_LIGHT_DIRECTIONAL: snprintf(word, sizeof word, "sun;%s;%s", way, color); break;
     case WEFT_LIGHT_POINT: snprintf(word, sizeof word, "point;%s;%s", place, color); break;
     case WEFT_LIGHT_SPOT:
-        snprintf(word, sizeof word, "spot;%s;%s;%s;%.7g,%.7g", place, way, color, (double)l->inner,
+        snprintf(word, sizeof word, "spot;%s;%s;%s;%.9g,%.9g", place, way, color, (double)l->inner,
                  (double)l->outer);
         break;
     case WEFT_LIGHT_POLYGON:
-        snprintf(word, sizeof word, "polygon;%s;%s;%.7g,%.7g;%s;%d,%.7g", place, way, (double)l->size[0],
+        snprintf(word, sizeof word, "polygon;%s;%s;%.9g,%.9g;%s;%d,%.9g", place, way, (double)l->size[0],
                  (double)l->size[1], color, l->corners, (double)l->roll);
         break;
     }
@@ -126,9 +130,9 @@ static void put_around(Line *line, const Around *a) {
         put_word(line, a->path);
     }
     if (a->kind == AROUND_COLOR)
-        put(line, " --env %.7g,%.7g,%.7g", (double)a->color[0], (double)a->color[1], (double)a->color[2]);
-    if (differs(a->rotation, 0.0f)) put(line, " --env-rotation %.7g", (double)a->rotation);
-    if (differs(a->strength, 1.0f)) put(line, " --env-strength %.7g", (double)a->strength);
+        put(line, " --env %.9g,%.9g,%.9g", (double)a->color[0], (double)a->color[1], (double)a->color[2]);
+    if (differs(a->rotation, 0.0f)) put(line, " --env-rotation %.9g", (double)a->rotation);
+    if (differs(a->strength, 1.0f)) put(line, " --env-strength %.9g", (double)a->strength);
 }
 
 static void put_view(Line *line, const Viewer *v) {
@@ -139,11 +143,11 @@ static void put_view(Line *line, const Viewer *v) {
     put(line, " --width %d --height %d --camera", v->order.view.width, v->order.view.height);
     put_word(line, orbit_text(&v->orbit, camera));
     if (v->background == WEFT_BACKGROUND_COLOR)
-        put(line, " --background %.7g,%.7g,%.7g", (double)v->background_color[0],
+        put(line, " --background %.9g,%.9g,%.9g", (double)v->background_color[0],
             (double)v->background_color[1], (double)v->background_color[2]);
     else if (v->background != WEFT_BACKGROUND_AUTO)
         put(line, " --background %s", backs[v->background]);
-    if (differs(v->exposure, 0.0f)) put(line, " --exposure %.7g", (double)v->exposure);
+    if (differs(v->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->exposure);
     if (v->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->tonemap]);
     if (v->mode != MODE_LIVE) {
         put(line, v->mode == MODE_DIFFERENCE ? " --engine both --spp %d" : " --spp %d",
@@ -161,7 +165,12 @@ char *command_line(const Viewer *v, bool *lost) {
     if (!line.text) return NULL;
     put(&line, "weft render");
     put_word(&line, v->facts.path);
-    if (v->desc->options && v->desc->options[0]) put(&line, " %s", v->desc->options);
+    if (v->desc->options && v->desc->options[0] && strcmp(v->dressed, v->facts.path) == 0)
+        put(&line, " %s", v->desc->options);
+    if (v->variant >= 0 && v->variant < v->facts.info.variant_count) {
+        put(&line, " --variant");
+        put_word(&line, v->facts.variants[v->variant]);
+    }
     for (int k = 0; k < v->look.material_count && k < v->first.material_count; k++)
         put_material(&line, v, k, &gone);
     for (int k = 0; k < LOOK_NAPS; k++) gone |= v->look.naps[k] != NULL;

@@ -22,7 +22,7 @@ static void draw_open(Viewer *v) {
     }
     ui_tip("Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene.");
     ui_same_line();
-    if (ui_button("Cancel") || v->input.key[256]) ui_dialog_close(); /* escape */
+    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -34,6 +34,7 @@ static void draw_save(Viewer *v) {
            "material that is edited.");
     bool entered = ui_input("file", v->save_path, LOOK_PATH);
     ui_tip("Where to write; from the folder the program was started in.");
+    ui_dim(path_stamp(v->save_path) ? "A file of this name is there: it will be replaced." : " ");
     if (ui_button("Save") || entered) {
         PathKind kind = path_kind(v->save_path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
@@ -44,7 +45,7 @@ static void draw_save(Viewer *v) {
         }
     }
     ui_same_line();
-    if (ui_button("Cancel")) ui_dialog_close();
+    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -66,12 +67,13 @@ static void draw_shot(Viewer *v) {
     ui_tip("What the path tracer has gathered, in the size it is seen in.");
     v->shot_width = v->shot_width < 1 ? 1 : v->shot_width > 16384 ? 16384 : v->shot_width;
     v->shot_height = v->shot_height < 1 ? 1 : v->shot_height > 16384 ? 16384 : v->shot_height;
+    ui_dim(path_stamp(v->shot_path) ? "A file of this name is there: it will be replaced." : " ");
     if (ui_button("Save") || entered) {
         viewer_shot(v, v->shot_path);
         ui_dialog_close();
     }
     ui_same_line();
-    if (ui_button("Cancel")) ui_dialog_close();
+    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -101,7 +103,7 @@ static void draw_use(Viewer *v) {
     }
     ui_tip("Lights the scene by it, a lat-long picture.");
     ui_same_line();
-    if (ui_button("Cancel")) ui_dialog_close();
+    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -113,13 +115,12 @@ static const char *const help_lines[][2] = {
     {"Right drag", "look around"},
     {"Ctrl + left drag", "turn the environment"},
     {"Click", "choose the material that is there"},
-    {"W A S D, Q E (by place: Z Q S D, A E on AZERTY)",
-     "fly; Q and E, left and right of forward, go down and up"},
+    {"W A S D, Q E (by place: Z Q S D, A E on AZERTY)", "fly; Q and E go down and up"},
     {"Shift", "flies four times as fast"},
     {"F, Home", "frame all; the first camera"},
     {"Tab, Shift + Tab", "path traced and back; difference"},
     {"C, X", "A | B; edit the other"},
-    {"1 ... 9", "all, diffuse, specular, sheen, coat, dust, base colour, normal, roughness"},
+    {"1 ... 9", "all, diffuse, specular, sheen ... roughness"},
     {"P, B", "probe; brush of the nap"},
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"Ctrl + C, Ctrl + V", "copy and paste a material"},
@@ -159,7 +160,7 @@ static void draw_profiles(Viewer *v) {
     float s = ui_scale();
     if (ui_window("All profiles", (UiBox){20.0f * s, 70.0f * s, 860.0f * s, 600.0f * s}, &v->profiles_open)) {
         ui_scope("All profiles");
-        if (!v->profiles_made) ui_progress(-1.0f, "drawing the scene under every profile");
+        if (!v->profiles_made) ui_progress(-1.0f, "drawing the material under every profile");
         if (ui_button("Draw again")) viewer_profiles(v);
         ui_tip("Of the scene as it is now.");
         ui_same_line();

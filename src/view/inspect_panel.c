@@ -174,7 +174,7 @@ static void draw_lobe(Inspection *self) {
     UiBox box;
     ui_canvas("##lobe", 0.0f, 150.0f * ui_scale(), &box);
     ui_tip("The same in all directions: the lobe as a body whose radius is f.");
-    float size = fminf(0.5f * box.width, box.height) * 0.72f, x0 = box.x + 0.5f * box.width,
+    float size = fminf(0.5f * box.width, box.height) * 0.58f, x0 = box.x + 0.5f * box.width,
           y0 = box.y + 0.34f * box.height;
     int count = 0;
     for (int r = 0; r < RINGS; r++)

@@ -28,7 +28,7 @@ static void add_light(Viewer *v, WeftLightKind kind) {
         return;
     }
     WeftLight light;
-    float right[3], up[3], forward[3], far = v->reach;
+    float right[3], up[3], forward[3], far = 0.6f * v->reach;
     memset(&light, 0, sizeof light); /* compared byte by byte */
     light.kind = kind;
     orbit_axes(&v->orbit, right, up, forward);
@@ -104,6 +104,7 @@ static void draw_shape(WeftLight *l) {
     ui_tip("Metres, across it.");
     ui_slider("roll", &roll, &l->roll);
     ui_tip("Turns it about its normal.");
+    l->roll = remainderf(l->roll, 360.0f);
     ui_slider_int("corners", 3, 8, &l->corners);
     ui_tip("Of the polygon: 4 is a rectangle, 8 nearly an ellipse.");
     l->corners = l->corners < 3 ? 3 : l->corners > 8 ? 8 : l->corners;
@@ -172,6 +173,7 @@ static void draw_around(Viewer *v) {
     ui_slider("strength", &strength, &a->strength);
     ui_tip("A factor on all that comes from far away: ambient light and reflections alike, as in the path "
            "tracer.");
+    a->rotation = remainderf(a->rotation, 360.0f);
     a->strength = fminf(fmaxf(a->strength, 0.0f), 1e6f);
 }
 

@@ -12,6 +12,7 @@
 struct Loader {
     Window *window;
     const ViewDesc *desc;
+    bool dressed;
     pthread_t thread;
     atomic_int thousandths; /* done; -1: unknown */
     atomic_bool done, stop;
@@ -19,6 +20,23 @@ struct Loader {
 };
 
 typedef const char *NameOf(const WeftScene *scene, int index);
+
+/* One line, and no sign that means something in a label. */
+static void make_fit(char *name) {
+    for (; *name; name++)
+        if ((unsigned char)*name < 0x20 || *name == '/' || *name == '#') *name = ' ';
+}
+
+/* Names that are there already get a number. */
+static void make_unique(FactName *names, int k) {
+    for (int j = 0; j < k; j++) {
+        if (strcmp(names[j], names[k]) != 0) continue;
+        char stem[FACTS_NAME - 12];
+        snprintf(stem, sizeof stem, "%.50s", names[k]);
+        snprintf(names[k], FACTS_NAME, "%s (%d)", stem, k);
+        return;
+    }
+}
 
 static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, const char *kind) {
     FactName *names = calloc((size_t)count + 1, sizeof *names);
@@ -28,6 +46,8 @@ static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, con
             snprintf(names[k], FACTS_NAME, "%s", text);
         else
             snprintf(names[k], FACTS_NAME, "%s %d", kind, k);
+        make_fit(names[k]);
+        if (k < FACTS_MOST) make_unique(names, k);
     }
     return names;
 }
@@ -73,7 +93,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     const ViewDesc *desc = self->desc;
     Around around = {.strength = 1.0f};
     WeftResult result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
-    if (result == WEFT_OK && desc->dress)
+    if (result == WEFT_OK && self->dressed && desc->dress)
         result = desc->dress(desc->user, loaded->scene, &around, &log, error);
     if (result != WEFT_OK) return result;
     if (!look_read(&loaded->look, loaded->scene) ||
@@ -98,11 +118,12 @@ static void *work(void *user) {
     return NULL;
 }
 
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again) {
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed) {
     Loader *self = calloc(1, sizeof *self);
     if (!self) return NULL;
     self->window = window;
     self->desc = desc;
+    self->dressed = dressed;
     self->loaded.again = again;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", path);
     atomic_init(&self->thousandths, -1);

@@ -34,8 +34,8 @@ typedef struct Loaded {
     bool again; /* it is the scene that was there, read anew */
 } Loaded;
 
-/* desc.dress is called in that thread. NULL where memory is short. */
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again);
+/* dressed: desc.dress is called, in that thread. NULL where memory is short. */
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed);
 
 /* The finished share, or -1 while it is not known. */
 float loader_share(Loader *loader);

@@ -48,7 +48,7 @@ static bool read_lights(Look *look, const WeftScene *scene) {
 bool look_read(Look *look, const WeftScene *scene) {
     int count = weft_scene_info(scene).material_count;
     *look = (Look){.around = {.strength = 1.0f}};
-    look->materials = calloc((size_t)count + 1, sizeof *look->materials);
+    look->materials = calloc((size_t)count + 1, sizeof(void *));
     bool whole = look->materials != NULL;
     for (int k = 0; k < count && whole; k++) {
         WeftMaterial is;
@@ -62,7 +62,7 @@ bool look_read(Look *look, const WeftScene *scene) {
 }
 
 bool look_copy(Look *copy, const Look *look) {
-    LookMaterial **materials = calloc((size_t)look->material_count + 1, sizeof *materials);
+    LookMaterial **materials = calloc((size_t)look->material_count + 1, sizeof(void *));
     if (!materials) return false;
     for (int k = 0; k < look->material_count; k++) {
         materials[k] = look->materials[k];
@@ -82,19 +82,22 @@ void look_free(Look *look) {
     *look = (Look){0};
 }
 
+/* Plain data without gaps, and no number in it is NaN. */
+static bool same_bytes(const void *a, const void *b, size_t size) { return memcmp(a, b, size) == 0; }
+
 bool look_same_material(const Look *a, const Look *b, int k) {
     return a->materials[k] == b->materials[k] ||
-           memcmp(&a->materials[k]->is, &b->materials[k]->is, sizeof a->materials[k]->is) == 0;
+           same_bytes(&a->materials[k]->is, &b->materials[k]->is, sizeof a->materials[k]->is);
 }
 
 static bool same_lights(const Look *a, const Look *b) {
     return a->light_count == b->light_count &&
-           memcmp(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights) == 0;
+           same_bytes(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights);
 }
 
 static bool same_source(const Around *a, const Around *b) {
     return a->kind == b->kind && strcmp(a->path, b->path) == 0 && a->again == b->again &&
-           memcmp(a->color, b->color, sizeof a->color) == 0;
+           same_bytes(a->color, b->color, sizeof a->color);
 }
 
 static bool same_around(const Around *a, const Around *b) {
@@ -112,7 +115,7 @@ bool look_same(const Look *a, const Look *b) {
 const WeftMaterial *look_material(const Look *look, int k) { return &look->materials[k]->is; }
 
 bool look_set_material(Look *look, int k, const WeftMaterial *material) {
-    if (memcmp(&look->materials[k]->is, material, sizeof *material) == 0) return true;
+    if (same_bytes(&look->materials[k]->is, material, sizeof *material)) return true;
     LookMaterial *made = material_make(material);
     if (!made) return false;
     material_drop(look->materials[k]);
@@ -159,6 +162,15 @@ bool look_set_nap(Look *look, Nap *nap) {
         }
     nap_free(nap);
     return false;
+}
+
+void look_take_naps(Look *look, const Look *from) {
+    for (int k = 0; k < LOOK_NAPS; k++) {
+        bool its = from->naps[k] && from->naps[k]->material < look->material_count;
+        nap_free(look->naps[k]);
+        look->naps[k] = its ? from->naps[k] : NULL;
+        if (its) atomic_fetch_add(&look->naps[k]->users, 1);
+    }
 }
 
 /* ---- a scene is brought to it ---- */
@@ -228,7 +240,7 @@ static WeftResult apply_lights(const Look *look, const Look *is, WeftScene *scen
     for (int k = 0; k < look->light_count && result == WEFT_OK; k++)
         if (k >= is->light_count)
             result = weft_scene_add_light(scene, &look->lights[k], error);
-        else if (memcmp(&look->lights[k], &is->lights[k], sizeof *look->lights) != 0)
+        else if (!same_bytes(&look->lights[k], &is->lights[k], sizeof *look->lights))
             result = weft_scene_put_light(scene, k, &look->lights[k], error);
     return result;
 }

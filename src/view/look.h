@@ -49,9 +49,11 @@ bool look_same_material(const Look *a, const Look *b, int index);
 
 /* The nap brushed onto a material; NULL: none. */
 const WeftImage *look_nap(const Look *look, int material);
-/* A copy of it, or a plain one, that is taken over by look_set_nap: F strokes change it before. */
+/* A copy of it, or a plain one, to be changed and then taken over by look_set_nap. */
 Nap *nap_copy(const Look *look, int material, WeftImage **image);
 bool look_set_nap(Look *look, Nap *nap);
+/* Shares the naps of another look of the same scene. */
+void look_take_naps(Look *look, const Look *from);
 void nap_free(Nap *nap);
 
 /* What of naps a scene has: the number of each one's texture. */

@@ -29,21 +29,43 @@ static int group_of(const char *name) {
 
 /* ---- choices ---- */
 
-/* Row 0 of a menu is auto. */
-static const char *choice_name(const void *user, int row) {
-    const char *id = row > 0 ? weft_material_choice_value(*(const int *)user, row - 1) : "auto";
-    return id ? id : "";
-}
-static const char *choice_help(const void *user, int row) { return help_choice(*(const int *)user, row - 1); }
+/* The rows of a menu: auto, and the values that fit. */
+typedef struct Rows {
+    int choice, count;
+    int values[64];
+} Rows;
 
-static void draw_choice(WeftMaterial *m, int choice) {
-    const UiChoices rows = {choice_values(choice) + 1, choice_name, choice_help, &choice};
-    int row = m->choices[choice] + 1;
-    char label[64];
-    snprintf(label, sizeof label, "%s", weft_material_choice_name(choice));
+static Rows rows_of(int choice) {
+    Rows rows = {.choice = choice, .count = 1, .values = {-1}};
+    for (int value = 0; weft_material_choice_value(choice, value) && rows.count < 64; value++)
+        if (weft_material_choice_fits(choice, value)) rows.values[rows.count++] = value;
+    return rows;
+}
+
+static const char *choice_name(const void *user, int row) {
+    const Rows *rows = user;
+    return row ? weft_material_choice_value(rows->choice, rows->values[row]) : "auto";
+}
+static const char *choice_help(const void *user, int row) {
+    const Rows *rows = user;
+    return help_choice(rows->choice, rows->values[row]);
+}
+
+/* Words are told apart by blanks on a label. */
+static void label_of(const char *name, char label[64]) {
+    snprintf(label, 64, "%s", name);
     for (char *p = label; *p; p++)
         if (*p == '_') *p = ' ';
-    if (ui_choice(label, &rows, &row)) weft_material_choose(m, choice, row - 1);
+}
+
+static void draw_choice(WeftMaterial *m, int choice) {
+    const Rows rows = rows_of(choice);
+    const UiChoices menu = {rows.count, choice_name, choice_help, &rows};
+    char label[64];
+    int row = 0;
+    while (row + 1 < rows.count && rows.values[row] != m->choices[choice]) row++;
+    label_of(weft_material_choice_name(choice), label);
+    if (ui_choice(label, &menu, &row)) weft_material_choose(m, choice, rows.values[row]);
 }
 
 /* ---- inputs ---- */
@@ -74,9 +96,7 @@ static void draw_input(WeftMaterial *m, int k) {
     char label[64];
     WeftInput *input = &m->inputs[k];
     weft_material_input_info(k, &info);
-    snprintf(label, sizeof label, "%s", info.name);
-    for (char *p = label; *p; p++)
-        if (*p == '_') *p = ' ';
+    label_of(info.name, label);
     const float initial[3] = {info.initial, info.initial, info.initial};
     bool reads = weft_material_reads(m, k) != 0;
     ui_faint(!reads);
@@ -116,7 +136,7 @@ static const char *material_name(const void *user, int k) {
     return ((const Viewer *)user)->facts.materials[k];
 }
 static const char *variant_name(const void *user, int k) {
-    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "as the file has it";
+    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "choose ...";
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "choose ..."; }
 static const char *preset_help(const void *user, int k) {
@@ -133,7 +153,7 @@ static void draw_which(Viewer *v) {
     ui_tip("The material that is edited. A click on the picture chooses what is there.");
     if (v->facts.info.variant_count && ui_choice("variant", &variants, &variant) && variant > 0) {
         v->variant = variant - 1;
-        viewer_task(v, TASK_VARIANT, v->facts.variants[v->variant], 0, -1);
+        viewer_task(v, TASK_VARIANT, NULL, v->variant, -1);
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
@@ -160,7 +180,7 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_tip("Back to what the file says.");
     ui_same_line();
     if (ui_button("Profiles ...")) viewer_profiles(v);
-    ui_tip("A sheet of the scene under every engine's profile.");
+    ui_tip("A sheet of the scene with this material under every engine's profile.");
 }
 
 typedef struct Lines {

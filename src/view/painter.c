@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/painter.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -15,7 +16,10 @@
 #include "weft/pick.h"
 #include "weft/save.h"
 
-enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096 };
+enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096, COARSE_MOST = 8 };
+
+static const double smooth_most = 4.0;     /* s, that smooth edges may take */
+static const double frame_seconds = 0.036; /* that a picture may, while the hand moves */
 
 struct Painter {
     Window *window;
@@ -29,7 +33,8 @@ struct Painter {
     Order order;
     unsigned number;
     bool ordered, quit, working;
-    WeftScene *gift; /* that is to be taken over */
+    WeftScene *gift;                    /* that is to be taken over */
+    unsigned gift_number, scene_number; /* of it, and of the one at hand */
     Look gift_look;
     Task tasks[TASKS];
     int task_count;
@@ -49,9 +54,10 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Watchman *watchman;                   /* of the files of textures */
-    double whole_seconds, smooth_seconds; /* that a picture of all pixels takes, and one with smooth edges */
-    bool smooth_known;
+    Watchman *watchman; /* of the files of textures */
+    int coarse;         /* pixels a side that become one while the hand moves */
+    double coarse_seconds, whole_seconds, smooth_seconds; /* that pictures take */
+    bool smooth_known, surprised;
     Study study; /* that is under way */
     unsigned textures[RING], targets[RING];
     int widths[RING], heights[RING];
@@ -111,20 +117,30 @@ static int take_target(Painter *self, int width, int height) {
     return k;
 }
 
+/* What the scene is dressed as, asked of itself, where it could not be brought to a look. */
+static bool read_again(Painter *self, const Look *wanted, Look *is) {
+    if (!look_read(is, self->scene)) return false;
+    is->around = self->is.around;
+    look_take_naps(is, wanted);
+    return true;
+}
+
 /* Brings the scene to a look. A light from a file that cannot be had leaves the one before. */
 static WeftResult wear(Painter *self, const Look *look, WeftError *error) {
     const WeftLog log = log_of(self);
     unsigned changed = 0;
     Look is;
+    if (look->material_count != self->is.material_count) return WEFT_INPUT; /* of another scene */
     if (look_same(look, &self->is)) return WEFT_OK;
-    if (!look_copy(&is, look)) return WEFT_RESOURCES;
     truth_hold(self->truth);
     WeftResult result = look_apply(look, &self->is, &self->worn, self->scene, &changed, &log, error);
+    bool known = result == WEFT_OK ? look_copy(&is, look) : read_again(self, look, &is);
     if (changed & WEFT_CHANGED_SHAPES) {
         weft_pick_free(self->pick);
         self->pick = NULL;
     }
     truth_release(self->truth, self->scene, changed);
+    if (!known) return WEFT_RESOURCES;
     look_free(&self->is);
     self->is = is;
     WeftResult updated = weft_raster_update(self->raster, &log, result == WEFT_OK ? error : NULL);
@@ -153,19 +169,6 @@ static WeftResult draw_one(Painter *self, const Order *order, const Look *look, 
     return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;
 }
 
-/* The rows from y on, of one look or of both. */
-static WeftResult draw_rows(Painter *self, const Order *order, int y, int rows, int target,
-                            WeftError *error) {
-    int width = order->view.width, middle = width / 2;
-    const int all[4] = {0, y, width, rows};
-    if (order->split == SPLIT_NONE) return draw_one(self, order, &order->look, all, target, error);
-    if (order->split == SPLIT_LINE) middle = (int)(order->at * (float)width);
-    middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
-    const int left[4] = {0, y, middle, rows}, right[4] = {middle, y, width - middle, rows};
-    WeftResult result = draw_one(self, order, &order->other, right, target, error);
-    return result == WEFT_OK ? draw_one(self, order, &order->look, left, target, error) : result;
-}
-
 static bool is_outdated(Painter *self, unsigned number) {
     pthread_mutex_lock(&self->lock);
     bool outdated = self->quit || self->gift || self->number != number;
@@ -173,22 +176,24 @@ static bool is_outdated(Painter *self, unsigned number) {
     return outdated;
 }
 
-/* Draws so many rows at a time as a twentieth of a second has, about: another order need not wait long, nor
- * does a window whose driver draws one thing after the other. More rows cost less than in proportion, so that
- * their number is found by doubling and halving. *whole tells whether no order came between. */
-static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target,
-                               double expected, bool *whole, WeftError *error) {
+/* Draws part of a picture, so many rows at a time as a twentieth of a second has, about: another order need
+ * not wait long, nor does a window whose driver draws one thing after the other. More rows cost less than in
+ * proportion, so that their number is found by doubling and halving. *whole tells whether no order came
+ * between.
+ */
+static WeftResult draw_part(Painter *self, const Order *order, const Look *look, const int part[4],
+                            unsigned number, int target, double expected, bool *whole, WeftError *error) {
     const double piece = 0.05;
-    int height = order->view.height, y = 0;
+    int height = part[3], y = 0;
     int rows = expected < 3.0 * piece ? height : (int)(height * piece / expected);
     WeftResult result = WEFT_OK;
-    *whole = true;
     while (y < height && result == WEFT_OK && *whole) {
         double start = now();
         int left = height - y;
         if (rows < 8) rows = 8;
         if (order->compare || rows > left || left - rows < rows / 4) rows = left;
-        result = draw_rows(self, order, y, rows, target, error);
+        const int strip[4] = {part[0], part[1] + y, part[2], rows};
+        result = draw_one(self, order, look, strip, target, error);
         glFinish();
         y += rows;
         double took = now() - start;
@@ -199,50 +204,93 @@ static WeftResult draw_picture(Painter *self, const Order *order, unsigned numbe
     return result;
 }
 
-/* What can be drawn in the time there is: smooth edges in a second, all pixels in what is left of a
- * thirtieth; or at least what is asked for. */
+/* One look after the other: to go from one to the other may take long. */
+static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target,
+                               double expected, bool *whole, WeftError *error) {
+    int width = order->view.width, height = order->view.height, middle = width / 2;
+    *whole = true;
+    const int all[4] = {0, 0, width, height};
+    if (order->split == SPLIT_NONE)
+        return draw_part(self, order, &order->look, all, number, target, expected, whole, error);
+    if (order->split == SPLIT_LINE) middle = (int)(order->at * (float)width);
+    middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
+    const int left[4] = {0, 0, middle, height}, right[4] = {middle, 0, width - middle, height};
+    bool last = order->edited == 1; /* the one that is edited comes last: tasks find the scene so */
+    WeftResult result = draw_part(self, order, last ? &order->look : &order->other, last ? left : right,
+                                  number, target, 0.5 * expected, whole, error);
+    if (result != WEFT_OK || !*whole) return result;
+    return draw_part(self, order, last ? &order->other : &order->look, last ? right : left, number, target,
+                     0.5 * expected, whole, error);
+}
+
+/* What can be drawn in the time there is: smooth edges in a few seconds, or at once where they take no longer
+ * than a frame may; all pixels where that has proved quick enough; or at least what is asked for. */
 static Effort effort_of(const Painter *self, const Order *order) {
-    if (order->compare) return EFFORT_SMOOTH;
-    double smooth = fmin(self->smooth_seconds, 1e3);
-    if (smooth < 0.030 || (order->effort == EFFORT_SMOOTH && smooth < 1.0)) return EFFORT_SMOOTH;
-    return order->effort > EFFORT_COARSE || self->whole_seconds < 0.030 ? EFFORT_WHOLE : EFFORT_COARSE;
+    if (order->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
+    if (order->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
+    return order->effort > EFFORT_COARSE || self->coarse == 1 ? EFFORT_WHOLE : EFFORT_COARSE;
 }
 
 static Order with_effort(const Painter *self, const Order *order, Effort effort) {
     Order drawn = *order; /* its looks are borrowed */
+    int by = effort == EFFORT_COARSE ? self->coarse : 1;
     if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
-    if (effort != EFFORT_COARSE) return drawn;
-    int by = (int)ceil(sqrt(self->whole_seconds / 0.030));
-    by = by < 2 ? 2 : by > 8 ? 8 : by;
     drawn.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
     drawn.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
     return drawn;
 }
 
+static double *seconds_of(Painter *self, Effort effort) {
+    return effort == EFFORT_SMOOTH  ? &self->smooth_seconds
+           : effort == EFFORT_WHOLE ? &self->whole_seconds
+                                    : &self->coarse_seconds;
+}
+
+/* Learns from the time that a picture took: how coarse those have to be that are drawn while the hand moves,
+ * and what the others take. One that takes far longer than those before counts only if the next one does,
+ * too: drivers compile as they draw. */
+static void learn(Painter *self, const Order *order, Effort effort, double seconds) {
+    double *known = seconds_of(self, effort);
+    self->surprised = !self->surprised && seconds > 3.0 * *known;
+    if (self->surprised) return;
+    *known = seconds;
+    if (effort == EFFORT_WHOLE && !self->smooth_known) self->smooth_seconds = 4.0 * seconds;
+    self->smooth_known |= effort == EFFORT_SMOOTH;
+    if (order->effort != EFFORT_COARSE || effort == EFFORT_SMOOTH) return;
+    double finer = self->coarse > 1 ? (double)self->coarse / (self->coarse - 1) : 1.0;
+    if (seconds > frame_seconds && self->coarse < COARSE_MOST)
+        self->coarse++;
+    else if (self->coarse > 1 && seconds * finer * finer < frame_seconds)
+        self->coarse--;
+}
+
 /* A camera of the scene turns about what is in the middle of its picture. */
-static void focus(Painter *self, const Order *order, Painted *p) {
+static void focus(Painter *self, const Order *order) {
     WeftPicked at;
+    Painted seen = self->painted; /* this thread alone writes it */
+    Painted *p = &seen;
     float d[3], n = 0.0f;
     if (strchr(order->camera, ';')) return;
     if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return;
     int width = order->view.width, height = order->view.height;
-    if (!weft_pick_at(self->pick, order->camera, width, height, 0.5f * (float)width, 0.5f * (float)height,
-                      &at))
-        return;
+    bool hit = weft_pick_at(self->pick, order->camera, width, height, 0.5f * (float)width,
+                            0.5f * (float)height, &at) != 0;
     for (int k = 0; k < 3; k++) {
         d[k] = p->target[k] - p->eye[k];
         n += d[k] * d[k];
     }
-    for (int k = 0; k < 3 && n > 0.0f; k++) p->target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
+    pthread_mutex_lock(&self->lock);
+    for (int k = 0; k < 3 && hit && n > 0.0f; k++)
+        self->painted.target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
+    self->painted.focused = true;
+    self->fresh = true;
+    pthread_mutex_unlock(&self->lock);
+    window_wake(self->window);
 }
 
 static void publish(Painter *self, const Order *order, Effort effort, unsigned number, int target,
                     double seconds, const WeftError *error) {
     WeftRasterInfo info = weft_raster_info(self->raster);
-    Painted seen = {.fov = info.camera_fov};
-    memcpy(seen.eye, info.camera_eye, sizeof seen.eye);
-    memcpy(seen.target, info.camera_target, sizeof seen.target);
-    focus(self, order, &seen);
     pthread_mutex_lock(&self->lock);
     Painted *p = &self->painted;
     if (target >= 0) {
@@ -254,9 +302,10 @@ static void publish(Painter *self, const Order *order, Effort effort, unsigned n
         self->newest = target;
     }
     p->number = number;
-    memcpy(p->eye, seen.eye, sizeof p->eye);
-    memcpy(p->target, seen.target, sizeof p->target);
-    p->fov = seen.fov;
+    memcpy(p->eye, info.camera_eye, sizeof p->eye);
+    memcpy(p->target, info.camera_target, sizeof p->target);
+    p->fov = info.camera_fov;
+    p->focused = strchr(order->camera, ';') != NULL;
     p->programs = info.programs, p->compiled = info.compiled;
     p->busy = info.making != 0;
     snprintf(p->complaint, sizeof p->complaint, "%s", info.complaint);
@@ -272,24 +321,13 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
-/* What pictures take, from what this one did; time that went into shaders says nothing. */
-static void note_seconds(Painter *self, Effort effort, double part, double seconds) {
-    double whole = seconds / part,
-           *known = effort == EFFORT_SMOOTH ? &self->smooth_seconds : &self->whole_seconds;
-    *known = part < 1.0 ? 0.5 * (*known + fmin(whole, 4.0 * *known)) : whole;
-    if (effort != EFFORT_SMOOTH && !self->smooth_known) self->smooth_seconds = 4.0 * self->whole_seconds;
-    self->smooth_known |= effort == EFFORT_SMOOTH;
-}
-
 static void draw(Painter *self, const Order *order, unsigned number) {
     WeftError error = {0};
     int target = -1, compiled = weft_raster_info(self->raster).compiled;
     bool whole = true;
     Effort effort = effort_of(self, order);
     Order drawn = with_effort(self, order, effort);
-    double part =
-        (double)drawn.view.width * drawn.view.height / ((double)order->view.width * order->view.height);
-    double expected = effort == EFFORT_SMOOTH ? self->smooth_seconds : part * self->whole_seconds;
+    double expected = *seconds_of(self, effort);
     WeftResult result = wear(self, &order->look, &error);
     double start = now();
     if (!order->truth || order->compare) {
@@ -300,13 +338,16 @@ static void draw(Painter *self, const Order *order, unsigned number) {
         if (done == WEFT_OK && order->compare) hand_linear(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
-        if (fair) note_seconds(self, effort, part, now() - start);
+        if (weft_raster_info(self->raster).compiled != compiled)
+            malloc_trim(0); /* compilers leave much behind */
+        if (fair) learn(self, order, effort, now() - start);
     }
     if (!whole) return; /* another order came between */
     if (result == WEFT_OK) error.text[0] = '\0';
-    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= 1.0;
+    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
     publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
             &error);
+    focus(self, order);
 }
 
 /* ---- scenes ---- */
@@ -330,13 +371,13 @@ static void drop_scene(Painter *self) {
 }
 
 /* The scene before stays where this one cannot be drawn. */
-static void take_scene(Painter *self, WeftScene *scene, Look *look) {
+static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned number) {
     const WeftRasterDesc desc = {.adopt = 1, .shader_dir = self->shader_dir, .occlusion = self->occlusion};
     const WeftLog log = log_of(self);
     WeftError error = {0};
     WeftRaster *raster = NULL;
     WeftResult result = weft_raster_create(scene, &desc, &raster, &log, &error);
-    News news = {.kind = TASK_SCENE, .failed = result != WEFT_OK};
+    News news = {.kind = TASK_SCENE, .scene = number, .failed = result != WEFT_OK};
     if (result == WEFT_OK) {
         study_stop(&self->study);
         truth_hold(self->truth);
@@ -344,13 +385,17 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look) {
         drop_scene(self);
         self->scene = scene;
         self->raster = raster;
+        pthread_mutex_lock(&self->lock);
+        self->scene_number = number;
+        pthread_mutex_unlock(&self->lock);
         self->is = *look;
         self->worn = (LookWorn){0};
         self->started = false;
-        self->whole_seconds = 2.0; /* until it is known */
         self->smooth_seconds = 8.0;
         self->smooth_known = false;
-        self->whole_seconds = 2.0; /* until it is known */
+        self->coarse = 4; /* these until they are known */
+        self->coarse_seconds = 1.0;
+        self->whole_seconds = 2.0;
         self->smooth_seconds = 8.0;
         self->smooth_known = false;
         watch_textures(self);
@@ -363,6 +408,11 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look) {
 }
 
 /* ---- tasks ---- */
+
+/* The look that the panels show. */
+static const Look *edited(const Order *order) {
+    return order->edited && order->split != SPLIT_NONE ? &order->other : &order->look;
+}
 
 static WeftResult shot(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
     WeftImage linear = {0}, display = {0};
@@ -377,13 +427,15 @@ static WeftResult shot(Painter *self, const Task *task, const Order *order, News
             return WEFT_INPUT;
         }
     } else {
-        result = wear(self, &order->look, error);
+        result = wear(self, edited(order), error);
         if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
         if (result == WEFT_OK) result = weft_raster_image(self->raster, &linear, error);
     }
     const WeftImage *image = &linear;
     if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
-        result = weft_image_tonemap(&linear, order->tonemap, order->exposure, &display, error);
+        bool number = order->view.part >= WEFT_PART_BASE_COLOR && !task->truth;
+        result = weft_image_tonemap(&linear, number ? WEFT_TONEMAP_NONE : order->tonemap,
+                                    number ? 0.0f : order->exposure, &display, error);
         image = &display;
     }
     if (result == WEFT_OK) result = weft_image_write(task->path, image, error);
@@ -399,7 +451,7 @@ static bool ends_with(const char *text, const char *end) {
 }
 
 static WeftResult save(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
-    WeftResult result = wear(self, &order->look, error);
+    WeftResult result = wear(self, edited(order), error);
     if (result != WEFT_OK) return result;
     snprintf(news->text, sizeof news->text, "wrote %.450s", task->path);
     if (ends_with(task->path, ".json"))
@@ -415,17 +467,14 @@ static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftErro
         Look look;
         if (!look_read(&look, self->scene)) return WEFT_RESOURCES;
         look.around = around;
-        for (int k = 0; k < LOOK_NAPS; k++) { /* naps stay */
-            look.naps[k] = self->is.naps[k];
-            self->is.naps[k] = NULL;
-        }
+        look_take_naps(&look, &self->is);
         look_free(&self->is);
         self->is = look;
         news->look_changed = look_copy(&news->look, &self->is);
         watch_textures(self);
         result = weft_raster_update(self->raster, &log, error);
     }
-    truth_release(self->truth, self->scene, WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS);
+    truth_release(self->truth, self->scene, ~0u); /* a variant may change shapes */
     self->stale = true;
     return result;
 }
@@ -434,11 +483,14 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
     const WeftLog log = log_of(self);
     char target[64];
     snprintf(target, sizeof target, "%d", task->index);
-    WeftResult result = wear(self, &order->look, error);
+    WeftResult result = wear(self, edited(order), error);
     if (result != WEFT_OK) return result;
     truth_hold(self->truth);
     switch (task->kind) {
-    case TASK_VARIANT: result = weft_scene_set_variant(self->scene, task->path, error); break;
+    case TASK_VARIANT:
+        result =
+            weft_scene_set_variant(self->scene, weft_scene_variant_name(self->scene, task->index), error);
+        break;
     case TASK_WEAR:
         result = weft_scene_wear_folder(self->scene, task->index < 0 ? NULL : target, task->path,
                                         &news->index, &log, error);
@@ -472,8 +524,11 @@ static WeftResult pick(Painter *self, const Task *task, const Order *order, News
     WeftResult result = self->pick ? WEFT_OK : weft_pick_create(self->scene, &self->pick, error);
     if (result != WEFT_OK) return result;
     Probe *probe = &news->probe;
-    probe->hit = weft_pick_at(self->pick, order->camera, order->view.width, order->view.height, task->x,
-                              task->y, &at) != 0;
+    int width = order->view.width, half = width / 2;
+    bool sides = order->split == SPLIT_SIDES;
+    float x = sides && task->x >= (float)half ? task->x - (float)half : task->x;
+    probe->hit = weft_pick_at(self->pick, order->camera, sides ? half : width, order->view.height, x, task->y,
+                              &at) != 0;
     if (!probe->hit) return WEFT_OK;
     probe->material = at.material;
     probe->distance = at.distance;
@@ -492,7 +547,7 @@ static WeftResult probe(Painter *self, const Task *task, const Order *order, New
                                      WEFT_PART_SHEEN,    WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,
                                      WEFT_PART_ROUGHNESS};
     WeftResult result = pick(self, task, order, news, error);
-    if (result == WEFT_OK) result = wear(self, &order->look, error);
+    if (result == WEFT_OK) result = wear(self, edited(order), error);
     int x = (int)task->x, y = (int)task->y;
     if (x < 0 || y < 0 || x >= order->view.width || y >= order->view.height) return result;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && result == WEFT_OK; k++) {
@@ -513,7 +568,7 @@ static WeftResult probe(Painter *self, const Task *task, const Order *order, New
 
 static void do_task(Painter *self, const Task *task, const Order *order) {
     WeftError error = {0};
-    News news = {.kind = task->kind, .stamp = task->stamp, .index = task->index};
+    News news = {.kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
     WeftResult result = WEFT_OK;
     switch (task->kind) {
     case TASK_SHOT: result = shot(self, task, order, &news, &error); break;
@@ -522,8 +577,8 @@ static void do_task(Painter *self, const Task *task, const Order *order) {
     case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
     case TASK_SCENE: return;
     case TASK_PROFILES:
-        study_start(&self->study, &order->look, &order->view, order->camera, order->tonemap, order->exposure,
-                    task->stamp);
+        study_start(&self->study, edited(order), task->index, &order->view, order->camera, order->tonemap,
+                    order->exposure, task->stamp);
         return;
     case TASK_DRESS:
     case TASK_WEAR:
@@ -537,7 +592,7 @@ static void do_task(Painter *self, const Task *task, const Order *order) {
 
 /* One more picture of a sheet. */
 static void go_on_studying(Painter *self) {
-    News news = {.kind = TASK_PROFILES, .stamp = self->study.stamp};
+    News news = {.kind = TASK_PROFILES, .scene = self->scene_number, .stamp = self->study.stamp};
     Look look;
     WeftError error = {0};
     WeftImage linear;
@@ -616,13 +671,14 @@ static void free_order(Order *order) {
 /* What comes first: a scene, a task, a picture, a sheet. False where there is nothing to do. The lock is held
  * before and after. */
 static bool step(Painter *self) {
-    bool ordered = self->ordered && self->raster;
+    bool ordered = self->ordered && self->raster && self->order.scene == self->scene_number;
     if (self->gift) {
         WeftScene *scene = self->gift;
         Look look = self->gift_look;
+        unsigned number = self->gift_number;
         self->gift = NULL;
         pthread_mutex_unlock(&self->lock);
-        take_scene(self, scene, &look);
+        take_scene(self, scene, &look, number);
     } else if (ordered && (self->number != self->done_number || self->stale || !self->started)) {
         unsigned number = self->number;
         if (number != self->done_number) {
@@ -637,8 +693,9 @@ static bool step(Painter *self) {
     } else if (ordered && self->task_count) {
         Task task = self->tasks[0];
         memmove(self->tasks, self->tasks + 1, (size_t)--self->task_count * sizeof task);
+        bool stale = task.scene != self->scene_number;
         pthread_mutex_unlock(&self->lock);
-        do_task(self, &task, &self->done);
+        if (!stale) do_task(self, &task, &self->done);
     } else if (ordered && self->study.under_way) {
         pthread_mutex_unlock(&self->lock);
         go_on_studying(self);
@@ -716,7 +773,7 @@ void painter_stop(Painter *self) {
     free(self);
 }
 
-void painter_give(Painter *self, WeftScene *scene, const Look *look) {
+void painter_give(Painter *self, WeftScene *scene, const Look *look, unsigned number) {
     pthread_mutex_lock(&self->lock);
     if (self->gift) {
         weft_scene_free(self->gift);
@@ -724,8 +781,7 @@ void painter_give(Painter *self, WeftScene *scene, const Look *look) {
     }
     self->gift = scene;
     if (!look_copy(&self->gift_look, look)) self->gift_look = (Look){0};
-    self->ordered = false;
-    self->task_count = 0;
+    self->gift_number = number;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);
 }
@@ -788,9 +844,10 @@ void news_free(News *news) {
 
 bool painter_idle(Painter *self) {
     pthread_mutex_lock(&self->lock);
-    bool idle = !self->working && !self->gift && !self->task_count && !self->news_count &&
-                !self->study.under_way && (!self->ordered || self->number == self->done_number) &&
-                !self->stale;
+    bool idle =
+        !self->working && !self->gift && !self->task_count && !self->news_count && !self->study.under_way &&
+        (!self->ordered || self->order.scene != self->scene_number || self->number == self->done_number) &&
+        !self->stale;
     pthread_mutex_unlock(&self->lock);
     return idle;
 }

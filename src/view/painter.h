@@ -24,6 +24,8 @@ typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
 /* What the window wants to see. Numbers that do not change the picture have no place here. */
 typedef struct Order {
+    unsigned scene;   /* that it is of: painter_give's number */
+    int edited;       /* tasks are done to `look` (0) or to `other` (1) */
     Look look, other; /* `other` on the right, where they share it; empty otherwise */
     Split split;
     float at;            /* SPLIT_LINE: share of the width that is left of it */
@@ -41,15 +43,16 @@ typedef enum TaskKind {
     TASK_SAVE,     /* the scene, or material `index`, to `path` */
     TASK_PROBE,    /* what is at x, y of the order's picture */
     TASK_PICK,     /* the same without the parts of its light */
-    TASK_PROFILES, /* a small picture of every profile */
+    TASK_PROFILES, /* small pictures with material `index` under every profile */
     TASK_DRESS,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
     TASK_WEAR,     /* the maps of folder `path` on material `index`, -1: the cloth */
     TASK_SCENE,    /* news alone: another scene was taken, or could not be */
-    TASK_VARIANT   /* `path` is a name */
+    TASK_VARIANT   /* `index` of the scene's */
 } TaskKind;
 
 typedef struct Task {
     TaskKind kind;
+    unsigned scene; /* that it is of; tasks of another one are dropped */
     char path[LOOK_PATH];
     int index, input;
     float x, y;
@@ -69,6 +72,7 @@ typedef struct Probe {
 
 typedef struct News {
     TaskKind kind;
+    unsigned scene; /* that it is of */
     bool failed;
     char text[512]; /* a line for people */
     unsigned stamp;
@@ -84,6 +88,7 @@ typedef struct Painted {
     unsigned texture; /* 0: nothing yet */
     int width, height;
     unsigned number;     /* of the order it shows */
+    bool focused;        /* `target` is what is in the middle of the picture */
     Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
     float seconds;       /* that it took */
     float whole_seconds; /* that one of all pixels takes */
@@ -99,9 +104,9 @@ typedef struct Painted {
 Painter *painter_start(Window *window, Truth *truth, const char *shader_dir, int occlusion);
 void painter_stop(Painter *painter);
 
-/* Takes the scene over, and the look it has; the old one is released once the new one can be drawn. `orders`
- * before this are forgotten. */
-void painter_give(Painter *painter, WeftScene *scene, const Look *look);
+/* Takes the scene over, with the look it has; the old one is released once the new one can be drawn, and news
+ * of TASK_SCENE tell. number is the scene's own: orders and tasks of another one are dropped. */
+void painter_give(Painter *painter, WeftScene *scene, const Look *look, unsigned number);
 
 /* Copies the order; returns its number. */
 unsigned painter_order(Painter *painter, const Order *order);

@@ -2,6 +2,7 @@
 #include "view/paths.h"
 
 #include <ctype.h>
+#include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -27,6 +28,15 @@ PathKind path_kind(const char *path) {
     for (size_t k = 0; dot && k < sizeof kinds / sizeof *kinds; k++)
         if (strcasecmp(dot, kinds[k].suffix) == 0) return kinds[k].kind;
     return PATH_UNKNOWN;
+}
+
+bool path_is_cubemap(const char *folder) {
+    DIR *dir = opendir(folder);
+    bool found = false;
+    for (const struct dirent *d; dir && !found && (d = readdir(dir));)
+        found = strncasecmp(d->d_name, "posx.", 5) == 0 || strncasecmp(d->d_name, "px.", 3) == 0;
+    if (dir) closedir(dir);
+    return found;
 }
 
 void path_stem(const char *path, char *stem, size_t size) {

@@ -16,6 +16,9 @@ typedef enum PathKind {
 
 PathKind path_kind(const char *path);
 
+/* Whether a folder holds the six faces of a cube, by the name of the first. */
+bool path_is_cubemap(const char *folder);
+
 /* What follows the last slash. */
 const char *path_name(const char *path);
 

@@ -56,6 +56,7 @@ void report_state(Viewer *v, bool settled) {
     char *command = v->has_scene ? command_line(v, &lost) : NULL;
     json_t *root = json_object();
     json_object_set_new(root, "frame", json_integer(v->frame));
+    json_object_set_new(root, "clock", json_real(v->clock));
     json_object_set_new(root, "rest", json_boolean(viewer_at_rest(v)));
     json_object_set_new(root, "scene", json_string(v->has_scene ? v->facts.path : ""));
     json_object_set_new(root, "camera", json_string(orbit_text(&v->orbit, camera)));

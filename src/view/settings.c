@@ -21,9 +21,9 @@ static bool place(char path[RECENT_PATH], bool make) {
                                           : -1;
     if (used < 0 || used >= (int)sizeof folder - 8) return false;
     if (make) mkdir(folder, 0755);
-    strcat(folder, "/weft");
-    if (make) mkdir(folder, 0755);
-    snprintf(path, RECENT_PATH, "%s/view.json", folder);
+    snprintf(path, RECENT_PATH, "%s/weft", folder);
+    if (make) mkdir(path, 0755);
+    snprintf(path, RECENT_PATH, "%s/weft/view.json", folder);
     return true;
 }
 
@@ -37,30 +37,34 @@ void settings_read(Settings *self) {
     char path[RECENT_PATH];
     if (!place(path, false)) return;
     json_t *root = json_load_file(path, 0, NULL);
-    float width = (float)self->width, height = (float)self->height, tonemap = (float)self->tonemap;
+    float width = (float)self->width, height = (float)self->height;
     read_number(root, "width", 320.0, 16384.0, &width);
     read_number(root, "height", 240.0, 16384.0, &height);
     read_number(root, "panel", 240.0, 900.0, &self->panel);
-    read_number(root, "tonemap", 0.0, 2.0, &tonemap);
     read_number(root, "speed", 0.01, 100.0, &self->speed);
-    self->width = (int)width, self->height = (int)height, self->tonemap = (int)tonemap;
+    self->width = (int)width, self->height = (int)height;
     self->invert = json_is_true(json_object_get(root, "invert"));
     const char *folder = json_string_value(json_object_get(root, "folder"));
     if (folder) snprintf(self->folder, sizeof self->folder, "%s", folder);
     const json_t *recent = json_object_get(root, "recent");
     for (size_t k = 0; k < json_array_size(recent) && self->recent_count < RECENT_MOST; k++) {
         const char *text = json_string_value(json_array_get(recent, k));
-        if (text && strlen(text) < RECENT_PATH) strcpy(self->recent[self->recent_count++], text);
+        if (text && strlen(text) < RECENT_PATH)
+            snprintf(self->recent[self->recent_count++], RECENT_PATH, "%s", text);
     }
     json_decref(root);
 }
 
 static json_t *as_json(const Settings *self) {
     json_t *recent = json_array();
-    for (int k = 0; k < self->recent_count; k++) json_array_append_new(recent, json_string(self->recent[k]));
-    return json_pack("{s:i,s:i,s:f,s:i,s:b,s:f,s:s,s:o}", "width", self->width, "height", self->height,
-                     "panel", (double)self->panel, "tonemap", self->tonemap, "invert", self->invert, "speed",
-                     (double)self->speed, "folder", self->folder, "recent", recent);
+    for (int k = 0; k < self->recent_count; k++) {
+        json_t *path = json_string(self->recent[k]);
+        if (path) json_array_append_new(recent, path);
+    }
+    json_t *folder = json_string(self->folder); /* NULL where it is not UTF-8 */
+    return json_pack("{s:i,s:i,s:f,s:b,s:f,s:o,s:o}", "width", self->width, "height", self->height, "panel",
+                     (double)self->panel, "invert", self->invert, "speed", (double)self->speed, "folder",
+                     folder ? folder : json_string(""), "recent", recent);
 }
 
 bool settings_write(const Settings *self) {

@@ -9,9 +9,8 @@ enum { RECENT_MOST = 10, RECENT_PATH = 1024 };
 typedef struct Settings {
     int width, height; /* of the window */
     float panel;       /* width of the side, design pixels */
-    int tonemap;
-    bool invert; /* looking up by pulling down */
-    float speed; /* of flying */
+    bool invert;       /* looking up by pulling down */
+    float speed;       /* of flying */
     char recent[RECENT_MOST][RECENT_PATH];
     int recent_count;
     char folder[RECENT_PATH]; /* the browser's */

@@ -17,10 +17,25 @@ static bool over_stage(const Viewer *v) {
            v->input.y < s->y + s->height;
 }
 
-/* Where the mouse is on the picture, shares of its sides. */
+/* Where the look that is edited is seen: half of the stage where two stand side by side. */
+static UiBox seen_box(const Viewer *v) {
+    UiBox box = v->stage;
+    if (v->split != SPLIT_SIDES || v->mode != MODE_LIVE) return box;
+    box.width = floorf(0.5f * box.width);
+    if (v->side) box.x += box.width;
+    return box;
+}
+
+static float seen_aspect(const Viewer *v) {
+    UiBox box = seen_box(v);
+    return fmaxf(box.width, 1.0f) / fmaxf(box.height, 1.0f);
+}
+
+/* Where the mouse is on that picture, shares of its sides. */
 static void on_picture(const Viewer *v, float at[2]) {
-    at[0] = (v->input.x - v->stage.x) / v->stage.width;
-    at[1] = (v->input.y - v->stage.y) / v->stage.height;
+    UiBox box = seen_box(v);
+    at[0] = (v->input.x - box.x) / box.width;
+    at[1] = (v->input.y - box.y) / box.height;
 }
 
 /* ---- handles of lights ---- */
@@ -37,9 +52,10 @@ static void handle_place(const Viewer *v, const WeftLight *light, float place[3]
 static bool handle_at(const Viewer *v, int light, float at[2]) {
     float place[3];
     handle_place(v, &v->look.lights[light], place);
-    if (!orbit_project(&v->orbit, place, viewer_aspect(v), at)) return false;
-    at[0] = v->stage.x + at[0] * v->stage.width;
-    at[1] = v->stage.y + at[1] * v->stage.height;
+    if (!orbit_project(&v->orbit, place, seen_aspect(v), at)) return false;
+    UiBox box = seen_box(v);
+    at[0] = box.x + at[0] * box.width;
+    at[1] = box.y + at[1] * box.height;
     return true;
 }
 
@@ -57,7 +73,7 @@ static void drag_light(Viewer *v) {
     WeftLight *light = &v->look.lights[v->held_light];
     float at[2], ray[3], place[3], right[3], up[3], forward[3];
     on_picture(v, at);
-    orbit_ray(&v->orbit, viewer_aspect(v), at[0], at[1], ray);
+    orbit_ray(&v->orbit, seen_aspect(v), at[0], at[1], ray);
     orbit_axes(&v->orbit, right, up, forward);
     handle_place(v, light, place);
     float depth = 0.0f, along = 0.0f;
@@ -84,7 +100,7 @@ static void drag_light(Viewer *v) {
 enum { ASK_SELECT = 1, ASK_BRUSH = 2, ASK_KINDS = 4 };
 
 static void ask(Viewer *v, TaskKind kind, unsigned why) {
-    Task task = {.kind = kind, .x = v->input.x - v->stage.x, .y = v->input.y - v->stage.y};
+    Task task = {.kind = kind, .scene = v->scene, .x = v->input.x - v->stage.x, .y = v->input.y - v->stage.y};
     task.stamp = ++v->stamps * ASK_KINDS + why;
     painter_task(v->painter, &task);
 }
@@ -102,25 +118,41 @@ static void begin_nap(Viewer *v, int material) {
                    "the sheen of this material has no nap: choose a fibre lobe, such as fibre-table");
 }
 
+/* Along the way from where the brush was; over a seam of the map it begins anew. */
+static void lay_along(const Brush *brush, WeftImage *image, const Probe *at, const float along[2]) {
+    float radius = brush->radius * at->texel, du = at->texcoord[0] - brush->uv[0],
+          dv = at->texcoord[1] - brush->uv[1];
+    float far = hypotf(du, dv);
+    int steps = far < 0.25f ? 1 + (int)fminf(far / fmaxf(0.3f * radius, 1e-4f), 200.0f) : 1;
+    for (int k = 1; k <= steps; k++) {
+        float t = (float)k / (float)steps;
+        const float place[2] = {brush->uv[0] + t * du, brush->uv[1] + t * dv};
+        stroke_lay(image, far < 0.25f ? place : at->texcoord, radius, along, brush->strength);
+    }
+}
+
 static void brush_at(Viewer *v, const Probe *at) {
     float d[2] = {0.0f, 0.0f};
-    if (v->brush.known)
-        for (int k = 0; k < 3; k++) {
-            d[0] += (at->position[k] - v->brush.at[k]) * at->tangent[k];
-            d[1] += (at->position[k] - v->brush.at[k]) * at->bitangent[k];
-        }
-    bool moved = hypotf(d[0], d[1]) > 0.05f * v->brush.radius;
-    if (!v->brush.known || moved) memcpy(v->brush.at, at->position, sizeof v->brush.at);
-    v->brush.known = true;
-    if (!moved) return;
+    Brush *brush = &v->brush;
+    bool goes_on = brush->known && brush->material == at->material;
+    for (int k = 0; k < 3 && goes_on; k++) {
+        d[0] += (at->position[k] - brush->at[k]) * at->tangent[k];
+        d[1] += (at->position[k] - brush->at[k]) * at->bitangent[k];
+    }
+    bool moved = goes_on && hypotf(d[0], d[1]) > 0.05f * brush->radius;
     WeftImage *image;
-    Nap *nap = nap_copy(&v->look, at->material, &image);
-    if (!nap) return;
-    begin_nap(v, at->material);
-    stroke_lay(image, at->texcoord, v->brush.radius * at->texel, d, v->brush.strength);
-    if (!look_set_nap(&v->look, nap))
-        viewer_say(v, true, "no more than %d materials can be brushed", LOOK_NAPS);
-    v->material = at->material;
+    Nap *nap = moved ? nap_copy(&v->look, at->material, &image) : NULL;
+    if (nap) {
+        begin_nap(v, at->material);
+        lay_along(brush, image, at, d);
+        if (!look_set_nap(&v->look, nap))
+            viewer_say(v, true, "no more than %d materials can be brushed", LOOK_NAPS);
+    }
+    if (goes_on && !moved) return;
+    memcpy(brush->at, at->position, sizeof brush->at);
+    memcpy(brush->uv, at->texcoord, sizeof brush->uv);
+    brush->known = true;
+    brush->material = v->material = at->material;
 }
 
 void stage_picked(Viewer *v, const Probe *at, unsigned stamp) {

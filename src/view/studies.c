@@ -8,10 +8,11 @@
 
 enum { WIDTH = 300, COLUMNS = 4 };
 
-void study_start(Study *self, const Look *look, const WeftRasterView *view, const char *camera,
+void study_start(Study *self, const Look *look, int material, const WeftRasterView *view, const char *camera,
                  WeftTonemap tonemap, float exposure, unsigned stamp) {
     study_stop(self);
-    if (!look_copy(&self->look, look)) return;
+    if (material < 0 || material >= look->material_count || !look_copy(&self->look, look)) return;
+    self->material = material;
     self->under_way = true;
     self->stamp = stamp;
     self->view = *view;
@@ -32,14 +33,13 @@ void study_stop(Study *self) {
 }
 
 bool study_look(const Study *self, Look *look) {
-    bool good = look_copy(look, &self->look);
-    if (!good) *look = (Look){0};
-    for (int k = 0; k < look->material_count && good; k++) {
-        WeftMaterial m = *look_material(look, k);
-        weft_material_choose(&m, choice_number("profile"), self->next - 1);
-        good = look_set_material(look, k, &m);
+    if (!look_copy(look, &self->look)) {
+        *look = (Look){0};
+        return false;
     }
-    return good;
+    WeftMaterial m = *look_material(look, self->material);
+    weft_material_choose(&m, choice_number("profile"), self->next - 1);
+    return look_set_material(look, self->material, &m);
 }
 
 WeftRasterView study_view(const Study *self) {

@@ -1,4 +1,5 @@
-/* studies.h - a small picture of the scene under every profile, one at a time, and the sheet of them all */
+/* studies.h - a small picture of the scene with one material under every profile, one at a time, and the
+ * sheet of them all */
 #ifndef WEFT_VIEW_STUDIES_H
 #define WEFT_VIEW_STUDIES_H
 
@@ -13,6 +14,7 @@ typedef struct Study {
     bool under_way;
     unsigned stamp;
     Look look;
+    int material;
     WeftRasterView view;
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
@@ -22,7 +24,7 @@ typedef struct Study {
 } Study;
 
 /* Of what a look is; what is under way is given up. */
-void study_start(Study *study, const Look *look, const WeftRasterView *view, const char *camera,
+void study_start(Study *study, const Look *look, int material, const WeftRasterView *view, const char *camera,
                  WeftTonemap tonemap, float exposure, unsigned stamp);
 void study_stop(Study *study);
 

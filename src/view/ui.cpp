@@ -12,6 +12,7 @@
 #include <GLFW/glfw3.h> /* for the numbers of keys */
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h> /* for what lets go of a widget */
 
 namespace {
 
@@ -210,6 +211,9 @@ void ui_begin(const UiInput *input) {
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;
     for (int k = 0; k < input->typed_count; k++) io.AddInputCharacter(input->typed[k]);
+    /* Escape and the arrows are a popup's, and nobody else's. */
+    io.ConfigFlags =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? ImGuiConfigFlags_NavEnableKeyboard : 0;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     ui->last.swap(ui->shown);
@@ -274,6 +278,7 @@ bool ui_dialog(const char *name, float width, float height) {
                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings);
 }
+bool ui_escaped(void) { return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false); }
 void ui_dialog_close(void) { ImGui::CloseCurrentPopup(); }
 void ui_dialog_end(void) { ImGui::EndPopup(); }
 
@@ -417,12 +422,16 @@ bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     ui_scope(label);
     for (int k = 0; k < choices->count; k++) {
         const char *name = choices->name(choices->user, k);
-        if (ImGui::Selectable(name, k == *chosen)) {
+        ImGui::PushID(k);
+        if (ImGui::Selectable("##row", k == *chosen)) {
             changed = k != *chosen;
             *chosen = k;
         }
         note(name);
         if (choices->help) ui_tip(choices->help(choices->user, k));
+        ImGui::SameLine(0.0f, 0.0f);
+        ImGui::TextUnformatted(name);
+        ImGui::PopID();
         if (k == *chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY(0.5f);
     }
     ui_scope_end();
@@ -443,11 +452,14 @@ bool ui_slider(const char *label, const UiRange *range, float *value) {
     labelled(label);
     ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat;
     if (range->logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
+    const float before = *value;
     bool changed = ImGui::SliderFloat(hidden(label).c_str(), value, range->low, range->high, format, flags);
+    if (!std::isfinite(*value)) *value = before; /* typed */
     note(label);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && !ImGui::GetIO().KeyCtrl) {
         changed = *value < range->initial || *value > range->initial;
         *value = range->initial;
+        ImGui::ClearActiveID(); /* else the press that is still held moves it */
     }
     return changed;
 }
@@ -460,9 +472,12 @@ bool ui_slider_int(const char *label, int low, int high, int *value) {
 }
 
 bool ui_numbers(const char *label, float step, float *values, int count) {
+    const std::vector<float> before(values, values + count);
     labelled(label);
     bool changed = ImGui::DragScalarN(hidden(label).c_str(), ImGuiDataType_Float, values, count, step,
                                       nullptr, nullptr, "%.3g");
+    for (int k = 0; k < count; k++)
+        if (!(std::fabs(values[k]) <= 1e6f)) values[k] = before[static_cast<size_t>(k)];
     note(label);
     return changed;
 }
@@ -475,6 +490,7 @@ static float decoded(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x 
 bool ui_color(const char *label, const float initial[3], float color[3]) {
     float most = std::fmax(1.0f, std::fmax(color[0], std::fmax(color[1], color[2]))), shown[3];
     for (int c = 0; c < 3; c++) shown[c] = encoded(color[c] / most);
+    const float before[3] = {color[0], color[1], color[2]};
     labelled(label);
     float side = ImGui::GetFrameHeight();
     bool swatch = ImGui::ColorEdit3(hidden(label).c_str(), shown,
@@ -486,6 +502,8 @@ bool ui_color(const char *label, const float initial[3], float color[3]) {
     ImGui::SetNextItemWidth(-1.0f);
     bool typed = ImGui::DragFloat3((hidden(label) + "3").c_str(), color, 0.003f, 0.0f, FLT_MAX, "%.3f",
                                    ImGuiSliderFlags_NoRoundToFormat);
+    for (int c = 0; c < 3; c++)
+        if (!(color[c] >= 0.0f && color[c] <= 1e6f)) color[c] = before[c];
     note(label);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(1) && initial) {
         for (int c = 0; c < 3; c++) color[c] = initial[c];

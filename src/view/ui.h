@@ -81,6 +81,7 @@ void ui_window_end(void);
 /* What stands above all else until it is closed; open it once, then call every frame. */
 void ui_dialog_open(const char *name);
 bool ui_dialog(const char *name, float width, float height);
+bool ui_escaped(void); /* Escape was pressed, and is not a text's */
 void ui_dialog_close(void);
 void ui_dialog_end(void);
 /* A box of its own within a panel, that scrolls. */

@@ -63,7 +63,9 @@ float viewer_aspect(const Viewer *v) {
 
 static void open_scene(Viewer *v, const char *path, bool again) {
     if (v->loader) loader_finish(v->loader, NULL);
-    v->loader = loader_start(v->window, v->desc, path, again);
+    bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
+    if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
+    v->loader = loader_start(v->window, v->desc, path, again, dressed);
     if (!v->loader) viewer_say(v, true, "%.300s: out of memory", path);
 }
 
@@ -79,6 +81,11 @@ static int guess_input(const char *path) {
     return input_number("base_color");
 }
 
+static void light_by(Viewer *v, const char *path) {
+    v->look.around.kind = AROUND_FILE;
+    snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
+}
+
 void viewer_open(Viewer *v, const char *path) {
     PathKind kind = path_kind(path);
     if (!v->has_scene && kind != PATH_SCENE) {
@@ -87,18 +94,19 @@ void viewer_open(Viewer *v, const char *path) {
     }
     switch (kind) {
     case PATH_SCENE: open_scene(v, path, false); break;
-    case PATH_LIGHT:
-        v->look.around = (Around){
-            .kind = AROUND_FILE, .rotation = v->look.around.rotation, .strength = v->look.around.strength};
-        snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
-        break;
+    case PATH_LIGHT: light_by(v, path); break;
     case PATH_MATERIAL: viewer_task(v, TASK_DRESS, path, v->material, -1); break;
     case PATH_PICTURE:
         snprintf(v->dropped, sizeof v->dropped, "%s", path);
         v->dropped_input = guess_input(path);
         viewer_dialog(v, "Use a picture");
         break;
-    case PATH_FOLDER: viewer_task(v, TASK_WEAR, path, -1, -1); break;
+    case PATH_FOLDER:
+        if (path_is_cubemap(path))
+            light_by(v, path);
+        else
+            viewer_task(v, TASK_WEAR, path, -1, -1);
+        break;
     case PATH_UNKNOWN:
         viewer_say(v, true,
                    "%.300s: is no scene (.gltf .glb), light (.hdr .exr), material (.json) or picture", path);
@@ -106,34 +114,61 @@ void viewer_open(Viewer *v, const char *path) {
     }
 }
 
+static void set_home(Viewer *v, const float eye[3], const float target[3]) {
+    memcpy(v->home, target, sizeof v->home);
+    v->reach = 0.0f;
+    for (int k = 0; k < 3; k++) v->reach = hypotf(v->reach, eye[k] - target[k]);
+    v->reach = fmaxf(0.5f * v->reach, 1e-3f);
+}
+
+/* Where it is seen from; how large things are, until the painter knows what is in the middle. */
 static void start_seeing(Viewer *v, const Loaded *loaded) {
-    const char *camera = v->desc->camera;
+    bool first = strcmp(v->dressed, loaded->path) == 0;
+    const char *camera = first ? v->desc->camera : NULL;
     bool builtin = strncmp(loaded->path, "builtin:", 8) == 0;
-    if (!camera || v->dressed) camera = builtin && loaded->facts.info.camera_count ? "0" : "auto";
+    if (!camera) camera = builtin && loaded->facts.info.camera_count ? "0" : "auto";
     if (!orbit_at(&v->orbit, loaded->scene, camera, viewer_aspect(v))) {
         viewer_say(v, true, "%.100s: %s", camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
         orbit_at(&v->orbit, loaded->scene, "auto", viewer_aspect(v));
     }
-    v->material = v->light = 0;
-    v->variant = -1;
     v->at_home = false;
-    v->has_probe = false;
-    for (int k = 0; k < loaded->look.material_count; k++) /* the first that has a sheen */
-        if (weft_material_reads(look_material(&loaded->look, k), input_number("sheen_roughness"))) {
-            v->material = k;
-            break;
-        }
+    set_home(v, v->orbit.eye, v->orbit.target);
 }
 
-/* What was edited stays edited where the scene is read again. */
-static void keep_edits(Viewer *v, const Look *fresh, Look *look) {
-    for (int k = 0; k < look->material_count && k < v->look.material_count; k++)
-        if (k < v->first.material_count && !look_same_material(&v->look, &v->first, k))
-            look_set_material(look, k, look_material(&v->look, k));
+/* What was edited stays edited where the scene is read again; maps are those of the file. */
+static void keep_edits(const Viewer *v, Look *look) {
+    for (int k = 0; k < look->material_count; k++) {
+        if (look_same_material(&v->look, &v->first, k)) continue;
+        WeftMaterial m = *look_material(&v->look, k);
+        for (int i = 0; i < WEFT_INPUTS_MAX; i++)
+            if (m.inputs[i].texture) m.inputs[i].texture = look_material(look, k)->inputs[i].texture;
+        look_set_material(look, k, &m);
+    }
     look->light_count = v->look.light_count;
     memcpy(look->lights, v->look.lights, sizeof look->lights);
     look->around = v->look.around;
-    for (int k = 0; k < LOOK_NAPS; k++) look->naps[k] = NULL;
+    look_take_naps(look, &v->look);
+}
+
+static void forget_scene(Viewer *v) {
+    look_free(&v->look);
+    look_free(&v->first);
+    look_free(&v->before);
+    look_free(&v->sent);
+    look_free(&v->other);
+    history_free(&v->history);
+    history_free(&v->other_history);
+    facts_free(&v->facts);
+}
+
+/* Those of the panels, of a scene that is another one. */
+static void choose_first(Viewer *v, const Look *look) {
+    v->material = v->light = 0;
+    v->variant = -1;
+    v->has_probe = v->has_copied = false;
+    v->save_path[0] = v->shot_path[0] = '\0';
+    for (int k = look->material_count - 1; k >= 0; k--) /* the first that has a sheen */
+        if (weft_material_reads(look_material(look, k), input_number("sheen_roughness"))) v->material = k;
 }
 
 enum { WATCH_SCENE, WATCH_LIGHT };
@@ -148,42 +183,68 @@ static void watch_files(Viewer *v) {
 
 static bool poll_files(Viewer *v, double seconds) {
     if (v->has_scene && strcmp(v->watched, v->look.around.path) != 0) watch_files(v);
+    if (v->loader || v->has_pending) return false;
     int changed = watchman_look(v->watchman, seconds);
     if (changed == WATCH_SCENE) open_scene(v, v->facts.path, true);
-    if (changed == WATCH_LIGHT) v->look.around.again++;
+    if (changed == WATCH_LIGHT) v->look.around.again = v->other.around.again = v->look.around.again + 1;
     return changed >= 0;
 }
 
-static void take_scene(Viewer *v, Loaded *loaded) {
-    Look look;
+/* The scene that was read goes to the painter; it is shown once that can draw it. */
+static void hand_over(Viewer *v, Loaded *loaded) {
+    if (v->has_pending) loaded_free(&v->pending);
+    if (!loaded->again || !v->has_scene) start_seeing(v, loaded);
+    painter_give(v->painter, loaded->scene, &loaded->look, ++v->scenes);
+    loaded->scene = NULL;
+    v->pending = *loaded;
+    v->has_pending = true;
+    *loaded = (Loaded){0};
+}
+
+static void show_scene(Viewer *v, Loaded *loaded) {
+    Look look, before;
+    bool again = loaded->again && v->has_scene && loaded->look.material_count == v->look.material_count &&
+                 strcmp(loaded->path, v->facts.path) == 0;
     if (!look_copy(&look, &loaded->look)) return;
-    bool again = loaded->again && v->has_scene && loaded->look.material_count == v->look.material_count;
-    if (again)
-        keep_edits(v, &loaded->look, &look);
-    else
-        start_seeing(v, loaded);
-    look_free(&v->look);
-    look_free(&v->first);
-    look_free(&v->before);
-    look_free(&v->other);
-    history_free(&v->history);
-    facts_free(&v->facts);
+    if (again) keep_edits(v, &look);
+    if (!look_copy(&before, &look)) {
+        look_free(&look);
+        return;
+    }
+    forget_scene(v);
     v->look = look;
-    look_copy(&v->first, &loaded->look);
-    look_copy(&v->before, &look);
+    v->before = before;
+    v->first = loaded->look;
+    v->facts = loaded->facts;
+    loaded->look = (Look){0};
+    loaded->facts = (Facts){0};
     v->split = SPLIT_NONE;
     v->side = 0;
-    v->facts = loaded->facts;
-    loaded->facts = (Facts){0};
-    painter_give(v->painter, loaded->scene, &loaded->look);
-    loaded->scene = NULL;
+    if (!again) choose_first(v, &v->look);
     v->has_scene = v->ask = true;
-    v->warnings[0] = '\0';
     v->profiles_made = false;
+    snprintf(v->warnings, sizeof v->warnings, "%s", loaded->said ? loaded->said : "");
     settings_opened(&v->settings, v->facts.path);
     watch_files(v);
-    if (v->desc->materials && !again && !v->dressed) viewer_task(v, TASK_WEAR, v->desc->materials, -1, -1);
-    v->dressed = true;
+}
+
+/* The painter has taken the scene, or could not: then the old one stays. */
+static void take_scene(Viewer *v, const News *news) {
+    if (!v->has_pending || news->scene != v->scenes) return;
+    Loaded loaded = v->pending;
+    v->has_pending = false;
+    if (!news->failed) {
+        bool first = !v->has_scene;
+        char title[300];
+        show_scene(v, &loaded);
+        v->scene = news->scene;
+        viewer_say(v, false, "%.200s: %lld triangles, %d materials", v->facts.path,
+                   v->facts.info.triangle_count, v->facts.info.material_count);
+        snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
+        window_title(v->window, title);
+        if (first && v->desc->materials) viewer_task(v, TASK_WEAR, v->desc->materials, -1, -1);
+    }
+    loaded_free(&loaded);
 }
 
 static void poll_loader(Viewer *v) {
@@ -191,17 +252,10 @@ static void poll_loader(Viewer *v) {
     if (!v->loader || !loader_done(v->loader)) return;
     loader_finish(v->loader, &loaded);
     v->loader = NULL;
-    if (loaded.scene) {
-        take_scene(v, &loaded);
-        viewer_say(v, false, "%.200s: %lld triangles, %d materials", v->facts.path,
-                   v->facts.info.triangle_count, v->facts.info.material_count);
-        add_warnings(v, loaded.said);
-        char title[300];
-        snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
-        window_title(v->window, title);
-    } else {
+    if (loaded.scene)
+        hand_over(v, &loaded);
+    else
         viewer_say(v, true, "%s", loaded.failure);
-    }
     loaded_free(&loaded);
 }
 
@@ -210,8 +264,8 @@ static void poll_loader(Viewer *v) {
 static bool same_order(const Order *a, const Order *b) {
     WeftRasterView x = a->view, y = b->view;
     x.camera = y.camera = NULL;
-    bool same = a->split == b->split && a->tonemap == b->tonemap && a->truth == b->truth &&
-                a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
+    bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
+                a->truth == b->truth && a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
                 memcmp(&x, &y, sizeof x) == 0;
     return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) &&
            !(a->exposure > b->exposure);
@@ -219,7 +273,12 @@ static bool same_order(const Order *a, const Order *b) {
 
 /* Both looks and how they are seen; the looks are borrowed. */
 static Order make_order(const Viewer *v) {
-    Order order = {.split = v->split, .at = v->split_at, .tonemap = v->tonemap, .exposure = v->exposure};
+    Order order = {.scene = v->scene,
+                   .edited = v->side,
+                   .split = v->split,
+                   .at = v->split_at,
+                   .tonemap = v->tonemap,
+                   .exposure = v->exposure};
     order.look = v->side == 0 || v->split == SPLIT_NONE ? v->look : v->other;
     order.other = v->side == 0 || v->split == SPLIT_NONE ? v->other : v->look;
     order.view.width = (int)fmaxf(v->stage.width, 16.0f);
@@ -232,6 +291,7 @@ static Order make_order(const Viewer *v) {
     order.compare = v->mode == MODE_DIFFERENCE;
     if (v->mode != MODE_LIVE) {
         order.split = SPLIT_NONE;
+        order.edited = 0;
         order.look = v->look;
         order.view.part = WEFT_PART_ALL;
     }
@@ -264,17 +324,19 @@ static bool can_be_finer(const Viewer *v) {
 static void send_order(Viewer *v) {
     if (!v->has_scene || v->stage.width < 1.0f) return;
     Order order = make_order(v);
-    bool changed = v->ask || !same_order(&order, &v->order) || !look_same(&v->look, &v->before);
+    bool changed = v->ask || !same_order(&order, &v->order) || !look_same(&v->look, &v->sent);
     if (changed) v->changed = now();
     bool finer = can_be_finer(v) && now() - v->changed > 0.12;
     if (!changed && !finer) return;
     order.effort = finer ? (Effort)(v->painted.effort + 1) : EFFORT_COARSE;
     v->ordered = painter_order(v->painter, &order);
     order_truth(v, &order);
+    look_free(&v->sent);
+    if (!look_copy(&v->sent, &v->look)) v->sent = (Look){0};
     order.look = order.other = (Look){0};
     v->order = order;
     v->ask = false;
-    v->has_probe = false;
+    if (changed) v->has_probe = false;
 }
 
 /* Where a camera of the scene stands is known once it has been drawn through. */
@@ -284,12 +346,9 @@ static void take_camera(Viewer *v) {
     memcpy(v->orbit.eye, p->eye, sizeof p->eye);
     memcpy(v->orbit.target, p->target, sizeof p->target);
     if (p->fov > 0.0f) v->orbit.fov = p->fov;
-    if (v->at_home) return;
+    if (v->at_home || !p->focused) return;
     v->at_home = true;
-    memcpy(v->home, p->target, sizeof v->home);
-    v->reach = 0.0f;
-    for (int k = 0; k < 3; k++) v->reach = hypotf(v->reach, p->eye[k] - p->target[k]);
-    v->reach = fmaxf(0.5f * v->reach, 1e-3f);
+    set_home(v, p->eye, p->target);
 }
 
 /* A picture of what was just asked for is waited for a little, so that it is seen in the same frame. */
@@ -342,6 +401,11 @@ static void take_news(Viewer *v) {
     News news;
     while (painter_news(v->painter, &news)) {
         if (news.text[0]) viewer_say(v, news.failed, "%s", news.text);
+        if (news.kind == TASK_SCENE) take_scene(v, &news);
+        if (news.scene != v->scene) { /* of one that is gone */
+            news_free(&news);
+            continue;
+        }
         if (news.look_changed) take_dressed(v, &news);
         if (news.kind == TASK_PROBE && !news.failed) {
             v->probe = news.probe;
@@ -368,18 +432,21 @@ static void take_news(Viewer *v) {
         else
             viewer_say(v, false, "shaders compile again");
     }
-    if (v->painted.failure[0]) viewer_say(v, true, "%s", v->painted.failure);
+    if (strcmp(v->failure, v->painted.failure) != 0) {
+        memcpy(v->failure, v->painted.failure, sizeof v->failure);
+        viewer_say(v, v->failure[0] != '\0', "%s", v->failure);
+    }
 }
 
 /* ---- what can be asked for ---- */
 
 void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int input) {
-    Task task = {.kind = kind, .index = index, .input = input};
+    Task task = {.kind = kind, .scene = v->scene, .index = index, .input = input};
     if (path && strlen(path) >= sizeof task.path) {
         viewer_say(v, true, "%.100s...: is too long a path", path);
         return;
     }
-    if (path) strcpy(task.path, path);
+    if (path) snprintf(task.path, sizeof task.path, "%s", path);
     painter_task(v->painter, &task);
 }
 
@@ -397,25 +464,27 @@ void viewer_redo(Viewer *v) {
 
 void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
 
+/* What is not edited is kept while the comparison is off. */
 void viewer_split(Viewer *v, Split split) {
     if (!v->has_scene) return;
     if (split != SPLIT_NONE && !v->other.materials && !look_copy(&v->other, &v->look)) return;
     v->split = split;
     v->ask = true;
-    if (split == SPLIT_NONE) {
-        look_free(&v->other);
-        v->side = 0;
-    }
 }
 
 void viewer_swap(Viewer *v) {
-    if (v->split == SPLIT_NONE) return;
+    Look before;
+    if (v->split == SPLIT_NONE || !look_copy(&before, &v->other)) return;
     Look kept = v->look;
     v->look = v->other;
     v->other = kept;
     v->side = !v->side;
-    history_free(&v->history); /* its steps are the other side's */
-    settle_look(v);
+    look_free(&v->before);
+    v->before = before;
+    History history = v->history;
+    v->history = v->other_history;
+    v->other_history = history;
+    v->ask = true;
 }
 
 void viewer_frame_selection(Viewer *v) {
@@ -442,6 +511,7 @@ void viewer_shot(Viewer *v, const char *path) {
         return;
     }
     Task task = {.kind = TASK_SHOT,
+                 .scene = v->scene,
                  .width = v->shot_width,
                  .height = v->shot_height,
                  .transparent = v->shot_transparent,
@@ -479,10 +549,11 @@ void viewer_copy_command(Viewer *v) {
 void viewer_profiles(Viewer *v) {
     v->profiles_open = true;
     v->profiles_made = false;
-    viewer_task(v, TASK_PROFILES, NULL, 0, -1);
+    viewer_task(v, TASK_PROFILES, NULL, v->material, -1);
 }
 
 void viewer_dialog(Viewer *v, const char *name) {
+    browser_refresh(v->browser);
     snprintf(v->open_dialog, sizeof v->open_dialog, "%s", name);
 }
 
@@ -491,8 +562,9 @@ void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
 }
 
 bool viewer_at_rest(Viewer *v) {
-    return !v->loader && painter_idle(v->painter) && (!v->has_scene || v->painted.number == v->ordered) &&
-           !v->painted.busy && (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
+    return !v->loader && !v->has_pending && painter_idle(v->painter) &&
+           (!v->has_scene || v->painted.number == v->ordered) && !v->painted.busy &&
+           (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
            (v->mode == MODE_LIVE || truth_resting(v->truth));
 }
 
@@ -603,7 +675,6 @@ static void stop(Viewer *v) {
     browser_free(v->browser);
     if (v->window) {
         window_size(v->window, &v->settings.width, &v->settings.height);
-        v->settings.tonemap = (int)v->tonemap;
         if (v->has_scene && !v->desc->forget) settings_write(&v->settings);
         glDeleteTextures(1, &v->truth_texture);
         glDeleteTextures(1, &v->profiles_texture);
@@ -612,12 +683,8 @@ static void stop(Viewer *v) {
     window_close(v->window);
     inspection_free(v->inspection);
     weft_image_free(&v->profiles);
-    history_free(&v->history);
-    look_free(&v->look);
-    look_free(&v->first);
-    look_free(&v->before);
-    look_free(&v->other);
-    facts_free(&v->facts);
+    forget_scene(v);
+    if (v->has_pending) loaded_free(&v->pending);
 }
 
 /* How long nothing needs to be drawn: files are looked at now and then. */
@@ -625,6 +692,7 @@ static double patience(const Viewer *v, int due) {
     bool flies = false;
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};
     for (int k = 0; k < 6; k++) flies |= v->input.key[keys[k]];
+    if (window_hidden(v->window)) return 0.25;
     if (due > 0 || flies) return 0.0;
     if (v->replay) return 0.005;
     return can_be_finer(v) ? 0.05 : 0.25;

@@ -19,11 +19,12 @@ enum { TRACE_SAMPLES = 1024, MESSAGE_SIZE = 512 };
 
 /* The brush that lays the nap. */
 typedef struct Brush {
-    float radius;   /* m */
-    float strength; /* 0 .. 1, of a stroke */
-    bool down;      /* a stroke is under way */
-    bool known;     /* `at` is where it was last */
-    float at[3];
+    float radius;       /* m */
+    float strength;     /* 0 .. 1, of a stroke */
+    bool down;          /* a stroke is under way */
+    bool known;         /* `at` is where it was last */
+    float at[3], uv[2]; /* that, in the world and on the map */
+    int material;
 } Brush;
 
 typedef struct Inspection Inspection;
@@ -44,13 +45,16 @@ typedef struct Viewer {
 
     /* the scene */
     bool has_scene;
-    bool dressed;            /* the first one is as the command line has it */
+    char dressed[LOOK_PATH]; /* path of the scene that is dressed as the command line has it */
     char watched[LOOK_PATH]; /* light whose file is watched */
+    unsigned scene, scenes;  /* number of the one that is shown; of the last one that was read */
+    Loaded pending;          /* read, and with the painter: its look and facts, until that has taken it */
+    bool has_pending;
     Facts facts;
-    Look look, first, before; /* as it is edited; as it was read; as it was a frame ago */
-    Look other;               /* the other of A and B; empty without a comparison */
-    int side;                 /* which of them `look` is: 0 is A */
-    History history;
+    Look look, first, before, sent; /* as it is edited; as it was read; a frame ago; as last ordered */
+    Look other;                     /* the other of A and B; empty without a comparison */
+    int side;                       /* which of them `look` is: 0 is A */
+    History history, other_history;
     int material, light; /* that the panels show */
     int variant;         /* -1: none was chosen */
     WeftMaterial copied;
@@ -96,8 +100,8 @@ typedef struct Viewer {
     /* words */
     char message[MESSAGE_SIZE];
     bool message_grave;
-    char warnings[8192]; /* of scene and files, one a line */
-    char shader_complaint[512];
+    char warnings[8192];                      /* of scene and files, one a line */
+    char shader_complaint[512], failure[512]; /* that were told of */
 
     /* dialogs */
     struct Browser *browser;

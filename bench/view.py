@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""What the window takes: frames while it is orbited, the longest frame while a term is switched, processor time
+while nothing happens, memory. On a display of its own (Xvfb) where there is one, else without.
+
+  bench/view.py [PROGRAM]
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+program = sys.argv[1] if len(sys.argv) > 1 else "build/release/weft"
+scene = [program, "view", "builtin:cloth", "--set", "Softbox.emission=0", "--env", "0,0,0", "--light",
+         "sun;-1,-2,-1;3,3,3", "--forget", "--json", "--width", "1280", "--height", "720"]
+FRAMES = 90
+
+script = ["wait rest", "wait 10", "move 0.3 0.5", "press left"]
+script += [f"move {0.3 + 0.004 * k:.4f} 0.5" for k in range(8)]
+script += ["wait 30"]
+orbit = [f"move {0.34 + 0.004 * k:.4f} 0.5" for k in range(FRAMES)]
+script += orbit + ["release left", "wait rest", "wait 10"]
+terms = ["burley-sheen", "ashikhmin-neubelt", "charlie-conty-kulla", "exponential", "fibre-table"]
+for term in terms:
+    script += [f'choose "Material/sheen lobe" {term}', "wait rest", "wait 10"]
+
+
+def display():
+    """A server without a screen, and what names it; None where there is none."""
+    if not shutil.which("Xvfb"):
+        return None, dict(os.environ)
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24"], pass_fds=[write],
+                              stderr=subprocess.DEVNULL)
+    number = os.read(read, 16).decode().strip()
+    return server, dict(os.environ, DISPLAY=":" + number)
+
+
+def replay(lines, environment, unseen):
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+        file.write("\n".join(lines) + "\n")
+        file.flush()
+        command = scene + ["--script", file.name] + (["--windowless"] if unseen else [])
+        out = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, timeout=900).stdout
+    return [json.loads(line) for line in out.splitlines()]
+
+
+def idle_share(environment, unseen):
+    """Processor time over time once the window is at rest."""
+    if unseen:
+        return None
+    process = subprocess.Popen(scene, env=environment, stdout=subprocess.PIPE)
+    for line in process.stdout:
+        if json.loads(line)["rest"]:
+            break
+    time.sleep(2.0)
+
+    def used():
+        fields = open(f"/proc/{process.pid}/stat").read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    before, seconds = used(), 5.0
+    time.sleep(seconds)
+    share = (used() - before) / seconds
+    process.terminate()
+    process.wait()
+    return share
+
+
+server, environment = display()
+unseen = server is None
+try:
+    reports = replay(script, environment, unseen)
+    orbits = max(zip(reports, reports[1:]), key=lambda pair: pair[1]["frame"] - pair[0]["frame"])
+    frames, seconds = orbits[1]["frame"] - orbits[0]["frame"], orbits[1]["clock"] - orbits[0]["clock"]
+    switches = reports[reports.index(orbits[1]) + 1:]
+    print(f"{reports[-1]['driver']}, 1280 x 720, builtin:cloth under a sun, panels open"
+          f"{', without a display' if unseen else ''}")
+    print(f"orbit: {frames} frames, {frames / seconds:.1f} a second; a picture of all pixels takes "
+          f"{orbits[1]['picture_ms']:.1f} ms")
+    print(f"switching {len(terms)} sheen lobes: the longest frame of the window {max(r['worst_ms'] for r in switches):.0f} ms")
+    print(f"memory: {max(r['resident_mib'] for r in reports):.0f} MiB at most, {reports[0]['resident_mib']:.0f} at the start")
+    share = idle_share(environment, unseen)
+    if share is not None:
+        print(f"at rest: {100 * share:.2f} % of one processor")
+finally:
+    if server:
+        server.terminate()
