@@ -111,6 +111,19 @@ static void clip_set(void *user, const char *text) {
     self->clip = strdup(text);
 }
 
+/* All is drawn into a picture of its own, which can be read at any time. */
+static void make_target(Window *self) {
+    if (!self->target) {
+        glGenTextures(1, &self->color);
+        glGenFramebuffers(1, &self->target);
+    }
+    glBindTexture(GL_TEXTURE_2D, self->color);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, self->width, self->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glBindFramebuffer(GL_FRAMEBUFFER, self->target);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, self->color, 0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
 static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     const char *said = NULL;
     if (!glfwInit()) {
@@ -150,15 +163,8 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(self->seen, &x, &y);
     self->scale = x > 0.5f && x < 8.0f ? x : 1.0f;
+    make_target(self);
     return true;
-}
-
-static void make_target(Window *self) {
-    glBindTexture(GL_TEXTURE_2D, self->color);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, self->width, self->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    glBindFramebuffer(GL_FRAMEBUFFER, self->target);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, self->color, 0);
-    glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 static bool open_unseen(Window *self, const WindowDesc *desc, char why[256]) {
@@ -184,8 +190,6 @@ static bool open_unseen(Window *self, const WindowDesc *desc, char why[256]) {
     self->width = desc->width;
     self->height = desc->height;
     self->scale = 1.0f;
-    glGenTextures(1, &self->color);
-    glGenFramebuffers(1, &self->target);
     make_target(self);
     return true;
 }
@@ -285,7 +289,7 @@ static void take_resize(Window *self, const Event *e) {
     int width = (int)e->x, height = (int)e->y;
     if (width < 1 || height < 1) return; /* minimised */
     self->width = width, self->height = height;
-    if (!self->seen) make_target(self);
+    make_target(self);
 }
 
 static void take_drop(Window *self, Event *e) {
@@ -388,10 +392,16 @@ void window_bind(Window *self) {
 }
 
 void window_present(Window *self) {
-    if (self->seen)
-        glfwSwapBuffers(self->seen);
-    else
+    if (!self->seen) {
         glFinish();
+        return;
+    }
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, self->target);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, self->width, self->height, 0, 0, self->width, self->height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glfwSwapBuffers(self->seen);
 }
 
 void window_size(const Window *self, int *width, int *height) {
@@ -423,13 +433,11 @@ WeftResult window_read(Window *self, WeftImage *out, WeftError *error) {
     if (result != WEFT_OK) return result;
     size_t row = 3 * (size_t)self->width;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, self->target);
-    if (!self->target) glReadBuffer(GL_FRONT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     unsigned char *pixels = out->pixels;
     for (int y = 0; y < self->height; y++)
         glReadPixels(0, self->height - 1 - y, self->width, 1, GL_RGB, GL_UNSIGNED_BYTE,
                      pixels + (size_t)y * row);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    if (!self->target) glReadBuffer(GL_BACK);
     return WEFT_OK;
 }

@@ -1,0 +1,361 @@
+/* The window without a display, driven by scripts: what it does, says and leaves on disk. */
+#include "drive.h"
+
+/* ---- materials ---- */
+
+static void what_is_typed_into_a_slider_is_undone(void **state) {
+    (void)state;
+    need_gl();
+    Drive drive = drive_start(
+        "wait rest\nwindow window.png\npicture 0.png\nwait message wrote 0.png\nwait rest\n"
+        "set \"Material/roughness\" 0.337\nwait rest\npicture 1.png\nwait message wrote 1.png\nwait rest\n"
+        "key control+z\nwait message undone\nwait rest\npicture 2.png\nwait message wrote 2.png\nwait rest\n"
+        "key control+z\nwait message nothing\n"
+        "key control+shift+z\nwait message again\nwait rest\npicture 3.png\nwait message wrote 3.png\nwait "
+        "rest\n",
+        LIST(UNSEEN, CHEAP));
+    json_t *states[4];
+    for (int k = 0; k < 4; k++) {
+        char text[32];
+        snprintf(text, sizeof text, "wrote %d.png", k);
+        states[k] = drive_until(&drive, "message", text);
+    }
+    assert_true(json_equal(material_of(states[0], 0), material_of(states[2], 0)));
+    assert_true(json_equal(material_of(states[1], 0), material_of(states[3], 0)));
+    double rough =
+        json_number_value(json_array_get(json_object_get(material_of(states[1], 0), "roughness"), 0));
+    assert_true(fabs(rough - 0.337) < 1e-6);
+    for (int k = 0; k < 4; k++) json_decref(states[k]);
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") > 0.01);
+    assert_true(pictures_most("1.png", "3.png") < 1.0 / 255.0);
+    WeftImage window = picture_read("window.png");
+    assert_true(window.width == 640 && window.height == 420);
+    weft_image_free(&window);
+}
+
+/* ---- scenes ---- */
+
+static void a_broken_scene_leaves_the_one_before(void **state) {
+    (void)state;
+    need_gl();
+    file_make("broken.glb", "glTF....nonsense", 16);
+    file_make("broken.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[7]}]}", 54);
+    file_make("strange.xyz", "?", 1);
+    script_begin();
+    say_picture("before.png");
+    say("drop broken.glb\nwait message broken.glb\ndrop broken.gltf\nwait message broken.gltf\n");
+    say("open nowhere.gltf\nwait message nowhere.gltf\ndrop strange.xyz\nwait message strange.xyz\nwait "
+        "rest\n");
+    say_picture("after.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = drive_until(&drive, "message", "after.png");
+    assert_string_equal(word_of(now, "scene"), "builtin:cloth");
+    json_decref(now);
+    drive_finish(&drive);
+    assert_true(pictures_most("before.png", "after.png") < 0.5 / 255.0);
+}
+
+static void a_saved_scene_looks_the_same(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nchoose \"Material/sheen lobe\" charlie-neubelt\nset \"Material/sheen roughness\" "
+        "0.5\nwait "
+        "rest\n");
+    say_picture("own.png");
+    say("save saved.glb\nwait message wrote saved.glb\nsave saved.gltf\nwait message wrote saved.gltf\n");
+    drive_through(script, LIST(UNSEEN, CHEAP));
+    static const char *const files[] = {"saved.glb", "saved.gltf"};
+    script_begin();
+    say_picture("again.png");
+    for (int k = 0; k < 2; k++) {
+        drive_through(script, LIST(UNSEEN, files[k], "--env", "0,0,0", "--camera", "0", "--occlusion", "0"));
+        double most = pictures_most("own.png", "again.png");
+        if (!(most < 1.5 / 255.0)) fail_msg("%s: %.1f / 255", files[k], 255.0 * most);
+    }
+}
+
+static void a_full_disk_is_told_of(void **state) {
+    (void)state;
+    need_gl();
+    file_make("script",
+              "wait rest\nsave full.glb\nwait message full.glb\nwait rest\npicture full.exr\n"
+              "wait message full.exr\nwait rest\nset \"Material/roughness\" 0.5\nwait rest\n",
+              strlen("wait rest\nsave full.glb\nwait message full.glb\nwait rest\npicture full.exr\n"
+                     "wait message full.exr\nwait rest\nset \"Material/roughness\" 0.5\nwait rest\n"));
+    Ran ran = run_shell(
+        "( ulimit -f 40; trap '' XFSZ; \"$0\" view builtin:cloth --set Softbox.emission=0 --env 0,0,0"
+        " --light 'sun;-1,-2,-1;3,3,3' --occlusion 0 --windowless --forget --json --width 640"
+        " --height 420 --script script || echo failed >&2 ) | cat > said");
+    size_t size;
+    char *said = file_bytes("said", &size);
+    assert_string_equal(ran.err, "");
+    assert_non_null(strstr(said, "\"message\":\"full.glb: "));
+    assert_non_null(strstr(said, "\"message\":\"full.exr: "));
+    assert_null(strstr(said, "wrote full"));
+    assert_int_equal(access("full.glb", F_OK), -1);
+    assert_int_equal(access("full.exr", F_OK), -1);
+    free(said);
+    ran_free(&ran);
+}
+
+/* ---- the command line ---- */
+
+/* Runs the line that the window wrote, with another name for its picture. */
+static void render_as(const char *line_path, const char *picture) {
+    size_t size;
+    char *line = file_bytes(line_path, &size), shell[4096];
+    assert_non_null(line);
+    char *tail = strstr(line, " -o picture.png");
+    assert_true(strncmp(line, "weft render ", 12) == 0 && tail);
+    *tail = '\0';
+    snprintf(shell, sizeof shell, "\"$0\" %s --quiet --occlusion 0 -o %s", line + 5, picture);
+    Ran ran = run_shell(shell);
+    if (ran.code != 0) fail_msg("%s: %d: %s", shell, ran.code, ran.err);
+    ran_free(&ran);
+    free(line);
+}
+
+static void its_command_line_makes_its_picture(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nchoose \"Material/sheen lobe\" charlie-neubelt\nset \"Material/sheen roughness\" 0.47\n");
+    say("drag left 0.5 0.5 0.6 0.45\nwheel 1\n");
+    say_picture("0.exr");
+    say("command 0.txt\nclick Panel/Light\nset Light/intensity 5.5\nset Light/rotation 20\nclick \"Light/+ "
+        "point\"\n");
+    say("click Panel/View\nset View/exposure 0.5\nchoose View/show sheen\n");
+    say_picture("1.exr");
+    say("command 1.txt\nkey tab\nwait samples 24\npicture 2.exr\nwait message wrote 2.exr\ncommand 2.txt\n");
+    drive_through(script, LIST(UNSEEN, CHEAP));
+    render_as("0.txt", "r0.exr");
+    render_as("1.txt", "r1.exr");
+    render_as("2.txt", "r2.exr");
+    assert_true(pictures_differ("0.exr", "r0.exr") < 1e-5);
+    assert_true(pictures_differ("1.exr", "r1.exr") < 1e-5);
+    double traced = pictures_differ("2.exr", "r2.exr");
+    if (!(traced < 0.01)) fail_msg("path traced: %g", traced);
+    assert_true(pictures_differ("0.exr", "1.exr") > 0.01);
+}
+
+/* ---- comparing ---- */
+
+static double roughness_of(const json_t *state) {
+    return json_number_value(json_array_get(json_object_get(material_of(state, 0), "roughness"), 0));
+}
+
+static void two_settings_and_the_difference(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nkey c\nset \"Material/roughness\" 0.25\n");
+    say_picture("a.png");
+    say("wait rest\nkey x\n");
+    say_picture("b.png");
+    say("wait rest\nkey x\nkey c\n");
+    say_picture("c.png");
+    say("wait rest\nkey shift+tab\nwait samples 8\nwait 200\npicture d.png\nwait message wrote d.png\nwait "
+        "samples 9\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *a = drive_until(&drive, "message", "wrote a.png"),
+           *b = drive_until(&drive, "message", "wrote b.png"),
+           *c = drive_until(&drive, "message", "wrote c.png");
+    assert_int_equal(number_of(a, "split"), 1);
+    assert_int_equal(number_of(b, "split"), 1);
+    assert_int_equal(number_of(c, "split"), 0);
+    assert_true(fabs(roughness_of(a) - 0.25) < 1e-6);
+    assert_true(fabs(roughness_of(b) - 0.9) < 1e-6);
+    assert_true(fabs(roughness_of(c) - 0.25) < 1e-6);
+    assert_true(number_of(c, "relmse") < 0.0);
+    json_decref(a);
+    json_decref(b);
+    json_decref(c);
+    double relmse = -1.0;
+    for (bool ended = false; !ended;) {
+        ended = drive_ended(&drive);
+        for (json_t *now; (now = drive_next(&drive)); json_decref(now)) {
+            if (strcmp(word_of(now, "mode"), "difference") != 0) continue;
+            relmse = fmax(relmse, number_of(now, "relmse"));
+        }
+        if (!ended) sleep_seconds(0.02);
+    }
+    drive_finish(&drive);
+    assert_true(relmse >= 0.0 && relmse < 1.0);
+}
+
+/* ---- files that change while it runs ---- */
+
+static void write_texture(const char *path, int red, int green) {
+    WeftImage image;
+    WeftError error;
+    assert_int_equal(weft_image_create(8, 8, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    unsigned char *p = image.pixels;
+    for (int k = 0; k < 64; k++, p += 3) p[0] = (unsigned char)red, p[1] = (unsigned char)green, p[2] = 20;
+    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(&image);
+}
+
+static void pass_by(Drive *drive, const char *message) {
+    json_decref(drive_until(drive, "message", message));
+}
+
+static void a_texture_is_read_again(void **state) {
+    (void)state;
+    need_gl();
+    write_texture("map.png", 220, 60);
+    script_begin();
+    say_picture("1.png");
+    say("wait message read again\n");
+    say_picture("2.png");
+    say("wait message map.png\n");
+    say_picture("3.png");
+    say("wait message read again\n");
+    say_picture("4.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--texture", "Cloth.base_color=map.png"));
+    pass_by(&drive, "wrote 1.png");
+    write_texture("map.png", 60, 220);
+    pass_by(&drive, "wrote 2.png");
+    file_make("map.png", "\x89PNG\r\n\x1a\nnonsense", 16);
+    pass_by(&drive, "wrote 3.png");
+    write_texture("map.png", 220, 60);
+    pass_by(&drive, "wrote 4.png");
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") > 0.05);
+    assert_true(pictures_most("2.png", "3.png") < 0.5 / 255.0);
+    assert_true(pictures_most("1.png", "4.png") < 0.5 / 255.0);
+}
+
+static void write_lobe(const char *with) {
+    static const char from[] = "1.0f / PI";
+    const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
+    char *edited = at ? calloc(strlen(text) + strlen(with) + 1, 1) : NULL;
+    assert_non_null(edited);
+    int length = sprintf(edited, "%.*s%s%s", (int)(at - text), text, with, at + strlen(from));
+    file_make("text/shading/lobes/lambert.h", edited, (size_t)length);
+    free(edited);
+}
+
+static void shader_text_is_compiled_again(void **state) {
+    (void)state;
+    need_gl();
+    assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700),
+                     0);
+    write_lobe("1.0f / PI");
+    script_begin();
+    say_picture("1.png");
+    say("wait message shader:\n");
+    say_picture("2.png");
+    say("wait message compile again\n");
+    say_picture("3.png");
+    say("wait message shader:\n");
+    say_picture("4.png");
+    say("wait message compile again\n");
+    say_picture("5.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--shader-dir", "text"));
+    json_t *now = drive_until(&drive, "message", "wrote 1.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    write_lobe("1.0f / / PI");
+    now = drive_until(&drive, "message", "wrote 2.png");
+    assert_non_null(strstr(word_of(now, "complaint"), "lambert.h:"));
+    json_decref(now);
+    write_lobe("3.0f / PI");
+    now = drive_until(&drive, "message", "wrote 3.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    write_lobe("nothing(a) / PI");
+    pass_by(&drive, "wrote 4.png");
+    write_lobe("1.0f / PI /* mended */");
+    now = drive_until(&drive, "message", "wrote 5.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") < 0.5 / 255.0); /* broken text leaves what there was */
+    assert_true(pictures_most("1.png", "3.png") > 0.1);
+    assert_true(pictures_most("3.png", "4.png") < 0.5 / 255.0);
+    assert_true(pictures_most("1.png", "5.png") < 0.5 / 255.0);
+}
+
+/* ---- the brush ---- */
+
+static void a_brushed_nap_is_kept(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nchoose \"Material/sheen lobe\" fibre-table\nset Material/nap 40\nwait rest\n");
+    say_picture("plain.exr");
+    say("key b\nmove 0.3 0.42\npress left\nwait rest\n");
+    for (int k = 1; k <= 8; k++) say("move %.3f %.3f\nwait rest\n", 0.3 + 0.04 * k, 0.42 + 0.02 * (k % 2));
+    say("release left\nwait rest\nkey b\n");
+    say_picture("brushed.exr");
+    say("save nap.glb\nwait message wrote nap.glb\nkey tab\nwait samples 24\npicture traced.exr\n");
+    say("wait message wrote traced.exr\n");
+    drive_through(script, LIST(UNSEEN, CHEAP));
+    double brushed = pictures_differ("plain.exr", "brushed.exr");
+    WeftImage size = picture_read("brushed.exr");
+    char shell[512];
+    snprintf(
+        shell, sizeof shell,
+        "\"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d --quiet --engine raster"
+        " --occlusion 0 -o again.exr && \"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d"
+        " --quiet --spp 24 -o truth.exr",
+        size.width, size.height, size.width, size.height);
+    weft_image_free(&size);
+    Ran ran = run_shell(shell);
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    double again = pictures_differ("brushed.exr", "again.exr"),
+           traced = pictures_differ("traced.exr", "truth.exr");
+    print_message("brushed: %g; read again: %g, path traced %g\n", brushed, again, traced);
+    assert_true(brushed > 1e-3);
+    assert_true(again < 1e-5);
+    assert_true(traced < 0.01);
+}
+
+/* ---- what cannot be done ---- */
+
+static void a_script_that_is_wrong_ends_it(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const wrong[][2] = {{"wait rest\nclick \"Material/nonsense\"\n", "script:2: "},
+                                           {"# one\n\nwait rest\nsing a song\n", "script:4: "},
+                                           {"key nonsense\n", "script:1: "},
+                                           {"drag left 0.5\n", "script:1: "}};
+    for (int k = 0; k < 4; k++) {
+        file_make("script", wrong[k][0], strlen(wrong[k][0]));
+        assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"), 1,
+                         wrong[k][1]);
+    }
+    assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "absent"), 4,
+                     "absent");
+}
+
+static void without_a_display_it_says_what_does_without(void **state) {
+    (void)state;
+    Ran ran = run_shell("unset DISPLAY WAYLAND_DISPLAY; exec \"$0\" view builtin:cloth --forget");
+    assert_int_equal(ran.code, 4);
+    assert_true(one_complaint(ran.err));
+    assert_non_null(strstr(ran.err, "weft render"));
+    assert_string_equal(ran.out, "");
+    ran_free(&ran);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_typed_into_a_slider_is_undone),
+                                       cmocka_unit_test(a_broken_scene_leaves_the_one_before),
+                                       cmocka_unit_test(a_saved_scene_looks_the_same),
+                                       cmocka_unit_test(a_full_disk_is_told_of),
+                                       cmocka_unit_test(its_command_line_makes_its_picture),
+                                       cmocka_unit_test(two_settings_and_the_difference),
+                                       cmocka_unit_test(a_texture_is_read_again),
+                                       cmocka_unit_test(shader_text_is_compiled_again),
+                                       cmocka_unit_test(a_brushed_nap_is_kept),
+                                       cmocka_unit_test(a_script_that_is_wrong_ends_it),
+                                       cmocka_unit_test(without_a_display_it_says_what_does_without)};
+    return cmocka_run_group_tests(tests, drive_begin, drive_end);
+}
