@@ -1,6 +1,7 @@
 /* view.c - `weft view`: the window */
 #include "view/view.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -44,7 +45,7 @@ static WeftResult dress_scene(void *user, WeftScene *scene, Around *around, cons
         memcpy(around->color, staging->env_color, sizeof around->color);
     } else if (staging->env && strlen(staging->env) < sizeof around->path) {
         around->kind = AROUND_FILE;
-        strcpy(around->path, staging->env);
+        snprintf(around->path, sizeof around->path, "%s", staging->env);
     }
     return staging_apply(staging, 0, scene, log, error);
 }

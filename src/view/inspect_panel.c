@@ -83,7 +83,7 @@ static float cosine_of(int k) { return fmaxf(1.0f - (float)k / (ANGLES - 1), 0.0
 
 /* A little of what is left to measure: the window is not to wait. */
 static void refresh(Inspection *self, const WeftMaterial *material) {
-    if (!self->known || memcmp(&self->of, material, sizeof *material) != 0) {
+    if (!self->known || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0) {
         weft_reflection_free(self->reflection);
         self->reflection = NULL;
         self->of = *material;

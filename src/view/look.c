@@ -76,7 +76,7 @@ bool look_copy(Look *copy, const Look *look) {
 }
 
 void look_free(Look *look) {
-    for (int k = 0; k < look->material_count; k++) material_drop(look->materials[k]);
+    for (int k = 0; k < look->material_count && look->materials; k++) material_drop(look->materials[k]);
     for (int k = 0; k < LOOK_NAPS; k++) nap_free(look->naps[k]);
     free(look->materials);
     *look = (Look){0};

@@ -114,8 +114,7 @@ static void begin_nap(Viewer *v, int material) {
     m.inputs[nap].given = 1;
     viewer_set_material(v, material, &m);
     if (!weft_material_reads(&m, nap))
-        viewer_say(v, true,
-                   "the sheen of this material has no nap: choose the lobe fibre");
+        viewer_say(v, true, "the sheen of this material has no nap: choose the lobe fibre");
 }
 
 /* Along the way from where the brush was; over a seam of the map it begins anew. */
@@ -232,7 +231,7 @@ void stage_input(Viewer *v) {
     bool free_mouse = over_stage(v) && !ui_wants_mouse();
     for (int b = 0; b < 3; b++) {
         if (in->button[b] && !v->pressed[b] && free_mouse) {
-            v->pressed[b] = v->stage_owns = true;
+            v->pressed[b] = true;
             begin_drag(v, b);
         } else if (!in->button[b] && v->pressed[b]) {
             v->pressed[b] = false;

@@ -52,7 +52,7 @@ static int should_stop(void *user, double fraction) {
 static bool same_view(const TruthOrder *a, const TruthOrder *b) {
     WeftRenderDesc x = a->desc, y = b->desc;
     x.camera = y.camera = NULL;
-    return memcmp(&x, &y, sizeof x) == 0 && strcmp(a->camera, b->camera) == 0;
+    return memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 && strcmp(a->camera, b->camera) == 0;
 }
 
 static void say(Truth *self, const char *failure) {
@@ -249,7 +249,7 @@ void truth_release(Truth *self, const WeftScene *scene, unsigned changed) {
 
 void truth_order(Truth *self, const TruthOrder *order) {
     pthread_mutex_lock(&self->lock);
-    if (memcmp(&self->order, order, sizeof *order) != 0) {
+    if (memcmp((const char *)&self->order, (const char *)order, sizeof *order) != 0) {
         self->order = *order;
         self->number++;
         self->picture.failure[0] = '\0';

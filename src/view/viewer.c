@@ -266,7 +266,7 @@ static bool same_order(const Order *a, const Order *b) {
     x.camera = y.camera = NULL;
     bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
                 a->truth == b->truth && a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
-                memcmp(&x, &y, sizeof x) == 0;
+                memcmp((const char *)&x, (const char *)&y, sizeof x) == 0;
     return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) &&
            !(a->exposure > b->exposure);
 }

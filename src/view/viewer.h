@@ -118,8 +118,6 @@ typedef struct Viewer {
     float press_x, press_y, last_x, last_y;
     int held_light; /* whose handle is dragged, -1 none */
     bool held_split;
-    bool stage_owns; /* the drag began there */
-    bool picking;
     unsigned stamps;
 
     /* rates */
