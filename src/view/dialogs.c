@@ -7,6 +7,12 @@
 #include "view/paths.h"
 #include "view/viewer.h"
 
+static void cancel(void) {
+    bool pressed = ui_button("Cancel");
+    ui_tip("Closes this without doing anything (Escape).");
+    if (pressed || ui_escaped()) ui_dialog_close();
+}
+
 static void draw_open(Viewer *v) {
     if (!ui_dialog("Open", 640.0f * ui_scale(), 460.0f * ui_scale())) return;
     ui_scope("Open");
@@ -22,7 +28,7 @@ static void draw_open(Viewer *v) {
     }
     ui_tip("Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene.");
     ui_same_line();
-    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
+    cancel();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -35,7 +41,9 @@ static void draw_save(Viewer *v) {
     bool entered = ui_input("file", v->save_path, LOOK_PATH);
     ui_tip("Where to write; from the folder the program was started in.");
     ui_dim(path_stamp(v->save_path) ? "A file of this name is there: it will be replaced." : " ");
-    if (ui_button("Save") || entered) {
+    bool pressed = ui_button("Save");
+    ui_tip("Writes the file (Enter).");
+    if (pressed || entered) {
         PathKind kind = path_kind(v->save_path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
             viewer_save(v, v->save_path);
@@ -45,7 +53,7 @@ static void draw_save(Viewer *v) {
         }
     }
     ui_same_line();
-    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
+    cancel();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -68,12 +76,14 @@ static void draw_shot(Viewer *v) {
     v->shot_width = v->shot_width < 1 ? 1 : v->shot_width > 16384 ? 16384 : v->shot_width;
     v->shot_height = v->shot_height < 1 ? 1 : v->shot_height > 16384 ? 16384 : v->shot_height;
     ui_dim(path_stamp(v->shot_path) ? "A file of this name is there: it will be replaced." : " ");
-    if (ui_button("Save") || entered) {
+    bool pressed = ui_button("Save");
+    ui_tip("Writes the file (Enter).");
+    if (pressed || entered) {
         viewer_shot(v, v->shot_path);
         ui_dialog_close();
     }
     ui_same_line();
-    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
+    cancel();
     ui_scope_end();
     ui_dialog_end();
 }
@@ -103,7 +113,7 @@ static void draw_use(Viewer *v) {
     }
     ui_tip("Lights the scene by it, a lat-long picture.");
     ui_same_line();
-    if (ui_button("Cancel") || ui_escaped()) ui_dialog_close();
+    cancel();
     ui_scope_end();
     ui_dialog_end();
 }

@@ -39,6 +39,14 @@ static json_t *box_json(const UiBox *b) {
     return json_pack("[i,i,i,i]", (int)b->x, (int)b->y, (int)b->width, (int)b->height);
 }
 
+/* Those that say nothing of themselves. */
+static json_t *untold_json(void) {
+    json_t *array = json_array();
+    for (int k = 0; k < ui_control_count(); k++)
+        if (!ui_control(k)->told) json_array_append_new(array, json_string(ui_control(k)->name));
+    return array;
+}
+
 static json_t *controls_json(void) {
     json_t *object = json_object();
     for (int k = 0; k < ui_control_count(); k++)
@@ -83,6 +91,7 @@ void report_state(Viewer *v, bool settled) {
     json_object_set_new(root, "resident_mib", json_real(resident()));
     json_object_set_new(root, "stage", box_json(&v->stage));
     json_object_set_new(root, "help", json_boolean(v->help_open));
+    json_object_set_new(root, "untold", untold_json());
     json_object_set_new(root, "controls", controls_json());
     char *text = json_dumps(root, JSON_COMPACT);
     if (text) puts(text);

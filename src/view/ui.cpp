@@ -23,6 +23,7 @@ struct Ui {
     std::vector<size_t> scopes;
     std::vector<UiControl> shown, last;
     std::string reveal;
+    bool noted = false;         /* the widget before is the last of those shown */
     ImDrawList *list = nullptr; /* that is drawn on; NULL: the current window's */
     ImVec4 accent = ImVec4(0.86f, 0.55f, 0.30f, 1.0f);
 };
@@ -51,6 +52,7 @@ std::string visible(const char *label) {
 
 /* Notes the widget before under its name. */
 void note(const char *label) {
+    ui->noted = false;
     UiControl control = {};
     const char *hidden = strstr(label, "##");
     std::string name = ui->scope + (hidden == label ? std::string(label + 2) : visible(label));
@@ -62,7 +64,10 @@ void note(const char *label) {
         ui->reveal.clear();
     }
     ImVec2 middle = at(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)); /* where a script points at */
-    if (ImGui::IsRectVisible(middle, at(middle.x + 1.0f, middle.y + 1.0f))) ui->shown.push_back(control);
+    if (ImGui::IsRectVisible(middle, at(middle.x + 1.0f, middle.y + 1.0f))) {
+        ui->shown.push_back(control);
+        ui->noted = true;
+    }
 }
 
 /* Labels stand left of widgets: a column of names, one of values. */
@@ -354,6 +359,7 @@ void ui_warning(const char *text) {
 }
 
 void ui_tip(const char *text) {
+    if (text && *text && ui->noted) ui->shown.back().told = true;
     if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
     ImGui::BeginTooltip();
@@ -381,7 +387,7 @@ bool ui_checkbox(const char *label, bool *on) {
     return changed;
 }
 
-bool ui_tabs(const char *label, const char *const *names, int *chosen) {
+bool ui_tabs(const char *label, const char *const *names, const char *const *tips, int *chosen) {
     bool changed = false;
     ui_scope(label);
     for (int k = 0; names[k]; k++) {
@@ -397,6 +403,7 @@ bool ui_tabs(const char *label, const char *const *names, int *chosen) {
         }
         note(names[k]);
         if (is) ImGui::PopStyleColor(2);
+        ui_tip(tips[k]);
     }
     ui_scope_end();
     return changed;

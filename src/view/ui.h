@@ -124,8 +124,8 @@ void ui_tip(const char *text);
 bool ui_button(const char *label);
 bool ui_small_button(const char *label);
 bool ui_checkbox(const char *label, bool *on);
-/* Buttons in a row of which one is chosen; names ends with NULL. */
-bool ui_tabs(const char *label, const char *const *names, int *chosen);
+/* Buttons in a row of which one is chosen; names ends with NULL, and each has a tip. */
+bool ui_tabs(const char *label, const char *const *names, const char *const *tips, int *chosen);
 bool ui_selectable(const char *label, bool chosen);
 
 /* A menu of count values; name and help (may be NULL) tell them by number. */
@@ -181,6 +181,7 @@ void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, 
 typedef struct UiControl {
     char name[96];
     UiBox box;
+    bool told; /* it has a tip */
 } UiControl;
 int ui_control_count(void);
 const UiControl *ui_control(int index);

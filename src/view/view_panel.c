@@ -82,8 +82,11 @@ static void draw_picture(Viewer *v) {
 
 static void draw_compare(Viewer *v) {
     static const char *const splits[] = {"Off", "Line", "Side by side", NULL};
+    static const char *const tips[] = {"One setting.",
+                                       "A on the left of a line that can be dragged, B on the right.",
+                                       "The same view twice."};
     int split = (int)v->split;
-    if (ui_tabs("A and B", splits, &split)) viewer_split(v, (Split)split);
+    if (ui_tabs("A and B", splits, tips, &split)) viewer_split(v, (Split)split);
     if (v->split == SPLIT_NONE) {
         ui_dim("Two settings of everything - materials, profiles, lights - in one picture.");
         return;
@@ -104,8 +107,11 @@ static void draw_tools(Viewer *v) {
     static const char *const tools[] = {"Orbit", "Probe", "Brush nap", NULL};
     static const UiRange radius = {0.002f, 0.5f, 0.05f, "m", true},
                          strength = {0.0f, 1.0f, 0.7f, NULL, false};
+    static const char *const tips[] = {"The left button turns the camera.",
+                                       "The left button asks what a pixel is made of.",
+                                       "The left button strokes the fibres of a sheen."};
     int tool = (int)v->tool;
-    if (ui_tabs("Tool", tools, &tool)) v->tool = (Tool)tool;
+    if (ui_tabs("Tool", tools, tips, &tool)) v->tool = (Tool)tool;
     if (v->tool != TOOL_BRUSH) return;
     ui_slider("radius", &radius, &v->brush.radius);
     ui_tip("Of the brush, on the surface.");

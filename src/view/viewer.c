@@ -351,19 +351,19 @@ static void take_camera(Viewer *v) {
     set_home(v, p->eye, p->target);
 }
 
-/* A picture of what was just asked for is waited for a little, so that it is seen in the same frame. */
+/* A newer picture is waited for a little: of what was just asked for, or of the frame before, while the
+ * painter is at this one's. So window and painter work side by side, and no picture is more than two frames
+ * behind. */
 static void await_picture(Viewer *v) {
-    double until = now() + 0.06;
+    double until = now() + 0.04;
+    unsigned before = v->painted.number;
     painter_look(v->painter, &v->painted);
-    if (!v->has_scene || v->late || v->mode != MODE_LIVE) {
-        if (v->painted.number == v->ordered) v->late = false;
-        return;
-    }
-    while (v->painted.number != v->ordered && now() < until) {
+    bool waits = v->has_scene && !v->late && v->mode == MODE_LIVE;
+    while (waits && v->painted.number == before && before != v->ordered && now() < until) {
         window_wait(v->window, 0.004);
         painter_look(v->painter, &v->painted);
     }
-    v->late = v->painted.number != v->ordered;
+    v->late = v->painted.number == before && before != v->ordered;
 }
 
 static void take_truth(Viewer *v) {
@@ -595,12 +595,16 @@ static void lay_out(Viewer *v) {
 
 static void draw_side(Viewer *v) {
     static const char *const names[] = {"Material", "Light", "View", "Inspect", NULL};
+    static const char *const tips[] = {"What surfaces are made of: models and numbers.",
+                                       "Lights, and what shines from far away.",
+                                       "Camera, exposure, comparison, tools.",
+                                       "What a material does with light, and what a pixel is made of."};
     int width, height;
     window_size(v->window, &width, &height);
     float x = v->stage.width + 1.0f, y = v->stage.y, row = ui_line_height();
     UiBox head = {x, y, (float)width - x, row + 8.0f * ui_scale()};
     UiBox body = {x, y + head.height, head.width, fmaxf(v->stage.height - head.height, 1.0f)};
-    if (ui_panel("Side", head, false)) ui_tabs("Panel", names, &v->panel);
+    if (ui_panel("Side", head, false)) ui_tabs("Panel", names, tips, &v->panel);
     ui_panel_end();
     ui_scope(names[v->panel]);
     if (ui_panel(names[v->panel], body, true) && v->has_scene) {
