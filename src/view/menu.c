@@ -90,11 +90,11 @@ static void draw_menus(Viewer *v) {
 
 static void draw_modes(Viewer *v) {
     static const char *const modes[] = {"OpenGL", "Path traced", "Difference", NULL};
+    static const char *const tips[] = {"As an engine draws it.",
+                                       "The path tracer's answer to exactly this view (Tab).",
+                                       "How OpenGL differs from it, as a map and in numbers (Shift+Tab)."};
     int mode = (int)v->mode;
-    if (ui_tabs("Mode", modes, &mode)) v->mode = (Mode)mode;
-    ui_tip("OpenGL, as an engine draws it; the path tracer's answer to exactly this view; how the two "
-           "differ. Tab "
-           "goes to the truth and back.");
+    if (ui_tabs("Mode", modes, tips, &mode)) v->mode = (Mode)mode;
     ui_same_line();
     ui_text("  ");
     ui_same_line();
