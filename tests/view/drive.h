@@ -135,14 +135,16 @@ static inline json_t *drive_rest(Drive *drive) {
 }
 
 /* It must end by itself, well, and without a word on standard error. */
-static inline void drive_finish(Drive *drive) {
+static inline void drive_finish_within(Drive *drive, double seconds) {
     double start = seconds_now();
-    while (!drive_ended(drive) && seconds_now() - start < 200.0) sleep_seconds(0.02);
+    while (!drive_ended(drive) && seconds_now() - start < seconds) sleep_seconds(0.02);
     if (!drive_ended(drive)) drive_give_up(drive, "it did not end");
     Ran ran = program_end(drive->child);
     if (ran.code != 0 || ran.err[0]) fail_msg("ended with %d: \"%s\"", ran.code, ran.err);
     ran_free(&ran);
 }
+
+static inline void drive_finish(Drive *drive) { drive_finish_within(drive, 200.0); }
 
 /* Runs a script to its end. */
 static inline void drive_through(const char *script, const char *const *arguments) {

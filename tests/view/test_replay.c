@@ -287,7 +287,7 @@ static void a_brushed_nap_is_kept(void **state) {
     (void)state;
     need_gl();
     script_begin();
-    say("wait rest\nchoose \"Material/sheen lobe\" fibre-table\nset Material/nap 40\nwait rest\n");
+    say("wait rest\nchoose \"Material/sheen lobe\" fibre\nset Material/nap 40\nwait rest\n");
     say_picture("plain.exr");
     say("key b\nmove 0.3 0.42\npress left\nwait rest\n");
     for (int k = 1; k <= 8; k++) say("move %.3f %.3f\nwait rest\n", 0.3 + 0.04 * k, 0.42 + 0.02 * (k % 2));
