@@ -134,6 +134,7 @@ static void brush_at(Viewer *v, const Probe *at) {
     float d[2] = {0.0f, 0.0f};
     Brush *brush = &v->brush;
     bool goes_on = brush->known && brush->material == at->material;
+    if (brush->known && !goes_on) return; /* a stroke stays on what it began on */
     for (int k = 0; k < 3 && goes_on; k++) {
         d[0] += (at->position[k] - brush->at[k]) * at->tangent[k];
         d[1] += (at->position[k] - brush->at[k]) * at->bitangent[k];
