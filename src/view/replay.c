@@ -13,7 +13,7 @@ enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 
 /* One frame's worth of an action. */
 typedef struct Motion {
-    enum { DO_EVENT, DO_POINT, DO_NOTHING } kind;
+    enum { DO_EVENT, DO_POINT, DO_NOTHING, DO_KEEP, DO_WRITE } kind;
     Event event;
     char path[1024];  /* of the event */
     char control[96]; /* DO_POINT: moves the mouse to a share of this control's box */
@@ -88,6 +88,15 @@ static void add_point(Replay *self, const char *control, float x, float y) {
 
 static void add_button(Replay *self, int button, bool down) {
     add_event(self, (Event){.kind = EVENT_BUTTON, .code = button, .down = down});
+}
+
+/* The window as it is drawn next. */
+static void add_window(Replay *self, const char *path) {
+    Motion motion = {.kind = DO_WRITE};
+    snprintf(motion.path, sizeof motion.path, "%s", path);
+    add(self, &(Motion){.kind = DO_KEEP});
+    add_pause(self, 1);
+    add(self, &motion);
 }
 
 static void add_click(Replay *self, const char *control, float x) {
@@ -214,14 +223,6 @@ static bool write_command(const Viewer *v, const char *path) {
     return good;
 }
 
-static bool window_shot(Viewer *v, const char *path) {
-    WeftImage image;
-    if (window_read(v->window, &image, NULL) != WEFT_OK) return false;
-    bool good = weft_image_write(path, &image, NULL) == WEFT_OK;
-    weft_image_free(&image);
-    return good;
-}
-
 /* A picture of the size of the stage. */
 static void scene_shot(Viewer *v, const char *path) {
     v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
@@ -288,7 +289,7 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
     else if (is(word, "picture"))
         scene_shot(v, rest);
     else if (is(word, "window"))
-        *good = window_shot(v, rest);
+        add_window(self, rest);
     else if (is(word, "command"))
         *good = write_command(v, rest);
     else if (is(word, "camera"))
@@ -317,6 +318,15 @@ static bool do_motion(Replay *self, Viewer *v, char why[512]) {
         window_push(v->window, &(Event){.kind = EVENT_MOVE,
                                         .x = c->box.x + m->x * c->box.width,
                                         .y = c->box.y + m->y * c->box.height});
+    } else if (m->kind == DO_KEEP) {
+        window_keep(v->window);
+    } else if (m->kind == DO_WRITE) {
+        WeftError error = {.text = "nothing was drawn"};
+        const WeftImage *kept = window_kept(v->window);
+        if (!kept || weft_image_write(m->path, kept, &error) != WEFT_OK) {
+            snprintf(why, 512, "%.200s:%d: %.250s", self->path, self->line, error.text);
+            return false;
+        }
     } else if (m->kind == DO_EVENT) {
         if (m->event.kind == EVENT_DROP) m->event.path = m->path;
         window_push(v->window, &m->event);

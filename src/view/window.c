@@ -33,6 +33,8 @@ struct Window {
     char *clip;
     UiClipboard clipboard;
     UiCursor shape;
+    bool keeps; /* the next frame */
+    WeftImage kept;
 };
 
 void window_push(Window *self, const Event *event) {
@@ -163,7 +165,6 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(self->seen, &x, &y);
     self->scale = x > 0.5f && x < 8.0f ? x : 1.0f;
-    make_target(self);
     return true;
 }
 
@@ -244,6 +245,7 @@ void window_close(Window *self) {
     pthread_cond_destroy(&self->wake);
     free(self->events);
     free(self->clip);
+    weft_image_free(&self->kept);
     free(self);
 }
 
@@ -289,7 +291,7 @@ static void take_resize(Window *self, const Event *e) {
     int width = (int)e->x, height = (int)e->y;
     if (width < 1 || height < 1) return; /* minimised */
     self->width = width, self->height = height;
-    make_target(self);
+    if (!self->seen) make_target(self);
 }
 
 static void take_drop(Window *self, Event *e) {
@@ -391,17 +393,27 @@ void window_bind(Window *self) {
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void window_present(Window *self) {
-    if (!self->seen) {
-        glFinish();
-        return;
-    }
-    glDisable(GL_SCISSOR_TEST);
+static void keep_frame(Window *self) {
+    WeftImage *out = &self->kept;
+    weft_image_free(out);
+    self->keeps = false;
+    if (weft_image_create(self->width, self->height, 3, WEFT_PIXEL_U8, out, NULL) != WEFT_OK) return;
+    size_t row = 3 * (size_t)self->width;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, self->target);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, self->width, self->height, 0, 0, self->width, self->height, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
-    glfwSwapBuffers(self->seen);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    unsigned char *pixels = out->pixels;
+    for (int y = 0; y < self->height; y++)
+        glReadPixels(0, self->height - 1 - y, self->width, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                     pixels + (size_t)y * row);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+}
+
+void window_present(Window *self) {
+    if (self->keeps) keep_frame(self);
+    if (self->seen)
+        glfwSwapBuffers(self->seen);
+    else
+        glFinish();
 }
 
 void window_size(const Window *self, int *width, int *height) {
@@ -428,16 +440,6 @@ void window_title(Window *self, const char *title) {
 
 const UiClipboard *window_clipboard(Window *self) { return &self->clipboard; }
 
-WeftResult window_read(Window *self, WeftImage *out, WeftError *error) {
-    WeftResult result = weft_image_create(self->width, self->height, 3, WEFT_PIXEL_U8, out, error);
-    if (result != WEFT_OK) return result;
-    size_t row = 3 * (size_t)self->width;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, self->target);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    unsigned char *pixels = out->pixels;
-    for (int y = 0; y < self->height; y++)
-        glReadPixels(0, self->height - 1 - y, self->width, 1, GL_RGB, GL_UNSIGNED_BYTE,
-                     pixels + (size_t)y * row);
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    return WEFT_OK;
-}
+void window_keep(Window *self) { self->keeps = true; }
+
+const WeftImage *window_kept(const Window *self) { return self->kept.pixels ? &self->kept : NULL; }

@@ -76,7 +76,9 @@ void window_cursor(Window *window, UiCursor cursor);
 void window_title(Window *window, const char *title);
 const UiClipboard *window_clipboard(Window *window);
 
-/* What was last drawn into it: U8 RGB. */
-WeftResult window_read(Window *window, WeftImage *out, WeftError *error);
+/* Keeps the next frame that is presented, before it is: the front of a window need not be readable. */
+void window_keep(Window *window);
+/* The frame that was kept last, U8 RGB; NULL where there is none. */
+const WeftImage *window_kept(const Window *window);
 
 #endif
