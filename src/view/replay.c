@@ -82,7 +82,7 @@ static void add_pause(Replay *self, int frames) {
 
 static void add_point(Replay *self, const char *control, float x, float y) {
     Motion motion = {.kind = DO_POINT, .x = x, .y = y};
-    snprintf(motion.control, sizeof motion.control, "%s", control);
+    snprintf(motion.control, sizeof motion.control, "%.95s", control);
     add(self, &motion);
 }
 

@@ -134,6 +134,7 @@ void viewer_say(Viewer *v, bool grave, const char *format, ...) __attribute__((f
 void viewer_open(Viewer *v, const char *path);
 
 /* What the user asks for by menu, key or replay. */
+void viewer_settle(Viewer *v); /* the look is as it is by undo or news: that is no change of its own */
 void viewer_undo(Viewer *v);
 void viewer_redo(Viewer *v);
 void viewer_mode(Viewer *v, Mode mode);

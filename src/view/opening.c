@@ -1,0 +1,209 @@
+/* Files: a scene is read in the background, handed to the painter, and shown once that can draw it. */
+#define _POSIX_C_SOURCE 200809L
+#include "view/opening.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/inputs.h"
+#include "view/paths.h"
+
+void opening_start(Viewer *v, const char *path, bool again) {
+    if (v->loader) loader_finish(v->loader, NULL);
+    bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
+    if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
+    v->loader = loader_start(v->window, v->desc, path, again, dressed);
+    if (!v->loader) viewer_say(v, true, "%.300s: out of memory", path);
+}
+
+/* What a picture is for, by its name: "velvet_normal.png". */
+static int guess_input(const char *path) {
+    static const char *const words[][2] = {{"normal", "normal"},     {"sheenrough", "sheen_roughness"},
+                                           {"sheen", "sheen_color"}, {"rough", "roughness"},
+                                           {"metal", "metallic"},    {"specular", "specular_color"},
+                                           {"emissi", "emission"},   {"opacity", "opacity"},
+                                           {"nap", "nap_direction"}, {"occlusion", "occlusion"}};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (path_contains(path, words[k][0])) return input_number(words[k][1]);
+    return input_number("base_color");
+}
+
+static void light_by(Viewer *v, const char *path) {
+    v->look.around.kind = AROUND_FILE;
+    snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
+}
+
+void viewer_open(Viewer *v, const char *path) {
+    PathKind kind = path_kind(path);
+    if (!v->has_scene && kind != PATH_SCENE) {
+        viewer_say(v, true, "%.300s: open a scene first", path);
+        return;
+    }
+    switch (kind) {
+    case PATH_SCENE: opening_start(v, path, false); break;
+    case PATH_LIGHT: light_by(v, path); break;
+    case PATH_MATERIAL: viewer_task(v, TASK_DRESS, path, v->material, -1); break;
+    case PATH_PICTURE:
+        snprintf(v->dropped, sizeof v->dropped, "%s", path);
+        v->dropped_input = guess_input(path);
+        viewer_dialog(v, "Use a picture");
+        break;
+    case PATH_FOLDER:
+        if (path_is_cubemap(path))
+            light_by(v, path);
+        else
+            viewer_task(v, TASK_WEAR, path, -1, -1);
+        break;
+    case PATH_UNKNOWN:
+        viewer_say(v, true,
+                   "%.300s: is no scene (.gltf .glb), light (.hdr .exr), material (.json) or picture", path);
+        break;
+    }
+}
+
+void opening_home(Viewer *v, const float eye[3], const float target[3]) {
+    memcpy(v->home, target, sizeof v->home);
+    v->reach = 0.0f;
+    for (int k = 0; k < 3; k++) v->reach = hypotf(v->reach, eye[k] - target[k]);
+    v->reach = fmaxf(0.5f * v->reach, 1e-3f);
+}
+
+/* Where it is seen from; how large things are, until the painter knows what is in the middle. */
+static void start_seeing(Viewer *v, const Loaded *loaded) {
+    bool first = strcmp(v->dressed, loaded->path) == 0;
+    const char *camera = first ? v->desc->camera : NULL;
+    bool builtin = strncmp(loaded->path, "builtin:", 8) == 0;
+    if (!camera) camera = builtin && loaded->facts.info.camera_count ? "0" : "auto";
+    if (!orbit_at(&v->orbit, loaded->scene, camera, viewer_aspect(v))) {
+        viewer_say(v, true, "%.100s: %s", camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
+        orbit_at(&v->orbit, loaded->scene, "auto", viewer_aspect(v));
+    }
+    v->at_home = false;
+    opening_home(v, v->orbit.eye, v->orbit.target);
+}
+
+/* What was edited stays edited where the scene is read again; maps are those of the file. */
+static void keep_edits(const Viewer *v, Look *look) {
+    for (int k = 0; k < look->material_count; k++) {
+        if (look_same_material(&v->look, &v->first, k)) continue;
+        WeftMaterial m = *look_material(&v->look, k);
+        for (int i = 0; i < WEFT_INPUTS_MAX; i++)
+            if (m.inputs[i].texture) m.inputs[i].texture = look_material(look, k)->inputs[i].texture;
+        look_set_material(look, k, &m);
+    }
+    look->light_count = v->look.light_count;
+    memcpy(look->lights, v->look.lights, sizeof look->lights);
+    look->around = v->look.around;
+    look_take_naps(look, &v->look);
+}
+
+void opening_forget(Viewer *v) {
+    look_free(&v->look);
+    look_free(&v->first);
+    look_free(&v->before);
+    look_free(&v->sent);
+    look_free(&v->other);
+    history_free(&v->history);
+    history_free(&v->other_history);
+    facts_free(&v->facts);
+}
+
+/* Those of the panels, of a scene that is another one. */
+static void choose_first(Viewer *v, const Look *look) {
+    v->material = v->light = 0;
+    v->variant = -1;
+    v->has_probe = v->has_copied = false;
+    v->save_path[0] = v->shot_path[0] = '\0';
+    for (int k = look->material_count - 1; k >= 0; k--) /* the first that has a sheen */
+        if (weft_material_reads(look_material(look, k), input_number("sheen_roughness"))) v->material = k;
+}
+
+enum { WATCH_SCENE, WATCH_LIGHT };
+
+/* The scene's own file and the light's; those of textures are the painter's to watch. */
+static void watch_files(Viewer *v) {
+    watchman_forget(v->watchman);
+    if (strncmp(v->facts.path, "builtin:", 8) != 0) watchman_watch(v->watchman, v->facts.path, WATCH_SCENE);
+    if (v->look.around.kind == AROUND_FILE) watchman_watch(v->watchman, v->look.around.path, WATCH_LIGHT);
+    snprintf(v->watched, sizeof v->watched, "%s", v->look.around.path);
+}
+
+bool opening_watch(Viewer *v, double seconds) {
+    if (v->has_scene && strcmp(v->watched, v->look.around.path) != 0) watch_files(v);
+    if (v->loader || v->has_pending) return false;
+    int changed = watchman_look(v->watchman, seconds);
+    if (changed == WATCH_SCENE) opening_start(v, v->facts.path, true);
+    if (changed == WATCH_LIGHT) v->look.around.again = v->other.around.again = v->look.around.again + 1;
+    return changed >= 0;
+}
+
+/* The scene that was read goes to the painter; it is shown once that can draw it. */
+static void hand_over(Viewer *v, Loaded *loaded) {
+    if (v->has_pending) loaded_free(&v->pending);
+    if (!loaded->again || !v->has_scene) start_seeing(v, loaded);
+    painter_give(v->painter, loaded->scene, &loaded->look, ++v->scenes);
+    loaded->scene = NULL;
+    v->pending = *loaded;
+    v->has_pending = true;
+    *loaded = (Loaded){0};
+}
+
+static void show_scene(Viewer *v, Loaded *loaded) {
+    Look look, before;
+    bool again = loaded->again && v->has_scene && loaded->look.material_count == v->look.material_count &&
+                 strcmp(loaded->path, v->facts.path) == 0;
+    if (!look_copy(&look, &loaded->look)) return;
+    if (again) keep_edits(v, &look);
+    if (!look_copy(&before, &look)) {
+        look_free(&look);
+        return;
+    }
+    opening_forget(v);
+    v->look = look;
+    v->before = before;
+    v->first = loaded->look;
+    v->facts = loaded->facts;
+    loaded->look = (Look){0};
+    loaded->facts = (Facts){0};
+    v->split = SPLIT_NONE;
+    v->side = 0;
+    if (!again) choose_first(v, &v->look);
+    v->has_scene = v->ask = true;
+    v->profiles_made = false;
+    snprintf(v->warnings, sizeof v->warnings, "%s", loaded->said ? loaded->said : "");
+    settings_opened(&v->settings, v->facts.path);
+    watch_files(v);
+}
+
+/* The painter has taken the scene, or could not: then the old one stays. */
+void opening_take(Viewer *v, const News *news) {
+    if (!v->has_pending || news->scene != v->scenes) return;
+    Loaded loaded = v->pending;
+    v->has_pending = false;
+    if (!news->failed) {
+        bool first = !v->has_scene;
+        char title[300];
+        show_scene(v, &loaded);
+        v->scene = news->scene;
+        viewer_say(v, false, "%.200s: %lld triangles, %d materials", v->facts.path,
+                   v->facts.info.triangle_count, v->facts.info.material_count);
+        snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
+        window_title(v->window, title);
+        if (first && v->desc->materials) viewer_task(v, TASK_WEAR, v->desc->materials, -1, -1);
+    }
+    loaded_free(&loaded);
+}
+
+void opening_poll(Viewer *v) {
+    Loaded loaded;
+    if (!v->loader || !loader_done(v->loader)) return;
+    loader_finish(v->loader, &loaded);
+    v->loader = NULL;
+    if (loaded.scene)
+        hand_over(v, &loaded);
+    else
+        viewer_say(v, true, "%s", loaded.failure);
+    loaded_free(&loaded);
+}

@@ -1,0 +1,26 @@
+/* opening.h - what is read: scenes in the background, lights, materials, pictures, and what changes on disk
+ */
+#ifndef WEFT_VIEW_OPENING_H
+#define WEFT_VIEW_OPENING_H
+
+#include "view/viewer.h"
+
+/* Begins to read a scene; again: the one that is shown, whose file has changed. */
+void opening_start(Viewer *v, const char *path, bool again);
+
+/* Takes what has been read, where something has. */
+void opening_poll(Viewer *v);
+
+/* Looks for files that have changed; true where one had. seconds: of a steady clock. */
+bool opening_watch(Viewer *v, double seconds);
+
+/* The painter has taken a scene, or could not. */
+void opening_take(Viewer *v, const News *news);
+
+/* Where things are, and how large: half as far as they are looked at from. */
+void opening_home(Viewer *v, const float eye[3], const float target[3]);
+
+/* Releases all that is of the scene. */
+void opening_forget(Viewer *v);
+
+#endif

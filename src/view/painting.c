@@ -1,0 +1,281 @@
+/* Pictures: what the scene is dressed as, how well it is drawn, and the textures that it is drawn into. */
+#define _POSIX_C_SOURCE 200809L
+#include "view/painting.h"
+
+#include <malloc.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <epoxy/gl.h>
+
+enum { COARSE_MOST = 8 };
+
+static const double smooth_most = 4.0;     /* s, that smooth edges may take */
+static const double frame_seconds = 0.036; /* that a picture may, while the hand moves */
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* One of the ring that is neither shown nor newest, of this size. */
+static int take_target(Painter *self, int width, int height) {
+    int k = 0;
+    pthread_mutex_lock(&self->lock);
+    while (k == self->newest || k == self->shown) k++;
+    pthread_mutex_unlock(&self->lock);
+    if (!self->textures[k]) {
+        glGenTextures(1, &self->textures[k]);
+        glGenFramebuffers(1, &self->targets[k]);
+    }
+    if (self->widths[k] != width || self->heights[k] != height) {
+        glBindTexture(GL_TEXTURE_2D, self->textures[k]);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glBindFramebuffer(GL_FRAMEBUFFER, self->targets[k]);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, self->textures[k], 0);
+        glBindTexture(GL_TEXTURE_2D, 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        self->widths[k] = width, self->heights[k] = height;
+    }
+    return k;
+}
+
+/* What the scene is dressed as, asked of itself, where it could not be brought to a look. */
+static bool read_again(Painter *self, const Look *wanted, Look *is) {
+    if (!look_read(is, self->scene)) return false;
+    is->around = self->is.around;
+    look_take_naps(is, wanted);
+    return true;
+}
+
+/* Brings the scene to a look. A light from a file that cannot be had leaves the one before. */
+WeftResult painting_wear(Painter *self, const Look *look, WeftError *error) {
+    const WeftLog log = painter_log(self);
+    unsigned changed = 0;
+    Look is;
+    if (look->material_count != self->is.material_count) return WEFT_INPUT; /* of another scene */
+    if (look_same(look, &self->is)) return WEFT_OK;
+    truth_hold(self->truth);
+    WeftResult result = look_apply(look, &self->is, &self->worn, self->scene, &changed, &log, error);
+    bool known = result == WEFT_OK ? look_copy(&is, look) : read_again(self, look, &is);
+    if (changed & WEFT_CHANGED_SHAPES) {
+        weft_pick_free(self->pick);
+        self->pick = NULL;
+    }
+    truth_release(self->truth, self->scene, changed);
+    if (!known) return WEFT_RESOURCES;
+    look_free(&self->is);
+    self->is = is;
+    WeftResult updated = weft_raster_update(self->raster, &log, result == WEFT_OK ? error : NULL);
+    return result == WEFT_OK ? updated : result;
+}
+
+/* One look in a part of a picture; as much of it as `strip` has of its height. */
+static WeftResult draw_one(Painter *self, const Order *order, const Look *look, const int part[4], int target,
+                           WeftError *error) {
+    WeftRasterView view = order->view;
+    view.camera = order->camera;
+    bool sides = order->split == SPLIT_SIDES, number = order->view.part >= WEFT_PART_BASE_COLOR;
+    int height = order->view.height;
+    WeftResult result = painting_wear(self, look, error);
+    if (sides) view.width = order->view.width / 2;
+    const int crop[4] = {sides ? 0 : part[0], part[1], sides && part[2] > view.width ? view.width : part[2],
+                         part[3]};
+    memcpy(view.crop, crop, sizeof view.crop);
+    if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
+    const WeftRasterShow show = {.framebuffer = self->targets[target],
+                                 .x = sides ? part[0] : 0,
+                                 .clip = {part[0], height - part[1] - part[3], part[2], part[3]},
+                                 .background = {0.16f, 0.16f, 0.17f},
+                                 .tonemap = number ? WEFT_TONEMAP_NONE : order->tonemap,
+                                 .exposure = number ? 0.0f : order->exposure};
+    return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;
+}
+
+static bool is_outdated(Painter *self, unsigned number) {
+    pthread_mutex_lock(&self->lock);
+    bool outdated = self->quit || self->gift || self->number != number;
+    pthread_mutex_unlock(&self->lock);
+    return outdated;
+}
+
+/* Draws part of a picture, so many rows at a time as a twentieth of a second has, about: another order need
+ * not wait long, nor does a window whose driver draws one thing after the other. More rows cost less than in
+ * proportion, so that their number is found by doubling and halving. *whole tells whether no order came
+ * between.
+ */
+static WeftResult draw_part(Painter *self, const Order *order, const Look *look, const int part[4],
+                            unsigned number, int target, double expected, bool *whole, WeftError *error) {
+    const double piece = 0.05;
+    int height = part[3], y = 0;
+    int rows = expected < 3.0 * piece ? height : (int)(height * piece / expected);
+    WeftResult result = WEFT_OK;
+    while (y < height && result == WEFT_OK && *whole) {
+        double start = now();
+        int left = height - y;
+        if (rows < 8) rows = 8;
+        if (order->compare || rows > left || left - rows < rows / 4) rows = left;
+        const int strip[4] = {part[0], part[1] + y, part[2], rows};
+        result = draw_one(self, order, look, strip, target, error);
+        glFinish();
+        y += rows;
+        double took = now() - start;
+        if (took < 1.5 * piece) rows *= 2;
+        if (took > 2.0 * piece) rows /= 2;
+        if (y < height) *whole = !is_outdated(self, number);
+    }
+    return result;
+}
+
+/* One look after the other: to go from one to the other may take long. */
+static WeftResult draw_picture(Painter *self, const Order *order, unsigned number, int target,
+                               double expected, bool *whole, WeftError *error) {
+    int width = order->view.width, height = order->view.height, middle = width / 2;
+    *whole = true;
+    const int all[4] = {0, 0, width, height};
+    if (order->split == SPLIT_NONE)
+        return draw_part(self, order, &order->look, all, number, target, expected, whole, error);
+    if (order->split == SPLIT_LINE) middle = (int)(order->at * (float)width);
+    middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
+    const int left[4] = {0, 0, middle, height}, right[4] = {middle, 0, width - middle, height};
+    bool last = order->edited == 1; /* the one that is edited comes last: tasks find the scene so */
+    WeftResult result = draw_part(self, order, last ? &order->look : &order->other, last ? left : right,
+                                  number, target, 0.5 * expected, whole, error);
+    if (result != WEFT_OK || !*whole) return result;
+    return draw_part(self, order, last ? &order->other : &order->look, last ? right : left, number, target,
+                     0.5 * expected, whole, error);
+}
+
+/* What can be drawn in the time there is: smooth edges in a few seconds, or at once where they take no longer
+ * than a frame may; all pixels where that has proved quick enough; or at least what is asked for. */
+static Effort effort_of(const Painter *self, const Order *order) {
+    if (order->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
+    if (order->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
+    return order->effort > EFFORT_COARSE || self->coarse == 1 ? EFFORT_WHOLE : EFFORT_COARSE;
+}
+
+static Order with_effort(const Painter *self, const Order *order, Effort effort) {
+    Order drawn = *order; /* its looks are borrowed */
+    int by = effort == EFFORT_COARSE ? self->coarse : 1;
+    if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
+    drawn.view.width = order->view.width / by > 16 ? order->view.width / by : 16;
+    drawn.view.height = order->view.height / by > 16 ? order->view.height / by : 16;
+    return drawn;
+}
+
+static double *seconds_of(Painter *self, Effort effort) {
+    return effort == EFFORT_SMOOTH  ? &self->smooth_seconds
+           : effort == EFFORT_WHOLE ? &self->whole_seconds
+                                    : &self->coarse_seconds;
+}
+
+/* Learns from the time that a picture took: how coarse those have to be that are drawn while the hand moves,
+ * and what the others take. One that takes far longer than those before counts only if the next one does,
+ * too: drivers compile as they draw. */
+static void learn(Painter *self, const Order *order, Effort effort, double seconds) {
+    double *known = seconds_of(self, effort);
+    self->surprised = !self->surprised && seconds > 3.0 * *known;
+    if (self->surprised) return;
+    *known = seconds;
+    if (effort == EFFORT_WHOLE && !self->smooth_known) self->smooth_seconds = 4.0 * seconds;
+    self->smooth_known |= effort == EFFORT_SMOOTH;
+    if (order->effort != EFFORT_COARSE || effort == EFFORT_SMOOTH) return;
+    double finer = self->coarse > 1 ? (double)self->coarse / (self->coarse - 1) : 1.0;
+    if (seconds > frame_seconds && self->coarse < COARSE_MOST)
+        self->coarse++;
+    else if (self->coarse > 1 && seconds * finer * finer < frame_seconds)
+        self->coarse--;
+}
+
+/* A camera of the scene turns about what is in the middle of its picture. */
+static void focus(Painter *self, const Order *order) {
+    WeftPicked at;
+    Painted seen = self->painted; /* this thread alone writes it */
+    Painted *p = &seen;
+    float d[3], n = 0.0f;
+    if (strchr(order->camera, ';')) return;
+    if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return;
+    int width = order->view.width, height = order->view.height;
+    bool hit = weft_pick_at(self->pick, order->camera, width, height, 0.5f * (float)width,
+                            0.5f * (float)height, &at) != 0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = p->target[k] - p->eye[k];
+        n += d[k] * d[k];
+    }
+    pthread_mutex_lock(&self->lock);
+    for (int k = 0; k < 3 && hit && n > 0.0f; k++)
+        self->painted.target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
+    self->painted.focused = true;
+    self->fresh = true;
+    pthread_mutex_unlock(&self->lock);
+    window_wake(self->window);
+}
+
+static void publish(Painter *self, const Order *order, Effort effort, unsigned number, int target,
+                    double seconds, const WeftError *error) {
+    WeftRasterInfo info = weft_raster_info(self->raster);
+    pthread_mutex_lock(&self->lock);
+    Painted *p = &self->painted;
+    if (target >= 0) {
+        p->texture = self->textures[target];
+        p->width = order->view.width, p->height = order->view.height;
+        p->effort = effort;
+        p->seconds = (float)seconds;
+        p->whole_seconds = (float)self->whole_seconds;
+        self->newest = target;
+    }
+    p->number = number;
+    memcpy(p->eye, info.camera_eye, sizeof p->eye);
+    memcpy(p->target, info.camera_target, sizeof p->target);
+    p->fov = info.camera_fov;
+    p->focused = strchr(order->camera, ';') != NULL;
+    p->programs = info.programs, p->compiled = info.compiled;
+    p->busy = info.making != 0;
+    snprintf(p->complaint, sizeof p->complaint, "%s", info.complaint);
+    snprintf(p->failure, sizeof p->failure, "%s", error->text);
+    snprintf(p->driver, sizeof p->driver, "%s", info.driver);
+    self->fresh = true;
+    pthread_mutex_unlock(&self->lock);
+    window_wake(self->window);
+}
+
+static void hand_linear(Painter *self) {
+    WeftImage linear;
+    if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
+}
+
+void painting_draw(Painter *self, const Order *order, unsigned number) {
+    WeftError error = {0};
+    int target = -1, compiled = weft_raster_info(self->raster).compiled;
+    bool whole = true;
+    Effort effort = effort_of(self, order);
+    Order drawn = with_effort(self, order, effort);
+    double expected = *seconds_of(self, effort);
+    WeftResult result = painting_wear(self, &order->look, &error);
+    double start = now();
+    if (!order->truth || order->compare) {
+        target = take_target(self, drawn.view.width, drawn.view.height);
+        WeftResult done =
+            draw_picture(self, &drawn, number, target, expected, &whole, result == WEFT_OK ? &error : NULL);
+        if (result == WEFT_OK) result = done;
+        if (done == WEFT_OK && order->compare) hand_linear(self);
+        if (done != WEFT_OK) target = -1;
+        bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
+        if (weft_raster_info(self->raster).compiled != compiled)
+            malloc_trim(0); /* compilers leave much behind */
+        if (fair) learn(self, order, effort, now() - start);
+    }
+    if (!whole) return; /* another order came between */
+    if (result == WEFT_OK) error.text[0] = '\0';
+    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
+    publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
+            &error);
+    focus(self, order);
+}

@@ -1,0 +1,212 @@
+/* What is done once: files to write and to wear, questions about a pixel, a sheet of profiles. */
+#include <stdio.h>
+#include <string.h>
+
+#include "view/painting.h"
+#include "weft/save.h"
+
+/* The look that the panels show. */
+static const Look *edited(const Order *order) {
+    return order->edited && order->split != SPLIT_NONE ? &order->other : &order->look;
+}
+
+static WeftResult shot(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    WeftImage linear = {0}, display = {0};
+    WeftRasterView view = order->view;
+    WeftResult result = WEFT_OK;
+    view.camera = order->camera;
+    if (task->width > 0) view.width = task->width, view.height = task->height;
+    if (task->transparent) view.background = WEFT_BACKGROUND_TRANSPARENT;
+    if (task->truth) {
+        if (!truth_image(self->truth, &linear)) {
+            snprintf(error->text, sizeof error->text, "there is no path-traced picture yet");
+            return WEFT_INPUT;
+        }
+    } else {
+        result = painting_wear(self, edited(order), error);
+        if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
+        if (result == WEFT_OK) result = weft_raster_image(self->raster, &linear, error);
+    }
+    const WeftImage *image = &linear;
+    if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
+        bool number = order->view.part >= WEFT_PART_BASE_COLOR && !task->truth;
+        result = weft_image_tonemap(&linear, number ? WEFT_TONEMAP_NONE : order->tonemap,
+                                    number ? 0.0f : order->exposure, &display, error);
+        image = &display;
+    }
+    if (result == WEFT_OK) result = weft_image_write(task->path, image, error);
+    snprintf(news->text, sizeof news->text, "wrote %.400s, %d x %d", task->path, linear.width, linear.height);
+    weft_image_free(&linear);
+    weft_image_free(&display);
+    return result;
+}
+
+static bool ends_with(const char *text, const char *end) {
+    size_t a = strlen(text), b = strlen(end);
+    return a >= b && strcmp(text + a - b, end) == 0;
+}
+
+static WeftResult save(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    WeftResult result = painting_wear(self, edited(order), error);
+    if (result != WEFT_OK) return result;
+    snprintf(news->text, sizeof news->text, "wrote %.450s", task->path);
+    if (ends_with(task->path, ".json"))
+        return weft_scene_save_material(self->scene, task->index, task->path, error);
+    return weft_scene_save(self->scene, task->path, error);
+}
+
+/* What its materials have become, for the window to know. */
+static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftError *error) {
+    const WeftLog log = painter_log(self);
+    if (result == WEFT_OK) {
+        Around around = self->is.around;
+        Look look;
+        if (!look_read(&look, self->scene)) return WEFT_RESOURCES;
+        look.around = around;
+        look_take_naps(&look, &self->is);
+        look_free(&self->is);
+        self->is = look;
+        news->look_changed = look_copy(&news->look, &self->is);
+        painter_watch(self);
+        result = weft_raster_update(self->raster, &log, error);
+    }
+    truth_release(self->truth, self->scene, ~0u); /* a variant may change shapes */
+    self->stale = true;
+    return result;
+}
+
+static WeftResult dress(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    const WeftLog log = painter_log(self);
+    char target[64];
+    snprintf(target, sizeof target, "%d", task->index);
+    WeftResult result = painting_wear(self, edited(order), error);
+    if (result != WEFT_OK) return result;
+    truth_hold(self->truth);
+    switch (task->kind) {
+    case TASK_VARIANT:
+        result =
+            weft_scene_set_variant(self->scene, weft_scene_variant_name(self->scene, task->index), error);
+        break;
+    case TASK_WEAR:
+        result = weft_scene_wear_folder(self->scene, task->index < 0 ? NULL : target, task->path,
+                                        &news->index, &log, error);
+        snprintf(news->text, sizeof news->text, "%d maps of %.400s", news->index, task->path);
+        break;
+    default:
+        if (task->input >= 0) {
+            size_t used = strlen(target);
+            snprintf(target + used, sizeof target - used, ".%s", weft_material_input_name(task->input));
+            result = weft_scene_set_texture(self->scene, target, task->path, &log, error);
+        } else {
+            result = weft_scene_dress(self->scene, task->index < 0 ? NULL : target, task->path, &log, error);
+        }
+        break;
+    }
+    return dressed(self, result, news, error);
+}
+
+WeftResult tasks_reload(Painter *self, int texture, WeftError *error) {
+    const WeftLog log = painter_log(self);
+    truth_hold(self->truth);
+    WeftResult result = weft_scene_read_texture(self->scene, texture, &log, error);
+    truth_release(self->truth, self->scene,
+                  result == WEFT_OK ? WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS : 0);
+    return result == WEFT_OK ? weft_raster_update(self->raster, &log, error) : result;
+}
+
+static WeftResult pick(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    WeftPicked at;
+    WeftResult result = self->pick ? WEFT_OK : weft_pick_create(self->scene, &self->pick, error);
+    if (result != WEFT_OK) return result;
+    Probe *probe = &news->probe;
+    int width = order->view.width, half = width / 2;
+    bool sides = order->split == SPLIT_SIDES;
+    float x = sides && task->x >= (float)half ? task->x - (float)half : task->x;
+    probe->hit = weft_pick_at(self->pick, order->camera, sides ? half : width, order->view.height, x, task->y,
+                              &at) != 0;
+    if (!probe->hit) return WEFT_OK;
+    probe->material = at.material;
+    probe->distance = at.distance;
+    probe->texel = at.texel;
+    memcpy(probe->position, at.position, sizeof probe->position);
+    memcpy(probe->normal, at.normal, sizeof probe->normal);
+    memcpy(probe->tangent, at.tangent, sizeof probe->tangent);
+    memcpy(probe->bitangent, at.bitangent, sizeof probe->bitangent);
+    memcpy(probe->texcoord, at.texcoord[0], sizeof probe->texcoord);
+    return WEFT_OK;
+}
+
+/* The pixel once for each part, as far as a person asks for. */
+static WeftResult probe(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    static const WeftPart parts[] = {WEFT_PART_ALL,      WEFT_PART_DIFFUSE,    WEFT_PART_SPECULAR,
+                                     WEFT_PART_SHEEN,    WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,
+                                     WEFT_PART_ROUGHNESS};
+    WeftResult result = pick(self, task, order, news, error);
+    if (result == WEFT_OK) result = painting_wear(self, edited(order), error);
+    int x = (int)task->x, y = (int)task->y;
+    if (x < 0 || y < 0 || x >= order->view.width || y >= order->view.height) return result;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && result == WEFT_OK; k++) {
+        WeftImage image;
+        WeftRasterView view = order->view;
+        view.camera = order->camera;
+        view.part = parts[k];
+        view.crop[0] = x, view.crop[1] = y, view.crop[2] = view.crop[3] = 1;
+        result = weft_raster_draw(self->raster, &view, error);
+        if (result == WEFT_OK) result = weft_raster_image(self->raster, &image, error);
+        if (result != WEFT_OK) break;
+        const float *p = (const float *)image.pixels + 4 * ((size_t)y * (size_t)image.width + (size_t)x);
+        memcpy(news->probe.value[parts[k]], p, sizeof news->probe.value[0]);
+        weft_image_free(&image);
+    }
+    return result;
+}
+
+void tasks_do(Painter *self, const Task *task, const Order *order) {
+    WeftError error = {0};
+    News news = {.kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
+    WeftResult result = WEFT_OK;
+    switch (task->kind) {
+    case TASK_SHOT: result = shot(self, task, order, &news, &error); break;
+    case TASK_SAVE: result = save(self, task, order, &news, &error); break;
+    case TASK_PICK: result = pick(self, task, order, &news, &error); break;
+    case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
+    case TASK_SCENE: return;
+    case TASK_PROFILES:
+        study_start(&self->study, edited(order), task->index, &order->view, order->camera, order->tonemap,
+                    order->exposure, task->stamp);
+        return;
+    case TASK_DRESS:
+    case TASK_WEAR:
+    case TASK_VARIANT: result = dress(self, task, order, &news, &error); break;
+    }
+    news.failed = result != WEFT_OK;
+    if (news.failed)
+        snprintf(news.text, sizeof news.text, "%s", error.text[0] ? error.text : "out of memory");
+    painter_tell(self, &news);
+}
+
+/* One more picture of a sheet. */
+void tasks_study(Painter *self) {
+    News news = {.kind = TASK_PROFILES, .scene = self->scene_number, .stamp = self->study.stamp};
+    Look look;
+    WeftError error = {0};
+    WeftImage linear;
+    bool good = study_look(&self->study, &look);
+    WeftRasterView view = study_view(&self->study);
+    if (good) good = painting_wear(self, &look, &error) == WEFT_OK;
+    if (good) good = weft_raster_draw(self->raster, &view, &error) == WEFT_OK;
+    if (good) good = weft_raster_image(self->raster, &linear, &error) == WEFT_OK;
+    if (good) study_add(&self->study, &linear);
+    look_free(&look);
+    if (!good) {
+        news.failed = true;
+        snprintf(news.text, sizeof news.text, "%s", error.text[0] ? error.text : "out of memory");
+        study_stop(&self->study);
+        painter_tell(self, &news);
+    } else if (study_done(&self->study)) {
+        news.failed = !study_sheet(&self->study, &news.image);
+        study_stop(&self->study);
+        painter_tell(self, &news);
+    }
+    self->stale = true; /* the scene is dressed otherwise */
+}

@@ -1,0 +1,143 @@
+/* What can be asked for by menu, key or replay. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/browser.h"
+#include "view/paths.h"
+#include "view/viewer.h"
+
+void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int input) {
+    Task task = {.kind = kind, .scene = v->scene, .index = index, .input = input};
+    if (path && strlen(path) >= sizeof task.path) {
+        viewer_say(v, true, "%.100s...: is too long a path", path);
+        return;
+    }
+    if (path) snprintf(task.path, sizeof task.path, "%s", path);
+    painter_task(v->painter, &task);
+}
+
+/* The look is another one, of which history knows. */
+void viewer_settle(Viewer *v) {
+    look_free(&v->before);
+    look_copy(&v->before, &v->look);
+    v->ask = true;
+}
+
+void viewer_undo(Viewer *v) {
+    bool done = history_undo(&v->history, &v->look);
+    if (done) viewer_settle(v);
+    viewer_say(v, false, done ? "undone" : "there is nothing to undo");
+}
+
+void viewer_redo(Viewer *v) {
+    bool done = history_redo(&v->history, &v->look);
+    if (done) viewer_settle(v);
+    viewer_say(v, false, done ? "done again" : "there is nothing to do again");
+}
+
+void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
+
+/* What is not edited is kept while the comparison is off. */
+void viewer_split(Viewer *v, Split split) {
+    if (!v->has_scene) return;
+    if (split != SPLIT_NONE && !v->other.materials && !look_copy(&v->other, &v->look)) return;
+    v->split = split;
+    v->ask = true;
+}
+
+void viewer_swap(Viewer *v) {
+    Look before;
+    if (v->split == SPLIT_NONE || !look_copy(&before, &v->other)) return;
+    Look kept = v->look;
+    v->look = v->other;
+    v->other = kept;
+    v->side = !v->side;
+    look_free(&v->before);
+    v->before = before;
+    History history = v->history;
+    v->history = v->other_history;
+    v->other_history = history;
+    v->ask = true;
+}
+
+void viewer_frame_selection(Viewer *v) {
+    if (v->has_scene) orbit_frame(&v->orbit, v->facts.info.low, v->facts.info.high, viewer_aspect(v));
+}
+
+void viewer_reset_camera(Viewer *v) {
+    snprintf(v->orbit.name, sizeof v->orbit.name, "%s", v->facts.info.camera_count ? "0" : "auto");
+}
+
+static void offer_path(Viewer *v, char *path, const char *suffix) {
+    if (path[0]) return;
+    char stem[200];
+    path_stem(v->facts.path, stem, sizeof stem);
+    snprintf(path, LOOK_PATH, "%s%s", stem, suffix);
+}
+
+void viewer_shot(Viewer *v, const char *path) {
+    if (!path) {
+        offer_path(v, v->shot_path, "-weft.png");
+        v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
+        v->shot_truth = v->mode == MODE_TRUTH;
+        viewer_dialog(v, "Save a picture");
+        return;
+    }
+    Task task = {.kind = TASK_SHOT,
+                 .scene = v->scene,
+                 .width = v->shot_width,
+                 .height = v->shot_height,
+                 .transparent = v->shot_transparent,
+                 .truth = v->shot_truth};
+    snprintf(task.path, sizeof task.path, "%s", path);
+    if (!weft_image_suffix_known(path))
+        viewer_say(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+    else
+        painter_task(v->painter, &task);
+}
+
+void viewer_save(Viewer *v, const char *path) {
+    if (!v->has_scene) return;
+    if (!path) {
+        offer_path(v, v->save_path, "-weft.glb");
+        viewer_dialog(v, "Save the scene");
+        return;
+    }
+    viewer_task(v, TASK_SAVE, path, v->material, -1);
+}
+
+void viewer_copy_command(Viewer *v) {
+    bool lost = false;
+    char *line = command_line(v, &lost);
+    if (!line) return;
+    const UiClipboard *clip = window_clipboard(v->window);
+    clip->set(clip->user, line);
+    viewer_say(v, lost,
+               lost ? "copied, but for brushed nap and maps: save the scene and render that"
+                    : "copied: %.400s",
+               line);
+    free(line);
+}
+
+void viewer_profiles(Viewer *v) {
+    v->profiles_open = true;
+    v->profiles_made = false;
+    viewer_task(v, TASK_PROFILES, NULL, v->material, -1);
+}
+
+void viewer_dialog(Viewer *v, const char *name) {
+    browser_refresh(v->browser);
+    snprintf(v->open_dialog, sizeof v->open_dialog, "%s", name);
+}
+
+void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
+    if (!look_set_material(&v->look, index, material)) viewer_say(v, true, "out of memory");
+}
+
+bool viewer_at_rest(Viewer *v) {
+    return !v->loader && !v->has_pending && painter_idle(v->painter) &&
+           (!v->has_scene || v->painted.number == v->ordered) && !v->painted.busy &&
+           (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
+           (v->mode == MODE_LIVE || truth_resting(v->truth));
+}
