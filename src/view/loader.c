@@ -93,6 +93,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     const ViewDesc *desc = self->desc;
     Around around = {.strength = 1.0f};
     WeftResult result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
+    if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK && self->dressed && desc->dress)
         result = desc->dress(desc->user, loaded->scene, &around, &log, error);
     if (result != WEFT_OK) return result;
@@ -137,6 +138,8 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, boo
 float loader_share(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
 
 bool loader_done(Loader *self) { return atomic_load(&self->done); }
+
+void loader_stop(Loader *self) { atomic_store(&self->stop, true); }
 
 void loader_finish(Loader *self, Loaded *loaded) {
     atomic_store(&self->stop, true);

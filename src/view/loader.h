@@ -41,6 +41,9 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, boo
 float loader_share(Loader *loader);
 bool loader_done(Loader *loader);
 
+/* Asks it to end soon, without waiting. */
+void loader_stop(Loader *loader);
+
 /* Gives up what is not done, and takes what is (loaded may be NULL: dropped). The loader is gone. */
 void loader_finish(Loader *loader, Loaded *loaded);
 void loaded_free(Loaded *loaded);

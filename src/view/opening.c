@@ -10,8 +10,16 @@
 #include "view/inputs.h"
 #include "view/paths.h"
 
+/* Another one takes its place; it may take a while to stop, which is not waited for. */
+static void let_go(Viewer *v) {
+    if (v->leaving) loader_finish(v->leaving, NULL);
+    loader_stop(v->loader);
+    v->leaving = v->loader;
+    v->loader = NULL;
+}
+
 void opening_start(Viewer *v, const char *path, bool again) {
-    if (v->loader) loader_finish(v->loader, NULL);
+    if (v->loader) let_go(v);
     bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
     if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
     v->loader = loader_start(v->window, v->desc, path, again, dressed);
@@ -198,6 +206,10 @@ void opening_take(Viewer *v, const News *news) {
 
 void opening_poll(Viewer *v) {
     Loaded loaded;
+    if (v->leaving && loader_done(v->leaving)) {
+        loader_finish(v->leaving, NULL);
+        v->leaving = NULL;
+    }
     if (!v->loader || !loader_done(v->loader)) return;
     loader_finish(v->loader, &loaded);
     v->loader = NULL;

@@ -72,6 +72,9 @@ static void order_truth(Viewer *v, const Order *order) {
     t.difference = v->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
     truth_order(v->truth, &t);
+    bool moved = strcmp(v->order.camera, order->camera) != 0 || v->order.view.width != order->view.width ||
+                 v->order.view.height != order->view.height || !look_same(&v->look, &v->sent);
+    if (moved) v->traced.samples = 0.0; /* until there are some of this view */
 }
 
 /* Whether the picture that is shown is right but for its finish. */

@@ -69,6 +69,9 @@ static bool begin(Truth *self, const TruthOrder *order, const WeftScene *scene, 
     WeftRenderDesc desc = order->desc;
     WeftResult result;
     desc.camera = order->camera;
+    pthread_mutex_lock(&self->lock);
+    weft_image_free(&self->linear); /* of another view, or scene */
+    pthread_mutex_unlock(&self->lock);
     if (other || !self->render) {
         weft_render_free(self->render);
         self->render = NULL;

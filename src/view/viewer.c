@@ -155,6 +155,7 @@ static bool start(Viewer *v, char why[512]) {
 
 static void stop(Viewer *v) {
     if (v->loader) loader_finish(v->loader, NULL);
+    if (v->leaving) loader_finish(v->leaving, NULL);
     painter_stop(v->painter);
     truth_stop(v->truth);
     replay_close(v->replay);

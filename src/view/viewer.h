@@ -34,7 +34,8 @@ typedef struct Viewer {
     Window *window;
     Painter *painter;
     Truth *truth;
-    Loader *loader; /* NULL: nothing is being read */
+    Loader *loader;  /* NULL: nothing is being read */
+    Loader *leaving; /* one that was told to stop, and has not yet; NULL: none */
     struct Replay *replay;
     Watchman *watchman;
     Settings settings;
