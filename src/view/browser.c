@@ -69,7 +69,7 @@ static void list(Browser *self) {
 static bool enter(Browser *self, const char *folder) {
     char real[4096];
     if (!realpath(folder, real) || strlen(real) >= PATH) return false;
-    snprintf(self->folder, PATH, "%s", real);
+    memcpy(self->folder, real, strlen(real) + 1);
     list(self);
     return true;
 }

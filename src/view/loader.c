@@ -31,9 +31,9 @@ static void make_fit(char *name) {
 static void make_unique(FactName *names, int k) {
     for (int j = 0; j < k; j++) {
         if (strcmp(names[j], names[k]) != 0) continue;
-        char stem[FACTS_NAME - 12];
-        snprintf(stem, sizeof stem, "%.50s", names[k]);
-        snprintf(names[k], FACTS_NAME, "%s (%d)", stem, k);
+        char stem[FACTS_NAME];
+        memcpy(stem, names[k], sizeof stem);
+        snprintf(names[k], FACTS_NAME, "%.48s (%d)", stem, k);
         return;
     }
 }

@@ -70,6 +70,12 @@ void note(const char *label) {
     }
 }
 
+/* The same of what says all by its words: a heading, a line of a menu, a file. */
+void note_spoken(const char *label) {
+    note(label);
+    if (ui->noted) ui->shown.back().told = true;
+}
+
 /* Labels stand left of widgets: a column of names, one of values. */
 void labelled(const char *label) {
     float left = 0.40f * ImGui::GetWindowContentRegionMax().x;
@@ -303,7 +309,7 @@ void ui_scope_end(void) {
 
 bool ui_section(const char *label, bool unfolded) {
     bool open = ImGui::CollapsingHeader(label, unfolded ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-    note(label);
+    note_spoken(label);
     return open;
 }
 
@@ -311,7 +317,7 @@ bool ui_menu_bar(void) { return ImGui::BeginMainMenuBar(); }
 void ui_menu_bar_end(void) { ImGui::EndMainMenuBar(); }
 bool ui_menu(const char *label) {
     bool open = ImGui::BeginMenu(label);
-    note(label);
+    note_spoken(label);
     if (open) ui_scope(label);
     return open;
 }
@@ -321,7 +327,7 @@ void ui_menu_end(void) {
 }
 bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool enabled) {
     bool chosen = ImGui::MenuItem(label, shortcut, checked, enabled);
-    note(label);
+    note_spoken(label);
     return chosen;
 }
 
@@ -411,7 +417,7 @@ bool ui_tabs(const char *label, const char *const *names, const char *const *tip
 
 bool ui_selectable(const char *label, bool chosen) {
     bool pressed = ImGui::Selectable(label, chosen, ImGuiSelectableFlags_DontClosePopups);
-    note(label);
+    note_spoken(label);
     return pressed;
 }
 

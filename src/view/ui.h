@@ -181,7 +181,7 @@ void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, 
 typedef struct UiControl {
     char name[96];
     UiBox box;
-    bool told; /* it has a tip */
+    bool told; /* it has a tip, or needs none */
 } UiControl;
 int ui_control_count(void);
 const UiControl *ui_control(int index);

@@ -35,7 +35,8 @@ static bool may_include(int folder, const char *path) {
     if (!strchr(path, '/')) return true; /* beside the file */
     int target = folder_index(path);
     if (target < 0) return false;
-    return is_program(folder) ? target == folder : target <= folder;
+    return target <= folder &&
+           (!is_program(folder) || is_program(target)); /* programs use include/weft/ alone */
 }
 
 static bool next_line(const char **cursor, char line[512]) {

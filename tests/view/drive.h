@@ -82,6 +82,9 @@ static inline json_t *drive_next(Drive *drive) {
         drive->read += length;
         state = json_loads(line, 0, NULL);
         assert_non_null(state);
+        const json_t *untold = json_object_get(state, "untold"); /* every control tells what it is for */
+        if (json_array_size(untold))
+            fail_msg("%s says nothing", json_string_value(json_array_get(untold, 0)));
     }
     free(line);
     fclose(stream);
