@@ -201,7 +201,8 @@ static void crops_are_cut_out(void **state) {
             bool in = x >= 5 && x < 17 && y >= 9 && y < 17;
             if (fabsf(b[0] - (in ? a[0] : 0.25f)) > 0.0f)
                 fail_msg("%d, %d: %g and %g", x, y, (double)a[0], (double)b[0]);
-            assert_float_equal(b[1], in ? a[1] : 0.0f, 0.0f);
+            const float wanted = in ? a[1] : 0.0f;
+            assert_true(!(b[1] < wanted) && !(b[1] > wanted));
         }
     part.crop[2] = SIDE;
     assert_int_equal(weft_raster_draw(raster, &part, &error), WEFT_USAGE);
