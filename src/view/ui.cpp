@@ -449,7 +449,7 @@ bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     }
     ui_scope_end();
     ImGui::EndCombo();
-    note(label);
+    note_spoken(label); /* its rows tell */
     return changed;
 }
 

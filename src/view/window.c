@@ -229,7 +229,7 @@ static void close_unseen(Window *self) {
     eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (self->second) eglDestroyContext(self->display, self->second);
     if (self->context) eglDestroyContext(self->display, self->context);
-    eglTerminate(self->display);
+    /* The display is the process's, not ours: it is left as it is. */
     eglReleaseThread();
 }
 
