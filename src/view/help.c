@@ -54,9 +54,9 @@ const char *help_choice(int choice, int value) {
             if (path[c] == '-') path[c] = '_';
         const char *file = weft_catalogue_text(path);
         if (file && strncmp(file, "/* ", 3) == 0) first_comment(file, text, sizeof text);
-        return text;
+        break;
     }
-    if (name) snprintf(text, sizeof text, "%s", weft_material_choice_help(choice));
+    if (name && !text[0]) snprintf(text, sizeof text, "%s", weft_material_choice_help(choice));
     return text;
 }
 

@@ -238,7 +238,7 @@ void window_close(Window *self) {
     close_unseen(self);
     if (self->worker) glfwDestroyWindow(self->worker);
     if (self->seen) glfwDestroyWindow(self->seen);
-    if (!self->display) glfwTerminate();
+    /* GLFW stays as it is until the process ends: it would end the display, which is not ours alone. */
     for (int k = 0; k < self->count; k++) free(self->events[(self->first + k) % QUEUE_MOST].path);
     for (int k = 0; k < self->drop_count; k++) free(self->drops[k]);
     pthread_mutex_destroy(&self->lock);
