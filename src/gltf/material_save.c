@@ -190,9 +190,10 @@ static Input numbered(const Saving *saving, const Input *input) {
 }
 
 static bool is_same(const Input *a, const Input *b, int count) {
-    return memcmp(a->value, b->value, (size_t)count * sizeof *a->value) == 0 && a->texture == b->texture &&
-           a->texcoord == b->texcoord && a->channel == b->channel && a->given == b->given &&
-           memcmp(a->transform, b->transform, sizeof a->transform) == 0;
+    return memcmp((const char *)a->value, (const char *)b->value, (size_t)count * sizeof *a->value) == 0 &&
+           a->texture == b->texture && a->texcoord == b->texcoord && a->channel == b->channel &&
+           a->given == b->given &&
+           memcmp((const char *)a->transform, (const char *)b->transform, sizeof a->transform) == 0;
 }
 
 /* All of an input that is not so by default. */
@@ -203,7 +204,7 @@ static json_t *input_save(Saving *saving, const Input *input, int count) {
     if (input->texture) saving_put(saving, object, "texture", json_integer(input->texture - 1));
     if (input->texcoord) saving_put(saving, object, "texCoord", json_integer(input->texcoord));
     if (input->channel) saving_put(saving, object, "channel", json_integer(input->channel));
-    if (memcmp(input->transform, identity, sizeof identity) != 0)
+    if (memcmp((const char *)input->transform, (const char *)identity, sizeof identity) != 0)
         saving_put(saving, object, "transform", saving_floats(input->transform, 6));
     if (input->given) saving_put(saving, object, "given", json_true());
     return object;

@@ -47,7 +47,7 @@ static unsigned char *put_word(unsigned char *to, size_t word) {
 
 /* Section 4 of the specification: a header, and a chunk each for JSON and bytes. */
 static void container_write(Saving *saving, const char *text) {
-    enum { HEADER = 12, CHUNK = 8, JSON = 0x4e4f534a, BIN = 0x004e4942 };
+    enum { HEADER = 12, CHUNK = 8, GLTF = 0x46546c67, JSON = 0x4e4f534a, BIN = 0x004e4942 };
     size_t length = strlen(text), json = (length + 3) / 4 * 4, tail = saving->size ? CHUNK : 0;
     size_t size = HEADER + CHUNK + json + tail;
     unsigned char *head = alloc_array(size, 1), *to = head;
@@ -57,11 +57,9 @@ static void container_write(Saving *saving, const char *text) {
     }
     if (size + saving->size > UINT32_MAX)
         saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, saving->path, "it would have more than 4 GB");
-    memcpy(to, "glTF", 4);
-    to = put_word(put_word(to + 4, 2), size + saving->size);
+    to = put_word(put_word(put_word(to, GLTF), 2), size + saving->size);
     to = put_word(put_word(to, json), JSON);
-    memset(to, ' ', json);
-    memcpy(to, text, length);
+    for (size_t k = 0; k < json; k++) to[k] = (unsigned char)(k < length ? text[k] : ' ');
     if (tail) put_word(put_word(to + json, saving->size), BIN);
     saving_write(saving, saving->path, head, size, saving->bytes, saving->size);
     free(head);

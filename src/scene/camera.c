@@ -107,7 +107,7 @@ void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], flo
 
 WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,
                              WeftError *error) {
-    Camera camera;
+    Camera camera = {0};
     *out = (WeftCamera){0};
     if (!(aspect > 0.0f && isfinite(aspect)))
         return fail(error, WEFT_MESSAGE_DESC, "camera", "aspect %g", (double)aspect);

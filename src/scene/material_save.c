@@ -89,7 +89,7 @@ static char *relative(Writer *w, const char *folder, const char *file) {
     char *path = arena_array(&w->arena, 3 * up + strlen(file) + 1, 1), *to = path;
     if (!path) no_memory(w);
     for (size_t k = 0; path && k < up; k++) to += sprintf(to, "../");
-    if (path) strcpy(to, file + common);
+    if (path) memcpy(to, file + common, strlen(file + common) + 1);
     return path;
 }
 
