@@ -35,7 +35,7 @@ listing 2 >"$work/line"
 grep -v '"minnaert"' "$source/$registry" | sed "/^#define WEFT_ONE_COLOR_LOBES(L)/r $work/line" >"$registry"
 
 # Without link-time optimisation, which Release has.
-cmake -G Ninja -S . -B build -DWEFT_VIEW=OFF -DCMAKE_C_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+cmake -G Ninja -S . -B build -DCMAKE_C_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_C_FLAGS_RELWITHDEBINFO=-O1 >"$work/log" 2>&1 || { cat "$work/log"; fail "cmake failed"; }
 ninja -C build -j2 weft_cli test_shading_registry >"$work/log" 2>&1 || { tail -40 "$work/log"; fail "ninja failed"; }
 weft() { build/weft "$@"; }
