@@ -3,6 +3,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "scene/material_numbers.h"
 #include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/dust.h"
@@ -19,30 +20,6 @@ struct WeftReflection {
     TableRef table;
     AlbedoTable *own;
 };
-
-/* As a scene would hold it, without what only a scene has. */
-static WeftResult take_inputs(const WeftMaterial *from, Material *to, WeftError *error) {
-    *to = material_default("");
-    for (int k = 0; k < INPUT_COUNT; k++) {
-        const InputInfo *info = &input_infos[k];
-        bool angle = info->kind == INPUT_DIRECTION || info->kind == INPUT_ANGLE;
-        float unit = angle ? 3.14159265f / 180.0f : 1.0f;
-        for (int c = 0; c < (info->kind == INPUT_COLOR ? 3 : 1); c++) {
-            float value = from->inputs[k].value[c];
-            if (!isfinite(value))
-                return fail(error, WEFT_MESSAGE_PARAM_VALUE, info->name, "it is not finite");
-            to->inputs[k].value[c] = fminf(fmaxf(value, info->hard_low * unit), info->hard_high * unit);
-        }
-    }
-    for (int k = 0; k < CHOICE_COUNT; k++) {
-        int value = from->choices[k];
-        bool known = value == CHOICE_AUTO ||
-                     (value >= 0 && choice_id((ChoiceId)k, value) && choice_fits((ChoiceId)k, value));
-        if (!known) return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k), "%d", value);
-        to->choices[k] = value;
-    }
-    return WEFT_OK;
-}
 
 /* E of the sheen, where the stack asks for a table of its own; engines' own are made before they are asked.
  */
@@ -62,10 +39,10 @@ static bool make_table(WeftReflection *self) {
 }
 
 WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out, WeftError *error) {
-    Material taken;
     *out = NULL;
-    WeftResult result = take_inputs(material, &taken, error);
+    WeftResult result = numbers_sound(material, error);
     if (result != WEFT_OK) return result;
+    Material taken = material_of_numbers(material);
     WeftReflection *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
     Surface surface = material_plain(&taken);

@@ -108,9 +108,19 @@ static bool all_finite(const float *values, int count) {
     return finite;
 }
 
-/* What is wrong with an input, NULL: nothing. */
-static const char *wrong_input(const WeftScene *scene, int index, const WeftInput *input) {
-    if (!all_finite(input->value, value_count(index))) return "its value is not finite";
+WeftResult numbers_sound(const WeftMaterial *m, WeftError *error) {
+    for (int k = 0; k < CHOICE_COUNT; k++)
+        if (!is_choice(k, m->choices[k]))
+            return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k),
+                        "it has no value of number %d", m->choices[k]);
+    for (int k = 0; k < INPUT_COUNT; k++)
+        if (!all_finite(m->inputs[k].value, value_count(k)))
+            return fail(error, WEFT_MESSAGE_PARAM_VALUE, input_infos[k].name, "its value is not finite");
+    return WEFT_OK;
+}
+
+/* What is wrong with how an input reads its texture, NULL: nothing. */
+static const char *wrong_map(const WeftScene *scene, const WeftInput *input) {
     if (!all_finite(input->transform, 6)) return "its transform is not finite";
     if (input->texture < 0 || input->texture > scene->texture_count) return "there is no such texture";
     if (input->texcoord < 0 || input->texcoord > 1) return "texcoord is 0 or 1";
@@ -122,12 +132,10 @@ static WeftResult check_numbers(const WeftScene *scene, const WeftMaterial *m, W
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_mode", "there is no such mode");
     if (!isfinite(m->alpha_cutoff))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_cutoff", "it is not finite");
-    for (int k = 0; k < CHOICE_COUNT; k++)
-        if (!is_choice(k, m->choices[k]))
-            return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k),
-                        "it has no value of number %d", m->choices[k]);
+    WeftResult result = numbers_sound(m, error);
+    if (result != WEFT_OK) return result;
     for (int k = 0; k < INPUT_COUNT; k++) {
-        const char *wrong = wrong_input(scene, k, &m->inputs[k]);
+        const char *wrong = wrong_map(scene, &m->inputs[k]);
         if (wrong) return fail(error, WEFT_MESSAGE_PARAM_VALUE, input_infos[k].name, "%s", wrong);
     }
     return WEFT_OK;

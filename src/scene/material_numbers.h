@@ -9,6 +9,9 @@
  * modes that there are not become auto and opaque. The name is "". Textures are not looked at. */
 Material material_of_numbers(const WeftMaterial *numbers);
 
+/* Whether its choices are there and its values finite; else WEFT_MESSAGE_PARAM_VALUE. */
+WeftResult numbers_sound(const WeftMaterial *numbers, WeftError *error);
+
 /* A value clamped to the hard range of an input, angles in radians; NaN becomes its lower end. */
 float input_clamped(InputId input, float value);
 

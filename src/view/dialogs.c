@@ -107,8 +107,7 @@ static void draw_use(Viewer *v) {
     ui_tip("Puts the picture in the place of this input's map.");
     ui_same_line();
     if (ui_button("As light")) {
-        v->look.around.kind = AROUND_FILE;
-        snprintf(v->look.around.path, sizeof v->look.around.path, "%s", v->dropped);
+        viewer_light_by(v, v->dropped);
         ui_dialog_close();
     }
     ui_tip("Lights the scene by it, a lat-long picture.");

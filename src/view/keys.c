@@ -7,25 +7,14 @@
 
 #include "view/viewer.h"
 
-static void copy_material(Viewer *v) {
-    if (!v->look.material_count) return;
-    v->copied = *look_material(&v->look, v->material);
-    v->has_copied = true;
-    viewer_say(v, false, "copied %s", v->facts.materials[v->material]);
-}
-
-static void paste_material(Viewer *v) {
-    if (v->has_copied && v->look.material_count) viewer_set_material(v, v->material, &v->copied);
-}
-
 static void with_control(Viewer *v, const UiPress *p) {
     switch (p->letter) {
     case 'z': p->shift ? viewer_redo(v) : viewer_undo(v); break;
     case 'y': viewer_redo(v); break;
     case 'o': viewer_dialog(v, "Open"); break;
     case 's': viewer_save(v, NULL); break;
-    case 'c': p->shift ? viewer_copy_command(v) : copy_material(v); break;
-    case 'v': paste_material(v); break;
+    case 'c': p->shift ? viewer_copy_command(v) : viewer_copy_material(v); break;
+    case 'v': viewer_paste_material(v); break;
     case 'q': v->ending = true; break;
     default: break;
     }

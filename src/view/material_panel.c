@@ -163,11 +163,7 @@ static void draw_which(Viewer *v) {
 }
 
 static void draw_buttons(Viewer *v, WeftMaterial *m) {
-    if (ui_button("Copy")) {
-        v->copied = *m;
-        v->has_copied = true;
-        viewer_say(v, false, "copied %s", v->facts.materials[v->material]);
-    }
+    if (ui_button("Copy")) viewer_copy_material(v);
     ui_tip("Keeps this material to be pasted onto another (Ctrl+C).");
     ui_same_line();
     ui_disabled(!v->has_copied);

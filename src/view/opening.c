@@ -38,11 +38,6 @@ static int guess_input(const char *path) {
     return input_number("base_color");
 }
 
-static void light_by(Viewer *v, const char *path) {
-    v->look.around.kind = AROUND_FILE;
-    snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
-}
-
 void viewer_open(Viewer *v, const char *path) {
     PathKind kind = path_kind(path);
     if (!v->has_scene && kind != PATH_SCENE) {
@@ -51,7 +46,7 @@ void viewer_open(Viewer *v, const char *path) {
     }
     switch (kind) {
     case PATH_SCENE: opening_start(v, path, false); break;
-    case PATH_LIGHT: light_by(v, path); break;
+    case PATH_LIGHT: viewer_light_by(v, path); break;
     case PATH_MATERIAL: viewer_task(v, TASK_DRESS, path, v->material, -1); break;
     case PATH_PICTURE:
         snprintf(v->dropped, sizeof v->dropped, "%s", path);
@@ -60,7 +55,7 @@ void viewer_open(Viewer *v, const char *path) {
         break;
     case PATH_FOLDER:
         if (path_is_cubemap(path))
-            light_by(v, path);
+            viewer_light_by(v, path);
         else
             viewer_task(v, TASK_WEAR, path, -1, -1);
         break;

@@ -4,17 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <epoxy/gl.h>
 
+#include "view/clock.h"
 #include "view/painting.h"
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void on_said(void *user, WeftMessage message, const char *text) {
     Painter *self = user;
@@ -119,11 +113,8 @@ static bool has_changed(Painter *self) {
 }
 
 static void wait_a_little(Painter *self) {
-    struct timespec until;
     bool making = self->raster && weft_raster_info(self->raster).making != 0;
-    clock_gettime(CLOCK_MONOTONIC, &until);
-    until.tv_nsec += making ? 40000000L : 250000000L;
-    if (until.tv_nsec >= 1000000000L) until.tv_sec++, until.tv_nsec -= 1000000000L;
+    struct timespec until = clock_after(making ? 0.04 : 0.25);
     self->working = making;
     pthread_cond_timedwait(&self->change, &self->lock, &until);
     self->working = true;
@@ -218,11 +209,7 @@ Painter *painter_start(Window *window, Truth *truth, const char *shader_dir, int
     self->shader_dir = shader_dir ? strdup(shader_dir) : NULL;
     self->newest = self->shown = -1;
     pthread_mutex_init(&self->lock, NULL);
-    pthread_condattr_t steady;
-    pthread_condattr_init(&steady);
-    pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
-    pthread_cond_init(&self->change, &steady);
-    pthread_condattr_destroy(&steady);
+    clock_condition(&self->change);
     self->watchman = watchman_start();
     if (self->watchman && pthread_create(&self->thread, NULL, work, self) == 0) return self;
     watchman_stop(self->watchman);

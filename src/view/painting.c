@@ -6,20 +6,15 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <epoxy/gl.h>
+
+#include "view/clock.h"
 
 enum { COARSE_MOST = 8 };
 
 static const double smooth_most = 4.0;     /* s, that smooth edges may take */
 static const double frame_seconds = 0.036; /* that a picture may, while the hand moves */
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* One of the ring that is neither shown nor newest, of this size. */
 static int take_target(Painter *self, int width, int height) {

@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+
+#include "view/clock.h"
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 
@@ -29,12 +30,6 @@ struct Replay {
     double since; /* when a wait began; 0: none is on */
     bool stay;
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 Replay *replay_open(const char *path, char why[512]) {
     Replay *self = calloc(1, sizeof *self);

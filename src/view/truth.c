@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "view/clock.h"
 
 struct Truth {
     Window *window;
@@ -34,12 +35,6 @@ struct Truth {
     double samples;
     WeftImage compared;
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int should_stop(void *user, double fraction) {
     Truth *self = user;

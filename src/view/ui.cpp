@@ -333,9 +333,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void) { ImGui::SameLine(); }
 void ui_column(float share) { ImGui::SameLine(share * ImGui::GetWindowContentRegionMax().x); }
-void ui_space(float height) { ImGui::Dummy(at(0.0f, height)); }
 void ui_rule(void) { ImGui::Separator(); }
-void ui_width(float width) { ImGui::SetNextItemWidth(width); }
 void ui_disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
 void ui_disabled_end(void) { ImGui::EndDisabled(); }
 void ui_faint(bool faint) { ImGui::PushStyleVar(ImGuiStyleVar_Alpha, faint ? 0.42f : 1.0f); }
@@ -538,10 +536,6 @@ void ui_progress(float share, const char *text) {
     ImGui::ProgressBar(share >= 0.0f ? share : phase, at(-1.0f, 0.0f), text);
 }
 
-bool ui_active(void) { return ImGui::IsItemActive(); }
-bool ui_released(void) { return ImGui::IsItemDeactivated(); }
-bool ui_hovered(void) { return ImGui::IsItemHovered(); }
-
 bool ui_canvas(const char *label, float width, float height, UiBox *box) {
     if (width <= 0.0f) width = ImGui::GetContentRegionAvail().x;
     ImVec2 p = ImGui::GetCursorScreenPos();
@@ -552,7 +546,6 @@ bool ui_canvas(const char *label, float width, float height, UiBox *box) {
 }
 
 void ui_behind(bool behind) { ui->list = behind ? ImGui::GetBackgroundDrawList() : nullptr; }
-void ui_above(bool above) { ui->list = above ? ImGui::GetForegroundDrawList() : nullptr; }
 void ui_clip(const UiBox *box) {
     if (box)
         canvas()->PushClipRect(at(box->x, box->y), at(box->x + box->width, box->y + box->height), true);
@@ -570,9 +563,6 @@ void ui_curve(const float *xy, int count, unsigned color, float thickness) {
 }
 void ui_fill(UiBox b, unsigned color) {
     canvas()->AddRectFilled(at(b.x, b.y), at(b.x + b.width, b.y + b.height), color);
-}
-void ui_frame(UiBox b, unsigned color) {
-    canvas()->AddRect(at(b.x, b.y), at(b.x + b.width, b.y + b.height), color);
 }
 void ui_triangle(const float xy[6], unsigned color) {
     canvas()->AddTriangleFilled(at(xy[0], xy[1]), at(xy[2], xy[3]), at(xy[4], xy[5]), color);

@@ -103,9 +103,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void);
 void ui_column(float share); /* goes on in this row, from that share of the width on */
-void ui_space(float height);
 void ui_rule(void);
-void ui_width(float width); /* of the next widget */
 void ui_disabled(bool disabled);
 void ui_disabled_end(void);
 void ui_faint(bool faint); /* what can be set and does nothing */
@@ -153,21 +151,14 @@ bool ui_color(const char *label, const float initial[3], float color[3]);
 bool ui_input(const char *label, char *text, int size);
 void ui_progress(float share, const char *text); /* share below 0: under way */
 
-/* Whether the widget before is being changed, or was let go of in this frame. */
-bool ui_active(void);
-bool ui_released(void);
-bool ui_hovered(void);
-
 /* A place to draw in: `box` receives it. True while the mouse is over it or holds it. */
 bool ui_canvas(const char *label, float width, float height, UiBox *box);
 /* Draws on what is behind all panels, until false. */
 void ui_behind(bool behind);
-void ui_above(bool above);
 void ui_clip(const UiBox *box); /* NULL: no more */
 void ui_line(float x0, float y0, float x1, float y1, unsigned color, float thickness);
 void ui_curve(const float *xy, int count, unsigned color, float thickness);
 void ui_fill(UiBox box, unsigned color);
-void ui_frame(UiBox box, unsigned color);
 void ui_triangle(const float xy[6], unsigned color);
 void ui_disc(float x, float y, float radius, unsigned color);
 void ui_ring(float x, float y, float radius, unsigned color);

@@ -7,22 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #include <epoxy/gl.h>
 
 #include "view/browser.h"
+#include "view/clock.h"
 #include "view/opening.h"
 #include "view/orders.h"
 #include "view/replay.h"
 #include "view/report.h"
 #include "view/watchman.h"
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void viewer_say(Viewer *v, bool grave, const char *format, ...) {
     va_list list;

@@ -137,6 +137,9 @@ void viewer_open(Viewer *v, const char *path);
 /* What the user asks for by menu, key or replay. */
 void viewer_settle(Viewer *v); /* the look is as it is by undo or news: that is no change of its own */
 void viewer_undo(Viewer *v);
+void viewer_copy_material(Viewer *v);
+void viewer_paste_material(Viewer *v);
+void viewer_light_by(Viewer *v, const char *path); /* a picture, or the folder of a cubemap */
 void viewer_redo(Viewer *v);
 void viewer_mode(Viewer *v, Mode mode);
 void viewer_split(Viewer *v, Split split);

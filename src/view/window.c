@@ -5,13 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+
+#include "view/clock.h"
 
 enum { QUEUE_MOST = 4096, DROPS_MOST = 64 };
 
@@ -206,11 +207,7 @@ Window *window_open(const WindowDesc *desc, char why[256]) {
     }
     self->events = events;
     pthread_mutex_init(&self->lock, NULL);
-    pthread_condattr_t steady;
-    pthread_condattr_init(&steady);
-    pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
-    pthread_cond_init(&self->wake, &steady);
-    pthread_condattr_destroy(&steady);
+    clock_condition(&self->wake);
     self->clipboard = (UiClipboard){clip_get, clip_set, self};
     if (desc->unseen ? !open_unseen(self, desc, why) : !open_seen(self, desc, why)) {
         window_close(self);
@@ -350,11 +347,7 @@ char *window_dropped(Window *self) {
 }
 
 static void wait_unseen(Window *self, double seconds) {
-    struct timespec until;
-    clock_gettime(CLOCK_MONOTONIC, &until);
-    until.tv_sec += (time_t)seconds;
-    until.tv_nsec += (long)(1e9 * (seconds - (double)(time_t)seconds));
-    if (until.tv_nsec >= 1000000000L) until.tv_sec++, until.tv_nsec -= 1000000000L;
+    struct timespec until = clock_after(seconds);
     pthread_mutex_lock(&self->lock);
     while (!self->woken && seconds > 0.0)
         if (pthread_cond_timedwait(&self->wake, &self->lock, &until)) break;

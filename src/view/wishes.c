@@ -141,3 +141,19 @@ bool viewer_at_rest(Viewer *v) {
            (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
            (v->mode == MODE_LIVE || truth_resting(v->truth));
 }
+
+void viewer_copy_material(Viewer *v) {
+    if (!v->look.material_count) return;
+    v->copied = *look_material(&v->look, v->material);
+    v->has_copied = true;
+    viewer_say(v, false, "copied %s", v->facts.materials[v->material]);
+}
+
+void viewer_paste_material(Viewer *v) {
+    if (v->has_copied && v->look.material_count) viewer_set_material(v, v->material, &v->copied);
+}
+
+void viewer_light_by(Viewer *v, const char *path) {
+    v->look.around.kind = AROUND_FILE;
+    snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
+}

@@ -1,0 +1,31 @@
+/* clock.h - steady time, and waiting by it */
+#ifndef WEFT_VIEW_CLOCK_H
+#define WEFT_VIEW_CLOCK_H
+
+#include <pthread.h>
+#include <time.h>
+
+/* Seconds since some moment before. */
+static inline double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* So many seconds from now, for pthread_cond_timedwait. */
+static inline struct timespec clock_after(double seconds) {
+    double until = now() + seconds;
+    time_t whole = (time_t)until;
+    return (struct timespec){whole, (long)(1e9 * (until - (double)whole))};
+}
+
+/* A condition that is waited for by this clock. */
+static inline void clock_condition(pthread_cond_t *condition) {
+    pthread_condattr_t steady;
+    pthread_condattr_init(&steady);
+    pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
+    pthread_cond_init(condition, &steady);
+    pthread_condattr_destroy(&steady);
+}
+
+#endif
