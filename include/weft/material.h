@@ -58,6 +58,19 @@ typedef struct WeftMaterial {
     WeftInput inputs[WEFT_INPUTS_MAX]; /* in the order of weft_material_input_name */
 } WeftMaterial;
 
+/* The material that a file is without one: a grey dielectric without a sheen, all choices auto. */
+WEFT_API void weft_material_default(WeftMaterial *out);
+
+/* The material of a file (docs/materials.md) or of "preset:NAME", without its textures, of which a warning
+ * tells. Fails with WEFT_MESSAGE_MATERIAL_FILE, _PRESET_NAME and with what reading a file can fail with. */
+WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log,
+                                       WeftError *error);
+
+/* Sets an input or a choice by name, as weft_scene_set does. Fails with WEFT_MESSAGE_PARAM_NAME or
+ * _PARAM_VALUE; the material is then as it was. */
+WEFT_API WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value,
+                                      const WeftLog *log, WeftError *error);
+
 /* Material index as it is; what is past the last choice and input is zero. Fails with
  * WEFT_MESSAGE_MATERIAL_NAME where there is no such. */
 WEFT_API WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out,

@@ -6,8 +6,6 @@
 #define WEFT_MEASURE_H
 
 #include "weft/lobe.h"
-#include "weft/material.h"
-#include "weft/raster.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -126,27 +124,6 @@ WEFT_API WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPasspor
 /* The chance that the least p value of so many tests is at most p, were all samplers right (Zbynek Sidak,
  * "Rectangular Confidence Regions for the Means of Multivariate Normal Distributions", 1967). */
 WEFT_API double weft_passport_significance(double p, int tests);
-
-/* What a material reflects, with its numbers and choices and without its textures, in the frame of
- * include/weft/lobe.h; it is prepared once and then asked many times. Dust lies as it does where it is most.
- * Of layer rule "stochastic", what bounced between sheen and base is in WEFT_PART_ALL alone. */
-typedef struct WeftReflection WeftReflection;
-
-/* Fails with WEFT_MESSAGE_PARAM_VALUE (not finite, or a choice that there is not) or _MEMORY. Numbers are
- * clamped as weft_scene_set does. */
-WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
-                                           WeftError *error);
-WEFT_API void weft_reflection_free(WeftReflection *reflection); /* may be NULL */
-
-/* f of count directions wi towards the light, 1/sr, without the cosine; of the parts that WeftPart numbers:
- * WEFT_PART_ALL .. WEFT_PART_DUST, 0 of others. wo and wi are unit; 0 where one is below the horizon. */
-WEFT_API void weft_reflection_eval(const WeftReflection *reflection, int part, const float wo[3], int count,
-                                   const float (*wi)[3], float (*f)[3]);
-
-/* E towards wo, whose cosine with the normal is in (0, 1]: the share of light from there that comes back, in
- * the plane of the tangent. A sum of some thousand directions, exact to about 1 %. */
-WEFT_API void weft_reflection_albedo(const WeftReflection *reflection, int part, float cos_o,
-                                     float albedo[3]);
 
 #ifdef __cplusplus
 }

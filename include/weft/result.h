@@ -74,6 +74,7 @@ typedef enum WeftResult {
     M(CACHE_IGNORED, WARNING, "is not used as a cache")                                                      \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \
+    M(MEASURED, INPUT, "is not a measured BRDF in MERL's format")                                            \
     M(BAKE_KIND, USAGE, "is not a kind of table")                                                            \
     M(TABLE_FORM, USAGE, "is not a form of table (gltf, filament and so on, or cos,roughness,centres)")      \
     M(DESC, USAGE, "is not a value this descriptor takes")                                                   \

@@ -12,6 +12,7 @@
 #include "weft/measure.h"
 #include "weft/pick.h"
 #include "weft/raster.h"
+#include "weft/reflection.h"
 #include "weft/render.h"
 #include "weft/result.h"
 #include "weft/save.h"

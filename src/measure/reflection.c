@@ -1,29 +1,42 @@
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "measure/merl.h"
 #include "scene/material_numbers.h"
 #include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/dust.h"
 #include "shading/frame.h"
-#include "weft/measure.h"
+#include "shading/warp.h"
+#include "weft/reflection.h"
 
 /* WALKS: of layer rule stochastic for one pair of directions. */
 enum { WALKS = 16, DRAWS = 1024 };
 
-struct WeftReflection {
+/* A material as a whole. */
+typedef struct Whole {
     Surface surface;
     Choices choices;
     Dir along; /* x of the shading frame, told in the caller's */
     TableRef table;
     AlbedoTable *own;
+} Whole;
+
+typedef enum ReflectionKind { REFLECTION_WHOLE, REFLECTION_LOBE, REFLECTION_MEASURED } ReflectionKind;
+
+struct WeftReflection {
+    ReflectionKind kind;
+    Whole whole;
+    WeftLobe lobe;
+    Merl merl;
 };
 
 /* E of the sheen, where the stack asks for a table of its own; engines' own are made before they are asked.
  */
-static bool make_table(WeftReflection *self) {
+static bool make_table(Whole *self) {
     Stack stack;
     stack_make(&stack, &self->surface, &self->choices, self->table, dir(0.0f, 0.0f, 1.0f));
     if (!(stack.sheen.pick > 0.0f) && stack.layer != LAYER_MULTIPLICATIVE) return true;
@@ -38,34 +51,67 @@ static bool make_table(WeftReflection *self) {
     return true;
 }
 
+static bool whole_make(Whole *self, const Material *material) {
+    Surface surface = material_plain(material);
+    surface.dust_noise = 0.0f;
+    self->along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f);
+    self->surface = dust_settle(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
+    self->choices = material_choices(material);
+    self->table = (TableRef){.kind = TABLE_NONE};
+    return make_table(self);
+}
+
+static WeftReflection *reflection_of_kind(ReflectionKind kind, WeftReflection **out, WeftError *error) {
+    *out = alloc_array(1, sizeof **out);
+    if (!*out) {
+        fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
+        return NULL;
+    }
+    **out = (WeftReflection){.kind = kind};
+    return *out;
+}
+
+/* What was begun, or nothing where it went wrong. */
+static WeftResult settle(WeftReflection **out, WeftResult result) {
+    if (result == WEFT_OK) return WEFT_OK;
+    weft_reflection_free(*out);
+    *out = NULL;
+    return result;
+}
+
 WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out, WeftError *error) {
     *out = NULL;
     WeftResult result = numbers_sound(material, error);
     if (result != WEFT_OK) return result;
-    Material taken = material_of_numbers(material);
-    WeftReflection *self = alloc_array(1, sizeof *self);
-    if (!self) return fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
-    Surface surface = material_plain(&taken);
-    surface.dust_noise = 0.0f;
-    self->along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f);
-    self->surface = dust_settle(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
-    self->choices = material_choices(&taken);
-    self->table = (TableRef){.kind = TABLE_NONE};
-    if (!make_table(self)) {
-        weft_reflection_free(self);
-        return fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
-    }
-    *out = self;
+    if (!reflection_of_kind(REFLECTION_WHOLE, out, error)) return WEFT_RESOURCES;
+    const Material taken = material_of_numbers(material);
+    if (!whole_make(&(*out)->whole, &taken)) result = fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
+    return settle(out, result);
+}
+
+WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error) {
+    char number[16];
+    *out = NULL;
+    snprintf(number, sizeof number, "%d", lobe->lobe);
+    if (!weft_lobe_info(lobe->lobe)) return fail(error, WEFT_MESSAGE_LOBE_NAME, number, NULL);
+    if (!reflection_of_kind(REFLECTION_LOBE, out, error)) return WEFT_RESOURCES;
+    (*out)->lobe = *lobe;
     return WEFT_OK;
+}
+
+WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error) {
+    if (!reflection_of_kind(REFLECTION_MEASURED, out, error)) return WEFT_RESOURCES;
+    return settle(out, merl_read(path, &(*out)->merl, error));
 }
 
 void weft_reflection_free(WeftReflection *self) {
     if (!self) return;
-    free(self->own);
+    free(self->whole.own);
+    merl_free(&self->merl);
     free(self);
 }
 
-static Dir to_frame(const WeftReflection *self, const float w[3]) {
+static Dir to_frame(const Whole *self, const float w[3]) {
     Dir a = self->along;
     return dir(a.x * w[0] + a.y * w[1], a.x * w[1] - a.y * w[0], w[2]);
 }
@@ -86,11 +132,10 @@ static StackValue value_of(const Stack *stack, int part, Dir o, Dir i, uint32_t 
     return sum;
 }
 
-void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3], int count,
-                          const float (*wi)[3], float (*f)[3]) {
+static void whole_eval(const Whole *self, int part, const float wo[3], int count, const float (*wi)[3],
+                       float (*f)[3]) {
     Stack stack;
     Dir o = to_frame(self, wo);
-    for (int k = 0; k < count; k++) f[k][0] = f[k][1] = f[k][2] = 0.0f;
     if (!(o.z > 0.0f)) return;
     stack_make(&stack, &self->surface, &self->choices, self->table, o);
     for (int k = 0; k < count; k++) {
@@ -101,6 +146,18 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
     }
 }
 
+void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3], int count,
+                          const float (*wi)[3], float (*f)[3]) {
+    for (int k = 0; k < count; k++) f[k][0] = f[k][1] = f[k][2] = 0.0f;
+    if (self->kind == REFLECTION_WHOLE) whole_eval(&self->whole, part, wo, count, wi, f);
+    if (self->kind == REFLECTION_WHOLE || part != WEFT_PART_ALL) return;
+    for (int k = 0; k < count; k++)
+        if (self->kind == REFLECTION_LOBE)
+            weft_lobe_eval(&self->lobe, wo, wi[k], f[k]);
+        else
+            merl_at(&self->merl, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
+}
+
 /* Digits of k the other way round, in [0, 1). */
 static float radical_inverse(uint32_t k) {
     uint32_t x = 0;
@@ -109,10 +166,8 @@ static float radical_inverse(uint32_t k) {
 }
 
 /* Directions as the lobes spread them: however narrow these are, few will do. */
-void weft_reflection_albedo(const WeftReflection *self, int part, float cos_o, float albedo[3]) {
+static void whole_albedo(const Whole *self, int part, const float wo[3], float albedo[3]) {
     Stack stack;
-    float z = fminf(fmaxf(cos_o, 1e-4f), 1.0f);
-    const float wo[3] = {sqrtf(fmaxf(1.0f - z * z, 0.0f)), 0.0f, z};
     Dir o = to_frame(self, wo);
     double sum[3] = {0.0};
     stack_make(&stack, &self->surface, &self->choices, self->table, o);
@@ -127,4 +182,26 @@ void weft_reflection_albedo(const WeftReflection *self, int part, float cos_o, f
         sum[0] += (double)c.r, sum[1] += (double)c.g, sum[2] += (double)c.b;
     }
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
+}
+
+/* Directions as the cosine spreads them. */
+static void measured_albedo(const Merl *merl, const float wo[3], float albedo[3]) {
+    double sum[3] = {0.0};
+    for (uint32_t k = 0; k < 4 * DRAWS; k++) {
+        Dir i = warp_cosine(((float)k + 0.5f) / (4 * DRAWS), radical_inverse(k));
+        float f[3];
+        merl_at(merl, dir(wo[0], wo[1], wo[2]), i, f);
+        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * 3.14159265358979 / (4 * DRAWS);
+    }
+    for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
+}
+
+void weft_reflection_albedo(const WeftReflection *self, int part, float cos_o, float albedo[3]) {
+    float z = fminf(fmaxf(cos_o, 1e-4f), 1.0f);
+    const float wo[3] = {sqrtf(fmaxf(1.0f - z * z, 0.0f)), 0.0f, z};
+    albedo[0] = albedo[1] = albedo[2] = 0.0f;
+    if (self->kind == REFLECTION_WHOLE) whole_albedo(&self->whole, part, wo, albedo);
+    if (part != WEFT_PART_ALL) return;
+    if (self->kind == REFLECTION_LOBE) weft_lobe_albedo(&self->lobe, z, albedo);
+    if (self->kind == REFLECTION_MEASURED) measured_albedo(&self->merl, wo, albedo);
 }

@@ -1,19 +1,10 @@
 /* dress.c - putting the material of a file, or a preset, on a scene */
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/fail.h"
-#include "base/file.h"
 #include "scene/dress.h"
+#include "base/fail.h"
 #include "scene/material_file.h"
 #include "scene/pictures.h"
-#include "scene/presets.h"
 #include "scene/set.h"
 #include "scene/tangents.h"
-
-const char *weft_preset_name(int index) { return preset_at(index) ? preset_at(index)->name : NULL; }
-const char *weft_preset_help(int index) { return preset_at(index) ? preset_at(index)->help : NULL; }
-const char *weft_preset_text(int index) { return preset_at(index) ? preset_at(index)->text : NULL; }
 
 static bool shows(const Material *material, InputId color) {
     const Input *input = &material->inputs[color];
@@ -96,43 +87,23 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     return tangents_complete(scene, error);
 }
 
-static WeftResult dress_from(WeftScene *scene, const char *material, const void *data, size_t size,
-                             const char *name, const char *folder, const WeftLog *log, WeftError *error) {
-    MaterialFile file;
-    WeftResult result = material_file_read(data, size, name, folder, &file, log, error);
-    if (result == WEFT_OK) result = put_on(scene, material, &file, error);
-    material_file_free(&file);
+static WeftResult dress_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,
+                             WeftError *error) {
+    WeftResult result = read == WEFT_OK ? put_on(scene, material, file, error) : read;
+    material_file_free(file);
     return result;
 }
 
 WeftResult weft_scene_dress_memory(WeftScene *scene, const char *material, const void *data, size_t size,
                                    const char *name, const WeftLog *log, WeftError *error) {
-    return dress_from(scene, material, data ? data : "", data ? size : 0, name, NULL, log, error);
-}
-
-static WeftResult dress_preset(WeftScene *scene, const char *material, const char *name, WeftError *error) {
-    for (int k = 0; preset_at(k); k++) {
-        const Preset *preset = preset_at(k);
-        if (strcmp(preset->name, name) == 0) /* no word on what we ship */
-            return dress_from(scene, material, preset->text, strlen(preset->text), name, NULL, NULL, error);
-    }
-    return fail(error, WEFT_MESSAGE_PRESET_NAME, name, "`weft models` lists them");
+    MaterialFile file;
+    WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
+    return dress_from(scene, material, &file, read, error);
 }
 
 WeftResult weft_scene_dress(WeftScene *scene, const char *material, const char *path, const WeftLog *log,
                             WeftError *error) {
-    static const char prefix[] = "preset:";
-    const size_t limit = (size_t)1 << 20;
-    if (strncmp(path, prefix, strlen(prefix)) == 0)
-        return dress_preset(scene, material, path + strlen(prefix), error);
-    FileBytes bytes;
-    WeftResult result = file_read(path, limit, &bytes, error);
-    if (result != WEFT_OK) return result;
-    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
-    if (folder) *(slash ? slash + 1 : folder) = '\0';
-    result = folder ? dress_from(scene, material, bytes.data, bytes.size, path, folder, log, error)
-                    : fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    free(folder);
-    free(bytes.data);
-    return result;
+    MaterialFile file;
+    WeftResult read = material_file_load(path, &file, log, error);
+    return dress_from(scene, material, &file, read, error);
 }

@@ -20,6 +20,10 @@ typedef struct MaterialFile {
  * end) is where textures lie, NULL: there may be none. Release with material_file_free in any case. */
 WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
                               MaterialFile *out, const WeftLog *log, WeftError *error);
+
+/* The same of the file at path, whose textures lie beside it, or of "preset:NAME", without a warning. */
+WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error);
+
 void material_file_free(MaterialFile *file);
 
 #endif

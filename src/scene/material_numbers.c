@@ -37,8 +37,7 @@ int weft_material_input_info(int index, WeftInputInfo *out) {
 
 static int value_count(int input) { return input_infos[input].kind == INPUT_COLOR ? 3 : 1; }
 
-/* Byte by byte equal for equal materials: there is no padding, and nothing where an input has no number. */
-static void put_numbers(const Material *material, WeftMaterial *out) {
+void numbers_of_material(const Material *material, WeftMaterial *out) {
     memset(out, 0, sizeof *out);
     out->alpha_mode = (WeftAlphaMode)material->alpha_mode;
     out->alpha_cutoff = material->alpha_cutoff;
@@ -151,7 +150,7 @@ static WeftResult no_material(const WeftScene *scene, int index, WeftError *erro
 WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out, WeftError *error) {
     memset(out, 0, sizeof *out);
     if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
-    put_numbers(&scene->materials[index], out);
+    numbers_of_material(&scene->materials[index], out);
     return WEFT_OK;
 }
 

@@ -9,6 +9,10 @@
  * modes that there are not become auto and opaque. The name is "". Textures are not looked at. */
 Material material_of_numbers(const WeftMaterial *numbers);
 
+/* The numbers of a material: byte by byte equal for equal materials, since there is no padding and nothing
+ * where an input has no number. */
+void numbers_of_material(const Material *material, WeftMaterial *out);
+
 /* Whether its choices are there and its values finite; else WEFT_MESSAGE_PARAM_VALUE. */
 WeftResult numbers_sound(const WeftMaterial *numbers, WeftError *error);
 

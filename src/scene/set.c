@@ -84,14 +84,8 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
     return angle ? taken * (3.14159265f / 180.0f) : taken;
 }
 
-/* What a setting asks for: an input, or a choice. The other is -1. */
-typedef struct Setting {
-    int input, choice, value; /* value: of the choice */
-    float v[3];
-} Setting;
-
-static WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
-                               const WeftLog *log, WeftError *error) {
+WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
+                        const WeftLog *log, WeftError *error) {
     *setting = (Setting){.input = material_input(name), .choice = material_choice(name)};
     if (setting->input < 0 && setting->choice < 0)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
@@ -106,7 +100,7 @@ static WeftResult setting_read(const char *name, const char *value, const char *
     return WEFT_OK;
 }
 
-static void material_set(Material *material, const Setting *setting) {
+void material_set(Material *material, const Setting *setting) {
     if (setting->input < 0) {
         material_choose(material, (ChoiceId)setting->choice, setting->value);
         return;

@@ -19,6 +19,18 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
  */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
 
+/* What a setting asks for: an input, or a choice. The other is -1. */
+typedef struct Setting {
+    int input, choice, value; /* value: of the choice */
+    float v[3];
+} Setting;
+
+/* Reads what an input or choice called name is to be. Fails with PARAM_NAME or PARAM_VALUE; warnings are
+ * about target. */
+WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
+                        const WeftLog *log, WeftError *error);
+void material_set(Material *material, const Setting *setting);
+
 /* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
 void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
 

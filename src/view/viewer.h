@@ -10,6 +10,7 @@
 #include "view/view.h"
 #include "view/watchman.h"
 #include "weft/measure.h"
+#include "weft/reflection.h"
 
 /* What the stage shows: OpenGL, the path tracer, or how they differ. */
 typedef enum Mode { MODE_LIVE, MODE_TRUTH, MODE_DIFFERENCE } Mode;

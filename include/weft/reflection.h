@@ -1,0 +1,52 @@
+/* reflection.h - what reflects, behind one handle: a lobe, a material, or a measured BRDF
+ *
+ * Directions, f and E are those of lobe.h. A reflection is prepared once and then asked many times; it does
+ * not change, so any number of threads may ask. */
+#ifndef WEFT_REFLECTION_H
+#define WEFT_REFLECTION_H
+
+#include "weft/lobe.h"
+#include "weft/material.h"
+#include "weft/raster.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WeftReflection WeftReflection;
+
+/* Of a material, with its numbers and choices and without its textures. Dust lies as it does where it is
+ * most. Of layer rule "stochastic", what bounced between sheen and base is in WEFT_PART_ALL alone. Fails with
+ * WEFT_MESSAGE_PARAM_VALUE (not finite, or a choice that there is not) or _MEMORY. Numbers are clamped as
+ * weft_scene_set does. */
+WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
+                                           WeftError *error);
+
+/* Of a lobe. Fails with WEFT_MESSAGE_LOBE_NAME or _MEMORY. */
+WEFT_API WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error);
+
+/* Of a measurement in the format of the MERL database (Wojciech Matusik, Hanspeter Pfister, Matt Brand and
+ * Leonard McMillan, "A Data-Driven Reflectance Model", 2003), ".binary": isotropic, linear between the
+ * middles of its bins, reciprocal; 0 where nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _MEMORY
+ * and with what reading a file can fail with. */
+WEFT_API WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error);
+
+WEFT_API void weft_reflection_free(WeftReflection *reflection); /* may be NULL */
+
+/* f of count directions wi towards the light, 1/sr, without the cosine; of the parts that WeftPart numbers:
+ * WEFT_PART_ALL .. WEFT_PART_DUST, 0 of others. Lobes and measurements have WEFT_PART_ALL alone. wo and wi
+ * are unit; 0 where one is below the horizon. */
+WEFT_API void weft_reflection_eval(const WeftReflection *reflection, int part, const float wo[3], int count,
+                                   const float (*wi)[3], float (*f)[3]);
+
+/* E towards wo, whose cosine with the normal is in (0, 1]: the share of light from there that comes back, in
+ * the plane of the tangent. Of a lobe as weft_lobe_albedo has it; else a sum of some thousand directions,
+ * exact to about 1 %. */
+WEFT_API void weft_reflection_albedo(const WeftReflection *reflection, int part, float cos_o,
+                                     float albedo[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,220 @@
+#include "subject.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "names.h"
+#include "report.h"
+
+/* What was typed, taken apart: kind, name and settings, each NULL where there is none. */
+typedef struct Parts {
+    char text[1024];
+    const Kind *kind;
+    char *name, *settings;
+} Parts;
+
+static bool ends_with(const char *text, const char *end) {
+    size_t n = strlen(text), m = strlen(end);
+    return n > m && strcmp(text + n - m, end) == 0;
+}
+
+/* A colon begins settings where a '=' follows it; a kind or a file's material where none does. */
+static int take_apart(const char *typed, Parts *parts) {
+    *parts = (Parts){.kind = NULL};
+    if (strlen(typed) >= sizeof parts->text) return report(WEFT_USAGE, "%.60s...: is too long a name", typed);
+    snprintf(parts->text, sizeof parts->text, "%s", typed);
+    parts->name = parts->text;
+    static const char *const prefixes[] = {"lobe", "profile", "preset"};
+    for (size_t k = 0; k < sizeof prefixes / sizeof *prefixes; k++) {
+        size_t n = strlen(prefixes[k]);
+        if (strncmp(typed, prefixes[k], n) != 0 || typed[n] != ':') continue;
+        parts->kind = kind_of(prefixes[k]);
+        parts->name = parts->text + n + 1;
+    }
+    char *equals = strchr(parts->name, '='), *colon = NULL;
+    if (equals)
+        for (char *at = parts->name; at < equals; at++)
+            if (*at == ':') colon = at;
+    if (equals && !colon) return report(WEFT_USAGE, "%.200s: write " SUBJECT_FORM, typed);
+    if (colon) {
+        *colon = '\0';
+        parts->settings = colon + 1;
+    }
+    return 0;
+}
+
+static void warned(void *user, WeftMessage message, const char *text) {
+    char *last = user;
+    (void)message;
+    if (strcmp(last, text) != 0) report(0, "warning: %s", text);
+    snprintf(last, sizeof((WeftError *)0)->text, "%s", text);
+}
+
+static int set_one(Subject *subject, const char *key, const char *value, const WeftLog *log) {
+    WeftError error;
+    WeftResult result = subject->kind == SUBJECT_LOBE
+                            ? weft_lobe_set(&subject->lobe, key, value, log, &error)
+                            : weft_material_set(&subject->material, key, value, log, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+/* KEY=VALUE,KEY=VALUE: what has no '=' belongs to the value before it, as the green in color=1,0.8,0.3. */
+static int set_all(Subject *subject, char *settings) {
+    WeftError last = {0};
+    const WeftLog log = {.fn = warned, .user = last.text};
+    int result = 0;
+    for (char *key = settings; result == 0 && key;) {
+        char *value = strchr(key, '='), *next = value ? value : key;
+        if (!value || value == key)
+            return report(WEFT_USAGE, "%.200s: \"%.80s\" is not KEY=VALUE", subject->words, key);
+        *value++ = '\0';
+        do next = strchr(next == value - 1 ? value : next + 1, ',');
+        while (next && !memchr(next + 1, '=', strcspn(next + 1, ",")));
+        if (next) *next++ = '\0';
+        result = set_one(subject, key, value, &log);
+        key = next;
+    }
+    return result;
+}
+
+static int of_lobe(Subject *subject, const char *id) {
+    WeftError error;
+    subject->kind = SUBJECT_LOBE;
+    return weft_lobe_create(id, &subject->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
+}
+
+static int of_profile(Subject *subject, const char *id) {
+    static const char *const cloth[][2] = {
+        {"base_color", "0.2"}, {"sheen_color", "1"}, {"sheen_roughness", "0.5"}, {"roughness", "1"}};
+    WeftError error;
+    subject->kind = SUBJECT_PROFILE;
+    weft_material_default(&subject->material);
+    WeftResult result = weft_material_set(&subject->material, "profile", id, NULL, &error);
+    for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
+        result = weft_material_set(&subject->material, cloth[k][0], cloth[k][1], NULL, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+static int of_material(Subject *subject, const char *path) {
+    WeftError error, last = {0};
+    const WeftLog log = {.fn = warned, .user = last.text};
+    subject->kind = SUBJECT_MATERIAL;
+    return weft_material_read(path, &subject->material, &log, &error) == WEFT_OK ? 0 : report_error(&error);
+}
+
+/* The material called so, or by its index; NULL: the only one. */
+static int material_index(const WeftScene *scene, const char *path, const char *wanted) {
+    int count = weft_scene_info(scene).material_count;
+    if (!wanted && count == 1) return 0;
+    if (!wanted) {
+        report(WEFT_USAGE, "%.200s: has %d materials: name one as %.200s:MATERIAL", path, count, path);
+        return -1;
+    }
+    char *end;
+    for (int k = 0; k < count; k++)
+        if (strcmp(weft_scene_material_name(scene, k), wanted) == 0) return k;
+    long index = strtol(wanted, &end, 10);
+    if (*wanted && !*end && index >= 0 && index < count) return (int)index;
+    Nearest nearest = {.typed = wanted};
+    char hint[96];
+    for (int k = 0; k < count; k++) nearest_offer(&nearest, weft_scene_material_name(scene, k));
+    report(WEFT_USAGE, "%.200s: is not a material of %.200s%s", wanted, path,
+           nearest_hint(&nearest, hint, sizeof hint));
+    return -1;
+}
+
+static int of_scene(Subject *subject, const char *path, const char *wanted) {
+    WeftError error;
+    WeftScene *scene;
+    subject->kind = SUBJECT_MATERIAL;
+    if (weft_scene_load(path, &scene, NULL, &error) != WEFT_OK) return report_error(&error);
+    int index = material_index(scene, path, wanted), result = index < 0 ? WEFT_USAGE : 0;
+    if (result == 0 && weft_scene_material(scene, index, &subject->material, &error) != WEFT_OK)
+        result = report_error(&error);
+    for (int k = 0; result == 0 && k < WEFT_INPUTS_MAX; k++) subject->material.inputs[k].texture = 0;
+    weft_scene_free(scene);
+    return result;
+}
+
+/* The end of a scene's path in "chair.glb:fabric"; NULL where text is not of that form. */
+static char *scene_end(char *text) {
+    static const char *const suffixes[] = {".gltf", ".glb"};
+    for (size_t k = 0; k < sizeof suffixes / sizeof *suffixes; k++)
+        for (char *at = strstr(text, suffixes[k]); at; at = strstr(at + 1, suffixes[k])) {
+            char *end = at + strlen(suffixes[k]);
+            if (*end == ':' || !*end) return end;
+        }
+    return NULL;
+}
+
+static int not_known(const char *name) {
+    char hint[96];
+    Nearest nearest = {.typed = name};
+    static const char *const ids[] = {"lobe", "profile", "preset"};
+    for (size_t k = 0; k < sizeof ids / sizeof *ids; k++)
+        for (int n = 0; kind_of(ids[k])->name(n); n++) nearest_offer(&nearest, kind_of(ids[k])->name(n));
+    return report(WEFT_USAGE, "%.200s: is not a lobe, a profile, a preset or a file%s", name,
+                  nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
+}
+
+static int of_kind(Subject *subject, const Kind *kind, const char *name) {
+    char path[160];
+    if (kind_named(kind, name) < 0) return WEFT_USAGE;
+    if (kind == kind_of("lobe")) return of_lobe(subject, name);
+    if (kind == kind_of("profile")) return of_profile(subject, name);
+    snprintf(path, sizeof path, "preset:%.120s", name);
+    return of_material(subject, path);
+}
+
+static int of_name(Subject *subject, const Parts *parts) {
+    static const char *const ids[] = {"lobe", "profile", "preset"};
+    if (parts->kind) return of_kind(subject, parts->kind, parts->name);
+    for (size_t k = 0; k < sizeof ids / sizeof *ids; k++)
+        if (kind_find(kind_of(ids[k]), parts->name) >= 0)
+            return of_kind(subject, kind_of(ids[k]), parts->name);
+    char *end = scene_end(parts->name);
+    if (end) {
+        const char *wanted = *end ? end + 1 : NULL;
+        *end = '\0';
+        return of_scene(subject, parts->name, wanted);
+    }
+    if (ends_with(parts->name, ".json")) return of_material(subject, parts->name);
+    if (!ends_with(parts->name, ".binary")) return not_known(parts->name);
+    subject->kind = SUBJECT_MEASURED;
+    return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)
+                           : 0;
+}
+
+int subject_parse(const char *typed, Subject *out) {
+    Parts parts;
+    memset(out, 0, sizeof *out);
+    int result = take_apart(typed, &parts);
+    if (result != 0) return result;
+    snprintf(out->words, sizeof out->words, "%s", typed);
+    snprintf(out->name, sizeof out->name, "%s", parts.name);
+    result = of_name(out, &parts);
+    return result == 0 && parts.settings ? set_all(out, parts.settings) : result;
+}
+
+int subject_prepare(Subject *subject) {
+    WeftError error;
+    weft_reflection_free(subject->reflection);
+    subject->reflection = NULL;
+    WeftResult result = subject->kind == SUBJECT_LOBE
+                            ? weft_reflection_of_lobe(&subject->lobe, &subject->reflection, &error)
+                        : subject->kind == SUBJECT_MEASURED
+                            ? weft_reflection_read(subject->words, &subject->reflection, &error)
+                            : weft_reflection_create(&subject->material, &subject->reflection, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+int subject_read(const char *typed, Subject *out) {
+    int result = subject_parse(typed, out);
+    return result == 0 ? subject_prepare(out) : result;
+}
+
+void subject_free(Subject *subject) {
+    weft_reflection_free(subject->reflection);
+    subject->reflection = NULL;
+}

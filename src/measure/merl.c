@@ -1,0 +1,137 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "measure/merl.h"
+
+enum { HEADER = 12, FILE_SIZE = HEADER + 3 * MERL_BINS * 8 };
+
+static const double units[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+
+static uint64_t little(const unsigned char *bytes, int count) {
+    uint64_t value = 0;
+    for (int k = count - 1; k >= 0; k--) value = value << 8 | bytes[k];
+    return value;
+}
+
+static double double_at(const unsigned char *bytes) {
+    uint64_t bits = little(bytes, 8);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static WeftResult check_size(const unsigned char *bytes, size_t size, const char *name, WeftError *error) {
+    if (size < HEADER) return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes", size);
+    unsigned n[3];
+    for (int k = 0; k < 3; k++) n[k] = (unsigned)little(bytes + (size_t)4 * (size_t)k, 4);
+    if (n[0] != MERL_THETA_H || n[1] != MERL_THETA_D || n[2] != MERL_PHI_D)
+        return fail(error, WEFT_MESSAGE_MEASURED, name,
+                    "it says %u x %u x %u bins where 90 x 90 x 180 are meant", n[0], n[1], n[2]);
+    if (size != FILE_SIZE)
+        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes, and %s: %d would be right", size,
+                    size < FILE_SIZE ? "was cut short" : "goes on behind its end", (int)FILE_SIZE);
+    return WEFT_OK;
+}
+
+WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error) {
+    const unsigned char *bytes = data;
+    *out = (Merl){{NULL}};
+    WeftResult result = check_size(bytes, size, name, error);
+    if (result != WEFT_OK) return result;
+    bool any = false;
+    for (int c = 0; c < 3; c++) {
+        out->f[c] = alloc_array(MERL_BINS, sizeof **out->f);
+        if (!out->f[c]) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+        for (size_t k = 0; k < MERL_BINS; k++) {
+            double f = double_at(bytes + HEADER + ((size_t)c * MERL_BINS + k) * 8) * units[c];
+            if (!isfinite(f) || f > 1e30)
+                return fail(error, WEFT_MESSAGE_MEASURED, name, "number %zu is not finite", k + 1);
+            out->f[c][k] = f < 0.0 ? -1.0f : (float)f;
+            any |= f > 0.0;
+        }
+    }
+    if (!any) return fail(error, WEFT_MESSAGE_MEASURED, name, "nothing in it is above 0");
+    return WEFT_OK;
+}
+
+WeftResult merl_read(const char *path, Merl *out, WeftError *error) {
+    FileBytes bytes;
+    *out = (Merl){{NULL}};
+    WeftResult result = file_read(path, FILE_SIZE + 1, &bytes, error);
+    if (result != WEFT_OK) return result;
+    result = merl_read_memory(bytes.data, bytes.size, path, out, error);
+    free(bytes.data);
+    return result;
+}
+
+void merl_free(Merl *merl) {
+    for (int c = 0; c < 3; c++) free(merl->f[c]);
+    *merl = (Merl){{NULL}};
+}
+
+/* Half vector and difference angles, radians; phi_d in [0, pi), since f(wo, wi) = f(wi, wo) turns it by pi.
+ */
+typedef struct HalfDiff {
+    double theta_h, theta_d, phi_d;
+} HalfDiff;
+
+static const double pi = 3.14159265358979323846;
+
+static HalfDiff half_diff(Dir o, Dir i) {
+    double hx = (double)o.x + (double)i.x, hy = (double)o.y + (double)i.y, hz = (double)o.z + (double)i.z;
+    double flat = (sqrt)(hx * hx + hy * hy), length = (sqrt)(flat * flat + hz * hz);
+    double c = flat > 1e-9 ? hx / flat : 1.0, s = flat > 1e-9 ? hy / flat : 0.0;
+    double ch = hz / length, sh = flat / length;
+    /* wi turned by -phi_h about z, then by -theta_h about y */
+    double x = c * (double)i.x + s * (double)i.y, y = c * (double)i.y - s * (double)i.x, z = (double)i.z;
+    double dx = ch * x - sh * z, dz = sh * x + ch * z;
+    HalfDiff angles = {
+        .theta_h = (atan2)(sh, ch), .theta_d = (atan2)((sqrt)(dx * dx + y * y), dz), .phi_d = (atan2)(y, dx)};
+    if (angles.phi_d < 0.0) angles.phi_d += pi;
+    if (angles.phi_d >= pi) angles.phi_d = 0.0;
+    return angles;
+}
+
+/* The two bins whose middles a place lies between, and the weight of the second. */
+typedef struct Between {
+    int bin[2];
+    double weight;
+} Between;
+
+static Between between(double place, int bins, bool round_it) {
+    double at = place - 0.5, low = (floor)(at);
+    int k = (int)low;
+    Between b = {.bin = {k, k + 1}, .weight = at - low};
+    for (int end = 0; end < 2; end++) {
+        if (b.bin[end] < 0) b.bin[end] = round_it ? bins - 1 : 0;
+        if (b.bin[end] >= bins) b.bin[end] = round_it ? 0 : bins - 1;
+    }
+    return b;
+}
+
+bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
+    f[0] = f[1] = f[2] = 0.0f;
+    if (!(o.z > 0.0f) || !(i.z > 0.0f)) return false;
+    HalfDiff a = half_diff(o, i);
+    /* bins of theta_h are narrow near the mirror direction: uniform in its root */
+    Between h = between((sqrt)(a.theta_h / (0.5 * pi)) * MERL_THETA_H, MERL_THETA_H, false);
+    Between d = between(a.theta_d / (0.5 * pi) * MERL_THETA_D, MERL_THETA_D, false);
+    Between p = between(a.phi_d / pi * MERL_PHI_D, MERL_PHI_D, true);
+    double sum[3] = {0.0}, weights = 0.0;
+    for (int corner = 0; corner < 8; corner++) {
+        int u = corner & 1, v = corner >> 1 & 1, w = corner >> 2;
+        size_t at = ((size_t)h.bin[u] * MERL_THETA_D + (size_t)d.bin[v]) * MERL_PHI_D + (size_t)p.bin[w];
+        double weight = (u ? h.weight : 1.0 - h.weight) * (v ? d.weight : 1.0 - d.weight) *
+                        (w ? p.weight : 1.0 - p.weight);
+        if (merl->f[0][at] < 0.0f || merl->f[1][at] < 0.0f || merl->f[2][at] < 0.0f) continue;
+        for (int c = 0; c < 3; c++) sum[c] += weight * (double)merl->f[c][at];
+        weights += weight;
+    }
+    if (!(weights > 1e-6)) return false;
+    for (int c = 0; c < 3; c++) f[c] = (float)(sum[c] / weights);
+    return true;
+}

@@ -1,0 +1,34 @@
+/* merl.h - a measured isotropic BRDF in the format of the MERL database
+ *
+ * Wojciech Matusik, Hanspeter Pfister, Matt Brand, Leonard McMillan, "A Data-Driven Reflectance Model", ACM
+ * Transactions on Graphics 22(3), 2003; the file: three little-endian 32-bit integers (theta_h, theta_d,
+ * phi_d: 90 90 180), then for red, green and blue so many doubles, phi_d fastest, in units of
+ * 1/1500, 1.15/1500 and 1.66/1500 per steradian; a negative one was not measured. Angles are those of Szymon
+ * Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998. */
+#ifndef WEFT_MEASURE_MERL_H
+#define WEFT_MEASURE_MERL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "shading/angles.h"
+#include "weft/result.h"
+
+enum { MERL_THETA_H = 90, MERL_THETA_D = 90, MERL_PHI_D = 180, MERL_BINS = 90 * 90 * 180 };
+
+/* f[channel][bin], 1/sr, negative where it was not measured. */
+typedef struct Merl {
+    float *f[3];
+} Merl;
+
+/* Reads a file, or size bytes of one. Fails with WEFT_MESSAGE_MEASURED, _MEMORY and as file_read does;
+ * release with merl_free in any case. */
+WeftResult merl_read(const char *path, Merl *out, WeftError *error);
+WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
+void merl_free(Merl *merl);
+
+/* f between the middles of the bins, linear, of those that were measured. False where none was, and below the
+ * horizon. */
+bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]);
+
+#endif

@@ -1,0 +1,74 @@
+/* material_alone.c - a material without a scene: the default, that of a file or a preset, set by name */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "scene/material_file.h"
+#include "scene/material_numbers.h"
+#include "scene/presets.h"
+#include "scene/set.h"
+
+const char *weft_preset_name(int index) { return preset_at(index) ? preset_at(index)->name : NULL; }
+const char *weft_preset_help(int index) { return preset_at(index) ? preset_at(index)->help : NULL; }
+const char *weft_preset_text(int index) { return preset_at(index) ? preset_at(index)->text : NULL; }
+
+static WeftResult load_preset(const char *name, MaterialFile *out, WeftError *error) {
+    for (int k = 0; preset_at(k); k++) {
+        const Preset *preset = preset_at(k);
+        if (strcmp(preset->name, name) == 0) /* no word on what we ship */
+            return material_file_read(preset->text, strlen(preset->text), name, NULL, out, NULL, error);
+    }
+    return fail(error, WEFT_MESSAGE_PRESET_NAME, name, "`weft models` lists them");
+}
+
+WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error) {
+    static const char prefix[] = "preset:";
+    const size_t limit = (size_t)1 << 20;
+    memset(out, 0, sizeof *out);
+    if (strncmp(path, prefix, strlen(prefix)) == 0) return load_preset(path + strlen(prefix), out, error);
+    FileBytes bytes;
+    WeftResult result = file_read(path, limit, &bytes, error);
+    if (result != WEFT_OK) return result;
+    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+    if (folder) *(slash ? slash + 1 : folder) = '\0';
+    result = folder ? material_file_read(bytes.data, bytes.size, path, folder, out, log, error)
+                    : fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    free(folder);
+    free(bytes.data);
+    return result;
+}
+
+void weft_material_default(WeftMaterial *out) {
+    const Material material = material_default("");
+    numbers_of_material(&material, out);
+}
+
+WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log, WeftError *error) {
+    MaterialFile file;
+    weft_material_default(out);
+    WeftResult result = material_file_load(path, &file, log, error);
+    if (result == WEFT_OK) {
+        if (file.texture_count)
+            warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its textures are left out: only its numbers count here");
+        numbers_of_material(&file.material, out);
+        for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
+    }
+    material_file_free(&file);
+    return result;
+}
+
+WeftResult weft_material_set(WeftMaterial *numbers, const char *name, const char *value, const WeftLog *log,
+                             WeftError *error) {
+    Setting setting;
+    WeftResult result = setting_read(name, value, name, &setting, log, error);
+    if (result != WEFT_OK) return result;
+    if (setting.input < 0) {
+        weft_material_choose(numbers, setting.choice, setting.value);
+        return WEFT_OK;
+    }
+    Material material = material_of_numbers(numbers);
+    material_set(&material, &setting);
+    numbers_of_material(&material, numbers);
+    return WEFT_OK;
+}
