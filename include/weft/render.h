@@ -21,7 +21,8 @@ typedef enum WeftBackground {
     WEFT_BACKGROUND_AUTO = 0,    /* a plain backdrop under the studio light, else the environment */
     WEFT_BACKGROUND_ENVIRONMENT, /* what lights the scene is seen behind it */
     WEFT_BACKGROUND_TRANSPARENT, /* alpha 0 where nothing is */
-    WEFT_BACKGROUND_COLOR        /* background_color, linear */
+    WEFT_BACKGROUND_COLOR,       /* background_color, linear */
+    WEFT_BACKGROUND_BLURRED      /* the environment out of focus, by about 10 degrees */
 } WeftBackground;
 
 /* Which strategy finds lights; anything but MIS is for tests and teaching. */

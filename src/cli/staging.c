@@ -26,7 +26,8 @@ static bool colors(const char *text, float color[3]) {
 }
 
 static bool read_background(const Options *options, Staging *staging) {
-    static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", NULL};
+    static const char *const names[] = {"auto",           "environment", "transparent",
+                                        "a linear r,g,b", "blurred",     NULL};
     int choice = WEFT_BACKGROUND_COLOR;
     bool good = colors(option_text(options, "--background"), staging->background_color) ||
                 (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);

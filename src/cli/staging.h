@@ -28,7 +28,8 @@ enum { STAGING_LIGHTS_MOST = 64 };
             "degrees, 3 to 8 corners; none drops those before it, the file's too"),                          \
         OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                    \
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),            \
-        OPTION_TEXT("--background", "WHAT", "auto", "auto, environment, transparent or a linear r,g,b"),     \
+        OPTION_TEXT("--background", "WHAT", "auto",                                                          \
+                    "auto, environment, blurred, transparent or a linear r,g,b"),                            \
                                                                                                              \
         DRESS_OPTIONS
 

@@ -13,6 +13,7 @@
 #include "image/half.h"
 #include "raster/check.h"
 #include "raster/program.h"
+#include "scene/backdrop.h"
 
 /* Raised whenever the same pixels would give other cubes. */
 enum { FILTER = 2 };
@@ -371,9 +372,19 @@ WeftResult environment_create(const Environment *environment, const EnvironmentH
     return result;
 }
 
+WeftResult environment_blur(GlEnvironment *self, const Environment *environment, WeftError *error) {
+    WeftImage image;
+    if (self->blurred) return WEFT_OK;
+    WeftResult result = backdrop_blurred(environment, &image, error);
+    if (result == WEFT_OK) result = make_map(&image, &self->blurred, error);
+    weft_image_free(&image);
+    return result;
+}
+
 void environment_destroy(GlEnvironment *self) {
     glDeleteTextures(1, &self->cube);
     glDeleteTextures(1, &self->map);
+    glDeleteTextures(1, &self->blurred);
     glDeleteBuffers(1, &self->buffer);
     *self = (GlEnvironment){0};
 }

@@ -20,9 +20,10 @@ enum { ENVIRONMENT_LEVELS = 7, ENVIRONMENT_SIDE = 256 };
 typedef struct GlEnvironment {
     AmbientParts parts;
     unsigned cube;
-    unsigned map;    /* the image as it is, for environment_background; 0 where it is one colour */
-    unsigned buffer; /* uniform block Environment */
-    bool cached;     /* the cube came from the cache */
+    unsigned map;     /* the image as it is, for environment_background; 0 where it is one colour */
+    unsigned blurred; /* that image as backdrop.h has it; 0 until it was asked for */
+    unsigned buffer;  /* uniform block Environment */
+    bool cached;      /* the cube came from the cache */
 } GlEnvironment;
 
 /* Zero-initialise. */
@@ -41,6 +42,10 @@ typedef struct EnvironmentHow {
  * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED. */
 WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
                               const WeftLog *log, WeftError *error);
+
+/* Makes `blurred` where it is not there yet, of an environment that has an image. */
+WeftResult environment_blur(GlEnvironment *self, const Environment *environment, WeftError *error);
+
 void environment_destroy(GlEnvironment *environment);
 
 /* Radians about +y and a factor on all radiance. */

@@ -243,7 +243,7 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "samples", "%d", view->samples);
     if ((unsigned)view->ambient > WEFT_AMBIENT_NONE)
         return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
-    if ((unsigned)view->background > WEFT_BACKGROUND_COLOR)
+    if ((unsigned)view->background > WEFT_BACKGROUND_BLURRED)
         return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
     if ((unsigned)view->part >= WEFT_PART_COUNT)
         return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
@@ -306,6 +306,10 @@ static void clear(const Target *target, const WeftRasterView *view, const int bo
     glScissor(box[0] - more, box[1] - more, box[2] + 2 * more, box[3] + 2 * more);
 }
 
+static bool shows_environment(const WeftRasterView *view) {
+    return view->background == WEFT_BACKGROUND_ENVIRONMENT || view->background == WEFT_BACKGROUND_BLURRED;
+}
+
 static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
     glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
@@ -313,7 +317,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
     const float *c = view->background_color;
     float constant[3];
     for (int k = 0; k < 3; k++) constant[k] = e->color[k] * e->strength;
-    if (view->background == WEFT_BACKGROUND_ENVIRONMENT && e->kind == ENVIRONMENT_CONSTANT) {
+    if (shows_environment(view) && e->kind == ENVIRONMENT_CONSTANT) {
         color = true;
         c = constant;
     }
@@ -429,7 +433,7 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
 }
 
 /* Where nothing was drawn; behind what blends. */
-static WeftResult draw_background(WeftRaster *self, WeftError *error) {
+static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *error) {
     const Environment *e = &self->scene->environment;
     WeftError said = {0};
     if (!self->background) self->background = programs_background(&self->programs, &said);
@@ -437,11 +441,15 @@ static WeftResult draw_background(WeftRaster *self, WeftError *error) {
         if (error) *error = said;
         return said.result;
     }
+    if (blurred && environment_blur(&self->environment, e, &said) != WEFT_OK) {
+        if (error) *error = said;
+        return said.result;
+    }
     glUseProgram(self->background);
     glUniform4f(glGetUniformLocation(self->background, "background_place"), cosf(e->rotation),
                 sinf(e->rotation), e->strength, 0.0f);
     glActiveTexture(GL_TEXTURE0 + UNIT_BACKGROUND);
-    glBindTexture(GL_TEXTURE_2D, self->environment.map);
+    glBindTexture(GL_TEXTURE_2D, blurred ? self->environment.blurred : self->environment.map);
     glActiveTexture(GL_TEXTURE0);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
@@ -454,10 +462,11 @@ static WeftResult draw_background(WeftRaster *self, WeftError *error) {
 
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
-    bool behind = view->background == WEFT_BACKGROUND_ENVIRONMENT && self->shines && self->environment.map;
+    bool behind = shows_environment(view) && self->shines && self->environment.map;
     queue_sort(&self->queue, self->scene, seen);
     for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
-        if (k == self->queue.solid && behind) result = draw_background(self, error);
+        if (k == self->queue.solid && behind)
+            result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
         if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
         const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];

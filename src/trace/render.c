@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/thread.h"
+#include "scene/backdrop.h"
 #include "scene/camera.h"
 #include "scene/polygons.h"
 #include "scene/shade.h"
@@ -39,6 +40,8 @@ struct WeftRender {
     Camera camera;
     View view;
     float filter[FILTER_STEPS + 1];
+    WeftImage blurred; /* of backdrop.h, where it is the background; its environment was that of */
+    unsigned blurred_turn;
     int x0, y0, width, height; /* the crop */
     int tiles_across, tile_count;
     Tile *tiles;
@@ -61,7 +64,7 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
                     c[3], d->width, d->height);
     if (d->max_depth < 1) return fail(error, WEFT_MESSAGE_DESC, "max depth", "%d; at least 1", d->max_depth);
-    if ((unsigned)d->background > WEFT_BACKGROUND_COLOR || (unsigned)d->sampling > WEFT_SAMPLING_LOBE)
+    if ((unsigned)d->background > WEFT_BACKGROUND_BLURRED || (unsigned)d->sampling > WEFT_SAMPLING_LOBE)
         return fail(error, WEFT_MESSAGE_DESC, "background or sampling", NULL);
     for (int k = 0; k < 3; k++)
         if (!isfinite(d->background_color[k]))
@@ -193,6 +196,17 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
     return result;
 }
 
+static bool has_image(const WeftScene *scene) { return scene->environment.kind != ENVIRONMENT_CONSTANT; }
+
+static WeftResult make_blurred(WeftRender *render, WeftError *error) {
+    const Environment *e = &render->scene->environment;
+    if (render->desc.background != WEFT_BACKGROUND_BLURRED || !has_image(render->scene)) return WEFT_OK;
+    if (render->blurred.pixels && render->blurred_turn == e->turn) return WEFT_OK;
+    weft_image_free(&render->blurred);
+    render->blurred_turn = e->turn;
+    return backdrop_blurred(e, &render->blurred, error);
+}
+
 WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
                                WeftError *error) {
     double start = now();
@@ -209,6 +223,7 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
         for (int c = 0; c < 3; c++) d.background_color[c] = 0.62f; /* a light grey paper roll */
     render->desc = d;
     result = build(render, changed, error);
+    if (result == WEFT_OK) result = make_blurred(render, error);
     render->desc.camera = NULL; /* borrowed only during this call */
     render->build_seconds = now() - start;
     return result;
@@ -235,6 +250,7 @@ void weft_render_free(WeftRender *render) {
     free(render->materials);
     lights_free(render->lights);
     geometry_free(render->geometry);
+    weft_image_free(&render->blurred);
     free(render->tiles);
     free(render->sums);
     free(render);
@@ -264,8 +280,13 @@ static void add_background(const WeftRender *render, Vec3 direction, float *sum)
     const WeftRenderDesc *d = &render->desc;
     if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;
     Rgb c = {d->background_color[0], d->background_color[1], d->background_color[2]};
-    if (d->background == WEFT_BACKGROUND_ENVIRONMENT)
+    float blurred[3];
+    if (d->background == WEFT_BACKGROUND_BLURRED && has_image(render->scene)) {
+        backdrop_at(&render->scene->environment, &render->blurred, direction, blurred);
+        c = (Rgb){blurred[0], blurred[1], blurred[2]};
+    } else if (d->background != WEFT_BACKGROUND_COLOR) {
         c = lights_environment(render->lights, direction).radiance;
+    }
     sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
 }
 

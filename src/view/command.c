@@ -136,7 +136,7 @@ static void put_around(Line *line, const Around *a) {
 }
 
 static void put_view(Line *line, const Viewer *v) {
-    static const char *const backs[] = {"auto", "environment", "transparent"};
+    static const char *const backs[] = {"auto", "environment", "transparent", "", "blurred"};
     static const char *const curves[] = {"pbr-neutral", "aces", "none"};
     static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
     char camera[ORBIT_TEXT];

@@ -46,13 +46,13 @@ static const char *curve_help(const void *user, int k) {
     return helps[k];
 }
 static const char *back_name(const void *user, int k) {
-    static const char *const names[] = {"auto", "environment", "transparent", "colour"};
+    static const char *const names[] = {"auto", "environment", "transparent", "colour", "blurred"};
     return names[k];
 }
 static const char *back_help(const void *user, int k) {
     static const char *const helps[] = {"Paper behind the studio, else the environment.",
-                                        "What lights the scene is seen behind it.", "Nothing.",
-                                        "One colour."};
+                                        "What lights the scene is seen behind it.", "Nothing.", "One colour.",
+                                        "What lights the scene, out of focus by 10 degrees."};
     return helps[k];
 }
 static const char *part_name(const void *user, int k) { return weft_part_name(k); }
@@ -65,7 +65,7 @@ static const char *part_help(const void *user, int k) {
 static void draw_picture(Viewer *v) {
     static const UiRange stops = {-6.0f, 6.0f, 0.0f, "stops", false};
     static const float grey[3] = {0.18f, 0.18f, 0.18f};
-    const UiChoices curves = {3, curve_name, curve_help, NULL}, backs = {4, back_name, back_help, NULL};
+    const UiChoices curves = {3, curve_name, curve_help, NULL}, backs = {5, back_name, back_help, NULL};
     const UiChoices parts = {WEFT_PART_COUNT, part_name, part_help, NULL};
     int curve = (int)v->tonemap, back = (int)v->background, part = (int)v->part;
     ui_slider("exposure", &stops, &v->exposure);

@@ -15,6 +15,7 @@
 #include "trace/scenes.h"
 
 #include "raster/shader.h"
+#include "scene/backdrop.h"
 #include "shading/choice.h"
 
 enum { SIDE = 96 };
@@ -107,6 +108,54 @@ static void background_is_as_told(void **state) {
     assert_float_equal(pixel(&image, 2, 2)[1], 0.75f, 1e-3f);
     assert_float_equal(pixel(&image, 2, 2)[3], 1.0f, 0.0f);
     weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
+/* The studio out of focus: as the path tracer has it, and what backdrop.h says it is. */
+static void the_environment_may_be_blurred(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = test_scene();
+    WeftImage traced, blurred;
+    WeftRender *render;
+    WeftError error;
+    test_material(scene, 0.5f)->unlit = true;
+    test_quad(scene, vec3(-0.1f, -0.1f, 0.0f), vec3(0.2f, 0.0f, 0.0f), vec3(0.0f, 0.2f, 0.0f));
+    scene_bounds(scene);
+    assert_int_equal(weft_scene_set_environment_studio(scene, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set_environment_placement(scene, 70.0f, 0.5f, &error), WEFT_OK);
+    WeftRasterView view = front_view;
+    view.background = WEFT_BACKGROUND_BLURRED;
+    WeftImage drawn = picture_of(scene, WEFT_GL_DESKTOP, &view);
+    const WeftRenderDesc desc = {.width = SIDE,
+                                 .height = SIDE,
+                                 .camera = front_view.camera,
+                                 .pixel_centre = 1,
+                                 .background = WEFT_BACKGROUND_BLURRED};
+    assert_int_equal(weft_render_create(scene, &desc, &render, &error), WEFT_OK);
+    assert_int_equal(weft_render_run(render, 1, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_image(render, &traced, &error), WEFT_OK);
+    weft_render_free(render);
+    float most = 0.0f, least = 1e9f;
+    for (int y = 0; y < SIDE; y += 5)
+        for (int x = 0; x < SIDE; x += 5) {
+            int dx = x - SIDE / 2, dy = y - SIDE / 2;
+            if (dx * dx + dy * dy < SIDE * SIDE / 32) continue; /* the square */
+            float value = pixel(&drawn, x, y)[1];
+            assert_float_equal(value, pixel(&traced, x, y)[1], 2e-3f);
+            most = value > most ? value : most, least = value < least ? value : least;
+        }
+    assert_true(most > 1.02f * least);
+    assert_int_equal(backdrop_blurred(&scene->environment, &blurred, &error), WEFT_OK);
+    const float *p = scene->environment.image.pixels, *q = blurred.pixels;
+    float sharp = 0.0f, soft = 0.0f;
+    for (int k = 0; k < 3 * scene->environment.image.width * scene->environment.image.height; k++)
+        sharp = p[k] > sharp ? p[k] : sharp;
+    for (int k = 0; k < 3 * blurred.width * blurred.height; k++) soft = q[k] > soft ? q[k] : soft;
+    assert_true(soft < 0.999f * sharp && soft > 0.5f * sharp); /* soft boxes are wider than the blur */
+    weft_image_free(&blurred);
+    weft_image_free(&traced);
+    weft_image_free(&drawn);
     weft_scene_free(scene);
 }
 
@@ -308,6 +357,7 @@ static void shaders_are_of_their_version(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_is_as_told),
                                        cmocka_unit_test(background_is_as_told),
+                                       cmocka_unit_test(the_environment_may_be_blurred),
                                        cmocka_unit_test(pictures_are_upright),
                                        cmocka_unit_test(polygons_light_as_the_path_tracer_has_it),
                                        cmocka_unit_test(steady_frames_make_nothing),
