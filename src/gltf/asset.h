@@ -137,8 +137,12 @@ typedef struct Asset {
     WeftScene *scene;
     Arena arena; /* dies with the read */
 
+    FileBytes file; /* the asset's own bytes, owned; empty where they are the caller's */
     json_t *root;
-    Span bin; /* BIN chunk of a GLB */
+    Span text;   /* what root was read from */
+    Span bin;    /* BIN chunk of a GLB */
+    Span behind; /* the chunks of a GLB that nobody knows, with their headers */
+    bool packed; /* it is a GLB */
 
     FileTable buffer_files, image_files;
 

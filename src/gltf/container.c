@@ -11,6 +11,7 @@ enum { JSON_VALUES_MAX = 4000000 };
 
 static void json_read(Asset *asset, Span text) {
     size_t values = 0;
+    asset->text = text;
     for (size_t i = 0; i < text.size; i++)
         values += text.data[i] == ',' || text.data[i] == '[' || text.data[i] == '{';
     if (values > JSON_VALUES_MAX) {
@@ -49,6 +50,7 @@ static void glb_read(Asset *asset, Span data) {
 
     Span json = {0};
     size_t at = HEADER_SIZE;
+    asset->packed = true;
     for (int chunk = 0; at + CHUNK_HEADER_SIZE <= length; chunk++) {
         uint32_t size = word(data.data + at), type = word(data.data + at + 4);
         at += CHUNK_HEADER_SIZE;
@@ -64,6 +66,8 @@ static void glb_read(Asset *asset, Span data) {
             break;
         else if (chunk == 1 && type == CHUNK_BIN)
             asset->bin = body;
+        else if (!asset->behind.data && type != CHUNK_JSON && type != CHUNK_BIN)
+            asset->behind = (Span){body.data - CHUNK_HEADER_SIZE, length - at + size + CHUNK_HEADER_SIZE};
         else if (type == CHUNK_JSON || type == CHUNK_BIN)
             warn(asset->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, asset->name, "misplaced chunk %d", chunk);
     }
@@ -88,4 +92,23 @@ void container_read(Asset *asset, Span data) {
         json_read(asset, data);
     else
         asset_fail(asset, WEFT_MESSAGE_SCENE_KIND, "it is neither GLB nor a JSON object");
+}
+
+static unsigned char *put_word(unsigned char *to, size_t word) {
+    for (int k = 0; k < 4; k++) *to++ = (unsigned char)(word >> (8 * k) & 255);
+    return to;
+}
+
+unsigned char *container_head(Span text, size_t bin, size_t behind, size_t *size) {
+    enum { MAGIC = 0x46546c67, VERSION = 2 };
+    size_t json = (text.size + 3) / 4 * 4, tail = bin ? CHUNK_HEADER_SIZE : 0;
+    *size = HEADER_SIZE + CHUNK_HEADER_SIZE + json + tail;
+    unsigned char *head = alloc_array(*size, 1), *to = head;
+    if (!head) return NULL;
+    to = put_word(put_word(put_word(to, MAGIC), VERSION), *size + bin + behind);
+    to = put_word(put_word(to, json), CHUNK_JSON);
+    memset(to, ' ', json);
+    memcpy(to, text.data, text.size);
+    if (tail) put_word(put_word(to + json, bin), CHUNK_BIN);
+    return head;
 }

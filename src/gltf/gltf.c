@@ -86,6 +86,32 @@ static void (*const stages[])(Asset *) = {
 
 static const size_t FILE_MAX = (size_t)4 << 30, LIMIT_FIRST = (size_t)256 << 20;
 
+void gltf_open(Asset *asset, const char *path, const void *data, size_t size) {
+    asset->name = path;
+    asset->in_memory = data != NULL;
+    asset->limit = LIMIT_FIRST;
+    Span bytes = {data, size};
+    if (!data && asset_progress(asset, 0.0, 0.0, 0, 1)) {
+        asset->result = file_read(path, FILE_MAX, &asset->file, asset->error);
+        bytes = (Span){asset->file.data, asset->file.size};
+    }
+    asset->input_bytes = bytes.size;
+    if (asset->result == WEFT_OK) container_read(asset, bytes);
+}
+
+void gltf_read_parts(Asset *asset) {
+    for (size_t i = 0; i < sizeof stages / sizeof *stages && asset->result == WEFT_OK; i++) stages[i](asset);
+    if (asset->result == WEFT_OK) asset_progress(asset, 1.0, 1.0, 1, 1);
+}
+
+void gltf_close(Asset *asset) {
+    buffers_free(asset);
+    json_decref(asset->root);
+    arena_free(&asset->arena);
+    free(asset->file.data);
+    *asset = (Asset){0};
+}
+
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error) {
     return gltf_read_watched(path, data, size, scene, NULL, NULL, log, error);
@@ -93,27 +119,10 @@ WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene 
 
 WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
                              WeftProgress progress, void *user, const WeftLog *log, WeftError *error) {
-    Asset asset = {.name = path,
-                   .in_memory = data != NULL,
-                   .log = log,
-                   .error = error,
-                   .progress = progress,
-                   .user = user,
-                   .scene = scene,
-                   .limit = LIMIT_FIRST};
-    FileBytes file = {0};
-    Span bytes = {data, size};
-    if (!data && asset_progress(&asset, 0.0, 0.0, 0, 1)) {
-        asset.result = file_read(path, FILE_MAX, &file, error);
-        bytes = (Span){file.data, file.size};
-    }
-    asset.input_bytes = bytes.size;
-    if (asset.result == WEFT_OK) container_read(&asset, bytes);
-    for (size_t i = 0; i < sizeof stages / sizeof *stages && asset.result == WEFT_OK; i++) stages[i](&asset);
-    if (asset.result == WEFT_OK) asset_progress(&asset, 1.0, 1.0, 1, 1);
-    buffers_free(&asset);
-    json_decref(asset.root);
-    arena_free(&asset.arena);
-    free(file.data);
-    return asset.result;
+    Asset asset = {.log = log, .error = error, .progress = progress, .user = user, .scene = scene};
+    gltf_open(&asset, path, data, size);
+    gltf_read_parts(&asset);
+    WeftResult result = asset.result;
+    gltf_close(&asset);
+    return result;
 }

@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "gltf/container.h"
 #include "gltf/saving.h"
 
 static bool ends(const char *path, const char *suffix) {
@@ -40,27 +41,14 @@ static void buffer_save(Saving *saving) {
     saving_append(saving, saving_list(saving, "buffers"), buffer);
 }
 
-static unsigned char *put_word(unsigned char *to, size_t word) {
-    for (int k = 0; k < 4; k++) *to++ = (unsigned char)(word >> (8 * k) & 255);
-    return to;
-}
-
-/* Section 4 of the specification: a header, and a chunk each for JSON and bytes. */
 static void container_write(Saving *saving, const char *text) {
-    enum { HEADER = 12, CHUNK = 8, GLTF = 0x46546c67, JSON = 0x4e4f534a, BIN = 0x004e4942 };
-    size_t length = strlen(text), json = (length + 3) / 4 * 4, tail = saving->size ? CHUNK : 0;
-    size_t size = HEADER + CHUNK + json + tail;
-    unsigned char *head = alloc_array(size, 1), *to = head;
-    if (!head) {
+    size_t size = 0;
+    unsigned char *head =
+        container_head((Span){(const unsigned char *)text, strlen(text)}, saving->size, 0, &size);
+    if (!head)
         saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
-        return;
-    }
-    if (size + saving->size > UINT32_MAX)
+    else if (size + saving->size > UINT32_MAX)
         saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, saving->path, "it would have more than 4 GB");
-    to = put_word(put_word(put_word(to, GLTF), 2), size + saving->size);
-    to = put_word(put_word(to, json), JSON);
-    for (size_t k = 0; k < json; k++) to[k] = (unsigned char)(k < length ? text[k] : ' ');
-    if (tail) put_word(put_word(to + json, saving->size), BIN);
     saving_write(saving, saving->path, head, size, saving->bytes, saving->size);
     free(head);
 }

@@ -82,18 +82,21 @@ static bool make_room(Saving *saving, size_t more) {
     return true;
 }
 
+void saving_bytes(Saving *saving, const void *data, size_t size) {
+    size_t padding = (4 - size % 4) % 4;
+    if (!size || saving->result != WEFT_OK || !make_room(saving, size + padding)) return;
+    memcpy(saving->bytes + saving->size, data, size);
+    memset(saving->bytes + saving->size + size, 0, padding);
+    saving->size += size + padding;
+}
+
 int saving_view(Saving *saving, const void *data, size_t size, int target) {
     json_t *views = saving_list(saving, "bufferViews"), *view = json_object();
-    size_t padding = (4 - size % 4) % 4;
     saving_put(saving, view, "buffer", json_integer(0));
     saving_put(saving, view, "byteOffset", json_integer((json_int_t)saving->size));
     saving_put(saving, view, "byteLength", json_integer((json_int_t)size));
     if (target) saving_put(saving, view, "target", json_integer(target));
-    if (saving->result == WEFT_OK && make_room(saving, size + padding)) {
-        memcpy(saving->bytes + saving->size, data, size);
-        memset(saving->bytes + saving->size + size, 0, padding);
-        saving->size += size + padding;
-    }
+    saving_bytes(saving, data, size);
     saving_append(saving, views, view);
     return (int)json_array_size(views) - 1;
 }

@@ -45,6 +45,9 @@ void saving_uses(Saving *saving, const char *extension);
 /* object.extensions[name] = value. */
 void saving_extend(Saving *saving, json_t *object, const char *name, json_t *value);
 
+/* Puts bytes at the end of the buffer, and zeros up to a multiple of 4. */
+void saving_bytes(Saving *saving, const void *data, size_t size);
+
 /* Puts bytes at the end of the buffer, aligned to 4, as a view of their own: its index. target: of the
  * specification, 0: none. */
 int saving_view(Saving *saving, const void *data, size_t size, int target);
