@@ -99,7 +99,7 @@ typedef struct WeftFinding {
     char fix[280];    /* what to do */
     int fixable;      /* weft_doctor_fix does it */
     double figure;    /* what was measured; NAN where nothing was */
-    char place[96];   /* a JSON pointer (RFC 6901) into the file */
+    char place[160];  /* a JSON pointer (RFC 6901) into the file */
 } WeftFinding;
 
 typedef struct WeftDoctor WeftDoctor;

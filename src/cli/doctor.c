@@ -19,7 +19,8 @@ typedef struct Visit {
     const char *path, *output; /* output: NULL: nothing is to be fixed */
     WeftDoctor *doctor;
     bool quiet;
-    int counts[3], fixable, left; /* left: errors and warnings that stay after --fix, or are there without */
+    int counts[3], fixable,
+        left; /* left: errors and warnings that are there, or are there still after --fix */
 } Visit;
 
 /* The engines of a mask by name, "three, babylon"; "" for whatever reads the file. */
@@ -47,8 +48,21 @@ static void count_all(Visit *visit) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);
         visit->counts[finding->severity]++;
         visit->fixable += finding->fixable;
-        visit->left += finding->severity != WEFT_SEVERITY_NOTE && !(visit->output && finding->fixable);
     }
+    visit->left = visit->counts[WEFT_SEVERITY_ERROR] + visit->counts[WEFT_SEVERITY_WARNING];
+}
+
+/* Writes the asset as it should be, and looks at that. */
+static WeftResult fix(Visit *visit, WeftError *error) {
+    WeftDoctor *again;
+    WeftResult result = weft_doctor_fix(visit->doctor, visit->output, error);
+    if (result == WEFT_OK) result = weft_doctor_open(visit->output, &again, NULL, error);
+    if (result != WEFT_OK) return result;
+    visit->left = 0;
+    for (int k = 0; k < weft_doctor_count(again); k++)
+        visit->left += weft_doctor_finding(again, k)->severity != WEFT_SEVERITY_NOTE;
+    weft_doctor_free(again);
+    return WEFT_OK;
 }
 
 /* Text. */
@@ -78,8 +92,9 @@ static void summary_text(const Visit *visit) {
     counted("error", counts[WEFT_SEVERITY_ERROR], ", ");
     counted("warning", counts[WEFT_SEVERITY_WARNING], ", ");
     counted("note", counts[WEFT_SEVERITY_NOTE], "");
-    if (visit->fixable && visit->output)
-        printf("; %d fixed in %s", visit->fixable, visit->output);
+    if (visit->output)
+        printf("\n%d fixed in %s, where %d %s left", visit->fixable, visit->output, visit->left,
+               visit->left == 1 ? "error or warning is" : "errors and warnings are");
     else if (visit->fixable)
         printf("; --fix -o FILE repairs %d", visit->fixable);
     printf("\n");
@@ -141,6 +156,7 @@ static void json_write(const Visit *visit) {
     json_whole(&json, "warnings", visit->counts[WEFT_SEVERITY_WARNING]);
     json_whole(&json, "notes", visit->counts[WEFT_SEVERITY_NOTE]);
     if (visit->output) json_text(&json, "fixed", visit->output);
+    json_whole(&json, "left", visit->left);
     json_open(&json, "findings", '[');
     for (int k = 0; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);
@@ -200,8 +216,7 @@ static int visit_make(Visit *visit) {
                       visit->path);
     if (weft_doctor_open(visit->path, &visit->doctor, NULL, &error) != WEFT_OK) return report_error(&error);
     count_all(visit);
-    if (visit->output && weft_doctor_fix(visit->doctor, visit->output, &error) != WEFT_OK)
-        return report_error(&error);
+    if (visit->output && fix(visit, &error) != WEFT_OK) return report_error(&error);
     if (option_given(visit->options, "--json"))
         json_write(visit);
     else

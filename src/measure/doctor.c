@@ -111,6 +111,13 @@ void doctor_advise(WeftDoctor *doctor, const char *fix, ...) {
     va_end(arguments);
 }
 
+void doctor_soften(WeftDoctor *doctor) {
+    if (!doctor->count) return;
+    doctor->items[doctor->count - 1].severity = WEFT_SEVERITY_NOTE;
+    doctor->items[doctor->count - 1].fixable = 0;
+    doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
+}
+
 /* Warnings of the reader: that of an image becomes a finding, all go on to the caller. */
 static void hear(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
@@ -222,14 +229,35 @@ WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor) {
     return info;
 }
 
-WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
+static WeftResult fix_once(const WeftDoctor *doctor, const char *path, WeftError *error) {
     Rewrite rewrite;
-    /* the asset is only read: its failures are kept apart from those of a doctor that others may be using */
-    Asset asset = doctor->asset;
+    Asset asset = doctor->asset; /* which is only read: a failure here is none of the doctor's */
     WeftResult result = rewrite_begin(&rewrite, &asset, error);
     for (int k = 0; k < doctor->count && result == WEFT_OK; k++)
         result = doctor_repair(doctor, &rewrite, k, error);
     if (result == WEFT_OK) result = rewrite_save(&rewrite, path, error);
     rewrite_end(&rewrite);
+    return result;
+}
+
+static bool can_fix(const WeftDoctor *doctor) {
+    bool any = false;
+    for (int k = 0; k < doctor->count; k++) any |= doctor->items[k].fixable;
+    return any;
+}
+
+/* A sheen that was switched on may need more: so what was written is examined again. */
+WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
+    enum { ROUNDS = 4 };
+    WeftResult result = fix_once(doctor, path, error);
+    bool more = can_fix(doctor);
+    for (int round = 1; round < ROUNDS && more && result == WEFT_OK; round++) {
+        WeftDoctor *again;
+        result = weft_doctor_open(path, &again, NULL, error);
+        if (result != WEFT_OK) break;
+        more = can_fix(again);
+        if (more) result = fix_once(again, path, error);
+        weft_doctor_free(again);
+    }
     return result;
 }

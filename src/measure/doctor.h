@@ -57,6 +57,10 @@ __attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, Weft
 /* What to do about the finding noted last: a printf format. */
 __attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, const char *fix, ...);
 
+/* The finding noted last is a note that nothing repairs: of a material that is no cloth it may well be meant.
+ */
+void doctor_soften(WeftDoctor *doctor);
+
 /* The value at "a/b/c" below an object; NULL where there is none. */
 json_t *doctor_part(json_t *object, const char *path);
 
@@ -75,7 +79,7 @@ bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 
-/* The mean of a factor times its texture: of a colour linear; of a number its channel. */
+/* The mean of a factor, clamped to 0 .. 1, times its texture: of a colour linear; of a number its channel. */
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]);
 float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,

@@ -102,12 +102,15 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     return pixels;
 }
 
+/* What readers take a factor as. */
+static float clamped(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
+
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]) {
     double numbers[3] = {absent, absent, absent};
     doctor_numbers(object, factor, numbers, 3);
     const Pixels *pixels = doctor_pixels(doctor, doctor_part(object, texture));
-    for (int c = 0; c < 3; c++) color[c] = (float)numbers[c] * (pixels ? pixels->linear[c] : 1.0f);
+    for (int c = 0; c < 3; c++) color[c] = clamped((float)numbers[c]) * (pixels ? pixels->linear[c] : 1.0f);
 }
 
 float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
@@ -115,7 +118,7 @@ float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, cons
     double number = absent;
     doctor_numbers(object, factor, &number, 1);
     const Pixels *pixels = doctor_pixels(doctor, doctor_part(object, texture));
-    return (float)number * (pixels ? pixels->mean[channel] : 1.0f);
+    return clamped((float)number) * (pixels ? pixels->mean[channel] : 1.0f);
 }
 
 /* Those of the catalogue that are engines' readings of KHR_materials_sheen. */

@@ -19,10 +19,11 @@
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};
 enum { COSINES = sizeof cosines / sizeof *cosines, READERS = 5 };
 
-/* What an engine makes of a material, with its sheen and without. */
+/* What an engine makes of a material, with its sheen and without: E of the strongest channel, and luminance.
+ */
 typedef struct Answer {
-    float with[COSINES], without[COSINES];           /* E, of the strongest channel */
-    float mean_with[COSINES], mean_without[COSINES]; /* and of the mean */
+    float with[COSINES], without[COSINES];
+    float light_with[COSINES], light_without[COSINES];
 } Answer;
 
 static int input_of(const char *name) {
@@ -50,28 +51,33 @@ static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float
     return true;
 }
 
-static void measure_all(const WeftMaterial *material, float most[COSINES], float mean[COSINES]) {
+static void measure_all(const WeftMaterial *material, float most[COSINES], float light[COSINES]) {
     WeftReflection *reflection;
     WeftError error;
-    for (int k = 0; k < COSINES; k++) most[k] = mean[k] = 0.0f;
+    for (int k = 0; k < COSINES; k++) most[k] = light[k] = 0.0f;
     if (weft_reflection_create(material, &reflection, &error) != WEFT_OK) return;
     for (int k = 0; k < COSINES; k++) {
         float e[3];
         weft_reflection_albedo(reflection, WEFT_PART_ALL, cosines[k], e);
         most[k] = fmaxf(e[0], fmaxf(e[1], e[2]));
-        mean[k] = (e[0] + e[1] + e[2]) / 3.0f;
+        light[k] = 0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2];
     }
     weft_reflection_free(reflection);
 }
 
-static Answer ask(const WeftDoctor *doctor, const Cloth *cloth, float roughness, const char *profile) {
+/* known: another answer of the same engine, whose part without the sheen holds here too; NULL: there is none.
+ */
+static Answer ask(const WeftDoctor *doctor, const Cloth *cloth, float roughness, int reader,
+                  const Answer *known) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
+    const char *profile = doctor_readers[reader];
     Answer answer = {{0.0f}, {0.0f}, {0.0f}, {0.0f}};
     WeftMaterial material;
+    if (known) answer = *known;
     if (numbers_of(doctor, cloth, cloth->color, roughness, profile, &material))
-        measure_all(&material, answer.with, answer.mean_with);
-    if (numbers_of(doctor, cloth, black, roughness, profile, &material))
-        measure_all(&material, answer.without, answer.mean_without);
+        measure_all(&material, answer.with, answer.light_with);
+    if (!known && numbers_of(doctor, cloth, black, roughness, profile, &material))
+        measure_all(&material, answer.without, answer.light_without);
     return answer;
 }
 
@@ -89,23 +95,24 @@ static float gain(const Answer *answer, int *where) {
     return most;
 }
 
-static bool gains_anywhere(const WeftDoctor *doctor, const Cloth *cloth, float roughness) {
+static bool gains_anywhere(const WeftDoctor *doctor, const Cloth *cloth, float roughness,
+                           const Answer answers[READERS]) {
     bool gains = false;
     int where;
-    for (int r = 0; doctor_readers[r] && !gains; r++) {
-        Answer answer = ask(doctor, cloth, roughness, doctor_readers[r]);
+    for (int r = 0; r < READERS && !gains; r++) {
+        Answer answer = ask(doctor, cloth, roughness, r, &answers[r]);
         gains = gain(&answer, &where) > 0.0f;
     }
     return gains;
 }
 
 /* The least roughness, in hundredths, from which no engine gains; 0 where even 1 does. */
-static float least_roughness(const WeftDoctor *doctor, const Cloth *cloth) {
+static float least_roughness(const WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
     int low = (int)(cloth->roughness * 100.0f), high = 100;
-    if (gains_anywhere(doctor, cloth, 1.0f)) return 0.0f;
+    if (gains_anywhere(doctor, cloth, 1.0f, answers)) return 0.0f;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (gains_anywhere(doctor, cloth, (float)middle / 100.0f))
+        if (gains_anywhere(doctor, cloth, (float)middle / 100.0f, answers))
             low = middle;
         else
             high = middle;
@@ -143,31 +150,33 @@ static const char *engine_names(unsigned engines, char text[128]) {
 static double degrees(float cosine) { return 57.2957795 * acos((double)cosine); }
 
 static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
-                      const Answer *answer, int where) {
+                      const Answer answers[READERS], int where) {
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
-    float least = least_roughness(doctor, cloth);
-    bool mends = least > 0.0f && !textured;
+    float least = least_roughness(doctor, cloth, answers);
+    bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
     float alone = sheen_albedo(doctor_readers[worst], cloth->roughness, cosines[where]);
     doctor_found(doctor, WEFT_FINDING_SHEEN_GAINS, (Place){WEFT_OF_MATERIAL, cloth->index, path}, engines,
-                 (double)answer->with[where], mends ? &repair : NULL,
-                 "at sheen roughness %.2g the material returns %.3g times the light it receives, seen at "
+                 (double)answers[worst].with[where], mends ? &repair : NULL,
+                 "at sheen roughness %.2g%s the material returns %.3g times the light it receives, seen at "
                  "%.0f degrees in %s "
                  "(without the sheen %.3g; its white sheen alone returns %.3g): rims glow",
-                 (double)cloth->roughness, (double)answer->with[where], degrees(cosines[where]),
-                 doctor_readers[worst], (double)answer->without[where], (double)alone);
-    if (least > 0.0f)
-        doctor_advise(doctor, "%s: from there on no engine returns more than it receives",
-                      textured ? "brighten the alpha of sheenRoughnessTexture, or raise its factor" : "");
-    else
-        doctor_advise(doctor, "darken sheenColorFactor: no roughness helps a sheen this bright on this base");
+                 (double)cloth->roughness, given ? "" : " (it is left out, and then is 0)",
+                 (double)answers[worst].with[where], degrees(cosines[where]), doctor_readers[worst],
+                 (double)answers[worst].without[where], (double)alone);
     if (mends)
         doctor_advise(
             doctor,
-            "raise sheenRoughnessFactor to %.2g, or darken the colour: from there on no engine returns "
-            "more than it receives",
+            "raise sheenRoughnessFactor to %.2g, or darken the colour: from there on no engine returns more "
+            "than it receives",
             (double)least);
+    else if (textured && least > 0.0f)
+        doctor_advise(doctor,
+                      "brighten the alpha of sheenRoughnessTexture, to a mean of %.2g times its factor",
+                      (double)least);
+    else
+        doctor_advise(doctor, "darken sheenColorFactor: no roughness helps a sheen this bright on this base");
 }
 
 static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
@@ -183,7 +192,7 @@ static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Answer answ
         worst = r;
         where = at;
     }
-    if (worst >= 0) tell_gain(doctor, cloth, engines, worst, &answers[worst], where);
+    if (worst >= 0) tell_gain(doctor, cloth, engines, worst, answers, where);
 }
 
 /* Where the cloth is less than half as bright as it would be without a sheen. */
@@ -193,8 +202,8 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer answ
     int worst = -1, where = 0;
     for (int r = 0; r < READERS; r++)
         for (int k = 0; k < COSINES; k++) {
-            float ratio = answers[r].mean_with[k] / fmaxf(answers[r].mean_without[k], 1e-6f);
-            if (!(ratio < 0.5f) || answers[r].mean_without[k] < 0.01f) continue;
+            float ratio = answers[r].light_with[k] / fmaxf(answers[r].light_without[k], 1e-6f);
+            if (!(ratio < 0.5f) || answers[r].light_without[k] < 0.01f) continue;
             engines |= doctor_engine(doctor_readers[r]);
             if (ratio >= least) continue;
             least = ratio;
@@ -243,7 +252,7 @@ static void check_differ(WeftDoctor *doctor, const Cloth *cloth) {
 void check_energy(WeftDoctor *doctor, const Cloth *cloth) {
     Answer answers[READERS];
     if (!cloth_shows(cloth) || doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
-    for (int r = 0; r < READERS; r++) answers[r] = ask(doctor, cloth, cloth->roughness, doctor_readers[r]);
+    for (int r = 0; r < READERS; r++) answers[r] = ask(doctor, cloth, cloth->roughness, r, NULL);
     check_gain(doctor, cloth, answers);
     check_dark(doctor, cloth, answers);
     check_differ(doctor, cloth);

@@ -63,15 +63,21 @@ static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path
     doctor_advise(doctor, "write %g", clamped(worst, low, high));
 }
 
+static const char ior_path[] = "extensions/KHR_materials_ior/ior";
+
 /* An ior is 0, which stands for a mirror, or at least 1. */
+static bool bad_ior(const Cloth *cloth, double *ior) {
+    return doctor_numbers(cloth->json, ior_path, ior, 1) && *ior < 1.0 && fabs(*ior) > 0.0;
+}
+
 static void check_ior_range(WeftDoctor *doctor, const Cloth *cloth) {
-    static const char path[] = "extensions/KHR_materials_ior/ior";
     double ior;
-    if (!doctor_numbers(cloth->json, path, &ior, 1) || ior >= 1.0 || fabs(ior) <= 0.0) return;
-    const Repair repair = {.act = REPAIR_NUMBER, .numbers = {1.0}, .count = 1};
-    doctor_found(doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0, ior,
-                 &repair, "ior is %g, but must be 0 or at least 1", ior);
-    doctor_advise(doctor, "write 1, or 1.5 for a plain dielectric");
+    if (!bad_ior(cloth, &ior)) return;
+    const Repair repair = {.act = REPAIR_NUMBER, .numbers = {1.5}, .count = 1};
+    doctor_found(
+        doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, ior_path}, 0, ior, &repair,
+        "ior is %g, but must be 0 or at least 1: nothing that one meets is optically thinner than air", ior);
+    doctor_advise(doctor, "write 1.5, which is a plain dielectric's");
 }
 
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
@@ -147,21 +153,34 @@ static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
         textured ? ", in the mean of its texture," : "", (double)luminance(cloth->base), (double)CLOTH_HIGH);
     doctor_advise(doctor, "multiply baseColorFactor by %.3g: white cotton reflects about 0.8",
                   0.8 / (double)luminance(cloth->base));
+    if (!cloth->sheen) doctor_soften(doctor);
+}
+
+/* Of a metal under a sheen that is said already. */
+static void check_metal_base(WeftDoctor *doctor, const Cloth *cloth, Place place, float y) {
+    if (y >= METAL_LOW || y < 0.0f || cloth->sheen) return;
+    doctor_found(doctor, WEFT_FINDING_METAL_DARK, place, 0, (double)y, NULL,
+                 "a metal (metallic %.3g) whose reflectance is %.3g; metals have %.3g and more",
+                 (double)cloth->metallic, (double)y, (double)METAL_LOW);
+    doctor_advise(doctor, "brighten it; or if it is no metal, write metallicFactor 0: left out it is 1");
+}
+
+static bool glows(json_t *material) {
+    double glow[3] = {0.0};
+    doctor_numbers(material, "emissiveFactor", glow, 3);
+    return glow[0] > 0.0 || glow[1] > 0.0 || glow[2] > 0.0;
 }
 
 static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
     const Place place = {WEFT_OF_MATERIAL, cloth->index, PBR("baseColorFactor")};
     float y = luminance(cloth->base);
     if (doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
-    if (cloth->metallic > 0.5f && y < METAL_LOW) {
-        doctor_found(doctor, WEFT_FINDING_METAL_DARK, place, 0, (double)y, NULL,
-                     "a metal (metallic %.3g) whose reflectance is %.3g; metals have %.3g and more",
-                     (double)cloth->metallic, (double)y, (double)METAL_LOW);
-        doctor_advise(doctor, "if it is no metal, write metallicFactor 0: left out it is 1");
+    if (cloth->metallic > 0.5f) {
+        check_metal_base(doctor, cloth, place, y);
+        return;
     }
-    if (cloth->metallic > 0.5f) return;
     check_bright(doctor, cloth, place);
-    if (y >= CLOTH_LOW || y < 0.0f) return;
+    if (y >= CLOTH_LOW || y < 0.0f || glows(cloth->json)) return;
     doctor_found(
         doctor, WEFT_FINDING_BASE_DARK, place, 0, (double)y, NULL,
         "the base colour reflects %.2g, less than black cloth (%.2g): folds and shadows show nothing but "
@@ -175,7 +194,7 @@ static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
 
 typedef struct Hearing {
     WeftDoctor *doctor;
-    int material;
+    const Cloth *cloth;
 } Hearing;
 
 /* What plausible.c says of its numbers, without the name of the material and of the message. */
@@ -184,15 +203,19 @@ static void hear_plausible(void *user, WeftMessage message, const char *text) {
     const char *words = strstr(text, weft_message_text(message));
     words = words ? words + strlen(weft_message_text(message)) : text;
     while (*words == ':' || *words == ' ') words++;
-    doctor_found(to->doctor, WEFT_FINDING_IMPLAUSIBLE, (Place){WEFT_OF_MATERIAL, to->material, NULL}, 0,
+    bool between = strncmp(words, "between", strlen("between")) == 0;
+    double ior;
+    if (between ? cloth_shows(to->cloth) : bad_ior(to->cloth, &ior)) return; /* another check says it */
+    doctor_found(to->doctor, WEFT_FINDING_IMPLAUSIBLE, (Place){WEFT_OF_MATERIAL, to->cloth->index, NULL}, 0,
                  (double)NAN, NULL, "%s", words);
-    doctor_advise(to->doctor,
-                  "cloth is a dielectric: metallic 0 and an ior from 1.3 to 1.7, which is 1.5 where none is "
-                  "given");
+    doctor_advise(to->doctor, between
+                                  ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
+                                  : "take an ior from 1.3 to 1.7; without KHR_materials_ior it is 1.5");
+    if (!to->cloth->sheen) doctor_soften(to->doctor);
 }
 
 void check_plausible(WeftDoctor *doctor, const Cloth *cloth) {
-    Hearing hearing = {doctor, cloth->index};
+    Hearing hearing = {doctor, cloth};
     const WeftLog log = {hear_plausible, &hearing};
     plausible_check_all(&doctor->scene->materials[cloth->index], "material", &log);
     check_base(doctor, cloth);
