@@ -1,4 +1,5 @@
 /* doctor_repair.c - findings repaired: values of the JSON, and pictures whose channel was wrong */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,16 +29,20 @@ static json_t *holder(json_t *root, const char *pointer, char key[64]) {
     return at;
 }
 
-/* A number as JSON that is short to write: 0.42, not 0.41999998688697815. */
-static json_t *number(double value) {
+/* A number as JSON that is short to write: 0.42, not 0.41999998688697815; or the old one where that says the
+ * same. */
+static json_t *number(double value, json_t *old) {
     char text[32];
     snprintf(text, sizeof text, "%.6g", value);
-    return json_real(strtod(text, NULL));
+    double rounded = strtod(text, NULL);
+    if (json_is_number(old) && fabs(json_number_value(old) - rounded) <= 0.0) return json_incref(old);
+    return fabs(rounded - floor(rounded)) <= 0.0 ? json_integer((json_int_t)rounded) : json_real(rounded);
 }
 
-static json_t *numbers(const Repair *repair) {
+static json_t *numbers(const Repair *repair, const json_t *old) {
     json_t *array = json_array();
-    for (int k = 0; k < repair->count; k++) json_array_append_new(array, number(repair->numbers[k]));
+    for (int k = 0; k < repair->count; k++)
+        json_array_append_new(array, number(repair->numbers[k], json_array_get(old, (size_t)k)));
     return array;
 }
 
@@ -102,8 +107,10 @@ WeftResult doctor_repair(const WeftDoctor *doctor, Rewrite *rewrite, int finding
     json_t *object = holder(rewrite->root, doctor->items[finding].place, key);
     int failed = 0;
     switch (repair->act) {
-    case REPAIR_NUMBER: failed = json_object_set_new(object, key, number(repair->numbers[0])); break;
-    case REPAIR_NUMBERS: failed = json_object_set_new(object, key, numbers(repair)); break;
+    case REPAIR_NUMBER: failed = json_object_set_new(object, key, number(repair->numbers[0], NULL)); break;
+    case REPAIR_NUMBERS:
+        failed = json_object_set_new(object, key, numbers(repair, json_object_get(object, key)));
+        break;
     case REPAIR_REMOVE: failed = json_object_del(object, key); break;
     case REPAIR_ALPHA:
         return move_to_alpha(doctor, rewrite, json_object_get(object, key), repair->channel, error);
