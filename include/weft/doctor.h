@@ -63,7 +63,7 @@ typedef enum WeftSeverity {
     F(SHEEN_EMISSION, "sheen-emission", NOTE, 0, "a cloth that glows")                                       \
     F(BASE_DARK, "base-dark", NOTE, 0, "a base colour darker than cloth")                                    \
     F(BASE_BRIGHT, "base-bright", WARNING, 1, "a base colour brighter than fresh snow")                      \
-    F(METAL_DARK, "metal-dark", WARNING, 0, "a metal darker than metals are")                                \
+    F(METAL_DARK, "metal-dark", NOTE, 0, "a metal darker than metals are")                                   \
     F(IMPLAUSIBLE, "implausible", WARNING, 0, "a reflectance or metalness that no material has")             \
     F(NORMALS_MISSING, "normals-missing", WARNING, 0, "a mesh has no normals, and is shown faceted")         \
     F(TANGENTS_MISSING, "tangents-missing", WARNING, 0,                                                      \

@@ -67,12 +67,30 @@ static WeftResult fix(Visit *visit, WeftError *error) {
 
 /* Text. */
 
-static void finding_text(const WeftFinding *finding) {
+/* An earlier finding that says the very same of another thing; NULL: there is none. */
+static const WeftFinding *said_before(const Visit *visit, int index) {
+    const WeftFinding *finding = weft_doctor_finding(visit->doctor, index);
+    for (int k = 0; k < index; k++) {
+        const WeftFinding *other = weft_doctor_finding(visit->doctor, k);
+        if (other->kind == finding->kind && other->of == finding->of && other->fixable == finding->fixable &&
+            strcmp(other->words, finding->words) == 0)
+            return other;
+    }
+    return NULL;
+}
+
+static void finding_text(const Visit *visit, int index) {
+    const WeftFinding *finding = weft_doctor_finding(visit->doctor, index),
+                      *other = said_before(visit, index);
     char engines[160], text[800];
     engines_text(finding->engines, engines, sizeof engines);
-    snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name(finding->kind), engines[0] ? " in " : "",
-             engines, finding->words);
+    if (other)
+        snprintf(text, sizeof text, "%s: as of %s", weft_finding_name(finding->kind), other->subject);
+    else
+        snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name(finding->kind), engines[0] ? " in " : "",
+                 engines, finding->words);
     layout_entry(stdout, COLUMN, weft_severity_name(finding->severity), text);
+    if (other) return;
     snprintf(text, sizeof text, "%s: %s", finding->fixable ? "--fix" : "fix", finding->fix);
     if (finding->fix[0]) layout_entry(stdout, COLUMN, "", text);
 }
@@ -116,7 +134,7 @@ static void text_write(const Visit *visit) {
             if (finding->of != WEFT_OF_ASSET) printf(" %s", finding->subject);
             printf("\n");
         }
-        finding_text(finding);
+        finding_text(visit, k);
         before = finding;
     }
     summary_text(visit);
