@@ -85,10 +85,10 @@ static void finding_text(const Visit *visit, int index) {
     char engines[160], text[800];
     engines_text(finding->engines, engines, sizeof engines);
     if (other)
-        snprintf(text, sizeof text, "%s: as of %s", weft_finding_name(finding->kind), other->subject);
+        snprintf(text, sizeof text, "%s: as of %s", weft_finding_name((int)finding->kind), other->subject);
     else
-        snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name(finding->kind), engines[0] ? " in " : "",
-                 engines, finding->words);
+        snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name((int)finding->kind),
+                 engines[0] ? " in " : "", engines, finding->words);
     layout_entry(stdout, COLUMN, weft_severity_name(finding->severity), text);
     if (other) return;
     snprintf(text, sizeof text, "%s: %s", finding->fixable ? "--fix" : "fix", finding->fix);
@@ -144,7 +144,7 @@ static void text_write(const Visit *visit) {
 
 static void finding_json(Json *json, const WeftFinding *finding) {
     json_open(json, NULL, '{');
-    json_text(json, "id", weft_finding_name(finding->kind));
+    json_text(json, "id", weft_finding_name((int)finding->kind));
     json_text(json, "severity", weft_severity_name(finding->severity));
     json_text(json, "of", of_name(finding->of));
     json_whole(json, "index", finding->index);

@@ -73,7 +73,7 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
     json_array_foreach(buffers, k, buffer) {
         const char *uri = json_string_value(json_object_get(buffer, "uri"));
         FileBytes bytes = {0};
-        if (saving->result != WEFT_OK) break;
+        if (!moved || saving->result != WEFT_OK) break;
         if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
         json_int_t length = json_integer_value(json_object_get(buffer, "byteLength"));
         size_t size = length > 0 && (size_t)length < bytes.size ? (size_t)length : bytes.size;
@@ -84,7 +84,7 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
         if (k == 0 || !bytes.data) json_array_append(kept, buffer);
         free(bytes.data);
     }
-    if (saving->result == WEFT_OK) references_move(saving, moved, count);
+    if (moved && saving->result == WEFT_OK) references_move(saving, moved, count);
     if (saving->result == WEFT_OK && json_array_size(kept) != count)
         saving_put(saving, saving->root, "buffers", kept);
     else

@@ -13,7 +13,8 @@
 #include "shading/albedo.h"
 #include "shading/choice.h"
 #include "shading/frame.h"
-#include "weft/measure.h"
+#include "weft/material.h"
+#include "weft/reflection.h"
 
 /* From the face to 87 degrees; beyond, a pixel of cloth is a sliver. */
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};

@@ -10,22 +10,12 @@
 static void sick_make(void) {
     size_t size;
     char *text = file_bytes("scene.gltf", &size), sick[4096];
-    static const char used[] = "\"extensionsUsed\":[\"KHR_materials_sheen\"],",
-                      clean[] = "\"name\":\"cloth\",";
+    static const char used[] = "\"extensionsUsed\":[\"KHR_materials_sheen\"],";
     char *place = strstr(text, used);
     assert_non_null(place);
     snprintf(sick, sizeof sick, "%.*s\"animations\":[{\"name\":\"wave\",\"channels\":[],\"samplers\":[]}],%s",
              (int)(place - text), text, place + strlen(used));
     file_make("sick.gltf", sick, strlen(sick));
-    place = strstr(text, clean);
-    assert_non_null(place);
-    snprintf(sick, sizeof sick,
-             "%.*s%s\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.4,0.2,0.2,1],\"metallicFactor\":0},%s",
-             (int)(place - text), text, clean, place + strlen(clean));
-    place = strstr(sick, "\"sheenRoughnessFactor\":0.5");
-    assert_non_null(place);
-    memcpy(place, "\"sheenRoughnessFactor\":0.9", 26);
-    file_make("well.gltf", sick, strlen(sick));
     free(text);
 }
 
@@ -87,30 +77,18 @@ static void tells_what_is_wrong(void **state) {
     json_decref(report);
 }
 
-static void is_quiet_when_asked(void **state) {
-    (void)state;
-    json_t *report = report_of(LIST("doctor", "sick.gltf", "--json", "-q"), 1);
-    size_t k;
-    json_t *finding;
-    json_array_foreach(json_object_get(report, "findings"), k, finding)
-        assert_string_not_equal(json_string_value(json_object_get(finding, "severity")), "note");
-    json_decref(report);
-}
-
-/* What has no normals is seen; what is well otherwise ends with the notes alone. */
+/* A scene of weft's own, which has notes at the most, and none of them with -q. */
 static void says_so_when_all_is_well(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
-    json_t *report = report_of(LIST("doctor", "well.gltf", "--json"), 1);
-    assert_int_equal(json_array_size(json_object_get(report, "findings")), 1);
-    assert_true(finds(report, "normals-missing"));
-    json_decref(report);
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     assert_int_equal(weft_scene_save(scene, "cloth.glb", &error), WEFT_OK);
     weft_scene_free(scene);
-    report = report_of(LIST("doctor", "cloth.glb", "--json"), 0);
+    json_t *report = report_of(LIST("doctor", "cloth.glb", "--json", "-q"), 0);
     assert_int_equal(whole(report, "left"), 0);
+    assert_true(whole(report, "notes") > 0);
+    assert_int_equal(json_array_size(json_object_get(report, "findings")), 0);
     json_decref(report);
 }
 
@@ -120,10 +98,6 @@ static void mends_and_keeps_the_rest(void **state) {
     assert_int_equal(ran.code, 1); /* it has no normals still */
     assert_non_null(strstr(ran.out, " fixed in mended.gltf, where 1 error or warning is left\n"));
     ran_free(&ran);
-    json_t *report = report_of(LIST("doctor", "mended.gltf", "--json"), 1);
-    assert_int_equal(whole(report, "left"), 1);
-    assert_false(finds(report, "sheen-on-metal"));
-    json_decref(report);
     json_t *was = json_load_file("sick.gltf", 0, NULL), *now = json_load_file("mended.gltf", 0, NULL);
     json_t *used = json_object_get(now, "extensionsUsed"),
            *material = json_array_get(json_object_get(now, "materials"), 0);
@@ -136,10 +110,6 @@ static void mends_and_keeps_the_rest(void **state) {
     assert_true(json_equal(was, now));
     json_decref(was);
     json_decref(now);
-    /* and over itself */
-    ran = RUN("doctor", "mended.gltf", "--fix", "-o", "mended.gltf");
-    assert_int_equal(ran.code, 1);
-    ran_free(&ran);
 }
 
 static void lists_what_there_is(void **state) {
@@ -186,10 +156,9 @@ static void refuses_what_makes_no_sense(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tells_what_is_wrong),         cmocka_unit_test(is_quiet_when_asked),
-        cmocka_unit_test(says_so_when_all_is_well),    cmocka_unit_test(mends_and_keeps_the_rest),
-        cmocka_unit_test(lists_what_there_is),         cmocka_unit_test(page_has_every_finding),
-        cmocka_unit_test(refuses_what_makes_no_sense),
+        cmocka_unit_test(tells_what_is_wrong),      cmocka_unit_test(says_so_when_all_is_well),
+        cmocka_unit_test(mends_and_keeps_the_rest), cmocka_unit_test(lists_what_there_is),
+        cmocka_unit_test(page_has_every_finding),   cmocka_unit_test(refuses_what_makes_no_sense),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
 }

@@ -434,7 +434,7 @@ static void examine_folder(const char *path, int depth, int *files) {
     for (struct dirent *entry; listing && (entry = readdir(listing));) {
         char name[4096];
         const char *dot = strrchr(entry->d_name, '.');
-        snprintf(name, sizeof name, "%s/%s", path, entry->d_name);
+        snprintf(name, sizeof name, "%.3800s/%.255s", path, entry->d_name);
         if (entry->d_name[0] == '.') continue;
         if (depth < 2 && !dot) examine_folder(name, depth + 1, files);
         if (!dot || (strcmp(dot, ".gltf") != 0 && strcmp(dot, ".glb") != 0)) continue;
