@@ -129,6 +129,7 @@ typedef struct Node {
 typedef struct Asset {
     const char *name; /* subject of messages */
     bool in_memory;   /* then files beside it are refused */
+    bool examined;    /* by who shows nothing: no extension is refused, and nobody's textures are read too */
     const WeftLog *log;
     WeftError *error;
     WeftResult result;     /* of the first failure */

@@ -23,8 +23,7 @@ static char *file_path(Asset *base, const char *uri) {
     return path;
 }
 
-/* The bytes behind a URI, or none where it cannot be packed. */
-static FileBytes fetch(Saving *saving, const Asset *asset, const char *uri) {
+FileBytes bundle_bytes(const Asset *asset, const char *uri, WeftResult *result, WeftError *error) {
     WeftError unused;
     Asset base = folder_of(asset->name, asset->in_memory, &unused);
     Field field = {.asset = &base};
@@ -33,7 +32,7 @@ static FileBytes fetch(Saving *saving, const Asset *asset, const char *uri) {
     if (uri_is_data(uri))
         bytes.data = uri_decode(&field, uri, &bytes.size);
     else if ((path = file_path(&base, uri)))
-        saving->result = file_read(path, FILE_MAX, &bytes, saving->error);
+        *result = file_read(path, FILE_MAX, &bytes, error);
     arena_free(&base.arena);
     return bytes;
 }
@@ -74,8 +73,8 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
     json_array_foreach(buffers, k, buffer) {
         const char *uri = json_string_value(json_object_get(buffer, "uri"));
         FileBytes bytes = {0};
-        if (saving->result != WEFT_OK) break;
-        if (uri) bytes = fetch(saving, asset, uri);
+        if (!moved || saving->result != WEFT_OK) break;
+        if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
         json_int_t length = json_integer_value(json_object_get(buffer, "byteLength"));
         size_t size = length > 0 && (size_t)length < bytes.size ? (size_t)length : bytes.size;
         moved[k] = (Moved){bytes.data ? 0 : (json_int_t)json_array_size(kept),
@@ -85,7 +84,7 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
         if (k == 0 || !bytes.data) json_array_append(kept, buffer);
         free(bytes.data);
     }
-    if (saving->result == WEFT_OK) references_move(saving, moved, count);
+    if (moved && saving->result == WEFT_OK) references_move(saving, moved, count);
     if (saving->result == WEFT_OK && json_array_size(kept) != count)
         saving_put(saving, saving->root, "buffers", kept);
     else
@@ -111,7 +110,7 @@ static const char *image_type(FileBytes bytes) {
 static void image_pack(Saving *saving, const Asset *asset, json_t *image) {
     const char *uri = json_string_value(json_object_get(image, "uri"));
     FileBytes bytes = {0};
-    if (uri) bytes = fetch(saving, asset, uri);
+    if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
     const char *type = bytes.data ? image_type(bytes) : NULL;
     if (type && saving->result == WEFT_OK) {
         saving_put(saving, image, "mimeType", json_string(type));

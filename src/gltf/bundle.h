@@ -5,6 +5,10 @@
 #include "gltf/asset.h"
 #include "gltf/saving.h"
 
+/* The bytes behind a URI of the asset; none where it is an address on the network, and where its file cannot
+ * be read, which *result then says. Release with free(data). */
+FileBytes bundle_bytes(const Asset *asset, const char *uri, WeftResult *result, WeftError *error);
+
 /* Puts the buffers and images that saving->root refers to, of the asset, into saving's bytes. What cannot be
  * packed stays as it is: addresses on the network, images of a kind that glTF has no name for, and all
  * buffers where the first has no bytes. */

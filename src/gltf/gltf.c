@@ -32,7 +32,7 @@ static void version_check(Asset *asset) {
         field_fail(&least_field, WEFT_MESSAGE_GLTF_VERSION, "it needs version %.20s", least);
 }
 
-static bool supported(const char *extension) {
+bool gltf_supports(const char *extension) {
     static const char *const names[] = {
         "EXT_meshopt_compression",
         "KHR_lights_punctual",
@@ -59,13 +59,15 @@ static void extensions_check(Asset *asset) {
     for (size_t i = 0; i < count; i++) {
         Field field = field_element(&required, i);
         const char *name = field_text(&field, "");
-        if (!supported(name)) asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
+        if (!gltf_supports(name) && !asset->examined)
+            asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
     }
     count = field_count(&used);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&used, i);
         const char *name = field_text(&field, "");
-        if (!supported(name)) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+        if (!gltf_supports(name))
+            warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
     }
     Field animations = field_member(&root, "animations");
     if (field_count(&animations)) field_warn(&animations, WEFT_MESSAGE_GLTF_WARN_IGNORED, "nothing moves");

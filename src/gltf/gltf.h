@@ -26,4 +26,7 @@ void gltf_open(Asset *asset, const char *path, const void *data, size_t size);
 void gltf_read_parts(Asset *asset);
 void gltf_close(Asset *asset);
 
+/* Whether an extension may be required of weft. */
+bool gltf_supports(const char *extension);
+
 #endif

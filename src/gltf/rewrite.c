@@ -96,7 +96,7 @@ static bool takes_bytes(const Saving *saving) {
     return saving->packed && (!first || (saving->size && !json_object_get(first, "uri")));
 }
 
-static void image_put(Saving *saving, const NewImage *image, int number) {
+static void image_put(Saving *saving, const NewImage *image) {
     json_t *object = json_array_get(json_object_get(saving->root, "images"), (size_t)image->index);
     if (takes_bytes(saving)) {
         saving_put(saving, object, "mimeType", json_string("image/png"));
@@ -105,7 +105,7 @@ static void image_put(Saving *saving, const NewImage *image, int number) {
         return;
     }
     char end[32];
-    snprintf(end, sizeof end, "-%d.png", number);
+    snprintf(end, sizeof end, "-%d.png", image->index);
     const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
     if (uri) saving_put(saving, object, "uri", json_string(uri));
     if (uri) saving_write(saving, path, image->png, image->size, NULL, 0);
@@ -163,7 +163,7 @@ WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *err
     if (packed && !asset->packed) bundle_pack(&saving, asset);
     if (!packed && saving.size) bin_unpack(&saving);
     for (int k = 0; k < rewrite->image_count && saving.result == WEFT_OK; k++)
-        image_put(&saving, &rewrite->images[k], k);
+        image_put(&saving, &rewrite->images[k]);
     length_settle(&saving, before);
     bundle_copy(&saving, asset);
     if (saving.result == WEFT_OK) document_write(&saving, asset);

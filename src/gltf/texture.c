@@ -227,7 +227,7 @@ void textures_resolve(Asset *asset) {
     for (int m = 0; m < scene->material_count; m++)
         for (int i = 0; i < INPUT_COUNT && asset->result == WEFT_OK; i++) {
             int *texture = &scene->materials[m].inputs[i].texture;
-            if (*texture && asset->material_shown[m])
+            if (*texture && (asset->material_shown[m] || asset->examined))
                 *texture = texture_resolve(&jobs, *texture - 1, image_of_source);
             else
                 *texture = 0;

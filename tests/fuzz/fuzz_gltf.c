@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "gltf/gltf.h"
+#include "gltf/patch.h"
+#include "weft/doctor.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -43,7 +45,44 @@ static void check_scene(const WeftScene *scene) {
                scene->images[scene->textures[t].image].pixels);
 }
 
+/* Text that was not edited comes back as it was; text of which a part is gone means what is left. */
+static void check_patch(const Asset *asset) {
+    size_t size = 0;
+    char *same =
+        patch_text((const char *)asset->text.data, asset->text.size, asset->root, asset->root, &size);
+    demand(same && size == asset->text.size && memcmp(same, asset->text.data, size) == 0);
+    free(same);
+    json_t *less = json_deep_copy(asset->root);
+    json_object_del(less, "materials");
+    char *text = patch_text((const char *)asset->text.data, asset->text.size, asset->root, less, &size);
+    json_t *back = text ? json_loadb(text, size, 0, NULL) : NULL;
+    demand(back && json_equal(back, less));
+    json_decref(back);
+    json_decref(less);
+    free(text);
+}
+
+/* What opens is examined, whatever it looks like. */
+static void check_doctor(const uint8_t *data, size_t size) {
+    WeftDoctor *doctor;
+    WeftError error;
+    Asset asset = {0};
+    gltf_open(&asset, "fuzz", data, size);
+    if (asset.result == WEFT_OK) check_patch(&asset);
+    gltf_close(&asset);
+    if (weft_doctor_open_memory(data, size, "fuzz", &doctor, NULL, &error) != WEFT_OK) {
+        demand(error.text[0] && strchr(error.text, '\n') == NULL);
+        return;
+    }
+    for (int k = 0; k < weft_doctor_count(doctor); k++) {
+        const WeftFinding *finding = weft_doctor_finding(doctor, k);
+        demand(finding->words[0] && finding->subject[0] && strchr(finding->words, '\n') == NULL);
+    }
+    weft_doctor_free(doctor);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    check_doctor(data, size);
     /* Not scene_create: its studio would cost more than the reading. */
     WeftScene *scene = alloc_array(1, sizeof *scene);
     demand(scene != NULL);

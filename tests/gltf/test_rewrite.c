@@ -242,7 +242,7 @@ static void new_pictures_go_in(void **state) {
     make_square();
     mkdir("pictured", 0777);
     assert_rewritten("in/square.gltf", add_picture, "pictured/a.gltf");
-    FileBytes picture = bytes_of("pictured/a-0.png");
+    FileBytes picture = bytes_of("pictured/a-1.png");
     assert_int_equal(picture.size, sizeof png);
     assert_memory_equal(picture.data, png, sizeof png);
     free(picture.data);

@@ -1,0 +1,141 @@
+/* doctor.h - what will go wrong with a cloth asset, in which engine, and the asset with that repaired
+ *
+ *   weft_doctor_open("chair.gltf", &doctor, NULL, &error);
+ *   for (int k = 0; k < weft_doctor_count(doctor); k++) puts(weft_doctor_finding(doctor, k)->words);
+ *   weft_doctor_fix(doctor, "mended.glb", &error);
+ *   weft_doctor_free(doctor);
+ *
+ * It looks at the file as it is, before a reader clamps or repairs anything. What it says of light is
+ * measured on the lobes that render, at the numbers of the material; docs/doctor.md says of each finding what
+ * is seen, why, and how it is known. It does not render, and does not judge by eye: that two engines differ
+ * is not that one is wrong. */
+#ifndef WEFT_DOCTOR_H
+#define WEFT_DOCTOR_H
+
+#include <stddef.h>
+
+#include "weft/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum WeftSeverity {
+    WEFT_SEVERITY_NOTE = 0, /* looks otherwise than one may think */
+    WEFT_SEVERITY_WARNING,  /* looks wrong in some engine */
+    WEFT_SEVERITY_ERROR     /* breaks the specification, or shows nothing of what is there */
+} WeftSeverity;
+
+/* F(id, name, severity, fixable, help): every finding there is, by name in the order of reports. fixable: 1
+ * where weft_doctor_fix can repair it, perhaps not everywhere; each finding says. */
+#define WEFT_FINDINGS(F)                                                                                     \
+    F(EXTENSION_REQUIRED, "extension-required", ERROR, 0,                                                    \
+      "an extension is required that weft does not know")                                                    \
+    F(EXTENSION_UNDECLARED, "extension-undeclared", ERROR, 1,                                                \
+      "an extension is used that extensionsUsed leaves out")                                                 \
+    F(VALUE_RANGE, "value-range", ERROR, 1, "a number is outside what glTF allows")                          \
+    F(TEXTURE_TIMES_ZERO, "texture-times-zero", ERROR, 1,                                                    \
+      "a texture is multiplied by a factor that is 0 by default")                                            \
+    F(TEXTURE_OFF, "texture-off", NOTE, 0, "a texture is multiplied by a factor that is set to 0")           \
+    F(TEXTURE_TWO_SPACES, "texture-two-spaces", WARNING, 0,                                                  \
+      "one image is read as sRGB and as plain numbers")                                                      \
+    F(TEXTURE_SAYS_LINEAR, "texture-says-linear", WARNING, 0,                                                \
+      "a colour texture is marked as linear, and read as sRGB")                                              \
+    F(TEXTURE_TRANSFORM, "texture-transform", WARNING, 0,                                                    \
+      "KHR_texture_transform shrinks a texture to a line")                                                   \
+    F(TEXCOORD_MISSING, "texcoord-missing", ERROR, 0, "a texture is used on a mesh without its coordinates") \
+    F(IMAGE_REPAIRED, "image-repaired", WARNING, 0, "an image had to be repaired to be read")                \
+    F(SHEEN_BLACK, "sheen-black", WARNING, 0, "a sheen is there whose colour is black")                      \
+    F(SHEEN_TEXTURE_BLACK, "sheen-texture-black", ERROR, 0, "the texture of a sheen is black")               \
+    F(SHEEN_ROUGHNESS_CHANNEL, "sheen-roughness-channel", ERROR, 1,                                          \
+      "the roughness of a sheen is in a channel that nobody reads")                                          \
+    F(SHEEN_ROUGHNESS_PLAIN, "sheen-roughness-plain", WARNING, 1,                                            \
+      "the texture of a sheen's roughness says nothing")                                                     \
+    F(SHEEN_GAINS, "sheen-gains", WARNING, 1, "the sheen returns more light than arrives")                   \
+    F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the base is taken away for a sheen that does not come")      \
+    F(ENGINES_DIFFER, "engines-differ", NOTE, 0,                                                             \
+      "the same sheen is much brighter in one engine than in another")                                       \
+    F(SHEEN_ON_METAL, "sheen-on-metal", WARNING, 1, "a sheen on a metal")                                    \
+    F(SHEEN_TRANSMISSION, "sheen-transmission", WARNING, 0, "a sheen on what lets light through")            \
+    F(SHEEN_BEHIND_GLASS, "sheen-behind-glass", NOTE, 0, "a sheen and glass in one asset")                   \
+    F(SHEEN_COAT, "sheen-coat", NOTE, 0, "a clear coat over a sheen")                                        \
+    F(SHEEN_IOR, "sheen-ior", NOTE, 0, "a sheen and an index of refraction in one material")                 \
+    F(SHEEN_EMISSION, "sheen-emission", NOTE, 0, "a cloth that glows")                                       \
+    F(BASE_DARK, "base-dark", NOTE, 0, "a base colour darker than cloth")                                    \
+    F(BASE_BRIGHT, "base-bright", WARNING, 1, "a base colour brighter than fresh snow")                      \
+    F(METAL_DARK, "metal-dark", NOTE, 0, "a metal darker than metals are")                                   \
+    F(IMPLAUSIBLE, "implausible", WARNING, 0, "a reflectance or metalness that no material has")             \
+    F(NORMALS_MISSING, "normals-missing", WARNING, 0, "a mesh has no normals, and is shown faceted")         \
+    F(TANGENTS_MISSING, "tangents-missing", WARNING, 0,                                                      \
+      "a normal map or a stretched highlight without tangents")                                              \
+    F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")
+
+typedef enum WeftFindingKind {
+#define WEFT_FINDING_ENUM(id, name, severity, fixable, help) WEFT_FINDING_##id,
+    WEFT_FINDINGS(WEFT_FINDING_ENUM)
+#undef WEFT_FINDING_ENUM
+        WEFT_FINDING_COUNT
+} WeftFindingKind;
+
+/* The catalogue; NULL, or 0, out of range. */
+WEFT_API const char *weft_finding_name(int kind);
+WEFT_API const char *weft_finding_help(int kind);
+WEFT_API WeftSeverity weft_finding_severity(int kind);
+WEFT_API int weft_finding_fixable(int kind);
+
+/* "note", "warning" or "error". */
+WEFT_API const char *weft_severity_name(WeftSeverity severity);
+
+typedef enum WeftFindingOf { WEFT_OF_ASSET = 0, WEFT_OF_MATERIAL, WEFT_OF_MESH, WEFT_OF_IMAGE } WeftFindingOf;
+
+typedef struct WeftFinding {
+    WeftFindingKind kind;
+    WeftSeverity severity;
+    WeftFindingOf of;
+    int index;        /* in the list of that name in the file; 0 of the asset */
+    char subject[96]; /* its name; where the file gives none "materials[3]" */
+    unsigned engines; /* bit k: weft_profile_id(k) is hurt; 0: whatever reads the file */
+    char words[400];  /* what is wrong, with figures: a sentence without a full stop */
+    char fix[280];    /* what to do */
+    int fixable;      /* weft_doctor_fix does it */
+    double figure;    /* what was measured; NAN where nothing was */
+    char place[160];  /* a JSON pointer (RFC 6901) into the file */
+} WeftFinding;
+
+typedef struct WeftDoctor WeftDoctor;
+
+/* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, but for
+ * an extension that is required and not known, which is a finding. log (may be NULL) receives the reader's
+ * warnings. On success *out is owned by the caller: release it with weft_doctor_free. */
+WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
+                                     WeftError *error);
+
+/* The same of size bytes, which must outlive the doctor. */
+WEFT_API WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
+                                            const WeftLog *log, WeftError *error);
+
+WEFT_API void weft_doctor_free(WeftDoctor *doctor); /* may be NULL */
+
+/* The findings: of the asset first, then material by material, mesh by mesh, image by image. NULL out of
+ * range. */
+WEFT_API int weft_doctor_count(const WeftDoctor *doctor);
+WEFT_API const WeftFinding *weft_doctor_finding(const WeftDoctor *doctor, int index);
+
+/* What was looked at. */
+typedef struct WeftDoctorInfo {
+    int material_count, mesh_count, image_count,
+        sheen_count; /* sheen: of materials with KHR_materials_sheen */
+} WeftDoctorInfo;
+WEFT_API WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor);
+
+/* Writes the asset as .glb or .gltf with all that is fixable fixed, and nothing else changed: the text of its
+ * JSON and all bytes stay what they are. From .gltf to .glb what it refers to moves in; in another folder it
+ * is copied along. Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_OPEN, _FILE_WRITE or _MEMORY.
+ */
+WEFT_API WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,263 @@
+/* doctor.c - an asset is read, the checks run over it, and what they found is kept, told and repaired */
+#include "measure/doctor.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "gltf/gltf.h"
+#include "gltf/rewrite.h"
+
+static const struct {
+    const char *name, *help;
+    WeftSeverity severity;
+    int fixable;
+} catalogue[] = {
+#define CATALOGUE_ROW(id, name, severity, fixable, help) {name, help, WEFT_SEVERITY_##severity, fixable},
+    WEFT_FINDINGS(CATALOGUE_ROW)
+#undef CATALOGUE_ROW
+};
+
+static bool is_kind(int kind) { return kind >= 0 && kind < WEFT_FINDING_COUNT; }
+
+const char *weft_finding_name(int kind) { return is_kind(kind) ? catalogue[kind].name : NULL; }
+const char *weft_finding_help(int kind) { return is_kind(kind) ? catalogue[kind].help : NULL; }
+WeftSeverity weft_finding_severity(int kind) {
+    return is_kind(kind) ? catalogue[kind].severity : WEFT_SEVERITY_NOTE;
+}
+int weft_finding_fixable(int kind) { return is_kind(kind) ? catalogue[kind].fixable : 0; }
+
+const char *weft_severity_name(WeftSeverity severity) {
+    static const char *const names[] = {"note", "warning", "error"};
+    return names[severity];
+}
+
+/* The list in the file that things of a kind are in. */
+static const char *list_name(WeftFindingOf of) {
+    static const char *const names[] = {"", "materials", "meshes", "images"};
+    return names[of];
+}
+
+static void name_subject(const WeftDoctor *doctor, WeftFinding *finding) {
+    json_t *item = doctor_item(doctor, list_name(finding->of), finding->index);
+    const char *name = json_string_value(json_object_get(item, "name"));
+    const char *uri = json_string_value(json_object_get(item, "uri"));
+    if (!name && uri && strncmp(uri, "data:", 5) != 0) name = uri;
+    if (finding->of == WEFT_OF_ASSET)
+        snprintf(finding->subject, sizeof finding->subject, "asset");
+    else if (name && name[0])
+        snprintf(finding->subject, sizeof finding->subject, "%s", name);
+    else
+        snprintf(finding->subject, sizeof finding->subject, "%s[%d]", list_name(finding->of), finding->index);
+    for (char *c = finding->subject; *c; c++) /* no name breaks a line */
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+}
+
+static void name_place(WeftFinding *finding, const char *path) {
+    char *to = finding->place;
+    size_t room = sizeof finding->place;
+    const char *slash = path && path[0] ? "/" : "";
+    if (!path) path = "";
+    if (finding->of == WEFT_OF_ASSET)
+        snprintf(to, room, "%s%s", slash, path);
+    else
+        snprintf(to, room, "/%s/%d%s%s", list_name(finding->of), finding->index, slash, path);
+}
+
+/* Room for one finding more. */
+static bool make_room(WeftDoctor *doctor) {
+    enum { FINDINGS_MAX = 10000 };
+    if (doctor->count < doctor->room) return true;
+    if (doctor->count >= FINDINGS_MAX) return false; /* nobody reads on */
+    size_t room = doctor->room ? 2 * (size_t)doctor->room : 32;
+    WeftFinding *items = realloc_array(doctor->items, room, sizeof *items);
+    if (items) doctor->items = items;
+    Repair *repairs = realloc_array(doctor->repairs, room, sizeof *repairs);
+    if (repairs) doctor->repairs = repairs;
+    if (items && repairs) doctor->room = (int)room;
+    doctor->failed |= !items || !repairs;
+    return items && repairs;
+}
+
+void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place, unsigned engines, double figure,
+                  const Repair *repair, const char *words, ...) {
+    if (!make_room(doctor)) return;
+    WeftFinding *finding = &doctor->items[doctor->count];
+    *finding = (WeftFinding){.kind = kind,
+                             .severity = catalogue[kind].severity,
+                             .of = place.of,
+                             .index = place.index,
+                             .engines = engines,
+                             .fixable = repair && repair->act != REPAIR_NONE,
+                             .figure = figure};
+    doctor->repairs[doctor->count++] = repair ? *repair : (Repair){.act = REPAIR_NONE};
+    va_list arguments;
+    va_start(arguments, words);
+    vsnprintf(finding->words, sizeof finding->words, words, arguments);
+    va_end(arguments);
+    name_subject(doctor, finding);
+    name_place(finding, place.path);
+}
+
+void doctor_advise(WeftDoctor *doctor, const char *fix, ...) {
+    if (!doctor->count) return;
+    WeftFinding *finding = &doctor->items[doctor->count - 1];
+    va_list arguments;
+    va_start(arguments, fix);
+    vsnprintf(finding->fix, sizeof finding->fix, fix, arguments);
+    va_end(arguments);
+}
+
+void doctor_soften(WeftDoctor *doctor) {
+    if (!doctor->count) return;
+    doctor->items[doctor->count - 1].severity = WEFT_SEVERITY_NOTE;
+    doctor->items[doctor->count - 1].fixable = 0;
+    doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
+}
+
+/* Warnings of the reader: that of an image becomes a finding, all go on to the caller. */
+static void hear(void *user, WeftMessage message, const char *text) {
+    WeftDoctor *doctor = user;
+    const char *images = strstr(text, "images[");
+    if (message == WEFT_MESSAGE_IMAGE_REPAIRED) {
+        int index = images ? atoi(images + strlen("images[")) : -1;
+        Place place = {index < 0 ? WEFT_OF_ASSET : WEFT_OF_IMAGE, index < 0 ? 0 : index, NULL};
+        doctor_found(doctor, WEFT_FINDING_IMAGE_REPAIRED, place, 0, (double)NAN, NULL, "%s", text);
+        doctor_advise(doctor, "write the image again: other readers may refuse it");
+    }
+    if (doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
+}
+
+static void examine(WeftDoctor *doctor) {
+    static void (*const of_asset[])(WeftDoctor *) = {check_extensions, check_glass, check_spaces};
+    static void (*const of_material[])(WeftDoctor *, const Cloth *) = {
+        check_ranges,  check_factors, check_transforms, check_black,
+        check_channel, check_energy,  check_neighbours, check_plausible};
+    for (size_t k = 0; k < sizeof of_asset / sizeof *of_asset; k++) of_asset[k](doctor);
+    for (int m = 0; m < (int)doctor->asset.material_count; m++) {
+        Cloth cloth = doctor_cloth(doctor, m);
+        for (size_t k = 0; k < sizeof of_material / sizeof *of_material; k++) of_material[k](doctor, &cloth);
+    }
+    for (int m = 0; m < (int)doctor->asset.mesh_count; m++) check_mesh(doctor, m);
+}
+
+/* Asset, materials, meshes, images; each in the order of the file, and the gravest of a thing first. */
+static int order(const WeftFinding *a, const WeftFinding *b) {
+    if (a->of != b->of) return (int)a->of - (int)b->of;
+    if (a->index != b->index) return a->index - b->index;
+    if (a->severity != b->severity) return (int)b->severity - (int)a->severity;
+    return (int)a->kind - (int)b->kind;
+}
+
+static void sort(WeftDoctor *doctor) {
+    for (int k = 1; k < doctor->count; k++) /* nearly in order already */
+        for (int i = k; i > 0 && order(&doctor->items[i], &doctor->items[i - 1]) < 0; i--) {
+            WeftFinding item = doctor->items[i];
+            Repair repair = doctor->repairs[i];
+            doctor->items[i] = doctor->items[i - 1];
+            doctor->repairs[i] = doctor->repairs[i - 1];
+            doctor->items[i - 1] = item;
+            doctor->repairs[i - 1] = repair;
+        }
+}
+
+static WeftResult open_any(const char *path, const void *data, size_t size, WeftDoctor **out,
+                           const WeftLog *log, WeftError *error) {
+    WeftDoctor *doctor = alloc_array(1, sizeof *doctor);
+    *out = NULL;
+    if (!doctor) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    doctor->scene = alloc_array(1, sizeof *doctor->scene);
+    if (log) doctor->log = *log;
+    if (doctor->scene) doctor->scene->srgb = srgb_table();
+    doctor->own = (WeftLog){hear, doctor};
+    doctor->asset =
+        (Asset){.error = &doctor->error, .scene = doctor->scene, .examined = true, .log = &doctor->own};
+    if (!doctor->scene) asset_fail(&doctor->asset, WEFT_MESSAGE_MEMORY, NULL);
+    if (doctor->scene) gltf_open(&doctor->asset, path, data, size);
+    gltf_read_parts(&doctor->asset);
+    if (doctor->asset.result == WEFT_OK)
+        doctor->pixels = alloc_array((size_t)doctor->scene->image_count, sizeof *doctor->pixels);
+    if (doctor->asset.result == WEFT_OK && !doctor->pixels) doctor->failed = true;
+    if (doctor->asset.result == WEFT_OK && !doctor->failed) examine(doctor);
+    if (doctor->failed) asset_fail(&doctor->asset, WEFT_MESSAGE_MEMORY, NULL);
+    if (doctor->asset.result == WEFT_OK) {
+        sort(doctor);
+        *out = doctor;
+        return WEFT_OK;
+    }
+    WeftResult result = doctor->asset.result;
+    if (error) *error = doctor->error;
+    weft_doctor_free(doctor);
+    return result;
+}
+
+WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log, WeftError *error) {
+    return open_any(path, NULL, 0, out, log, error);
+}
+
+WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
+                                   const WeftLog *log, WeftError *error) {
+    return open_any(name, data ? data : "", data ? size : 0, out, log, error);
+}
+
+void weft_doctor_free(WeftDoctor *doctor) {
+    if (!doctor) return;
+    gltf_close(&doctor->asset);
+    weft_scene_free(doctor->scene);
+    free(doctor->items);
+    free(doctor->repairs);
+    free(doctor->pixels);
+    free(doctor);
+}
+
+int weft_doctor_count(const WeftDoctor *doctor) { return doctor->count; }
+
+const WeftFinding *weft_doctor_finding(const WeftDoctor *doctor, int index) {
+    return index >= 0 && index < doctor->count ? &doctor->items[index] : NULL;
+}
+
+WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor) {
+    WeftDoctorInfo info = {.material_count = (int)doctor->asset.material_count,
+                           .mesh_count = (int)doctor->asset.mesh_count,
+                           .image_count = (int)doctor->asset.image_count};
+    for (int m = 0; m < info.material_count; m++)
+        info.sheen_count +=
+            doctor_part(doctor_item(doctor, "materials", m), "extensions/KHR_materials_sheen") != NULL;
+    return info;
+}
+
+static WeftResult fix_once(const WeftDoctor *doctor, const char *path, WeftError *error) {
+    Rewrite rewrite;
+    Asset asset = doctor->asset; /* which is only read: a failure here is none of the doctor's */
+    WeftResult result = rewrite_begin(&rewrite, &asset, error);
+    for (int k = 0; k < doctor->count && result == WEFT_OK; k++)
+        result = doctor_repair(doctor, &rewrite, k, error);
+    if (result == WEFT_OK) result = rewrite_save(&rewrite, path, error);
+    rewrite_end(&rewrite);
+    return result;
+}
+
+static bool can_fix(const WeftDoctor *doctor) {
+    bool any = false;
+    for (int k = 0; k < doctor->count; k++) any |= doctor->items[k].fixable;
+    return any;
+}
+
+/* A sheen that was switched on may need more: so what was written is examined again. */
+WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
+    enum { ROUNDS = 4 };
+    WeftResult result = fix_once(doctor, path, error);
+    bool more = can_fix(doctor);
+    for (int round = 1; round < ROUNDS && more && result == WEFT_OK; round++) {
+        WeftDoctor *again;
+        result = weft_doctor_open(path, &again, NULL, error);
+        if (result != WEFT_OK) break;
+        more = can_fix(again);
+        if (more) result = fix_once(again, path, error);
+        weft_doctor_free(again);
+    }
+    return result;
+}

@@ -1,0 +1,122 @@
+/* doctor.h - an asset under examination: what the checks look at, and where they put what they find */
+#ifndef WEFT_MEASURE_DOCTOR_H
+#define WEFT_MEASURE_DOCTOR_H
+
+#include <jansson.h>
+
+#include "gltf/asset.h"
+#include "weft/doctor.h"
+
+/* What --fix does at the place of a finding. */
+typedef struct Repair {
+    enum {
+        REPAIR_NONE = 0,
+        REPAIR_NUMBER,  /* it becomes number */
+        REPAIR_NUMBERS, /* it becomes an array of `count` numbers */
+        REPAIR_REMOVE,  /* it goes away */
+        REPAIR_DECLARE, /* extensionsUsed gets the name that `extension` is */
+        REPAIR_ALPHA    /* a texture's channel moves to alpha, in a picture of its own */
+    } act;
+    double numbers[4];
+    int count, channel;
+    char extension[64];
+} Repair;
+
+/* Of a decoded image: what its channels hold, 0 .. 1, as R G B A. */
+typedef struct Pixels {
+    bool known;
+    float low[4], high[4], mean[4];
+    float linear[3]; /* mean of colours decoded from sRGB */
+} Pixels;
+
+struct WeftDoctor {
+    Asset asset;
+    WeftScene *scene;
+    WeftLog log; /* of the caller, behind the doctor's own */
+    WeftLog own; /* that of the asset */
+    WeftError error;
+    WeftFinding *items;
+    Repair *repairs;
+    int count, room;
+    Pixels *pixels; /* of the scene's images */
+    bool failed;    /* memory gave out */
+};
+
+/* Where something is. */
+typedef struct Place {
+    WeftFindingOf of;
+    int index;
+    const char *path; /* below the thing, "extensions/NAME/key"; NULL: the thing itself */
+} Place;
+
+/* Notes a finding; words is a printf format, engines and figure as in weft/doctor.h, repair may be NULL. */
+__attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place,
+                                                        unsigned engines, double figure, const Repair *repair,
+                                                        const char *words, ...);
+
+/* What to do about the finding noted last: a printf format. */
+__attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, const char *fix, ...);
+
+/* The finding noted last is a note that nothing repairs: of a material that is no cloth it may well be meant.
+ */
+void doctor_soften(WeftDoctor *doctor);
+
+/* The value at "a/b/c" below an object; NULL where there is none. */
+json_t *doctor_part(json_t *object, const char *path);
+
+/* The last part of such a path. */
+const char *doctor_key(const char *path);
+
+/* The list of that name at the root, and one thing of it. */
+json_t *doctor_list(const WeftDoctor *doctor, const char *name);
+json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
+
+/* count numbers at a path; false, and out as it was, where they are not there. One number may stand by
+ * itself. */
+bool doctor_numbers(json_t *object, const char *path, double *out, int count);
+
+/* The decoded image behind a textureInfo, and what it holds; NULL where there is none that could be read. */
+const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
+const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
+
+/* The mean of a factor, clamped to 0 .. 1, times its texture: of a colour linear; of a number its channel. */
+void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
+                  float color[3]);
+float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
+                    double absent);
+
+/* The bit of a profile by its id, and those of all that read glTF. */
+unsigned doctor_engine(const char *profile);
+unsigned doctor_engines(void);
+extern const char *const doctor_readers[]; /* their ids, NULL last */
+
+/* A material with a sheen, as far as it is looked at. */
+typedef struct Cloth {
+    int index;
+    json_t *json, *sheen;    /* sheen: NULL: none */
+    float color[3];          /* of the sheen, mean */
+    float roughness;         /* of the sheen, mean */
+    float base[3], metallic; /* mean */
+} Cloth;
+Cloth doctor_cloth(WeftDoctor *doctor, int material);
+bool cloth_shows(const Cloth *cloth); /* the sheen is not black */
+
+/* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh. */
+void check_extensions(WeftDoctor *doctor);
+void check_spaces(WeftDoctor *doctor);
+void check_glass(WeftDoctor *doctor);
+void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
+void check_factors(WeftDoctor *doctor, const Cloth *cloth);
+void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
+void check_black(WeftDoctor *doctor, const Cloth *cloth);
+void check_channel(WeftDoctor *doctor, const Cloth *cloth);
+void check_energy(WeftDoctor *doctor, const Cloth *cloth);
+void check_neighbours(WeftDoctor *doctor, const Cloth *cloth);
+void check_plausible(WeftDoctor *doctor, const Cloth *cloth);
+void check_mesh(WeftDoctor *doctor, int mesh);
+
+/* Applies a repair to the JSON of a rewrite. */
+struct Rewrite;
+WeftResult doctor_repair(const WeftDoctor *doctor, struct Rewrite *rewrite, int finding, WeftError *error);
+
+#endif

@@ -1,0 +1,497 @@
+/* The doctor: for every finding an asset that has it and nothing else, one that has none; what is fixed stays
+ * fixed and nothing else changes; real files and broken ones. */
+#include <dirent.h>
+#include <math.h>
+#include <unistd.h>
+
+#include "gltf/reading.h"
+#include "image/codec.h"
+#include "shading/choice.h"
+#include "weft/doctor.h"
+#include "weft/save.h"
+
+/* Pictures of 4 x 4 pixels. */
+typedef enum Picture { COLORS, ALPHAS, BLACK, GREY, PLAIN, LINEAR, DAMAGED } Picture;
+
+static void paint(Picture picture, WeftImage *image) {
+    WeftError error;
+    int channels = picture == ALPHAS ? 4 : 3;
+    assert_int_equal(weft_image_create(4, 4, channels, WEFT_PIXEL_U8, image, &error), WEFT_OK);
+    uint8_t *p = image->pixels;
+    for (int k = 0; k < 16; k++)
+        for (int c = 0; c < channels; c++) {
+            int value = 100 + 8 * k - 30 * c;
+            if (picture == GREY) value = 180 + 4 * k;
+            if (picture == BLACK) value = 0;
+            if (picture == PLAIN) value = 200;
+            if (picture == ALPHAS && c == 3) value = 200 + 3 * k;
+            p[channels * k + c] = (uint8_t)value;
+        }
+}
+
+/* ISO/IEC 15948, annex D: the check of a chunk. */
+static uint32_t crc(const unsigned char *bytes, size_t size) {
+    uint32_t c = 0xffffffffu;
+    for (size_t k = 0; k < size; k++) {
+        c ^= bytes[k];
+        for (int bit = 0; bit < 8; bit++) c = c & 1 ? 0xedb88320u ^ c >> 1 : c >> 1;
+    }
+    return ~c;
+}
+
+/* Puts a chunk gAMA of 1 behind the header of a PNG. */
+static void mark_linear(unsigned char *png, size_t *size) {
+    enum { AT = 33, CHUNK = 16 };
+    unsigned char chunk[CHUNK] = {0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 1, 0x86, 0xa0};
+    uint32_t check = crc(chunk + 4, 8);
+    for (int k = 0; k < 4; k++) chunk[12 + k] = (unsigned char)(check >> (24 - 8 * k));
+    memmove(png + AT + CHUNK, png + AT, *size - AT);
+    memcpy(png + AT, chunk, CHUNK);
+    *size += CHUNK;
+}
+
+/* One pixel of NumPy's floats that is no number. */
+static size_t damaged(unsigned char *out) {
+    static const char head[] = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1), }";
+    size_t length = 118;
+    memcpy(out, "\x93NUMPY\x01\0", 8);
+    out[8] = (unsigned char)length;
+    out[9] = 0;
+    memset(out + 10, ' ', length);
+    memcpy(out + 10, head, sizeof head - 1);
+    out[10 + length - 1] = '\n';
+    memcpy(out + 10 + length, "\0\0\xc0\x7f", 4);
+    return 14 + length;
+}
+
+static const char *picture_uri(Picture picture) {
+    unsigned char bytes[4096];
+    char *png = NULL;
+    size_t size = 0;
+    WeftImage image;
+    WeftError error;
+    const WeftImageWriting how = {.data = 1};
+    if (picture == DAMAGED) return uri(bytes, damaged(bytes));
+    paint(picture, &image);
+    FILE *stream = open_memstream(&png, &size);
+    assert_int_equal(image_write_png(stream, "picture", &image, &how, &error), WEFT_OK);
+    fclose(stream);
+    assert_true(size + 16 < sizeof bytes);
+    memcpy(bytes, png, size);
+    if (picture == LINEAR) mark_linear(bytes, &size);
+    free(png);
+    weft_image_free(&image);
+    return uri(bytes, size);
+}
+
+#define CLOTH     "'pbrMetallicRoughness':{'baseColorFactor':[0.4,0.3,0.3,1],'metallicFactor':0}"
+#define SHEEN     "'KHR_materials_sheen':{'sheenColorFactor':[0.5,0.4,0.4],'sheenRoughnessFactor':0.8}"
+#define USED      "'KHR_materials_sheen'"
+#define ALL       "'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2},'indices':3,'material':0"
+#define TWO_SIDED "'doubleSided':true,"
+
+/* An asset as text: a square of one material, and what else is at its root. */
+typedef struct Case {
+    int kind;                            /* of finding; -1: none */
+    const char *material;                /* its members */
+    const char *used, *primitive, *rest; /* NULL: as usual */
+    Picture picture;
+} Case;
+
+static const Case cases[] = {
+    {-1, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", NULL, NULL, NULL, COLORS},
+    {-1,
+     TWO_SIDED CLOTH
+     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
+     "{'index':0},'sheenRoughnessFactor':1,'sheenRoughnessTexture':{'index':0}}}",
+     NULL, NULL, NULL, ALPHAS},
+    {WEFT_FINDING_EXTENSION_REQUIRED, TWO_SIDED CLOTH, NULL, NULL,
+     "'extensionsUsed':['SOME_thing'],'extensionsRequired':['SOME_thing'],", COLORS},
+    {WEFT_FINDING_EXTENSION_UNDECLARED, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", "'KHR_materials_ior'",
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_VALUE_RANGE,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.5,1.5,0.5],"
+                     "'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_VALUE_RANGE,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.5,0.5,0.5],"
+                     "'sheenRoughnessFactor':1.25}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_VALUE_RANGE,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':-0.5}", NULL, NULL,
+     NULL, COLORS},
+    {WEFT_FINDING_VALUE_RANGE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':0.5}}",
+     "'KHR_materials_ior'", NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_TIMES_ZERO,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorTexture':{'index':0},"
+                     "'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_TIMES_ZERO, TWO_SIDED CLOTH ",'emissiveTexture':{'index':0}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_TEXTURE_OFF, TWO_SIDED CLOTH ",'emissiveFactor':[0,0,0],'emissiveTexture':{'index':0}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_TWO_SPACES,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicFactor':0,"
+               "'metallicRoughnessTexture':{'index':0}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_SAYS_LINEAR,
+     TWO_SIDED CLOTH
+     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
+     "'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, LINEAR},
+    {WEFT_FINDING_TEXTURE_TRANSFORM,
+     TWO_SIDED CLOTH
+     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0,"
+     "'extensions':{'KHR_texture_transform':{'scale':[0,2]}}},'sheenRoughnessFactor':0.8}}",
+     "'KHR_materials_sheen','KHR_texture_transform'", NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL,
+     "'attributes':{'POSITION':0,'NORMAL':1},'indices':3,'material':0", NULL, COLORS},
+    {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0,'texCoord':1}", NULL,
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_IMAGE_REPAIRED, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL,
+     DAMAGED},
+    {WEFT_FINDING_SHEEN_BLACK,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenRoughnessFactor':0.8}}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_SHEEN_TEXTURE_BLACK,
+     TWO_SIDED CLOTH
+     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
+     "'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, BLACK},
+    {WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"
+                     "'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':1}}",
+     NULL, NULL, NULL, GREY},
+    {WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"
+                     "'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, PLAIN},
+    {WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN,
+     TWO_SIDED CLOTH
+     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
+     "{'index':0},'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_GAINS,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0.8,1],'metallicFactor':0},'extensions':"
+               "{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenRoughnessFactor':0.45}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_DARKENS,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0,1],'metallicFactor':0},'extensions':"
+               "{'KHR_materials_sheen':{'sheenColorFactor':[0,0,1],'sheenRoughnessFactor':0.4}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_ENGINES_DIFFER,
+     TWO_SIDED
+     "'pbrMetallicRoughness':{'baseColorFactor':[0.05,0.05,0.05,1],'metallicFactor':0},'extensions':"
+     "{'KHR_materials_sheen':{'sheenColorFactor':[0.3,0.3,0.3],'sheenRoughnessFactor':0.3}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_ON_METAL,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1]},'extensions':{" SHEEN "}", NULL,
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_ON_METAL,
+     TWO_SIDED
+     "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':0.4},'extensions':{" SHEEN
+     "}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_TRANSMISSION,
+     TWO_SIDED CLOTH ",'extensions':{" SHEEN ",'KHR_materials_transmission':{'transmissionFactor':0.5}}",
+     "'KHR_materials_sheen','KHR_materials_transmission'", NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_BEHIND_GLASS,
+     TWO_SIDED CLOTH ",'extensions':{" SHEEN "}},{" CLOTH ",'extensions':{'KHR_materials_transmission':"
+                     "{'transmissionFactor':1}}",
+     "'KHR_materials_sheen','KHR_materials_transmission'", NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_COAT,
+     TWO_SIDED CLOTH ",'extensions':{" SHEEN ",'KHR_materials_clearcoat':{'clearcoatFactor':0.5}}",
+     "'KHR_materials_sheen','KHR_materials_clearcoat'", NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_IOR, TWO_SIDED CLOTH ",'extensions':{" SHEEN ",'KHR_materials_ior':{'ior':1.4}}",
+     "'KHR_materials_sheen','KHR_materials_ior'", NULL, NULL, COLORS},
+    {WEFT_FINDING_SHEEN_EMISSION, TWO_SIDED CLOTH ",'emissiveFactor':[0.1,0,0],'extensions':{" SHEEN "}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_BASE_DARK,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.001,0.001,0.001,1],'metallicFactor':0}", NULL,
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_BASE_BRIGHT,
+     TWO_SIDED
+     "'pbrMetallicRoughness':{'baseColorFactor':[0.95,0.95,0.95,1],'metallicFactor':0},'extensions':"
+     "{'KHR_materials_sheen':{'sheenColorFactor':[0.1,0.1,0.1],'sheenRoughnessFactor':0.9}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_METAL_DARK, TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.2,0.2,0.2,1]}", NULL,
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_IMPLAUSIBLE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':3}}",
+     "'KHR_materials_ior'", NULL, NULL, COLORS},
+    {WEFT_FINDING_IMPLAUSIBLE,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0.8,1],'metallicFactor':0.3}", NULL, NULL,
+     NULL, COLORS},
+    {WEFT_FINDING_NORMALS_MISSING, TWO_SIDED CLOTH, NULL,
+     "'attributes':{'POSITION':0},'indices':3,'material':0", NULL, COLORS},
+    {WEFT_FINDING_TANGENTS_MISSING, TWO_SIDED CLOTH ",'normalTexture':{'index':0}", NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TANGENTS_MISSING,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_anisotropy':{'anisotropyStrength':0.5}}",
+     "'KHR_materials_anisotropy'", NULL, NULL, COLORS},
+    {WEFT_FINDING_BACK_MISSING, CLOTH ",'extensions':{" SHEEN "}", NULL, NULL, NULL, COLORS},
+};
+enum { CASES = sizeof cases / sizeof *cases };
+
+static char *case_text(const Case *c) {
+    char used[300] = "";
+    if (!c->rest) snprintf(used, sizeof used, "'extensionsUsed':[%s],", c->used ? c->used : USED);
+    return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA
+                ",'images':[{'uri':'%s'}],'textures':[{'source':0}],"
+                "'materials':[{%s}],'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
+                used, c->rest ? c->rest : "", SQUARE_URI, picture_uri(c->picture), c->material,
+                c->primitive ? c->primitive : ALL);
+}
+
+static WeftDoctor *examine(const char *text) {
+    WeftDoctor *doctor;
+    WeftError error;
+    if (weft_doctor_open_memory(text, strlen(text), "case", &doctor, NULL, &error) != WEFT_OK)
+        fail_msg("%s\n%s", error.text, text);
+    return doctor;
+}
+
+static void whole_words(const WeftFinding *finding) {
+    assert_true(finding->words[0] && finding->fix[0] && finding->subject[0]);
+    assert_true(strlen(finding->words) + 1 < sizeof finding->words);
+    assert_true(strlen(finding->fix) + 1 < sizeof finding->fix);
+    assert_null(strchr(finding->words, '\n'));
+}
+
+static void each_finds_its_own(void **state) {
+    (void)state;
+    for (int k = 0; k < CASES; k++) {
+        char *text = case_text(&cases[k]);
+        WeftDoctor *doctor = examine(text);
+        int count = weft_doctor_count(doctor);
+        for (int f = 0; f < count; f++) {
+            const WeftFinding *finding = weft_doctor_finding(doctor, f);
+            whole_words(finding);
+            if ((int)finding->kind != cases[k].kind)
+                fail_msg("case %d (%s): found %s: %s", k,
+                         cases[k].kind < 0 ? "clean" : weft_finding_name(cases[k].kind),
+                         weft_finding_name((int)finding->kind), finding->words);
+        }
+        if ((count > 0) != (cases[k].kind >= 0))
+            fail_msg("case %d: %d findings, not %s", k, count, weft_finding_name(cases[k].kind));
+        weft_doctor_free(doctor);
+        free(text);
+    }
+}
+
+static void every_finding_has_a_case(void **state) {
+    (void)state;
+    for (int kind = 0; kind < WEFT_FINDING_COUNT; kind++) {
+        bool tried = false;
+        for (int k = 0; k < CASES; k++) tried |= cases[k].kind == kind;
+        if (!tried) fail_msg("%s: no asset has it", weft_finding_name(kind));
+        assert_non_null(weft_finding_help(kind));
+    }
+    assert_null(weft_finding_name(-1));
+    assert_null(weft_finding_name(WEFT_FINDING_COUNT));
+}
+
+static char folder[] = "/tmp/weft-doctor-XXXXXX";
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+static json_t *load(const char *path) {
+    json_error_t error;
+    json_t *root = json_load_file(path, 0, &error);
+    if (!root) fail_msg("%s: %s", path, error.text);
+    return root;
+}
+
+/* Values that are in one document and not, or otherwise, in the other. */
+static int differences(json_t *a, json_t *b) {
+    int count = 0;
+    const char *key;
+    json_t *value;
+    if (json_equal(a, b)) return 0;
+    if (json_is_object(a) && json_is_object(b)) {
+        json_object_foreach(a, key, value) { count += differences(value, json_object_get(b, key)); }
+        json_object_foreach(b, key, value) { count += !json_object_get(a, key); }
+        return count;
+    }
+    if (!json_is_array(a) || !json_is_array(b) || json_array_size(a) > json_array_size(b)) return 1;
+    for (size_t k = 0; k < json_array_size(a); k++)
+        count += differences(json_array_get(a, k), json_array_get(b, k));
+    return count + (int)(json_array_size(b) - json_array_size(a));
+}
+
+/* A file is written, and examined again: what could be fixed is gone, and nothing but that place differs. */
+static void what_is_fixed_stays_fixed(void **state) {
+    (void)state;
+    for (int k = 0; k < CASES; k++) {
+        char *text = case_text(&cases[k]);
+        FILE *stream = fopen("case.gltf", "w");
+        assert_non_null(stream);
+        fputs(text, stream);
+        fclose(stream);
+        WeftDoctor *doctor, *again;
+        WeftError error;
+        assert_int_equal(weft_doctor_open("case.gltf", &doctor, NULL, &error), WEFT_OK);
+        int fixable = 0, count = weft_doctor_count(doctor);
+        for (int f = 0; f < count; f++) {
+            const WeftFinding *finding = weft_doctor_finding(doctor, f);
+            fixable += finding->fixable;
+            assert_true(weft_finding_fixable((int)finding->kind) || !finding->fixable);
+        }
+        if (weft_doctor_fix(doctor, "fixed.gltf", &error) != WEFT_OK) fail_msg("%s", error.text);
+        if (weft_doctor_open("fixed.gltf", &again, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        for (int f = 0; f < weft_doctor_count(again); f++)
+            if (weft_doctor_finding(again, f)->fixable)
+                fail_msg("case %d: %s is there still", k, weft_doctor_finding(again, f)->words);
+        if (weft_doctor_count(again) != count - fixable)
+            fail_msg("case %d: %d findings after %d of %d were fixed", k, weft_doctor_count(again), fixable,
+                     count);
+        json_t *was = load("case.gltf"), *now = load("fixed.gltf");
+        int different = differences(was, now),
+            most = 3 * fixable; /* of a colour, three numbers; of a picture: */
+        if (cases[k].kind == WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL) most = 3; /* image, texture, index */
+        if (different > most || (fixable && !different))
+            fail_msg("case %d: %d values differ, %d fixed", k, different, fixable);
+        json_decref(was);
+        json_decref(now);
+        weft_doctor_free(doctor);
+        weft_doctor_free(again);
+        free(text);
+    }
+}
+
+static const Case *case_of(int kind) {
+    for (int k = 0; k < CASES; k++)
+        if (cases[k].kind == kind) return &cases[k];
+    return NULL;
+}
+
+/* The new picture holds as alpha what was painted as grey. */
+static void roughness_moves_to_alpha(void **state) {
+    (void)state;
+    char *text = case_text(case_of(WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL));
+    WeftDoctor *doctor = examine(text);
+    WeftError error;
+    WeftScene *scene;
+    assert_int_equal(weft_doctor_fix(doctor, "alpha.glb", &error), WEFT_OK);
+    assert_int_equal(weft_scene_load("alpha.glb", &scene, NULL, &error), WEFT_OK);
+    int input = material_input("sheen_roughness");
+    const Input *roughness = &scene->materials[0].inputs[input];
+    assert_int_equal(roughness->channel, 3);
+    const WeftImage *image = &scene->images[scene->textures[roughness->texture - 1].image];
+    assert_int_equal(image->channels, 2);
+    for (int k = 0; k < 16; k++) assert_int_equal(((uint8_t *)image->pixels)[2 * k + 1], 180 + 4 * k);
+    weft_scene_free(scene);
+    weft_doctor_free(doctor);
+    free(text);
+}
+
+/* The gain is what weft_reflection_albedo says of the same material, and the roughness that is advised has
+ * none. */
+static void gain_is_measured(void **state) {
+    (void)state;
+    char *text = case_text(case_of(WEFT_FINDING_SHEEN_GAINS));
+    WeftDoctor *doctor = examine(text);
+    const WeftFinding *finding = weft_doctor_finding(doctor, 0);
+    assert_int_equal(finding->engines, 1u << choice_find(CHOICE_profile, "three"));
+    assert_true(finding->figure > 1.1 && finding->figure < 1.3);
+    assert_string_equal(finding->place, "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor");
+    weft_doctor_free(doctor);
+    free(text);
+}
+
+/* Saved scenes of weft's own, as they come. */
+static void built_in_scenes_have_no_errors(void **state) {
+    (void)state;
+    for (int k = 0; weft_builtin_name(k); k++) {
+        char name[64];
+        WeftScene *scene;
+        WeftDoctor *doctor;
+        WeftError error;
+        snprintf(name, sizeof name, "builtin:%s", weft_builtin_name(k));
+        assert_int_equal(weft_scene_load(name, &scene, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_save(scene, "scene.glb", &error), WEFT_OK);
+        assert_int_equal(weft_doctor_open("scene.glb", &doctor, NULL, &error), WEFT_OK);
+        for (int f = 0; f < weft_doctor_count(doctor); f++) {
+            const WeftFinding *finding = weft_doctor_finding(doctor, f);
+            if (finding->severity == WEFT_SEVERITY_ERROR) fail_msg("%s: %s", name, finding->words);
+        }
+        weft_doctor_free(doctor);
+        weft_scene_free(scene);
+    }
+}
+
+/* Every file of a folder of the shared data is examined or refused in one line. */
+static void examine_folder(const char *path, int depth, int *files) {
+    DIR *listing = opendir(path);
+    for (struct dirent *entry; listing && (entry = readdir(listing));) {
+        char name[4096];
+        const char *dot = strrchr(entry->d_name, '.');
+        snprintf(name, sizeof name, "%.3800s/%.255s", path, entry->d_name);
+        if (entry->d_name[0] == '.') continue;
+        if (depth < 2 && !dot) examine_folder(name, depth + 1, files);
+        if (!dot || (strcmp(dot, ".gltf") != 0 && strcmp(dot, ".glb") != 0)) continue;
+        WeftDoctor *doctor;
+        WeftError error;
+        ++*files;
+        if (weft_doctor_open(name, &doctor, NULL, &error) != WEFT_OK) {
+            if (!error.text[0] || strchr(error.text, '\n')) fail_msg("%s: \"%s\"", name, error.text);
+            continue;
+        }
+        for (int f = 0; f < weft_doctor_count(doctor); f++) whole_words(weft_doctor_finding(doctor, f));
+        weft_doctor_free(doctor);
+    }
+    if (listing) closedir(listing);
+}
+
+static void shared_files_are_examined(void **state) {
+    (void)state;
+    const char *named = getenv("WEFT_DATA");
+    char path[1024];
+    int files = 0;
+    snprintf(path, sizeof path, "%s", named ? named : WEFT_SOURCE_DIR "/../shared/data");
+    examine_folder(path, 0, &files);
+    if (files) return;
+    print_message("no sample assets: set WEFT_DATA\n");
+    skip();
+}
+
+static void broken_files_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        WeftMessage message;
+    } broken[] = {{"", WEFT_MESSAGE_SCENE_KIND},
+                  {"{", WEFT_MESSAGE_GLTF_JSON},
+                  {"{}", WEFT_MESSAGE_GLTF_VERSION},
+                  {"{\"asset\":{\"version\":\"2.0\"},\"materials\":[3]}", WEFT_MESSAGE_GLTF_SCHEMA},
+                  {"{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[{\"attributes\":{"
+                   "\"POSITION\":7}}]}]}",
+                   WEFT_MESSAGE_GLTF_REFERENCE}};
+    for (size_t k = 0; k < sizeof broken / sizeof *broken; k++) {
+        WeftDoctor *doctor;
+        WeftError error;
+        WeftResult result =
+            weft_doctor_open_memory(broken[k].text, strlen(broken[k].text), "broken", &doctor, NULL, &error);
+        assert_int_equal(result, WEFT_INPUT);
+        assert_int_equal(error.message, broken[k].message);
+        assert_null(doctor);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_finds_its_own),        cmocka_unit_test(every_finding_has_a_case),
+        cmocka_unit_test(what_is_fixed_stays_fixed), cmocka_unit_test(roughness_moves_to_alpha),
+        cmocka_unit_test(gain_is_measured),          cmocka_unit_test(built_in_scenes_have_no_errors),
+        cmocka_unit_test(shared_files_are_examined), cmocka_unit_test(broken_files_are_refused),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
