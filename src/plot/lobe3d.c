@@ -1,0 +1,80 @@
+/* lobe3d.c - f as a length over all directions of wi */
+#include <math.h>
+#include <stdlib.h>
+
+#include "plot/making.h"
+
+/* Nodes: phi from 0 to 360 degrees, theta from 0 to 90. */
+enum { PHIS = 181, THETAS = 91, WALKS = 100 };
+
+/* The colour-blind eye's median: what is above the 99.5th part of a hundred is cut off where it towers. */
+static int compare(const void *a, const void *b) {
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static bool one_surface(Making *making, WeftPlotPanel *panel, int subject, float view) {
+    float *values = making_grid(making, panel, PHIS, THETAS, 1), wo[3];
+    float(*wi)[3] = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *wi);
+    float(*f)[3] = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *f);
+    if (!values || !wi || !f) return false;
+    for (int row = 0; row < THETAS; row++)
+        for (int k = 0; k < PHIS; k++) {
+            /* the horizon itself is dark: the last row lies just above it */
+            double theta = fmin(90.0 * row / (THETAS - 1), 89.7) * 0.017453292519943295;
+            double phi = 360.0 * k / (PHIS - 1) * 0.017453292519943295, s = sin(theta);
+            float *w = wi[row * PHIS + k];
+            w[0] = (float)(s * cos(phi)), w[1] = (float)(s * sin(phi)), w[2] = (float)cos(theta);
+        }
+    direction_of_view(view, wo);
+    making_eval(&making->desc->subjects[subject], wo, PHIS * THETAS, (const float(*)[3])wi, WALKS, f);
+    for (int k = 0; k < PHIS * THETAS; k++)
+        values[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
+    return true;
+}
+
+/* The largest value, and what is shown: no more than four times the largest within 85 degrees. */
+static void set_range(const Making *making, WeftPlotPanel *panel, float *scratch) {
+    int count = 0, inner = panel->columns * (THETAS - 5);
+    double most = 0.0, within = 0.0;
+    for (int k = 0; k < panel->columns * panel->rows; k++) {
+        if (!(panel->values[k] > 0.0f)) continue;
+        scratch[count++] = panel->values[k];
+        most = fmax(most, (double)panel->values[k]);
+        if (k < inner) within = fmax(within, (double)panel->values[k]);
+    }
+    qsort(scratch, (size_t)count, sizeof *scratch, compare);
+    making_figure(panel, "largest", "1/sr", most);
+    double high = within > 0.0 && !(panel->view > 80.0f) ? fmin(most, 4.0 * within) : most;
+    if (!(high > 0.0)) high = 1.0;
+    making_axis(&panel->z, making_f(making), "1/sr", 0.0f, (float)high);
+    if (!making->desc->logarithmic) return;
+    double low = count ? (double)scratch[count / 100] : high;
+    panel->z.logarithmic = 1;
+    panel->z.high = (float)pow(10.0, ceil(log10(high)));
+    panel->z.low =
+        (float)pow(10.0, fmin(fmax(floor(log10(low)), ceil(log10(high)) - 4.0), ceil(log10(high)) - 1.0));
+}
+
+WeftResult kind_lobe3d(Making *making) {
+    const int views = making_view_count(making), count = making->desc->count;
+    float *scratch = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *scratch);
+    int columns = views > 1 ? views : count > 3 ? 3 : count;
+    if (!scratch || !making_panels(making, views * count, columns > 3 ? 3 : columns))
+        return making_short(making);
+    making_subjects(making);
+    for (int n = 0; n < count; n++)
+        for (int k = 0; k < views; k++) {
+            const float view = making_view(making, k, 60.0f);
+            WeftPlotPanel *panel =
+                making_panel(making, WEFT_PLOT_SURFACE, "%s, %s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0",
+                             making_label(making, n), making_f(making), (double)view);
+            making_axis(&panel->x, "phi", "\xc2\xb0", 0.0f, 360.0f);
+            making_axis(&panel->y, "theta_i", "\xc2\xb0", 0.0f, 90.0f);
+            panel->view = view;
+            panel->entry = n;
+            if (!one_surface(making, panel, n, view)) return making_short(making);
+            set_range(making, panel, scratch);
+        }
+    return WEFT_OK;
+}
