@@ -63,6 +63,7 @@ typedef struct WeftPlotDesc {
     float views[WEFT_PLOT_VIEWS_MAX]; /* theta_o in [0, 90), degrees; sphere: of the light */
     int view_count;                   /* 0: the kind's own. Albedo: of E over roughness */
     int logarithmic;                  /* not 0: f on a logarithmic scale */
+    int quick;                        /* not 0: fewer values, walks and samples: for a first look */
     int cosine;                       /* not 0, polar and lobe3d: f cos in place of f */
     WeftPlotChannel channel;          /* sphere and slice that is not logarithmic: all colours */
     const char *title;                /* above everything; NULL: the kind's own; "": none */

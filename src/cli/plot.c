@@ -132,6 +132,7 @@ static int plot_read(Plot *plot) {
     plot->desc.channel = (WeftPlotChannel)channel;
     plot->desc.logarithmic = option_given(options, "--log");
     plot->desc.cosine = option_given(options, "--cos");
+    plot->desc.quick = option_given(options, "--quick");
     plot->desc.title = option_text(options, "--title");
     result = views_read(plot);
     if (result == 0) result = size_read(plot);
@@ -187,6 +188,7 @@ static const Option plot_options[] = {
     OPTION_TEXT("--title", "TEXT", NULL, "above the figure, in place of the kind's own"),
     OPTION_TEXT("--size", "WxH", NULL,
                 "pixels, 96 to the inch; of a width alone the height follows; type grows along"),
+    OPTION_SWITCH("--quick", "fewer values, walks and samples: a first look"),
     OPTION_SWITCH("--json", "the figure's numbers as JSON on standard output"),
     OPTION_SWITCH("--csv", "the same as comma-separated lines"),
     OPTION_END,

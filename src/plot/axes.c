@@ -42,9 +42,13 @@ static void typeset(const char *plain, char text[24]) {
     text[used] = '\0';
 }
 
-void value_text(double value, char text[24]) {
+void value_text(double value, int digits, char text[24]) {
     char plain[24];
-    snprintf(plain, sizeof plain, "%.3g", value);
+    double size = fabs(value);
+    if (size >= 999.5 && size < 99999.5)
+        snprintf(plain, sizeof plain, "%.0f", value);
+    else
+        snprintf(plain, sizeof plain, "%.*g", digits, value);
     char *e = strchr(plain, 'e');
     if (e) { /* "1.3e+05" becomes "1.3e5" */
         char *from = e + 1, *to = e + 1;
@@ -115,7 +119,7 @@ int ticks_make(const Scale *scale, bool degrees, double apart, Tick ticks[TICKS_
         double value = fabs(k) < 0.5 ? 0.0 : k * step;
         ticks[count].value = value;
         if (most >= 1e5 || places > 4) {
-            value_text(value, ticks[count].text);
+            value_text(value, 3, ticks[count].text);
         } else {
             snprintf(plain, sizeof plain, "%.*f", places, value);
             typeset(plain, ticks[count].text);

@@ -25,8 +25,8 @@ enum { TICKS_MAX = 96 };
  * how many. */
 int ticks_make(const Scale *scale, bool degrees, double apart, Tick ticks[TICKS_MAX]);
 
-/* A value in three digits, short: "0.25", "1.3e5"; minus is U+2212. */
-void value_text(double value, char text[24]);
+/* A value in so many digits, short: "0.25", "1.3e5"; minus is U+2212. */
+void value_text(double value, int digits, char text[24]);
 
 /* "label [unit]". */
 void axis_text(const WeftPlotAxis *axis, char text[96]);

@@ -37,7 +37,7 @@ static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
     double x = fmin(fmax(scale_place(&across, (double)series->x[top]), in.x + 0.6 * type),
                     in.x + in.width - 0.6 * type);
     char text[40], value[24];
-    value_text((double)series->y[top], value);
+    value_text((double)series->y[top], 3, value);
     snprintf(text, sizeof text, "to %s", value);
     set_font(page->cairo, 0.8 * type, false);
     const double *color = entry_color(series->entry);
@@ -47,6 +47,11 @@ static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
     cairo_line_to(page->cairo, x - 0.4 * type, y + 0.75 * type);
     cairo_line_to(page->cairo, x + 0.4 * type, y + 0.75 * type);
     cairo_close_path(page->cairo);
+    cairo_fill(page->cairo);
+    double width = text_width(page->cairo, text),
+           left = share > 0.5 ? x - 0.7 * type - width : x + 0.5 * type;
+    cairo_set_source_rgba(page->cairo, 1.0, 1.0, 1.0, 0.85);
+    cairo_rectangle(page->cairo, left, y - 0.1 * type, width + 0.2 * type, 1.1 * type);
     cairo_fill(page->cairo);
     place_text(page->cairo, color, x + (share > 0.5 ? -0.6 : 0.6) * type, y + 0.75 * type, share, text);
     return true;

@@ -16,7 +16,8 @@ static bool fill(Making *making, int subject, float *values) {
     for (int row = 0; row < ROWS; row++) {
         float wo[3];
         direction_of_view(90.0f * ((float)row + 0.5f) / ROWS, wo);
-        making_eval(&making->desc->subjects[subject], wo, COLUMNS, (const float(*)[3])wi, WALKS, f);
+        making_eval(&making->desc->subjects[subject], wo, COLUMNS, (const float(*)[3])wi,
+                    making_walks(making, WALKS), f);
         for (int k = 0; k < COLUMNS; k++) values[row * COLUMNS + k] = making_value(making, f[k]);
     }
     return true;
@@ -60,7 +61,8 @@ static void add_figures(WeftPlotPanel *panel, const char *unit) {
 static WeftPlotPanel *one_panel(Making *making, bool relative) {
     WeftPlotPanel *panel = relative ? making_panel(making, WEFT_PLOT_MAP, "(A \xe2\x88\x92 B) / max(A, B)")
                                     : making_panel(making, WEFT_PLOT_MAP, "A \xe2\x88\x92 B");
-    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of wo", "\xc2\xb0", -90.0f, 90.0f);
+    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of \xcf\x89\xe2\x82\x92", "\xc2\xb0", -90.0f,
+                90.0f);
     making_axis(&panel->y, "\xce\xb8\xe2\x82\x92", "\xc2\xb0", 0.0f, 90.0f);
     panel->center = 0.0f;
     return panel;

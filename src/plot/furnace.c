@@ -10,7 +10,7 @@
 #include "plot/making.h"
 
 /* WALKS: of a rule or a lobe that walks at random, at most. */
-enum { ANGLES = 14, CELLS = 80, WALKS = 40000 };
+enum { ANGLES = 14, CELLS = 80, WALKS = 40000, QUICK = 3 }; /* QUICK: every third angle alone */
 
 static const float angles[ANGLES] = {0.0f,  15.0f, 30.0f, 40.0f, 50.0f, 60.0f, 67.0f,
                                      73.0f, 78.0f, 82.0f, 85.0f, 87.0f, 88.5f, 89.5f};
@@ -20,7 +20,14 @@ typedef struct Work {
     float roughness;
     const AlbedoTable *table;
     float *y[LAYER_COUNT];
+    const float *x;
+    int cells, walks;
 } Work;
+
+static int count_of(const Making *making) { return making->desc->quick ? ANGLES / QUICK : ANGLES; }
+
+/* Angle k of so many. */
+static float angle_of(const Making *making, int k) { return angles[making->desc->quick ? QUICK * k + 2 : k]; }
 
 /* The roughness that gives a lobe its first parameter: lobe_rough rises or falls with it. */
 static float roughness_of(const Lobe *lobe) {
@@ -40,13 +47,16 @@ static void measure(void *user, int item, int thread) {
     (void)thread;
     const Work *work = user;
     int layer = item % LAYER_COUNT, k = item / LAYER_COUNT;
-    Dir o = grid_direction((cos)((double)angles[k] * 0.017453292519943295), 0.0);
+    Dir o = grid_direction((cos)((double)work->x[k] * 0.017453292519943295), 0.0);
     work->y[layer][k] =
-        (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, CELLS, WALKS).e;
+        (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, work->cells, work->walks)
+            .e;
 }
 
 static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given, int first_entry) {
-    Work work;
+    const int count = count_of(making);
+    Work work = {.cells = making->desc->quick ? CELLS / 2 : CELLS,
+                 .walks = making->desc->quick ? WALKS / 4 : WALKS};
     AlbedoTable *table = malloc(sizeof *table);
     bool held = table && making_series_room(making, panel, LAYER_COUNT);
     work.lobe = lobe_default(given->lobe);
@@ -56,12 +66,13 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
     work.table = table;
     for (int layer = 0; held && layer < LAYER_COUNT; layer++) {
         float *x;
-        held = making_series(making, panel, first_entry + layer, ANGLES, &x, &work.y[layer]) != NULL;
-        for (int k = 0; held && k < ANGLES; k++) x[k] = angles[k];
+        held = making_series(making, panel, first_entry + layer, count, &x, &work.y[layer]) != NULL;
+        for (int k = 0; held && k < count; k++) x[k] = angle_of(making, k);
+        work.x = x;
     }
     if (held) {
         albedo_table_fill(table, &work.lobe, work.lobe.params[0], work.lobe.params[0], 0);
-        parallel_for(0, LAYER_COUNT * ANGLES, measure, &work);
+        parallel_for(0, LAYER_COUNT * count, measure, &work);
     }
     free(table);
     return held;
@@ -69,10 +80,11 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
 
 static bool as_a_whole(Making *making, WeftPlotPanel *panel, int subject, int entry) {
     float *x, *y;
-    if (!making_series(making, panel, entry, ANGLES, &x, &y)) return false;
-    for (int k = 0; k < ANGLES; k++) {
+    const int count = count_of(making);
+    if (!making_series(making, panel, entry, count, &x, &y)) return false;
+    for (int k = 0; k < count; k++) {
         float w[3], e[3];
-        x[k] = angles[k];
+        x[k] = angle_of(making, k);
         direction_of_view(x[k], w);
         weft_reflection_albedo(making->desc->subjects[subject].reflection, WEFT_PART_ALL, w[2], e);
         y[k] = making_value(making, e);
@@ -92,7 +104,7 @@ static void set_range(WeftPlotData *data) {
     double low = 0.95, high = 1.05;
     for (int p = 0; p < data->count; p++)
         for (int s = 0; s < data->panels[p].series_count; s++)
-            for (int k = 0; k < ANGLES; k++) {
+            for (int k = 0; k < data->panels[p].series[s].count; k++) {
                 double y = (double)data->panels[p].series[s].y[k];
                 if (isfinite(y)) low = fmin(low, y), high = fmax(high, y);
             }

@@ -4,38 +4,41 @@
 
 #include "plot/making.h"
 
-/* Nodes: phi from 0 to 360 degrees, theta from 0 to 90. */
-enum { PHIS = 181, THETAS = 91, WALKS = 100 };
+/* Nodes: phi from 0 to 360 degrees, theta from 0 to 90, every two degrees and every one. */
+enum { PHIS = 181, THETAS = 91, WALKS = 200 };
+static int phis_of(const Making *making) { return making->desc->quick ? 73 : PHIS; }
+static int thetas_of(const Making *making) { return making->desc->quick ? 31 : THETAS; }
 
-/* The colour-blind eye's median: what is above the 99.5th part of a hundred is cut off where it towers. */
 static int compare(const void *a, const void *b) {
     float x = *(const float *)a, y = *(const float *)b;
     return (x > y) - (x < y);
 }
 
 static bool one_surface(Making *making, WeftPlotPanel *panel, int subject, float view) {
-    float *values = making_grid(making, panel, PHIS, THETAS, 1), wo[3];
-    float(*wi)[3] = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *wi);
-    float(*f)[3] = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *f);
+    const int phis = phis_of(making), thetas = thetas_of(making), count = phis * thetas;
+    float *values = making_grid(making, panel, phis, thetas, 1), wo[3];
+    float(*wi)[3] = arena_array(making->arena, (size_t)count, sizeof *wi);
+    float(*f)[3] = arena_array(making->arena, (size_t)count, sizeof *f);
     if (!values || !wi || !f) return false;
-    for (int row = 0; row < THETAS; row++)
-        for (int k = 0; k < PHIS; k++) {
+    for (int row = 0; row < thetas; row++)
+        for (int k = 0; k < phis; k++) {
             /* the horizon itself is dark: the last row lies just above it */
-            double theta = fmin(90.0 * row / (THETAS - 1), 89.7) * 0.017453292519943295;
-            double phi = 360.0 * k / (PHIS - 1) * 0.017453292519943295, s = sin(theta);
-            float *w = wi[row * PHIS + k];
+            double theta = fmin(90.0 * row / (thetas - 1), 89.7) * 0.017453292519943295;
+            double phi = 360.0 * k / (phis - 1) * 0.017453292519943295, s = sin(theta);
+            float *w = wi[row * phis + k];
             w[0] = (float)(s * cos(phi)), w[1] = (float)(s * sin(phi)), w[2] = (float)cos(theta);
         }
     direction_of_view(view, wo);
-    making_eval(&making->desc->subjects[subject], wo, PHIS * THETAS, (const float(*)[3])wi, WALKS, f);
-    for (int k = 0; k < PHIS * THETAS; k++)
+    making_eval(&making->desc->subjects[subject], wo, count, (const float(*)[3])wi,
+                making_walks(making, WALKS), f);
+    for (int k = 0; k < count; k++)
         values[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
     return true;
 }
 
 /* The largest value, and what is shown: no more than four times the largest within 85 degrees. */
 static void set_range(const Making *making, WeftPlotPanel *panel, float *scratch) {
-    int count = 0, inner = panel->columns * (THETAS - 5);
+    int count = 0, inner = panel->columns * (panel->rows - panel->rows / 18);
     double most = 0.0, within = 0.0;
     for (int k = 0; k < panel->columns * panel->rows; k++) {
         if (!(panel->values[k] > 0.0f)) continue;

@@ -185,6 +185,8 @@ void making_eval(const WeftPlotSubject *subject, const float wo[3], int count, c
             if (!isfinite(f[k][c])) f[k][c] = NAN;
 }
 
+int making_walks(const Making *making, int walks) { return making->desc->quick ? (walks + 7) / 8 : walks; }
+
 float making_value(const Making *making, const float color[3]) {
     if (making->desc->channel != WEFT_PLOT_LUMINANCE) return color[making->desc->channel - WEFT_PLOT_RED];
     return 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];

@@ -69,6 +69,9 @@ void direction_across(float degrees, float w[3]);
 void making_eval(const WeftPlotSubject *subject, const float wo[3], int count, const float (*wi)[3],
                  int walks, float (*f)[3]);
 
+/* So many, or a part of that where a first look is asked for. */
+int making_walks(const Making *making, int walks);
+
 /* What the descriptor's channel makes of a colour. */
 float making_value(const Making *making, const float color[3]);
 

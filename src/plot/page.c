@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "plot/axes.h"
 
 const double ink_dark[3] = {0.10, 0.10, 0.11}, ink_dim[3] = {0.38, 0.39, 0.41},
              ink_grid[3] = {0.84, 0.84, 0.85}, ink_none[3] = {0.55, 0.55, 0.56};
@@ -79,9 +80,9 @@ static const double natural_type = 13.0;
 /* What a panel wants, with its title and figures. */
 static void natural_panel(const WeftPlotPanel *panel, double *width, double *height) {
     *width = 37.0;
-    *height = panel->form == WEFT_PLOT_ROSE      ? 25.0
-              : panel->form == WEFT_PLOT_SURFACE ? 32.0
-              : panel->form == WEFT_PLOT_MAP     ? 30.0
+    *height = panel->form == WEFT_PLOT_ROSE      ? 22.6
+              : panel->form == WEFT_PLOT_SURFACE ? 27.5
+              : panel->form == WEFT_PLOT_MAP     ? 27.5
                                                  : 27.0;
     if (panel->form != WEFT_PLOT_PICTURE) return;
     *width = 74.0;
@@ -167,8 +168,10 @@ static void figures_text(const WeftPlotPanel *panel, char *text, size_t size) {
     for (int k = 0; k < panel->figure_count; k++) {
         const WeftPlotFigure *figure = &panel->figures[k];
         size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s%s %.4g%s%s", k ? ",  " : "", figure->name, figure->value,
-                 figure->unit[0] ? " " : "", figure->unit);
+        char value[24];
+        value_text(figure->value, 6, value);
+        snprintf(text + used, size - used, "%s%s %s%s%s", k ? ",  " : "", figure->name, value,
+                 strlen(figure->unit) > 2 ? " " : "", figure->unit);
     }
 }
 

@@ -38,31 +38,32 @@ static int compare(const void *a, const void *b) {
 
 enum { CURVES_MAX = 2 * WEFT_PLOT_VIEWS_MAX * WEFT_PLOT_SUBJECTS_MAX };
 
-/* The top and the bottom of all that is to be seen of panels with one quantity. */
-static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label) {
+/* The top and the bottom of all that is to be seen of panels with one quantity; whole: of all that there is.
+ */
+static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label, bool whole) {
     double tops[CURVES_MAX], least = HUGE_VAL, most = 0.0;
     int count = 0;
     for (int p = 0; p < data->count; p++) {
         const WeftPlotPanel *panel = &data->panels[p];
         if (panel->form != form || panel->y.label[0] != label[0] || panel->y.label[1] != label[1]) continue;
         for (int k = 0; k < panel->series_count && count < CURVES_MAX; k++) {
-            Reach reach = reach_of(&panel->series[k], panel->view);
+            Reach reach = reach_of(&panel->series[k], whole ? 90.0f : panel->view);
             least = fmin(least, reach.least);
             if (reach.most > 0.0) tops[count++] = reach.most;
         }
     }
     qsort(tops, (size_t)count, sizeof *tops, compare);
     for (int k = 0; k < count; k++)
-        if (tops[k] <= 10.0 * tops[(count - 1) / 2]) most = fmax(most, tops[k]);
+        if (whole || tops[k] <= 10.0 * tops[(count - 1) / 2]) most = fmax(most, tops[k]);
     return (Reach){most > 0.0 ? most : 1.0, least};
 }
 
 void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic) {
-    const double decades = 5.0;
+    const double decades = 6.0;
     for (int p = 0; p < data->count; p++) {
         WeftPlotAxis *axis = &data->panels[p].y;
         if (data->panels[p].form != form) continue;
-        Reach reach = reach_of_all(data, form, axis->label);
+        Reach reach = reach_of_all(data, form, axis->label, logarithmic);
         axis->low = 0.0f;
         axis->high = (float)(1.04 * reach.most);
         axis->logarithmic = logarithmic;

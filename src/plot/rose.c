@@ -103,10 +103,10 @@ static void trace(const Page *page, const Rose *rose, const WeftPlotSeries *seri
     cairo_stroke(page->cairo);
 }
 
-/* Outside the rim, a triangle where a curve leaves it, with its largest value. */
+/* Inside the rim, a triangle where a curve is furthest beyond it, with its largest value. */
 static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
                         const Rose *rose) {
-    const double type = page->type;
+    const double type = page->type, inner = rose->radius - 0.9 * type;
     int top = -1;
     for (int k = 0; k < series->count; k++)
         if (isfinite(series->y[k]) && series->y[k] > panel->y.high &&
@@ -114,24 +114,27 @@ static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
             top = k;
     if (top < 0) return;
     const double *color = entry_color(series->entry);
-    double at = fmin(fmax((double)series->x[top], -86.0), 86.0),
-           spread = 57.29578 * 0.4 * type / rose->radius;
-    double x, y;
+    double at = fmin(fmax((double)series->x[top], -84.0), 84.0), spread = 57.29578 * 0.4 * type / inner, x, y;
     char text[40], value[24];
+    value_text((double)series->y[top], 3, value);
+    snprintf(text, sizeof text, "to %s", value);
+    set_font(page->cairo, 0.8 * type, false);
+    place(rose, at, inner - 0.7 * type, &x, &y);
+    double width = text_width(page->cairo, text);
+    if (at > 0.0) x -= width;
+    cairo_set_source_rgba(page->cairo, 1.0, 1.0, 1.0, 0.85);
+    cairo_rectangle(page->cairo, x - 0.1 * type, y - 0.45 * type, width + 0.2 * type, 1.0 * type);
+    cairo_fill(page->cairo);
+    place_text(page->cairo, color, x, y + 0.35 * type, 0.0, text);
     cairo_set_source_rgb(page->cairo, color[0], color[1], color[2]);
-    place(rose, at, rose->radius + 0.9 * type, &x, &y);
+    place(rose, at, rose->radius - 0.1 * type, &x, &y);
     cairo_move_to(page->cairo, x, y);
-    place(rose, at - spread, rose->radius + 0.15 * type, &x, &y);
+    place(rose, at - spread, inner, &x, &y);
     cairo_line_to(page->cairo, x, y);
-    place(rose, at + spread, rose->radius + 0.15 * type, &x, &y);
+    place(rose, at + spread, inner, &x, &y);
     cairo_line_to(page->cairo, x, y);
     cairo_close_path(page->cairo);
     cairo_fill(page->cairo);
-    value_text((double)series->y[top], value);
-    snprintf(text, sizeof text, "to %s", value);
-    set_font(page->cairo, 0.8 * type, false);
-    place(rose, at, rose->radius + 1.9 * type, &x, &y);
-    place_text(page->cairo, color, x, y + 0.3 * type, at < 0.0 ? 1.0 : 0.0, text);
 }
 
 WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, Box box) {

@@ -9,9 +9,10 @@
 #include "shading/lobe_tables.h"
 
 /* Cells over phi and theta; POINTS along each side of one, where the pdf is asked. */
-enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 19, TESTED = 60000 };
+enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 20, COUNT_QUICK = 1 << 15, TESTED = 60000 };
 
 typedef struct Histogram {
+    int count, points;
     float *seen, *pdf, *ratio; /* 1/sr, 1/sr, 1 */
     double integral, weight;   /* of the pdf; mean of f cos / pdf */
 } Histogram;
@@ -21,10 +22,10 @@ static double cell_solid_angle(int row) {
     return ((cos)(row * step) - (cos)((row + 1) * step)) * 6.283185307179586 / PHIS;
 }
 
-/* Which cell; phi from -180 degrees, 0 being the viewer's side. */
+/* Which cell; phi from -180 degrees, 0 being the side beyond the normal. */
 static int cell_of(const float w[3]) {
     double theta = (atan2)(hypot((double)w[0], (double)w[1]), (double)w[2]),
-           phi = (atan2)((double)w[1], (double)w[0]);
+           phi = atan2(-(double)w[1], -(double)w[0]);
     int row = (int)(theta / 1.5707963267948966 * THETAS);
     int column = (int)((phi / 6.283185307179586 + 0.5) * PHIS);
     row = row < 0 ? 0 : row >= THETAS ? THETAS - 1 : row;
@@ -34,9 +35,9 @@ static int cell_of(const float w[3]) {
 
 static void draw_all(const WeftPlotSubject *subject, const float wo[3], Histogram *out) {
     double sum = 0.0;
-    for (uint32_t k = 0; k < COUNT; k++) {
+    for (uint32_t k = 0; k < (uint32_t)out->count; k++) {
         /* strata in u, a hash in v: a histogram with less noise of its own */
-        float u[2] = {((float)k + unit_float(hash_combine(k, 11))) / (float)COUNT,
+        float u[2] = {((float)k + unit_float(hash_combine(k, 11))) / (float)out->count,
                       unit_float(hash_combine(k, 12))};
         float wi[1][3], f[1][3];
         u[0] = fminf(u[0], 0.99999994f);
@@ -47,39 +48,40 @@ static void draw_all(const WeftPlotSubject *subject, const float wo[3], Histogra
         float value = (0.2126f * f[0][0] + 0.7152f * f[0][1] + 0.0722f * f[0][2]) * wi[0][2] / pdf;
         if (isfinite(value)) sum += (double)value;
     }
-    out->weight = sum / COUNT;
+    out->weight = sum / out->count;
 }
 
 /* The mean of the pdf over a cell. */
-static double cell_pdf(const WeftLobe *lobe, const float wo[3], int row, int column) {
+static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int row, int column) {
     double sum = 0.0;
     const double low = (cos)(1.5707963267948966 * row / THETAS),
                  high = (cos)(1.5707963267948966 * (row + 1) / THETAS);
-    for (int k = 0; k < POINTS * POINTS; k++) {
-        double z = low + (high - low) * (k / POINTS + 0.5) / POINTS, s = (sqrt)(fmax(1.0 - z * z, 0.0));
-        double phi = 6.283185307179586 * ((column + (k % POINTS + 0.5) / POINTS) / PHIS - 0.5);
-        const float wi[3] = {(float)(s * (cos)(phi)), (float)(s * (sin)(phi)), (float)z};
+    for (int k = 0; k < points * points; k++) {
+        double z = low + (high - low) * (k / points + 0.5) / points, s = (sqrt)(fmax(1.0 - z * z, 0.0));
+        double phi = 6.283185307179586 * ((column + (k % points + 0.5) / points) / PHIS - 0.5);
+        const float wi[3] = {(float)-(s * (cos)(phi)), (float)-(s * (sin)(phi)), (float)z};
         sum += (double)weft_lobe_pdf(lobe, wo, wi);
     }
-    return sum / (POINTS * POINTS);
+    return sum / (points * points);
 }
 
 static void compare_all(const WeftPlotSubject *subject, const float wo[3], Histogram *out) {
-    const float least = 50.0f; /* samples expected in a cell for a ratio to say something */
+    const float least = 100.0f; /* samples expected in a cell for a ratio to say something */
     for (int row = 0; row < THETAS; row++)
         for (int k = 0; k < PHIS; k++) {
             const int at = row * PHIS + k;
-            const double angle = cell_solid_angle(row), pdf = cell_pdf(subject->lobe, wo, row, k);
+            const double angle = cell_solid_angle(row),
+                         pdf = cell_pdf(subject->lobe, wo, out->points, row, k);
             out->integral += pdf * angle;
             out->pdf[at] = (float)pdf;
-            out->ratio[at] = (float)((double)out->seen[at] / (pdf * angle * COUNT));
-            if (!(pdf * angle * COUNT >= (double)least)) out->ratio[at] = NAN;
-            out->seen[at] = (float)((double)out->seen[at] / (angle * COUNT));
+            out->ratio[at] = (float)((double)out->seen[at] / (pdf * angle * out->count));
+            if (!(pdf * angle * out->count >= (double)least)) out->ratio[at] = NAN;
+            out->seen[at] = (float)((double)out->seen[at] / (angle * out->count));
         }
 }
 
 /* p of the passport's test, whose bins crowd where the lobe is narrow. */
-static double test(const WeftLobe *given, float view) {
+static double test(const WeftLobe *given, float view, int count) {
     Subject *subject = alloc_array(1, sizeof *subject);
     ChiSquare found = {.p = NAN};
     View look;
@@ -90,7 +92,7 @@ static double test(const WeftLobe *given, float view) {
     subject->rows = 1;
     subject->values[0] = lobe.params[0];
     subject->look(subject, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
-    if (!chi_square_measure(&look, TESTED, 20, 7, &found)) found.p = NAN;
+    if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = NAN;
     subject_free(subject);
     free(subject);
     return found.p;
@@ -99,7 +101,7 @@ static double test(const WeftLobe *given, float view) {
 static WeftPlotPanel *one_panel(Making *making, const char *label, const char *what, double view) {
     WeftPlotPanel *panel =
         making_panel(making, WEFT_PLOT_MAP, "%s: %s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0", label, what, view);
-    making_axis(&panel->x, "\xcf\x86 from the viewer's side", "\xc2\xb0", -180.0f, 180.0f);
+    making_axis(&panel->x, "\xcf\x86 from the mirror's side", "\xc2\xb0", -180.0f, 180.0f);
     making_axis(&panel->y, "\xce\xb8\xe1\xb5\xa2", "\xc2\xb0", 0.0f, 90.0f);
     return panel;
 }
@@ -129,15 +131,21 @@ static bool one_row(Making *making, int n, float view) {
         values[k] = making_grid(making, panels[k], PHIS, THETAS, 1);
         if (!values[k]) return false;
     }
-    Histogram found = {.seen = values[0], .pdf = values[1], .ratio = values[2]};
+    const bool quick = making->desc->quick != 0;
+    Histogram found = {.count = quick ? COUNT_QUICK : COUNT,
+                       .points = quick ? 4 : POINTS,
+                       .seen = values[0],
+                       .pdf = values[1],
+                       .ratio = values[2]};
     direction_of_view(view, wo);
     draw_all(&making->desc->subjects[n], wo, &found);
     compare_all(&making->desc->subjects[n], wo, &found);
     set_ranges(making, panels);
-    making_figure(panels[0], "samples", "", COUNT);
+    making_figure(panels[0], "samples", "", found.count);
     making_figure(panels[0], "mean f cos / pdf", "", found.weight);
     making_figure(panels[1], "integral", "", found.integral);
-    making_figure(panels[2], "p of chi-square", "", test(making->desc->subjects[n].lobe, view));
+    making_figure(panels[2], "p of chi-square", "",
+                  test(making->desc->subjects[n].lobe, view, quick ? TESTED / 6 : TESTED));
     return true;
 }
 

@@ -8,7 +8,7 @@
 #include "base/thread.h"
 #include "plot/making.h"
 
-enum { SIDE = 144, FINE = 2, ROUGHS = 6, CELLS = 1 + ROUGHS, WALKS = 8 };
+enum { SIDE = 144, SIDE_QUICK = 40, FINE = 2, ROUGHS = 6, CELLS = 1 + ROUGHS, WALKS = 12 };
 
 static const float roughs[ROUGHS] = {0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
 static const float backdrop = 0.02f;
@@ -17,6 +17,7 @@ typedef struct Ball {
     const Making *making;
     const WeftPlotSubject *subject;
     float light[3];
+    int side, walks;
     float *values; /* of its corner */
 } Ball;
 
@@ -33,19 +34,20 @@ static void radiance(const Ball *ball, float x, float y, float color[3]) {
     float wi[1][3] = {{dot(ball->light, t), dot(ball->light, b), dot(ball->light, n)}}, f[1][3];
     for (int c = 0; c < 3; c++) color[c] = 0.0f;
     if (!(wo[2] > 0.0f && wi[0][2] > 0.0f)) return;
-    making_eval(ball->subject, wo, 1, (const float(*)[3])wi, WALKS, f);
+    making_eval(ball->subject, wo, 1, (const float(*)[3])wi, ball->walks, f);
     for (int c = 0; c < 3; c++) color[c] = isfinite(f[0][c]) ? f[0][c] * wi[0][2] * 3.14159265f : 0.0f;
 }
 
 static void one_row(void *user, int row, int thread) {
     (void)thread;
     const Ball *ball = user;
-    const float radius = 0.47f * SIDE;
-    for (int k = 0; k < SIDE; k++) {
+    const int side = ball->side;
+    const float radius = 0.47f * (float)side;
+    for (int k = 0; k < side; k++) {
         float sum[3] = {0.0f}, color[3];
         for (int s = 0; s < FINE * FINE; s++) {
-            float x = ((float)k + ((float)(s % FINE) + 0.5f) / FINE - 0.5f * SIDE) / radius;
-            float y = (0.5f * SIDE - (float)row - ((float)(s / FINE) + 0.5f) / FINE) / radius;
+            float x = ((float)k + ((float)(s % FINE) + 0.5f) / FINE - 0.5f * (float)side) / radius;
+            float y = (0.5f * (float)side - (float)row - ((float)(s / FINE) + 0.5f) / FINE) / radius;
             if (x * x + y * y < 1.0f)
                 radiance(ball, x, y, color);
             else
@@ -55,34 +57,38 @@ static void one_row(void *user, int row, int thread) {
         }
         float value = making_value(ball->making, sum);
         for (int c = 0; c < 3; c++)
-            ball->values[3 * (row * CELLS * SIDE + k) + c] =
+            ball->values[3 * (row * CELLS * side + k) + c] =
                 ball->making->desc->channel == WEFT_PLOT_LUMINANCE ? sum[c] : value;
     }
 }
 
-static void no_ball(float *values) {
-    for (int row = 0; row < SIDE; row++)
-        for (int k = 0; k < 3 * SIDE; k++) values[3 * row * CELLS * SIDE + k] = backdrop;
+static void no_ball(float *values, int side) {
+    for (int row = 0; row < side; row++)
+        for (int k = 0; k < 3 * side; k++) values[3 * row * CELLS * side + k] = backdrop;
 }
 
 static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotSubject *subject, float angle,
                       float *values) {
     const double radians = (double)angle * 0.017453292519943295, up = sin(radians) * 0.70710678118654752;
-    Ball ball = {.making = making, .light = {(float)-up, (float)up, (float)cos(radians)}};
+    const int side = panel->rows;
+    Ball ball = {.making = making,
+                 .side = side,
+                 .walks = making_walks(making, WALKS),
+                 .light = {(float)-up, (float)up, (float)cos(radians)}};
     panel->cell_count = CELLS;
     for (int k = 0; k < CELLS; k++) {
         Rough rough = {.reflection = NULL};
         ball.subject = k ? &rough.subject : subject;
-        ball.values = values + 3 * k * SIDE;
+        ball.values = values + 3 * k * side;
         bool there = !k || rough_make(subject, roughs[k - 1], &rough);
         if (k == 0)
             snprintf(panel->cells[k], sizeof panel->cells[k], "as given");
         else if (there)
             snprintf(panel->cells[k], sizeof panel->cells[k], "roughness %g", (double)roughs[k - 1]);
         if (there)
-            parallel_for(0, SIDE, one_row, &ball);
+            parallel_for(0, side, one_row, &ball);
         else
-            no_ball(ball.values);
+            no_ball(ball.values, side);
         rough_free(&rough);
     }
 }
@@ -91,13 +97,14 @@ WeftResult kind_sphere(Making *making) {
     const int views = making_view_count(making), count = making->desc->count;
     if (!making_panels(making, views * count, 1)) return making_short(making);
     making_subjects(making);
+    const int side = making->desc->quick ? SIDE_QUICK : SIDE;
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++) {
             const float angle = making_view(making, k, 50.0f);
             WeftPlotPanel *panel =
                 making_panel(making, WEFT_PLOT_PICTURE, "%s, light %g\xc2\xb0 from the viewer",
                              making_label(making, n), (double)angle);
-            float *values = making_grid(making, panel, CELLS * SIDE, SIDE, 3);
+            float *values = making_grid(making, panel, CELLS * side, side, 3);
             if (!values) return making_short(making);
             panel->colored = 1;
             one_strip(making, panel, &making->desc->subjects[n], angle, values);

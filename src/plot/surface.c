@@ -66,7 +66,15 @@ static double edge(Point a, Point b, double x, double y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-static void fill(const Stage *stage, Point a, Point b, Point c, const float color[3]) {
+/* A corner of a triangle: where it is in its cell is for the mesh. */
+typedef struct Corner {
+    Point at;
+    double across, along;
+} Corner;
+
+static void fill(const Stage *stage, const Corner corner[3], const float color[3], const bool mesh[2]) {
+    const double thin = 0.35; /* of a cell */
+    Point a = corner[0].at, b = corner[1].at, c = corner[2].at;
     double area = edge(a, b, c.x, c.y);
     if (fabs(area) < 1e-9) return;
     int left = (int)floor(fmax(fmin(a.x, fmin(b.x, c.x)), 0.0));
@@ -81,8 +89,11 @@ static void fill(const Stage *stage, Point a, Point b, Point c, const float colo
             float depth = (float)(u * a.depth + v * b.depth + w * c.depth);
             size_t at = (size_t)y * (size_t)stage->width + (size_t)x;
             if (depth >= stage->depth[at]) continue;
+            double across = u * corner[0].across + v * corner[1].across + w * corner[2].across;
+            double along = u * corner[0].along + v * corner[1].along + w * corner[2].along;
+            bool line = (mesh[0] && across < thin) || (mesh[1] && along < thin);
             stage->depth[at] = depth;
-            for (int k = 0; k < 3; k++) stage->color[at][k] = color[k];
+            for (int k = 0; k < 3; k++) stage->color[at][k] = color[k] * (line ? 0.6f : 1.0f);
             stage->color[at][3] = 1.0f;
         }
 }
@@ -103,21 +114,20 @@ static bool on_mesh(int k, int nodes, int degrees) {
 
 static void fill_cell(const Stage *stage, const WeftPlotPanel *panel, int row, int column) {
     double p[4][3], n[3];
-    Point at[4];
+    Corner at[4];
     for (int k = 0; k < 4; k++) {
         node(stage, panel, row + k / 2, column + k % 2, p[k]);
-        at[k] = fine_point(stage, p[k]);
+        at[k] = (Corner){fine_point(stage, p[k]), k % 2, k / 2};
     }
     normal_of(p[0], p[1], p[3], n);
     if (!(fabs(n[0]) + fabs(n[1]) + fabs(n[2]) > 0.5)) normal_of(p[0], p[3], p[2], n);
     const double *base = entry_color(panel->entry);
-    double bright =
-        shade(n) * (on_mesh(row, panel->rows, 90) || on_mesh(column, panel->columns, 360) ? 0.72 : 1.0);
+    const bool mesh[2] = {on_mesh(column, panel->columns, 360), on_mesh(row, panel->rows, 90)};
     float color[3];
     /* lifted towards white, so that black too has shades */
-    for (int k = 0; k < 3; k++) color[k] = (float)((0.22 + 0.78 * base[k]) * bright);
-    fill(stage, at[0], at[1], at[3], color);
-    fill(stage, at[0], at[3], at[2], color);
+    for (int k = 0; k < 3; k++) color[k] = (float)((0.22 + 0.78 * base[k]) * shade(n));
+    fill(stage, (Corner[3]){at[0], at[1], at[3]}, color, mesh);
+    fill(stage, (Corner[3]){at[0], at[3], at[2]}, color, mesh);
 }
 
 static void circle(const Page *page, const Stage *stage, double radius) {
@@ -177,7 +187,7 @@ static void draw_labels(const Page *page, const WeftPlotPanel *panel, const Stag
     char label[96];
     axis_text(&panel->z, label);
     set_font(page->cairo, 0.9 * type, false);
-    place_text(page->cairo, ink_dark, stage->x - 0.8 * type, base + 0.6 * type, 1.0, label);
+    place_text(page->cairo, ink_dark, stage->x - 1.8 * type, base + 0.6 * type, 1.0, label);
 }
 
 /* The arrow towards the viewer, where nothing is before it. */
@@ -210,7 +220,7 @@ static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const Stage
     cairo_close_path(page->cairo);
     cairo_fill(page->cairo);
     set_font(page->cairo, 0.9 * type, false);
-    place_text(page->cairo, ink_dark, tip.x + 1.6 * dx, tip.y + 1.6 * dy + 0.3 * type, 0.5,
+    place_text(page->cairo, ink_dark, tip.x + 2.3 * dx, tip.y + 2.3 * dy + 0.3 * type, 0.5,
                "\xcf\x89\xe2\x82\x92");
 }
 
@@ -243,14 +253,28 @@ static WeftResult lay_over(const Page *page, const Stage *stage) {
     return WEFT_OK;
 }
 
-/* The ground's ellipse and the upright radius must both fit. */
+/* How far above the middle of the ground the surface and the arrow reach, in radii. */
+static double reach_up(const WeftPlotPanel *panel) {
+    Stage unit = {.radius = 1.0, .scale = scale_of(&panel->z, 0.0, 1.0)};
+    double angle = (double)panel->view * 0.017453292519943295;
+    const double tip[3] = {1.06 * sin(angle), 0.0, 1.06 * cos(angle)};
+    double most = fmax(sin(rise), -project(&unit, tip).y);
+    for (int row = 0; row < panel->rows; row += 2)
+        for (int column = 0; column < panel->columns; column += 2) {
+            double p[3];
+            node(&unit, panel, row, column, p);
+            most = fmax(most, -project(&unit, p).y);
+        }
+    return most;
+}
+
+/* As large as width and height allow, in the middle. */
 static Stage stage_of(const Page *page, const WeftPlotPanel *panel, Box box) {
-    const double type = page->type, room = box.height - 4.2 * type;
+    const double type = page->type, room = box.height - 5.0 * type, up = reach_up(panel);
     Stage stage = {.box = box};
-    stage.radius = fmax(fmin(0.5 * box.width - 2.0 * type, room / (cos(rise) + sin(rise))), type);
+    stage.radius = fmax(fmin(0.5 * box.width - 2.0 * type, room / (up + sin(rise))), type);
     stage.x = box.x + 0.5 * box.width;
-    stage.y =
-        box.y + 1.6 * type + 0.5 * (room - stage.radius * (cos(rise) + sin(rise))) + stage.radius * cos(rise);
+    stage.y = box.y + 2.0 * type + 0.5 * (room - stage.radius * (up + sin(rise))) + stage.radius * up;
     stage.scale = scale_of(&panel->z, 0.0, stage.radius);
     stage.fine = fmin(SAMPLES, SIDE_MOST / fmax(box.width, box.height));
     stage.width = (int)fmax(box.width * stage.fine, 1.0);
