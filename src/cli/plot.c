@@ -97,6 +97,13 @@ static int output_read(Plot *plot) {
     return output_probe(plot->output);
 }
 
+/* Of a file, its name without folders. */
+static const char *label_of(const Subject *subject) {
+    const char *slash = strrchr(subject->words, '/');
+    bool file = subject->kind == SUBJECT_MEASURED || subject->kind == SUBJECT_MATERIAL;
+    return file && slash && slash[1] ? slash + 1 : subject->words;
+}
+
 static int subjects_read(Plot *plot) {
     const int count = plot->options->operand_count - 1;
     if (count > WEFT_PLOT_SUBJECTS_MAX)
@@ -117,7 +124,7 @@ static int subjects_read(Plot *plot) {
         plot->subjects[k] = (WeftPlotSubject){.reflection = subject->reflection,
                                               .lobe = subject->kind == SUBJECT_LOBE ? &subject->lobe : NULL,
                                               .material = whole ? &subject->material : NULL,
-                                              .label = subject->words};
+                                              .label = label_of(subject)};
     }
     plot->desc.subjects = plot->subjects;
     return 0;

@@ -111,7 +111,8 @@ WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, Box box) {
 WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, Box box) {
     const double type = page->type, labels = panel->cell_count ? 1.6 * type : 0.0;
     double scale = fmin(box.width / panel->columns, (box.height - labels) / panel->rows);
-    Box in = {box.x + 0.3 * type, box.y, scale * panel->columns - 0.3 * type, scale * panel->rows};
+    Box in = {round(box.x + 0.3 * type), round(box.y), floor(scale * panel->columns - 0.3 * type),
+              floor(scale * panel->rows)};
     WeftImage image;
     WeftResult result = color_pixels(panel, false, &image, page->error);
     if (result != WEFT_OK) return result;

@@ -187,7 +187,9 @@ static WeftResult vector_page(Page *page, bool pdf, Vector *out) {
     if (pdf) {
         /* the day is none of what is drawn: the same figure is the same file */
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
-        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, page->data->title);
+        char title[TEXT_SIZE];
+        drawable(page->data->title, title);
+        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
     }
     WeftResult result = draw_on(surface, points, page);
     cairo_surface_finish(surface);

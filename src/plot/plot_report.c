@@ -14,7 +14,7 @@ static const char style[] =
     "body{margin:0 auto;max-width:72rem;padding:1.5rem;font:16px/1.5 \"DejaVu Sans\",system-ui,sans-serif;"
     "color:var(--ink);background:var(--paper)}\n"
     "h1{font-size:1.6rem}h2{font-size:1.15rem;margin:2.2rem 0 .6rem}\n"
-    "figure{margin:0}img{display:block;max-width:100%;height:auto;background:#fff;"
+    "figure{margin:0}img{display:block;width:100%;height:auto;background:#fff;"
     "border:1px solid var(--edge);border-radius:6px}\n"
     "figcaption,nav,p{color:var(--dim)}nav a{margin-right:1rem;color:inherit}\n"
     "table{border-collapse:collapse}th,td{padding:.25rem .9rem;border-bottom:1px solid var(--edge);"
@@ -134,6 +134,18 @@ static bool serves(WeftPlotDesc *desc, WeftPlotSubject *chosen) {
     return count > 0;
 }
 
+static void links_put(Vector *page, const WeftPlotDesc *desc) {
+    vector_print(page, "<nav><a href=\"#numbers\">numbers</a>");
+    for (int k = 0; k < WEFT_PLOT_KINDS; k++) {
+        WeftPlotSubject chosen[WEFT_PLOT_SUBJECTS_MAX];
+        WeftPlotDesc one = *desc;
+        one.kind = (WeftPlotKind)k;
+        const char *name = weft_plot_kind_name(k);
+        if (serves(&one, chosen)) vector_print(page, "<a href=\"#%s\">%s</a>", name, name);
+    }
+    vector_print(page, "</nav>\n");
+}
+
 static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *error) {
     WeftResult result = WEFT_OK;
     vector_print(page, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -149,13 +161,15 @@ static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *e
         "</h1>\n<p>Figures of weft %s. &theta; is measured from the normal; wo points to the viewer, wi to "
         "the light; f is in 1/sr and excludes the cosine.</p>\n",
         weft_version());
+    links_put(page, desc);
     table_put(page, desc);
     for (int k = 0; k < WEFT_PLOT_KINDS && result == WEFT_OK; k++) {
         WeftPlotSubject chosen[WEFT_PLOT_SUBJECTS_MAX];
         WeftPlotDesc one = *desc;
         one.kind = (WeftPlotKind)k;
         one.title = "";
-        one.width = one.height = 0;
+        one.width = 1600; /* of what is made of pixels: sharp on fine screens too */
+        one.height = 0;
         if (serves(&one, chosen)) result = figure_put(page, &one, error);
     }
     vector_print(page, "</body></html>\n");

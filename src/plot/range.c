@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "plot/making.h"
 
@@ -36,25 +37,26 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-enum { CURVES_MAX = 2 * WEFT_PLOT_VIEWS_MAX * WEFT_PLOT_SUBJECTS_MAX };
-
 /* The top and the bottom of all that is to be seen of panels with one quantity; whole: of all that there is.
- */
+ * What belongs to one entry of the legend is as high as its highest. */
 static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label, bool whole) {
-    double tops[CURVES_MAX], least = HUGE_VAL, most = 0.0;
+    double tops[WEFT_PLOT_LEGEND_MAX] = {0.0}, sorted[WEFT_PLOT_LEGEND_MAX], least = HUGE_VAL, most = 0.0;
     int count = 0;
     for (int p = 0; p < data->count; p++) {
         const WeftPlotPanel *panel = &data->panels[p];
-        if (panel->form != form || panel->y.label[0] != label[0] || panel->y.label[1] != label[1]) continue;
-        for (int k = 0; k < panel->series_count && count < CURVES_MAX; k++) {
+        if (panel->form != form || strcmp(panel->y.label, label) != 0) continue;
+        for (int k = 0; k < panel->series_count; k++) {
             Reach reach = reach_of(&panel->series[k], whole ? 90.0f : panel->view);
+            int entry = panel->series[k].entry;
             least = fmin(least, reach.least);
-            if (reach.most > 0.0) tops[count++] = reach.most;
+            tops[entry] = fmax(tops[entry], reach.most);
         }
     }
-    qsort(tops, (size_t)count, sizeof *tops, compare);
+    for (int k = 0; k < WEFT_PLOT_LEGEND_MAX; k++)
+        if (tops[k] > 0.0) sorted[count++] = tops[k];
+    qsort(sorted, (size_t)count, sizeof *sorted, compare);
     for (int k = 0; k < count; k++)
-        if (whole || tops[k] <= 10.0 * tops[(count - 1) / 2]) most = fmax(most, tops[k]);
+        if (whole || sorted[k] <= 10.0 * sorted[(count - 1) / 2]) most = fmax(most, sorted[k]);
     return (Reach){most > 0.0 ? most : 1.0, least};
 }
 

@@ -9,7 +9,7 @@
 #include "shading/lobe_tables.h"
 
 /* Cells over phi and theta; POINTS along each side of one, where the pdf is asked. */
-enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 20, COUNT_QUICK = 1 << 15, TESTED = 60000 };
+enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 20, COUNT_QUICK = 1 << 17, TESTED = 60000 };
 
 typedef struct Histogram {
     int count, points;
@@ -66,7 +66,7 @@ static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int 
 }
 
 static void compare_all(const WeftPlotSubject *subject, const float wo[3], Histogram *out) {
-    const float least = 100.0f; /* samples expected in a cell for a ratio to say something */
+    const float least = 50.0f; /* samples expected in a cell for a ratio to say something */
     for (int row = 0; row < THETAS; row++)
         for (int k = 0; k < PHIS; k++) {
             const int at = row * PHIS + k;

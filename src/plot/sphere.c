@@ -1,4 +1,5 @@
-/* sphere.c - a sphere in the light of one direction, as each subject reflects it, and at other roughnesses
+/* sphere.c - a sphere in the light of one direction, as each subject reflects it, and at other roughnesses;
+ * what has none, as a measurement, in other lights
  *
  * Seen from far away; the light lies above to the left and gives pi of irradiance, so that white Lambert is 1
  * where it falls straight. The tangent runs around the sphere's upright axis. */
@@ -11,6 +12,8 @@
 enum { SIDE = 144, SIDE_QUICK = 40, FINE = 2, ROUGHS = 6, CELLS = 1 + ROUGHS, WALKS = 12 };
 
 static const float roughs[ROUGHS] = {0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
+/* what has no roughness is shown in other lights, degrees from the viewer */
+static const float lights[ROUGHS] = {0.0f, 25.0f, 75.0f, 100.0f, 125.0f, 150.0f};
 static const float backdrop = 0.02f;
 
 typedef struct Ball {
@@ -62,34 +65,36 @@ static void one_row(void *user, int row, int thread) {
     }
 }
 
-static void no_ball(float *values, int side) {
-    for (int row = 0; row < side; row++)
-        for (int k = 0; k < 3 * side; k++) values[3 * row * CELLS * side + k] = backdrop;
+static void set_light(Ball *ball, float angle) {
+    const double radians = (double)angle * 0.017453292519943295, up = sin(radians) * 0.70710678118654752;
+    ball->light[0] = (float)-up;
+    ball->light[1] = (float)up;
+    ball->light[2] = (float)cos(radians);
+}
+
+/* One ball of a strip: the subject as it is, then at other roughnesses or in other lights. */
+static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotSubject *subject, int k, float angle) {
+    Rough rough = {.reflection = NULL};
+    bool rougher = k > 0 && rough_make(subject, roughs[k - 1], &rough);
+    ball->subject = rougher ? &rough.subject : subject;
+    set_light(ball, k == 0 || rougher ? angle : lights[k - 1]);
+    if (k == 0)
+        snprintf(panel->cells[k], sizeof panel->cells[k], "as given");
+    else if (rougher)
+        snprintf(panel->cells[k], sizeof panel->cells[k], "roughness %g", (double)roughs[k - 1]);
+    else
+        snprintf(panel->cells[k], sizeof panel->cells[k], "light %g\xc2\xb0", (double)lights[k - 1]);
+    parallel_for(0, ball->side, one_row, ball);
+    rough_free(&rough);
 }
 
 static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotSubject *subject, float angle,
                       float *values) {
-    const double radians = (double)angle * 0.017453292519943295, up = sin(radians) * 0.70710678118654752;
-    const int side = panel->rows;
-    Ball ball = {.making = making,
-                 .side = side,
-                 .walks = making_walks(making, WALKS),
-                 .light = {(float)-up, (float)up, (float)cos(radians)}};
+    Ball ball = {.making = making, .side = panel->rows, .walks = making_walks(making, WALKS)};
     panel->cell_count = CELLS;
     for (int k = 0; k < CELLS; k++) {
-        Rough rough = {.reflection = NULL};
-        ball.subject = k ? &rough.subject : subject;
-        ball.values = values + 3 * k * side;
-        bool there = !k || rough_make(subject, roughs[k - 1], &rough);
-        if (k == 0)
-            snprintf(panel->cells[k], sizeof panel->cells[k], "as given");
-        else if (there)
-            snprintf(panel->cells[k], sizeof panel->cells[k], "roughness %g", (double)roughs[k - 1]);
-        if (there)
-            parallel_for(0, side, one_row, &ball);
-        else
-            no_ball(ball.values, side);
-        rough_free(&rough);
+        ball.values = values + 3 * k * panel->rows;
+        one_ball(&ball, panel, subject, k, angle);
     }
 }
 
