@@ -36,20 +36,18 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int subject, float
     return true;
 }
 
-/* The largest value, and what is shown: no more than four times the largest within 85 degrees. */
+/* The largest value, and what is shown. A peak so narrow that less than two in a thousand nodes are in its
+ * upper half would be a needle that nobody sees: it is cut off where it is as wide as that. */
 static void set_range(const Making *making, WeftPlotPanel *panel, float *scratch) {
-    int count = 0, inner = panel->columns * (panel->rows - panel->rows / 18);
-    double most = 0.0, within = 0.0;
-    for (int k = 0; k < panel->columns * panel->rows; k++) {
-        if (!(panel->values[k] > 0.0f)) continue;
-        scratch[count++] = panel->values[k];
-        most = fmax(most, (double)panel->values[k]);
-        if (k < inner) within = fmax(within, (double)panel->values[k]);
-    }
+    int count = 0;
+    for (int k = 0; k < panel->columns * panel->rows; k++)
+        if (panel->values[k] > 0.0f) scratch[count++] = panel->values[k];
     qsort(scratch, (size_t)count, sizeof *scratch, compare);
+    double most = count ? (double)scratch[count - 1] : 0.0;
+    double high = count ? fmin(most, 2.0 * (double)scratch[count - 1 - count / 500]) : 1.0;
     making_figure(panel, "largest", "1/sr", most);
-    double high = within > 0.0 && !(panel->view > 80.0f) ? fmin(most, 4.0 * within) : most;
-    if (!(high > 0.0)) high = 1.0;
+    if (high < most && !making->desc->logarithmic) making_figure(panel, "cut off at", "1/sr", high);
+    if (making->desc->logarithmic && count) high = most;
     making_axis(&panel->z, making_f(making), "1/sr", 0.0f, (float)high);
     if (!making->desc->logarithmic) return;
     double low = count ? (double)scratch[count / 100] : high;
