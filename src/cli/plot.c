@@ -210,9 +210,10 @@ const Verb verb_plot = {
     .options = plot_options,
     .lists = plot_lists,
     .notes = "A subject is " SUBJECT_FORM ": a lobe, an engine profile, preset:NAME or a\n"
-             "material file, MATERIAL of a scene as scene.glb:MATERIAL, or a measured BRDF in\n"
-             "MERL's format (.binary). Up to eight stand in one figure. Colours are told apart\n"
-             "by all kinds of eyes, and lines by their dashes too. docs/plots.md shows each kind.\n\n"
+             "material file, a material of a scene as scene.glb:MATERIAL, or a measured BRDF\n"
+             "in MERL's format (.binary). Up to eight stand in one figure. Colours are told\n"
+             "apart by all kinds of eyes, and lines by their dashes too. docs/plots.md shows\n"
+             "each kind.\n\n"
              "Examples\n"
              "  weft plot polar charlie-neubelt:alpha=0.25 ashikhmin-neubelt -o polar.svg\n"
              "  weft plot cartesian ggx:alpha=0.1 ggx:alpha=0.4 --log --view 45 -o ggx.pdf\n"

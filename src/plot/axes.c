@@ -45,7 +45,8 @@ static void typeset(const char *plain, char text[24]) {
 void value_text(double value, int digits, char text[24]) {
     char plain[24];
     double size = fabs(value);
-    if (size >= 999.5 && size < 99999.5)
+    bool whole = size < 1e9 && !(size > floor(size));
+    if (whole || (size >= 999.5 && size < 99999.5))
         snprintf(plain, sizeof plain, "%.0f", value);
     else
         snprintf(plain, sizeof plain, "%.*g", digits, value);

@@ -16,7 +16,7 @@ static const char style[] =
     "h1{font-size:1.6rem}h2{font-size:1.15rem;margin:2.2rem 0 .6rem}\n"
     "figure{margin:0}img{display:block;width:100%;height:auto;background:#fff;"
     "border:1px solid var(--edge);border-radius:6px}\n"
-    "figcaption,nav,p{color:var(--dim)}nav a{margin-right:1rem;color:inherit}\n"
+    "figcaption,nav,p{color:var(--dim)}nav{display:flex;flex-wrap:wrap;gap:.2rem 1rem}nav a{color:inherit}\n"
     "table{border-collapse:collapse}th,td{padding:.25rem .9rem;border-bottom:1px solid var(--edge);"
     "text-align:right;font-variant-numeric:tabular-nums}th:first-child{text-align:left}\n"
     ".wide{overflow-x:auto}\n";
@@ -148,9 +148,12 @@ static void links_put(Vector *page, const WeftPlotDesc *desc) {
 
 static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *error) {
     WeftResult result = WEFT_OK;
-    vector_print(page, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width\">\n"
-                       "<link rel=\"icon\" href=\"data:,\">\n<title>weft: ");
+    vector_print(page,
+                 "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+                 "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+                 "style-src 'unsafe-inline'\">\n"
+                 "<meta name=\"viewport\" content=\"width=device-width\">\n"
+                 "<link rel=\"icon\" href=\"data:,\">\n<title>weft: ");
     labels_put(page, desc);
     vector_print(page, "</title>\n<style>\n");
     vector_append(page, style, strlen(style));
