@@ -96,7 +96,7 @@ static void curves_csv(const WeftPlotData *data, const WeftPlotPanel *panel) {
 
 /* Where a node of a grid is: maps have cells, whose middles count; surfaces nodes; pictures pixels. */
 static float place(const WeftPlotPanel *panel, const WeftPlotAxis *axis, int k, int count) {
-    if (panel->form == WEFT_PLOT_PICTURE) return (float)k;
+    if (panel->form == WEFT_PLOT_PICTURE || count < 2) return (float)k;
     float share =
         panel->form == WEFT_PLOT_SURFACE ? (float)k / (float)(count - 1) : ((float)k + 0.5f) / (float)count;
     return axis->low + share * (axis->high - axis->low);
@@ -106,9 +106,9 @@ static void grid_csv(const WeftPlotPanel *panel) {
     static const char *const channels[] = {"r", "g", "b"};
     for (int row = 0; row < panel->rows; row++)
         for (int k = 0; k < panel->columns; k++)
-            for (int c = 0; c < panel->channels; c++) {
+            for (int c = 0; c < panel->channels && c < 3; c++) {
                 field(panel->title);
-                printf(",%s,", panel->channels == 1 ? "" : channels[c]);
+                printf(",%s,", panel->channels == 3 ? channels[c] : "");
                 number(place(panel, &panel->x, k, panel->columns), ',');
                 number(place(panel, &panel->y, row, panel->rows), ',');
                 number(panel->values[((size_t)row * (size_t)panel->columns + (size_t)k) *

@@ -54,7 +54,8 @@ static void add_figures(WeftPlotPanel *panel, const char *unit) {
     }
     making_figure(panel, "mean", unit, sum / (count > 0 ? count : 1));
     making_figure(panel, "most", unit, most);
-    making_figure(panel, "at \xce\xb8\xe2\x82\x92", "\xc2\xb0", 90.0 * (at / COLUMNS + 0.5) / ROWS);
+    const int row = at / COLUMNS;
+    making_figure(panel, "at \xce\xb8\xe2\x82\x92", "\xc2\xb0", 90.0 * (row + 0.5) / ROWS);
     making_figure(panel, "\xce\xb8\xe1\xb5\xa2", "\xc2\xb0", 180.0 * (at % COLUMNS + 0.5) / COLUMNS - 90.0);
 }
 

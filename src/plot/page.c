@@ -114,7 +114,8 @@ static bool has_legend(const WeftPlotData *data) {
 static double legend_height(const WeftPlotData *data, double width) {
     if (!has_legend(data)) return 0.0;
     int columns = legend_columns(data, width);
-    return 0.6 + 1.7 * ((data->legend_count + columns - 1) / columns);
+    int rows = (data->legend_count + columns - 1) / columns;
+    return 0.6 + 1.7 * rows;
 }
 
 static double head_height(const WeftPlotData *data) { return data->title[0] ? 2.8 : 0.6; }
@@ -152,7 +153,8 @@ static void draw_legend(const Page *page, double top) {
     const int columns = legend_columns(data, width / type);
     set_font(page->cairo, 0.9 * type, false);
     for (int k = 0; k < data->legend_count; k++) {
-        double x = type + width / columns * (k % columns), y = top + (1.3 + 1.7 * (k / columns)) * type;
+        const int row = k / columns;
+        double x = type + width / columns * (k % columns), y = top + (1.3 + 1.7 * row) * type;
         set_entry(page, k);
         cairo_move_to(page->cairo, x + 0.5 * type, y - 0.35 * type);
         cairo_line_to(page->cairo, x + 4.0 * type, y - 0.35 * type);
@@ -212,10 +214,11 @@ WeftResult page_draw(const Page *page) {
         set_font(page->cairo, 1.25 * type, true);
         write_text(page->cairo, ink_dark, 1.5 * type, 1.9 * type, page->width - 3.0 * type, data->title);
     }
-    for (int k = 0; k < data->count && result == WEFT_OK; k++)
-        result = draw_panel(
-            page, &data->panels[k],
-            (Box){type + width * (k % data->columns), top + height * (k / data->columns), width, height});
+    for (int k = 0; k < data->count && result == WEFT_OK; k++) {
+        const int row = k / data->columns, column = k % data->columns;
+        result = draw_panel(page, &data->panels[k],
+                            (Box){type + width * column, top + height * row, width, height});
+    }
     if (has_legend(data)) draw_legend(page, bottom);
     set_font(page->cairo, 0.75 * type, false);
     write_text(page->cairo, ink_dim, 1.5 * type, page->height - 0.8 * type, page->width - 3.0 * type,

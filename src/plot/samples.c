@@ -57,7 +57,8 @@ static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int 
     const double low = (cos)(1.5707963267948966 * row / THETAS),
                  high = (cos)(1.5707963267948966 * (row + 1) / THETAS);
     for (int k = 0; k < points * points; k++) {
-        double z = low + (high - low) * (k / points + 0.5) / points, s = (sqrt)(fmax(1.0 - z * z, 0.0));
+        const int down = k / points;
+        double z = low + (high - low) * (down + 0.5) / points, s = (sqrt)(fmax(1.0 - z * z, 0.0));
         double phi = 6.283185307179586 * ((column + (k % points + 0.5) / points) / PHIS - 0.5);
         const float wi[3] = {(float)-(s * (cos)(phi)), (float)-(s * (sin)(phi)), (float)z};
         sum += (double)weft_lobe_pdf(lobe, wo, wi);
@@ -83,16 +84,16 @@ static void compare_all(const WeftPlotSubject *subject, const float wo[3], Histo
 /* p of the passport's test, whose bins crowd where the lobe is narrow. */
 static double test(const WeftLobe *given, float view, int count) {
     Subject *subject = alloc_array(1, sizeof *subject);
-    ChiSquare found = {.p = NAN};
+    ChiSquare found = {.p = (double)NAN};
     View look;
-    if (!subject) return NAN;
+    if (!subject) return (double)NAN;
     Lobe lobe = lobe_default(given->lobe);
     for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&lobe, k, given->params[k]);
     subject_of_lobe(subject, &lobe, true);
     subject->rows = 1;
     subject->values[0] = lobe.params[0];
     subject->look(subject, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
-    if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = NAN;
+    if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = (double)NAN;
     subject_free(subject);
     free(subject);
     return found.p;

@@ -49,8 +49,9 @@ static void one_row(void *user, int row, int thread) {
     for (int k = 0; k < side; k++) {
         float sum[3] = {0.0f}, color[3];
         for (int s = 0; s < FINE * FINE; s++) {
+            const int down = s / FINE;
             float x = ((float)k + ((float)(s % FINE) + 0.5f) / FINE - 0.5f * (float)side) / radius;
-            float y = (0.5f * (float)side - (float)row - ((float)(s / FINE) + 0.5f) / FINE) / radius;
+            float y = (0.5f * (float)side - (float)row - ((float)down + 0.5f) / FINE) / radius;
             if (x * x + y * y < 1.0f)
                 radiance(ball, x, y, color);
             else

@@ -116,8 +116,9 @@ static void fill_cell(const Stage *stage, const WeftPlotPanel *panel, int row, i
     double p[4][3], n[3];
     Corner at[4];
     for (int k = 0; k < 4; k++) {
-        node(stage, panel, row + k / 2, column + k % 2, p[k]);
-        at[k] = (Corner){fine_point(stage, p[k]), k % 2, k / 2};
+        const int along = k / 2, across = k % 2;
+        node(stage, panel, row + along, column + across, p[k]);
+        at[k] = (Corner){fine_point(stage, p[k]), across, along};
     }
     normal_of(p[0], p[1], p[3], n);
     if (!(fabs(n[0]) + fabs(n[1]) + fabs(n[2]) > 0.5)) normal_of(p[0], p[3], p[2], n);
@@ -287,9 +288,9 @@ WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, Box box) {
     const size_t count = (size_t)stage.width * (size_t)stage.height;
     stage.depth = alloc_array(count, sizeof *stage.depth);
     stage.color = alloc_array(count, sizeof *stage.color);
-    WeftResult result =
-        stage.depth && stage.color ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-    if (result == WEFT_OK) {
+    bool held = stage.depth && stage.color;
+    WeftResult result = held ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
+    if (held) {
         for (size_t k = 0; k < count; k++) stage.depth[k] = HUGE_VALF;
         for (int row = 0; row + 1 < panel->rows; row++)
             for (int column = 0; column + 1 < panel->columns; column++) fill_cell(&stage, panel, row, column);

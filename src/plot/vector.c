@@ -11,7 +11,7 @@
 
 bool vector_append(Vector *vector, const void *bytes, size_t count) {
     if (vector->broken) return false;
-    if (vector->room - vector->size < count + 1) {
+    if (!vector->text || vector->room - vector->size < count + 1) {
         size_t room = 2 * (vector->room + count) + 4096;
         char *more = realloc_array(vector->text, room, 1);
         vector->broken = !more;
