@@ -12,6 +12,7 @@
 #include "weft/material.h"
 #include "weft/measure.h"
 #include "weft/pick.h"
+#include "weft/plot.h"
 #include "weft/raster.h"
 #include "weft/reflection.h"
 #include "weft/render.h"

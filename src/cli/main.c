@@ -12,8 +12,8 @@ static const Verb *const verbs[] = {&verb_render,
 #ifdef WEFT_VIEW
                                     &verb_view,
 #endif
-                                    &verb_models, &verb_eval,   &verb_check, &verb_bake,
-                                    &verb_diff,   &verb_doctor, NULL};
+                                    &verb_models, &verb_eval, &verb_check,  &verb_plot,
+                                    &verb_bake,   &verb_diff, &verb_doctor, NULL};
 
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());

@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "plot/scale.h"
+#include "plot/type.h"
 
 enum { SIDE_MAX = 32767 }; /* of a Cairo surface, pixels */
 
@@ -26,71 +27,11 @@ typedef struct Layout {
     int width, height;
 } Layout;
 
-static void set_font(cairo_t *cairo, double size, bool bold) {
-    cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo, size);
-}
-
 static double note_size(const Layout *layout) { return 0.82 * layout->type; }
-
-/* The bytes of a well-formed UTF-8 sequence, or 0. Cairo takes nothing else. */
-static size_t utf8_length(const unsigned char *s) {
-    static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    if (s[0] < 0x80) return 1;
-    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    unsigned code = s[0] & (0x7fu >> length);
-    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
-    for (size_t k = 1; k < length; k++) {
-        if ((s[k] & 0xc0) != 0x80) return 0;
-        code = code << 6 | (s[k] & 0x3f);
-    }
-    return code < least[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : length;
-}
-
-enum { TEXT_MAX = 256, ELLIPSIS = 3 };
-
-/* A copy of text fit to be drawn: at most TEXT_MAX bytes, without control characters and damage. */
-static void drawable(const char *text, char line[TEXT_MAX + ELLIPSIS + 1]) {
-    size_t used = 0, length;
-    const unsigned char *s = (const unsigned char *)text;
-    for (; *s && used + 4 <= TEXT_MAX; s += length ? length : 1) {
-        length = utf8_length(s);
-        if (length > 1 || (length == 1 && *s >= 0x20 && *s != 0x7f))
-            memcpy(line + used, s, length);
-        else
-            line[used] = '?';
-        used += length ? length : 1;
-    }
-    memcpy(line + used, *s ? "\xe2\x80\xa6" : "", *s ? ELLIPSIS + 1 : 1);
-}
-
-static double text_width(cairo_t *cairo, const char *text) {
-    char line[TEXT_MAX + ELLIPSIS + 1];
-    cairo_text_extents_t extents;
-    drawable(text, line);
-    cairo_text_extents(cairo, line, &extents);
-    return extents.x_advance;
-}
-
-/* Writes text from x on; what does not fit into `room` ends in an ellipsis. */
-static void write_text(cairo_t *cairo, const double color[3], double x, double y, double room,
-                       const char *text) {
-    char line[TEXT_MAX + ELLIPSIS + 1];
-    drawable(text, line);
-    for (size_t length = strlen(line); length > 0 && text_width(cairo, line) > room;) {
-        do length--;
-        while (length > 0 && ((unsigned char)line[length] & 0xc0) == 0x80);
-        memcpy(line + length, "\xe2\x80\xa6", ELLIPSIS + 1);
-    }
-    cairo_set_source_rgb(cairo, color[0], color[1], color[2]);
-    cairo_move_to(cairo, x, y);
-    cairo_show_text(cairo, line);
-}
 
 /* Cuts a title that is wider than room at a blank; the second line, NULL where there is none. line becomes
  * what is to be drawn first. */
-static const char *wrap(cairo_t *cairo, double room, const char *title, char line[TEXT_MAX + ELLIPSIS + 1]) {
+static const char *wrap(cairo_t *cairo, double room, const char *title, char line[TEXT_SIZE]) {
     drawable(title, line);
     if (text_width(cairo, line) <= room) return NULL;
     for (size_t k = strlen(line); k-- > 1;) {
@@ -103,7 +44,7 @@ static const char *wrap(cairo_t *cairo, double room, const char *title, char lin
 }
 
 static bool titles_wrap(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
-    char line[TEXT_MAX + ELLIPSIS + 1];
+    char line[TEXT_SIZE];
     bool any = false;
     set_font(cairo, layout->type, true);
     for (int k = 0; k < desc->count; k++)
@@ -161,7 +102,7 @@ static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
 static void draw_label(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
     double baseline = y + 1.35 * layout->type, room = layout->column_width;
     if (panel->title) {
-        char line[TEXT_MAX + ELLIPSIS + 1];
+        char line[TEXT_SIZE];
         set_font(cairo, layout->type, true);
         const char *second = wrap(cairo, room, panel->title, line);
         write_text(cairo, bright, x, baseline, room, line);

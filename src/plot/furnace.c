@@ -1,0 +1,140 @@
+/* furnace.c - what white cloth returns of uniform light: a lobe as the sheen of a white Lambert base, under
+ * each layer rule, and what else there is as a whole */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/thread.h"
+#include "measure/furnace.h"
+#include "measure/grid.h"
+#include "plot/making.h"
+
+/* WALKS: of a rule or a lobe that walks at random, at most. */
+enum { ANGLES = 14, CELLS = 80, WALKS = 40000, QUICK = 3 }; /* QUICK: every third angle alone */
+
+static const float angles[ANGLES] = {0.0f,  15.0f, 30.0f, 40.0f, 50.0f, 60.0f, 67.0f,
+                                     73.0f, 78.0f, 82.0f, 85.0f, 87.0f, 88.5f, 89.5f};
+
+typedef struct Work {
+    Lobe lobe;
+    float roughness;
+    const AlbedoTable *table;
+    float *y[LAYER_COUNT];
+    const float *x;
+    int cells, walks;
+} Work;
+
+static int count_of(const Making *making) { return making->desc->quick ? ANGLES / QUICK : ANGLES; }
+
+/* Angle k of so many. */
+static float angle_of(const Making *making, int k) { return angles[making->desc->quick ? QUICK * k + 2 : k]; }
+
+/* The roughness that gives a lobe its first parameter: lobe_rough rises or falls with it. */
+static float roughness_of(const Lobe *lobe) {
+    float low = 0.0f, high = 1.0f, wanted = lobe->params[0];
+    bool rises = lobe_rough(lobe->id, 1.0f).params[0] >= lobe_rough(lobe->id, 0.0f).params[0];
+    for (int k = 0; k < 40; k++) {
+        float middle = 0.5f * (low + high), value = lobe_rough(lobe->id, middle).params[0];
+        if ((value < wanted) == rises)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5f * (low + high);
+}
+
+static void measure(void *user, int item, int thread) {
+    (void)thread;
+    const Work *work = user;
+    int layer = item % LAYER_COUNT, k = item / LAYER_COUNT;
+    Dir o = grid_direction((cos)((double)work->x[k] * 0.017453292519943295), 0.0);
+    work->y[layer][k] =
+        (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, work->cells, work->walks)
+            .e;
+}
+
+static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given, int first_entry) {
+    const int count = count_of(making);
+    Work work = {.cells = making->desc->quick ? CELLS / 2 : CELLS,
+                 .walks = making->desc->quick ? WALKS / 4 : WALKS};
+    AlbedoTable *table = malloc(sizeof *table);
+    bool held = table && making_series_room(making, panel, LAYER_COUNT);
+    work.lobe = lobe_default(given->lobe);
+    for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++)
+        lobe_set(&work.lobe, k, given->params[k]);
+    work.roughness = roughness_of(&work.lobe);
+    work.table = table;
+    for (int layer = 0; held && layer < LAYER_COUNT; layer++) {
+        float *x;
+        held = making_series(making, panel, first_entry + layer, count, &x, &work.y[layer]) != NULL;
+        for (int k = 0; held && k < count; k++) x[k] = angle_of(making, k);
+        work.x = x;
+    }
+    if (held) {
+        albedo_table_fill(table, &work.lobe, work.lobe.params[0], work.lobe.params[0], 0);
+        parallel_for(0, LAYER_COUNT * count, measure, &work);
+    }
+    free(table);
+    return held;
+}
+
+static bool as_a_whole(Making *making, WeftPlotPanel *panel, int subject, int entry) {
+    float *x, *y;
+    const int count = count_of(making);
+    if (!making_series(making, panel, entry, count, &x, &y)) return false;
+    for (int k = 0; k < count; k++) {
+        float w[3], e[3];
+        x[k] = angle_of(making, k);
+        direction_of_view(x[k], w);
+        weft_reflection_albedo(making->desc->subjects[subject].reflection, WEFT_PART_ALL, w[2], e);
+        y[k] = making_value(making, e);
+    }
+    return true;
+}
+
+static WeftPlotPanel *one_panel(Making *making, const char *title) {
+    WeftPlotPanel *panel = making_panel(making, WEFT_PLOT_CURVES, "%s", title);
+    making_axis(&panel->x, "\xce\xb8\xe2\x82\x92", "\xc2\xb0", 0.0f, 90.0f);
+    making_axis(&panel->y, "share of light that returns", "", 0.0f, 1.0f);
+    return panel;
+}
+
+/* All that is there and 1, from a round number to a round number. */
+static void set_range(WeftPlotData *data) {
+    double low = 0.95, high = 1.05;
+    for (int p = 0; p < data->count; p++)
+        for (int s = 0; s < data->panels[p].series_count; s++)
+            for (int k = 0; k < data->panels[p].series[s].count; k++) {
+                double y = (double)data->panels[p].series[s].y[k];
+                if (isfinite(y)) low = fmin(low, y), high = fmax(high, y);
+            }
+    double step = round_up((high - low) / 8.0);
+    for (int p = 0; p < data->count; p++) {
+        data->panels[p].y.low = (float)(step * (floor)(low / step));
+        data->panels[p].y.high = (float)(step * (ceil)(high / step));
+    }
+}
+
+WeftResult kind_furnace(Making *making) {
+    const WeftPlotDesc *desc = making->desc;
+    int lobes = 0, wholes = 0;
+    for (int n = 0; n < desc->count; n++) lobes += desc->subjects[n].lobe != NULL;
+    wholes = desc->count - lobes;
+    if (!making_panels(making, lobes + (wholes > 0), 2)) return making_short(making);
+    for (int layer = 0; lobes && layer < LAYER_COUNT; layer++) making_legend(making, weft_layer_id(layer));
+    for (int n = 0; n < desc->count; n++)
+        if (desc->subjects[n].lobe &&
+            !of_lobe(making, one_panel(making, making_label(making, n)), desc->subjects[n].lobe, 0))
+            return making_short(making);
+    WeftPlotPanel *panel = wholes ? one_panel(making, "whole materials, as they are") : NULL;
+    if (panel && !making_series_room(making, panel, wholes)) return making_short(making);
+    for (int n = 0; n < desc->count; n++)
+        if (!desc->subjects[n].lobe &&
+            !as_a_whole(making, panel, n, making_legend(making, making_label(making, n))))
+            return making_short(making);
+    set_range(making->data);
+    if (lobes)
+        snprintf(making->data->note, sizeof making->data->note,
+                 "white lobe on a white Lambert base under each layer rule; 1 returns all light");
+    return WEFT_OK;
+}

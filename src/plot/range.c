@@ -1,0 +1,77 @@
+/* range.c - how much of f an axis shows */
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/making.h"
+
+double round_up(double x) {
+    const double steps[] = {1.0, 2.0, 2.5, 5.0}, power = pow(10.0, floor(log10(fmax(x, 1e-30))));
+    for (int k = 0; k < 4; k++)
+        if (steps[k] * power >= 0.9999 * x) return steps[k] * power;
+    return 10.0 * power;
+}
+
+/* What one curve wants to have shown. */
+typedef struct Reach {
+    double most, least; /* least: above 0 */
+} Reach;
+
+/* At most four times what f is within 85 degrees of the normal, unless the mirror direction is beyond. */
+static Reach reach_of(const WeftPlotSeries *series, float view) {
+    double most = 0.0, inner = 0.0, least = HUGE_VAL;
+    for (int k = 0; k < series->count; k++) {
+        double y = (double)series->y[k];
+        if (!(y > 0.0) || !isfinite(y)) continue;
+        most = fmax(most, y);
+        least = fmin(least, y);
+        if (fabsf(series->x[k]) <= 85.0f) inner = fmax(inner, y);
+    }
+    if (inner > 0.0 && !(view > 80.0f)) most = fmin(most, 4.0 * inner);
+    return (Reach){most, least};
+}
+
+static int compare(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The top and the bottom of all that is to be seen of panels with one quantity; whole: of all that there is.
+ * What belongs to one entry of the legend is as high as its highest. */
+static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label, bool whole) {
+    double tops[WEFT_PLOT_LEGEND_MAX] = {0.0}, sorted[WEFT_PLOT_LEGEND_MAX], least = HUGE_VAL, most = 0.0;
+    int count = 0;
+    for (int p = 0; p < data->count; p++) {
+        const WeftPlotPanel *panel = &data->panels[p];
+        if (panel->form != form || strcmp(panel->y.label, label) != 0) continue;
+        for (int k = 0; k < panel->series_count; k++) {
+            Reach reach = reach_of(&panel->series[k], whole ? 90.0f : panel->view);
+            int entry = panel->series[k].entry;
+            least = fmin(least, reach.least);
+            tops[entry] = fmax(tops[entry], reach.most);
+        }
+    }
+    for (int k = 0; k < WEFT_PLOT_LEGEND_MAX; k++)
+        if (tops[k] > 0.0) sorted[count++] = tops[k];
+    qsort(sorted, (size_t)count, sizeof *sorted, compare);
+    for (int k = 0; k < count; k++)
+        if (whole || sorted[k] <= 10.0 * sorted[(count - 1) / 2]) most = fmax(most, sorted[k]);
+    return (Reach){most > 0.0 ? most : 1.0, least};
+}
+
+void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic) {
+    const double decades = 6.0;
+    for (int p = 0; p < data->count; p++) {
+        WeftPlotAxis *axis = &data->panels[p].y;
+        if (data->panels[p].form != form) continue;
+        Reach reach = reach_of_all(data, form, axis->label, logarithmic);
+        axis->low = 0.0f;
+        axis->high = (float)(1.04 * reach.most);
+        axis->logarithmic = logarithmic;
+        if (!logarithmic) continue;
+        double high = ceil(log10(reach.most)), low = floor(log10(fmin(reach.least, reach.most)));
+        axis->high = (float)pow(10.0, high);
+        axis->low = (float)pow(10.0, fmin(fmax(low, high - decades), high - 1.0));
+    }
+}

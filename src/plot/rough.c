@@ -1,0 +1,40 @@
+/* rough.c - the same cloth, rougher or smoother */
+#include <stdio.h>
+#include <string.h>
+
+#include "plot/making.h"
+#include "shading/registry.h"
+
+static bool rough_material(const WeftMaterial *given, float roughness, WeftReflection **out) {
+    WeftMaterial material = *given;
+    char number[32];
+    const char *name = "roughness";
+    WeftInputInfo info;
+    for (int k = 0; weft_material_input_info(k, &info); k++)
+        if (strcmp(info.name, "sheen_roughness") == 0 && weft_material_reads(&material, k))
+            name = "sheen_roughness";
+    snprintf(number, sizeof number, "%.4f", (double)roughness);
+    return weft_material_set(&material, name, number, NULL, NULL) == WEFT_OK &&
+           weft_reflection_create(&material, out, NULL) == WEFT_OK;
+}
+
+bool rough_make(const WeftPlotSubject *subject, float roughness, Rough *out) {
+    *out = (Rough){.reflection = NULL};
+    if (subject->lobe) {
+        const WeftLobeInfo *info = weft_lobe_info(subject->lobe->lobe);
+        if (info->param_count < 1 || info->params[0].choices) return false;
+        out->lobe = *subject->lobe;
+        out->lobe.params[0] = lobe_rough(subject->lobe->lobe, roughness).params[0];
+        if (weft_reflection_of_lobe(&out->lobe, &out->reflection, NULL) != WEFT_OK) return false;
+    } else if (!subject->material || !rough_material(subject->material, roughness, &out->reflection)) {
+        return false;
+    }
+    out->subject = (WeftPlotSubject){
+        .reflection = out->reflection, .lobe = subject->lobe ? &out->lobe : NULL, .label = subject->label};
+    return true;
+}
+
+void rough_free(Rough *rough) {
+    weft_reflection_free(rough->reflection);
+    rough->reflection = NULL;
+}

@@ -1,0 +1,121 @@
+/* sphere.c - a sphere in the light of one direction, as each subject reflects it, and at other roughnesses;
+ * what has none, as a measurement, in other lights
+ *
+ * Seen from far away; the light lies above to the left and gives pi of irradiance, so that white Lambert is 1
+ * where it falls straight. The tangent runs around the sphere's upright axis. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/thread.h"
+#include "plot/making.h"
+
+enum { SIDE = 144, SIDE_QUICK = 40, FINE = 2, ROUGHS = 6, CELLS = 1 + ROUGHS, WALKS = 12 };
+
+static const float roughs[ROUGHS] = {0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
+/* what has no roughness is shown in other lights, degrees from the viewer */
+static const float lights[ROUGHS] = {0.0f, 25.0f, 75.0f, 100.0f, 125.0f, 150.0f};
+static const float backdrop = 0.02f;
+
+typedef struct Ball {
+    const Making *making;
+    const WeftPlotSubject *subject;
+    float light[3];
+    int side, walks;
+    float *values; /* of its corner */
+} Ball;
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Radiance towards the viewer from where (x, y) of the unit disc is on the sphere. */
+static void radiance(const Ball *ball, float x, float y, float color[3]) {
+    const float view[3] = {0.0f, 0.0f, 1.0f};
+    float n[3] = {x, y, sqrtf(fmaxf(1.0f - x * x - y * y, 0.0f))};
+    float length = fmaxf(sqrtf(n[0] * n[0] + n[2] * n[2]), 1e-6f);
+    float t[3] = {n[2] / length, 0.0f, -n[0] / length};
+    float b[3] = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]};
+    float wo[3] = {dot(view, t), dot(view, b), dot(view, n)};
+    float wi[1][3] = {{dot(ball->light, t), dot(ball->light, b), dot(ball->light, n)}}, f[1][3];
+    for (int c = 0; c < 3; c++) color[c] = 0.0f;
+    if (!(wo[2] > 0.0f && wi[0][2] > 0.0f)) return;
+    making_eval(ball->subject, wo, 1, (const float(*)[3])wi, ball->walks, f);
+    for (int c = 0; c < 3; c++) color[c] = isfinite(f[0][c]) ? f[0][c] * wi[0][2] * 3.14159265f : 0.0f;
+}
+
+static void one_row(void *user, int row, int thread) {
+    (void)thread;
+    const Ball *ball = user;
+    const int side = ball->side;
+    const float radius = 0.47f * (float)side;
+    for (int k = 0; k < side; k++) {
+        float sum[3] = {0.0f}, color[3];
+        for (int s = 0; s < FINE * FINE; s++) {
+            const int down = s / FINE;
+            float x = ((float)k + ((float)(s % FINE) + 0.5f) / FINE - 0.5f * (float)side) / radius;
+            float y = (0.5f * (float)side - (float)row - ((float)down + 0.5f) / FINE) / radius;
+            if (x * x + y * y < 1.0f)
+                radiance(ball, x, y, color);
+            else
+                color[0] = color[1] = color[2] = backdrop;
+            /* what is brighter than 8 would leave jags at its edge */
+            for (int c = 0; c < 3; c++) sum[c] += fminf(color[c], 8.0f) / (FINE * FINE);
+        }
+        float value = making_value(ball->making, sum);
+        for (int c = 0; c < 3; c++)
+            ball->values[3 * (row * CELLS * side + k) + c] =
+                ball->making->desc->channel == WEFT_PLOT_LUMINANCE ? sum[c] : value;
+    }
+}
+
+static void set_light(Ball *ball, float angle) {
+    const double radians = (double)angle * 0.017453292519943295, up = sin(radians) * 0.70710678118654752;
+    ball->light[0] = (float)-up;
+    ball->light[1] = (float)up;
+    ball->light[2] = (float)cos(radians);
+}
+
+/* One ball of a strip: the subject as it is, then at other roughnesses or in other lights. */
+static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotSubject *subject, int k, float angle) {
+    Rough rough = {.reflection = NULL};
+    bool rougher = k > 0 && rough_make(subject, roughs[k - 1], &rough);
+    ball->subject = rougher ? &rough.subject : subject;
+    set_light(ball, k == 0 || rougher ? angle : lights[k - 1]);
+    if (k == 0)
+        snprintf(panel->cells[k], sizeof panel->cells[k], "as given");
+    else if (rougher)
+        snprintf(panel->cells[k], sizeof panel->cells[k], "roughness %g", (double)roughs[k - 1]);
+    else
+        snprintf(panel->cells[k], sizeof panel->cells[k], "light %g\xc2\xb0", (double)lights[k - 1]);
+    parallel_for(0, ball->side, one_row, ball);
+    rough_free(&rough);
+}
+
+static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotSubject *subject, float angle,
+                      float *values) {
+    Ball ball = {.making = making, .side = panel->rows, .walks = making_walks(making, WALKS)};
+    panel->cell_count = CELLS;
+    for (int k = 0; k < CELLS; k++) {
+        ball.values = values + 3 * k * panel->rows;
+        one_ball(&ball, panel, subject, k, angle);
+    }
+}
+
+WeftResult kind_sphere(Making *making) {
+    const int views = making_view_count(making), count = making->desc->count;
+    if (!making_panels(making, views * count, 1)) return making_short(making);
+    making_subjects(making);
+    const int side = making->desc->quick ? SIDE_QUICK : SIDE;
+    for (int n = 0; n < count; n++)
+        for (int k = 0; k < views; k++) {
+            const float angle = making_view(making, k, 50.0f);
+            WeftPlotPanel *panel =
+                making_panel(making, WEFT_PLOT_PICTURE, "%s, light %g\xc2\xb0 from the viewer",
+                             making_label(making, n), (double)angle);
+            float *values = making_grid(making, panel, CELLS * side, side, 3);
+            if (!values) return making_short(making);
+            panel->colored = 1;
+            one_strip(making, panel, &making->desc->subjects[n], angle, values);
+        }
+    snprintf(making->data->note, sizeof making->data->note,
+             "irradiance \xcf\x80, tone-mapped (PBR Neutral); roughness as an artist sets it");
+    return WEFT_OK;
+}

@@ -1,0 +1,23 @@
+/* type.h - one line of text on a Cairo surface, whatever its bytes */
+#ifndef WEFT_PLOT_TYPE_H
+#define WEFT_PLOT_TYPE_H
+
+#include <cairo.h>
+#include <stdbool.h>
+
+enum { TEXT_MAX = 256, ELLIPSIS = 3, TEXT_SIZE = TEXT_MAX + ELLIPSIS + 1 };
+
+void set_font(cairo_t *cairo, double size, bool bold);
+
+/* A copy of text fit to be drawn: at most TEXT_MAX bytes, without control characters and damage. */
+void drawable(const char *text, char line[TEXT_SIZE]);
+
+double text_width(cairo_t *cairo, const char *text);
+
+/* Writes text from x on; what does not fit into `room` ends in an ellipsis. */
+void write_text(cairo_t *cairo, const double color[3], double x, double y, double room, const char *text);
+
+/* The same, with share (0: all, 0.5: half, 1: nothing) of its width to the left of x. */
+void place_text(cairo_t *cairo, const double color[3], double x, double y, double share, const char *text);
+
+#endif

@@ -1,0 +1,446 @@
+/* Figures: their numbers are the library's; files are valid and the same twice; what makes no sense is
+ * refused. */
+#include <unistd.h>
+
+#include "plot/cloth.h"
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+/* Black is drawn as nothing: what is drawn is the lobe. */
+static void nothing_is_drawn_of_black(void **state) {
+    (void)state;
+    Cloth white = {.reflection = NULL}, black = {.reflection = NULL};
+    cloth_of_lobe(&white, "charlie-neubelt", NULL, NULL);
+    cloth_of_lobe(&black, "charlie-neubelt", "color", "0");
+    for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++) {
+        if (kind == WEFT_PLOT_FURNACE || kind == WEFT_PLOT_SAMPLES)
+            continue; /* white and pdf are what they show */
+        WeftImage image[2];
+        for (int k = 0; k < 2; k++) {
+            const WeftPlotSubject subjects[2] = {k ? black.subject : white.subject, black.subject};
+            const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
+                                       .subjects = subjects,
+                                       .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
+                                       .quick = 1,
+                                       .width = 420,
+                                       .height = 240};
+            assert_int_equal(weft_plot_image(&desc, &image[k], NULL), WEFT_OK);
+        }
+        int differ = 0;
+        for (int k = 0; k < 420 * 240; k++)
+            differ += memcmp((uint8_t *)image[0].pixels + 3 * k, (uint8_t *)image[1].pixels + 3 * k, 3) != 0;
+        if (differ < 200) fail_msg("%s: %d pixels differ", weft_plot_kind_name(kind), differ);
+        for (int k = 0; k < 2; k++) weft_image_free(&image[k]);
+    }
+    cloth_free(&white);
+    cloth_free(&black);
+}
+
+/* Numbers. */
+
+static float luminance(const float c[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+
+static float f_of(const Cloth *cloth, double theta_o, double theta_i, double phi_i) {
+    const float wo[3] = {(float)sin(theta_o * degree), 0.0f, (float)cos(theta_o * degree)};
+    const float wi[3] = {(float)(sin(theta_i * degree) * cos(phi_i * degree)),
+                         (float)(sin(theta_i * degree) * sin(phi_i * degree)), (float)cos(theta_i * degree)};
+    float f[3];
+    weft_lobe_eval(&cloth->lobe, wo, wi, f);
+    return luminance(f);
+}
+
+static void assert_near(double a, double b, double share) {
+    if (!(fabs(a - b) <= share * fabs(b) + 1e-6)) fail_msg("%.7g is not %.7g", a, b);
+}
+
+static void curves_are_the_lobe(void **state) {
+    (void)state;
+    Cloth cloth = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "ggx", "color", "0.9,0.4,0.2");
+    WeftPlotDesc desc = {.subjects = &cloth.subject, .count = 1, .views = {40.0f}, .view_count = 1};
+    for (int kind = 0; kind < 2; kind++) {
+        desc.kind = kind ? WEFT_PLOT_POLAR : WEFT_PLOT_CARTESIAN;
+        WeftPlotData data = data_of(&desc);
+        assert_int_equal(data.count, 2);
+        float top = 0.0f;
+        for (int p = 0; p < 2; p++) {
+            const WeftPlotSeries *series = &data.panels[p].series[0];
+            assert_int_equal(data.panels[p].series_count, 1);
+            for (int k = 0; k < series->count; k++) {
+                double theta = (double)series->x[k];
+                assert_true(k == 0 || series->x[k] >= series->x[k - 1]);
+                double want = (double)f_of(&cloth, 40.0, theta, kind && p ? 90.0 : 180.0);
+                assert_near((double)series->y[k], want * (!kind && p ? cos(theta * degree) : 1.0), 2e-3);
+                if (p == 0) top = fmaxf(top, series->y[k]);
+            }
+        }
+        /* the mirror direction is among them, and no axis cuts a lone lobe off */
+        assert_near((double)top, (double)f_of(&cloth, 40.0, 40.0, 180.0), 0.05);
+        assert_true(data.panels[0].y.high >= top);
+        weft_plot_data_free(&data);
+    }
+    cloth_free(&cloth);
+}
+
+static void axes_fit_what_is_told(void **state) {
+    (void)state;
+    Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
+    cloth_of_lobe(&cloth[0], "ggx", "alpha", "0.01");
+    cloth_of_lobe(&cloth[1], "lambert", NULL, NULL);
+    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_CARTESIAN, .subjects = subjects, .count = 2};
+    WeftPlotData data = data_of(&desc); /* a peak of thousands does not flatten what is beside it */
+    assert_true(data.panels[0].y.high < 4.0f && data.panels[0].y.high > 0.318f);
+    weft_plot_data_free(&data);
+    desc.logarithmic = 1;
+    data = data_of(&desc);
+    assert_true(data.panels[0].y.logarithmic && data.panels[0].y.low > 0.0f &&
+                data.panels[0].y.high >= 1000.0f);
+    weft_plot_data_free(&data);
+    desc.count = 1;
+    desc.logarithmic = 0;
+    data = data_of(&desc);
+    assert_true(data.panels[0].y.high > 1000.0f);
+    weft_plot_data_free(&data);
+    for (int k = 0; k < 2; k++) cloth_free(&cloth[k]);
+}
+
+static void albedo_and_furnace_are_the_library_s(void **state) {
+    (void)state;
+    Cloth cloth = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "charlie-neubelt", "alpha", "0.25");
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_ALBEDO, .subjects = &cloth.subject, .count = 1, .quick = 1};
+    WeftPlotData data = data_of(&desc);
+    assert_int_equal(data.count, 2);
+    for (int k = 0; k < data.panels[0].series[0].count; k++) {
+        float e[3];
+        weft_lobe_albedo(&cloth.lobe, (float)cos((double)data.panels[0].series[0].x[k] * degree), e);
+        assert_near((double)data.panels[0].series[0].y[k], (double)luminance(e), 2e-3);
+    }
+    const WeftPlotSeries *rough = &data.panels[1].series[0];
+    for (int k = 0; k < rough->count; k++) { /* alpha = roughness^2, at 60 degrees */
+        WeftLobe other = cloth.lobe;
+        float e[3];
+        other.params[0] = rough->x[k] * rough->x[k];
+        weft_lobe_albedo(&other, 0.5f, e);
+        assert_near((double)rough->y[k], (double)luminance(e), 2e-3);
+    }
+    weft_plot_data_free(&data);
+    desc.kind = WEFT_PLOT_FURNACE;
+    data = data_of(&desc);
+    int rules = 0;
+    while (weft_layer_id(rules)) rules++;
+    assert_int_equal(data.panels[0].series_count, rules);
+    for (int s = 0; s < rules; s++) {
+        const WeftPlotSeries *series = &data.panels[0].series[s];
+        const char *rule = data.legend[series->entry];
+        for (int k = 0; k < series->count; k++) {
+            float e[3];
+            weft_lobe_albedo(&cloth.lobe, (float)cos((double)series->x[k] * degree), e);
+            /* additive: 1 + E; of the view's E: exactly 1 */
+            if (strcmp(rule, "additive") == 0) assert_near((double)series->y[k], 1.0 + (double)e[0], 0.01);
+            if (strcmp(rule, "albedo-view") == 0) assert_near((double)series->y[k], 1.0, 0.01);
+        }
+    }
+    weft_plot_data_free(&data);
+    cloth_free(&cloth);
+}
+
+static void maps_are_the_lobe(void **state) {
+    (void)state;
+    Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
+    cloth_of_lobe(&cloth[0], "burley", NULL, NULL);
+    cloth_of_lobe(&cloth[1], "lambert", "color", "0.5");
+    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_DIFFERENCE, .subjects = subjects, .count = 2};
+    WeftPlotData data = data_of(&desc);
+    const WeftPlotPanel *panel = &data.panels[0];
+    double most = 0.0;
+    for (int row = 0; row < panel->rows; row++)
+        for (int k = 0; k < panel->columns; k++) {
+            double theta_i = -90.0 + 180.0 * (k + 0.5) / panel->columns,
+                   theta_o = 90.0 * (row + 0.5) / panel->rows;
+            double a = (double)f_of(&cloth[0], theta_o, theta_i, 180.0),
+                   b = (double)f_of(&cloth[1], theta_o, theta_i, 180.0);
+            assert_near((double)panel->values[row * panel->columns + k], a - b, 3e-3);
+            assert_near((double)data.panels[1].values[row * panel->columns + k], (a - b) / fmax(a, b), 6e-3);
+            most = fmax(most, fabs(a - b));
+        }
+    assert_string_equal(panel->figures[1].name, "most");
+    assert_near(panel->figures[1].value, most, 3e-3);
+    weft_plot_data_free(&data);
+
+    desc.kind = WEFT_PLOT_SLICE;
+    desc.logarithmic = 1;
+    data = data_of(&desc);
+    panel = &data.panels[1];
+    assert_near((double)panel->values[panel->columns * 30 + 40], 0.5 / 3.14159265, 1e-4);
+    assert_int_equal(panel->channels, 1);
+    weft_plot_data_free(&data);
+
+    desc.kind = WEFT_PLOT_LOBE3D;
+    desc.logarithmic = 0;
+    desc.cosine = 1;
+    data = data_of(&desc);
+    panel = &data.panels[1];
+    for (int row = 0; row + 1 < panel->rows; row++)
+        assert_near((double)panel->values[row * panel->columns + 7],
+                    0.5 / 3.14159265 * cos(90.0 * degree * row / (panel->rows - 1)), 1e-3);
+    weft_plot_data_free(&data);
+
+    desc.kind = WEFT_PLOT_SPHERE; /* where the light falls straight, half Lambert is half */
+    data = data_of(&desc);
+    float top = 0.0f;
+    panel = &data.panels[1];
+    for (int k = 0; k < panel->columns * panel->rows; k++) top = fmaxf(top, panel->values[3 * k]);
+    assert_near((double)top, 0.5, 2e-3);
+    assert_int_equal(panel->columns, panel->cell_count * panel->rows);
+    weft_plot_data_free(&data);
+    for (int k = 0; k < 2; k++) cloth_free(&cloth[k]);
+}
+
+static void samples_follow_their_pdf(void **state) {
+    (void)state;
+    Cloth cloth = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "ashikhmin-neubelt", NULL, NULL);
+    const WeftPlotDesc desc = {
+        .kind = WEFT_PLOT_SAMPLES, .subjects = &cloth.subject, .count = 1, .views = {30.0f}, .view_count = 1};
+    WeftPlotData data = data_of(&desc);
+    float e[3];
+    weft_lobe_albedo(&cloth.lobe, (float)cos(30.0 * degree), e);
+    assert_near(data.panels[0].figures[1].value, (double)e[0], 5e-3); /* mean f cos / pdf */
+    assert_true(data.panels[1].figures[0].value > 0.5 && data.panels[1].figures[0].value < 1.002);
+    assert_true(data.panels[2].figures[0].value > 1e-4);
+    const WeftPlotPanel *ratio = &data.panels[2];
+    int counted = 0;
+    for (int k = 0; k < ratio->columns * ratio->rows; k++) {
+        if (isnan(ratio->values[k])) continue;
+        counted++;
+        assert_true(ratio->values[k] > 0.5f && ratio->values[k] < 1.5f);
+    }
+    assert_true(counted > 500);
+    weft_plot_data_free(&data);
+    cloth_free(&cloth);
+}
+
+/* Files. */
+
+static char folder[] = "/tmp/weft-plot-XXXXXX";
+
+static char *file_bytes(const char *path, size_t *size) {
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    fseek(stream, 0, SEEK_END);
+    *size = (size_t)ftell(stream);
+    rewind(stream);
+    char *bytes = calloc(*size + 1, 1);
+    assert_non_null(bytes);
+    assert_int_equal(fread(bytes, 1, *size, stream), *size);
+    fclose(stream);
+    unlink(path);
+    return bytes;
+}
+
+/* Every element ends as it began, attributes are quoted, and no ampersand stands alone. */
+static void assert_xml(const char *text) {
+    char open[64][32];
+    int depth = 0, elements = 0;
+    for (const char *s = text; *s; s++) {
+        if (*s == '&') assert_non_null(memchr(s, ';', 8));
+        assert_true(*s != '>'); /* is passed over below */
+        if (*s != '<') continue;
+        const char *end = s + 1;
+        char quote = 0;
+        for (; *end && (quote || *end != '>'); end++) {
+            if (quote ? *end == quote : *end == '"' || *end == '\'') quote = quote ? 0 : *end;
+            assert_true(quote || *end != '<');
+        }
+        assert_true(*end == '>');
+        char name[32] = "";
+        size_t length = strcspn(s + 1 + (s[1] == '/'), " \n\t/>");
+        assert_true(length < sizeof name);
+        memcpy(name, s + 1 + (s[1] == '/'), length);
+        if (s[1] == '/') {
+            assert_true(depth > 0);
+            assert_string_equal(open[--depth], name);
+        } else if (s[1] != '?' && s[1] != '!' && end[-1] != '/') {
+            assert_true(depth < 64);
+            memcpy(open[depth++], name, sizeof name);
+        }
+        elements++;
+        s = end;
+    }
+    assert_int_equal(depth, 0);
+    assert_true(elements > 20);
+}
+
+static void files_are_valid_and_the_same_twice(void **state) {
+    (void)state;
+    static const char *const suffixes[] = {"png", "svg", "pdf"};
+    Cloth cloth = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "charlie-neubelt", NULL, NULL);
+    cloth.subject.label = "<velvet> & \"co\" \xff";
+    for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++)
+        for (int s = 0; s < 3; s++) {
+            const WeftPlotSubject subjects[2] = {cloth.subject, cloth.subject};
+            const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
+                                       .subjects = subjects,
+                                       .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
+                                       .quick = 1,
+                                       .width = 320};
+            char path[80], *bytes[2];
+            size_t size[2];
+            WeftError error;
+            snprintf(path, sizeof path, "%s/figure.%s", folder, suffixes[s]);
+            for (int k = 0; k < 2; k++) {
+                if (weft_plot_write(&desc, path, &error) != WEFT_OK) fail_msg("%s", error.text);
+                bytes[k] = file_bytes(path, &size[k]);
+            }
+            assert_int_equal(size[0], size[1]);
+            if (memcmp(bytes[0], bytes[1], size[0]) != 0)
+                fail_msg("%s: two .%s files differ", weft_plot_kind_name(kind), suffixes[s]);
+            if (s == 0) assert_memory_equal(bytes[0], "\x89PNG\r\n", 6);
+            if (s == 1) {
+                assert_xml(bytes[0]);
+                assert_null(strstr(bytes[0], "<velvet>"));
+                assert_non_null(strstr(bytes[0], "<title>"));
+            }
+            if (s == 2) {
+                assert_memory_equal(bytes[0], "%PDF-1.", 7);
+                assert_memory_equal(bytes[0] + size[0] - 6, "%%EOF\n", 6);
+            }
+            for (int k = 0; k < 2; k++) free(bytes[k]);
+        }
+    cloth_free(&cloth);
+}
+
+static void the_report_stands_alone(void **state) {
+    (void)state;
+    Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
+    cloth_of_lobe(&cloth[0], "charlie-neubelt", NULL, NULL);
+    cloth_of_profile(&cloth[1], "three");
+    cloth[0].subject.label = "<b>&";
+    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
+    const WeftPlotDesc desc = {.subjects = subjects, .count = 2, .quick = 1};
+    char path[80];
+    WeftError error;
+    size_t size;
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    if (weft_plot_report(&desc, path, &error) != WEFT_OK) fail_msg("%s", error.text);
+    char *page = file_bytes(path, &size);
+    assert_int_equal(strlen(page), size);
+    assert_null(strstr(page, "<script"));
+    assert_null(strstr(page, "http:"));
+    assert_null(strstr(page, "https:"));
+    assert_non_null(strstr(page, "default-src 'none'"));
+    assert_null(strstr(page, "<b>"));
+    assert_non_null(strstr(page, "&lt;b&gt;&amp;"));
+    int images = 0;
+    for (const char *at = page; (at = strstr(at, "src=\"")); at++, images++)
+        assert_memory_equal(at, "src=\"data:image/", 16);
+    assert_int_equal(images, WEFT_PLOT_KINDS);
+    for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++) {
+        char alt[200];
+        snprintf(alt, sizeof alt, "alt=\"%s: ", weft_plot_kind_help(kind));
+        assert_non_null(strstr(page, alt));
+    }
+    free(page);
+    for (int k = 0; k < 2; k++) cloth_free(&cloth[k]);
+}
+
+/* Refusals. */
+
+static void assert_refused(const WeftPlotDesc *desc, const char *part) {
+    WeftPlotData data;
+    WeftImage image;
+    WeftError error = {.text = ""};
+    assert_int_equal(weft_plot_data(desc, &data, &error), WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+    assert_non_null(strstr(error.text, part));
+    assert_int_equal(weft_plot_image(desc, &image, NULL), WEFT_USAGE);
+    assert_null(image.pixels);
+}
+
+static void nonsense_is_refused(void **state) {
+    (void)state;
+    Cloth cloth = {.reflection = NULL}, whole = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "lambert", NULL, NULL);
+    cloth_of_profile(&whole, "three");
+    const WeftPlotSubject none = {.label = "x"};
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_KINDS, .subjects = &cloth.subject, .count = 1}, "kind");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 0}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 9}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.subjects = NULL, .count = 1}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.subjects = &none, .count = 1}, "no reflection");
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_DIFFERENCE, .subjects = &cloth.subject, .count = 1},
+                   "two");
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_SAMPLES, .subjects = &whole.subject, .count = 1},
+                   "lobes");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .views = {90.0f}, .view_count = 1},
+                   "view");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .views = {NAN}, .view_count = 1},
+                   "view");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .view_count = 7}, "6 views");
+    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .width = 9000}, "8192");
+    const WeftPlotDesc well = {.subjects = &cloth.subject, .count = 1, .quick = 1};
+    WeftError error;
+    assert_int_equal(weft_plot_write(&well, "figure.jpg", &error), WEFT_USAGE);
+    assert_int_equal(error.message, WEFT_MESSAGE_OUTPUT_SUFFIX);
+    assert_int_equal(weft_plot_write(&well, "/none/such/figure.svg", &error), WEFT_RESOURCES);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);
+    assert_null(weft_plot_kind_name(-1));
+    assert_null(weft_plot_kind_help(WEFT_PLOT_KINDS));
+    weft_plot_data_free(NULL);
+    cloth_free(&cloth);
+    cloth_free(&whole);
+}
+
+/* From a stamp to a poster: no size is too small to be drawn. */
+static void any_size_is_drawn(void **state) {
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {8, 400}, {64, 64}, {3000, 200}, {0, 700}};
+    Cloth cloth = {.reflection = NULL};
+    cloth_of_lobe(&cloth, "ggx", NULL, NULL);
+    const WeftPlotSubject subjects[2] = {cloth.subject, cloth.subject};
+    for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++)
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            WeftImage image;
+            const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
+                                       .subjects = subjects,
+                                       .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
+                                       .quick = 1,
+                                       .width = sizes[k][0],
+                                       .height = sizes[k][1]};
+            assert_int_equal(weft_plot_image(&desc, &image, NULL), WEFT_OK);
+            if (sizes[k][0]) assert_int_equal(image.width, sizes[k][0]);
+            assert_int_equal(image.height, sizes[k][1]);
+            weft_image_free(&image);
+        }
+    cloth_free(&cloth);
+}
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    return rmdir(folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_drawn_of_black),
+        cmocka_unit_test(curves_are_the_lobe),
+        cmocka_unit_test(axes_fit_what_is_told),
+        cmocka_unit_test(albedo_and_furnace_are_the_library_s),
+        cmocka_unit_test(maps_are_the_lobe),
+        cmocka_unit_test(samples_follow_their_pdf),
+        cmocka_unit_test(files_are_valid_and_the_same_twice),
+        cmocka_unit_test(the_report_stands_alone),
+        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(any_size_is_drawn),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
