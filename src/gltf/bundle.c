@@ -42,13 +42,18 @@ typedef struct Moved {
     json_int_t number, shift;
 } Moved;
 
+/* Integers may be written as reals. */
+static double number_at(const json_t *object, const char *key) {
+    return json_number_value(json_object_get(object, key));
+}
+
 static void reference_move(Saving *saving, json_t *object, const Moved *moved, size_t count) {
-    json_t *buffer = json_object_get(object, "buffer");
-    json_int_t k = json_integer_value(buffer),
-               offset = json_integer_value(json_object_get(object, "byteOffset"));
-    if (!json_is_integer(buffer) || k < 0 || (size_t)k >= count) return;
-    if (moved[k].number != k) saving_put(saving, object, "buffer", json_integer(moved[k].number));
-    if (moved[k].shift) saving_put(saving, object, "byteOffset", json_integer(offset + moved[k].shift));
+    double k = json_is_number(json_object_get(object, "buffer")) ? number_at(object, "buffer") : -1.0;
+    double offset = number_at(object, "byteOffset");
+    if (!(k >= 0.0) || !(k < (double)count) || !(offset >= 0.0) || offset > 0x1p53) return;
+    const Moved *to = &moved[(size_t)k];
+    if (to->number != (json_int_t)k) saving_put(saving, object, "buffer", json_integer(to->number));
+    if (to->shift) saving_put(saving, object, "byteOffset", json_integer((json_int_t)offset + to->shift));
 }
 
 /* Of the views, and of extensions that compress them. */
@@ -75,8 +80,8 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
         FileBytes bytes = {0};
         if (!moved || saving->result != WEFT_OK) break;
         if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
-        json_int_t length = json_integer_value(json_object_get(buffer, "byteLength"));
-        size_t size = length > 0 && (size_t)length < bytes.size ? (size_t)length : bytes.size;
+        double length = number_at(buffer, "byteLength");
+        size_t size = length > 0.0 && length < (double)bytes.size ? (size_t)length : bytes.size;
         moved[k] = (Moved){bytes.data ? 0 : (json_int_t)json_array_size(kept),
                            bytes.data ? (json_int_t)saving->size : 0};
         if (bytes.data) saving_bytes(saving, bytes.data, size);

@@ -75,6 +75,9 @@ json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
  * itself. */
 bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 
+/* The index of the texture that a textureInfo names; -1: none that there is. */
+int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
+
 /* The decoded image behind a textureInfo, and what it holds; NULL where there is none that could be read. */
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);

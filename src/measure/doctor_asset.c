@@ -43,12 +43,16 @@ bool doctor_numbers(json_t *object, const char *path, double *out, int count) {
     return true;
 }
 
+int doctor_texture(const WeftDoctor *doctor, json_t *info) {
+    double index = -1.0; /* of an extension that the reader does not know it may be anything */
+    doctor_numbers(info, "index", &index, 1);
+    return index >= 0.0 && index < (double)doctor->asset.texture_count ? (int)index : -1;
+}
+
 /* The scene's image behind a textureInfo, or -1. */
 static int image_of(const WeftDoctor *doctor, json_t *info) {
-    json_t *index = json_object_get(info, "index");
-    json_int_t k = json_is_number(index) ? (json_int_t)json_number_value(index) : -1;
-    if (k < 0 || (size_t)k >= doctor->asset.texture_count) return -1;
-    int texture = doctor->asset.textures[k].scene_texture;
+    int index = doctor_texture(doctor, info);
+    int texture = index < 0 ? -1 : doctor->asset.textures[index].scene_texture;
     return texture < 0 ? -1 : doctor->scene->textures[texture].image;
 }
 

@@ -20,7 +20,7 @@ static int set_of(json_t *info) {
     double set = 0.0;
     doctor_numbers(info, "texCoord", &set, 1);
     doctor_numbers(info, "extensions/KHR_texture_transform/texCoord", &set, 1);
-    return (int)set;
+    return set >= 0.0 && set < 1e6 ? (int)set : -1;
 }
 
 /* Whether a texture somewhere in a material wants a set that the primitive has not; its key and set then. */

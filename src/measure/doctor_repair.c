@@ -83,15 +83,14 @@ static WeftResult encode(const WeftImage *image, const char *name, char **bytes,
 static WeftResult move_to_alpha(const WeftDoctor *doctor, Rewrite *rewrite, json_t *info, int channel,
                                 WeftError *error) {
     const char *name = doctor->asset.name;
-    json_int_t like = json_integer_value(json_object_get(info, "index"));
-    int texture = doctor->asset.textures[like].scene_texture, made = -1;
+    int like = doctor_texture(doctor, info), texture = doctor->asset.textures[like].scene_texture, made = -1;
     WeftImage image = {0};
     char *bytes = NULL;
     size_t size = 0;
     WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image], channel,
                                     name, &image, error);
     if (result == WEFT_OK) result = encode(&image, name, &bytes, &size, error);
-    if (result == WEFT_OK) made = rewrite_texture(rewrite, bytes, size, (int)like, error);
+    if (result == WEFT_OK) made = rewrite_texture(rewrite, bytes, size, like, error);
     if (result == WEFT_OK && made < 0) result = WEFT_RESOURCES;
     if (result == WEFT_OK) json_object_set_new(info, "index", json_integer(made));
     weft_image_free(&image);

@@ -37,9 +37,8 @@ enum { USES = sizeof uses / sizeof *uses };
 
 /* The image in the file behind a textureInfo; -1: none. */
 static int file_image(const WeftDoctor *doctor, json_t *info) {
-    json_t *index = json_object_get(info, "index");
-    json_int_t k = json_is_number(index) ? (json_int_t)json_number_value(index) : -1;
-    return k < 0 || (size_t)k >= doctor->asset.texture_count ? -1 : doctor->asset.textures[k].image;
+    int texture = doctor_texture(doctor, info);
+    return texture < 0 ? -1 : doctor->asset.textures[texture].image;
 }
 
 /* The first use of an image in a space; NULL: none. */
