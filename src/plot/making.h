@@ -94,8 +94,8 @@ bool rough_make(const WeftPlotSubject *subject, float roughness, Rough *out);
 void rough_free(Rough *rough);
 
 /* Sets high, and low of a logarithmic axis, of the y of all panels of one form so that they show their series
- * and can be compared. What towers over all else is cut off: curves of a few that are ten times as high as
- * the others, and what f does within five degrees of the horizon. */
+ * and can be compared. What towers over all else is cut off: curves thirty times as high as the next
+ * lower one, unless they are more than half, and what f does within five degrees of the horizon. */
 void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic);
 
 /* 1, 2, 2.5 or 5 times a power of ten, at x or above. */

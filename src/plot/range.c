@@ -38,9 +38,11 @@ static int compare(const void *a, const void *b) {
 }
 
 /* The top and the bottom of all that is to be seen of panels with one quantity; whole: of all that there is.
- * What belongs to one entry of the legend is as high as its highest. */
+ * What belongs to one entry of the legend is as high as its highest. Where a gap parts the lower half, or
+ * more, from what towers over it, that is left out. */
 static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label, bool whole) {
     double tops[WEFT_PLOT_LEGEND_MAX] = {0.0}, sorted[WEFT_PLOT_LEGEND_MAX], least = HUGE_VAL, most = 0.0;
+    const double gap = 30.0;
     int count = 0;
     for (int p = 0; p < data->count; p++) {
         const WeftPlotPanel *panel = &data->panels[p];
@@ -55,8 +57,10 @@ static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const cha
     for (int k = 0; k < WEFT_PLOT_LEGEND_MAX; k++)
         if (tops[k] > 0.0) sorted[count++] = tops[k];
     qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    for (int k = 0; k < count; k++)
-        if (whole || sorted[k] <= 10.0 * sorted[(count - 1) / 2]) most = fmax(most, sorted[k]);
+    for (int k = 0; k < count; k++) {
+        if (!whole && 2 * k >= count && sorted[k] > gap * sorted[k - 1]) break;
+        most = sorted[k];
+    }
     return (Reach){most > 0.0 ? most : 1.0, least};
 }
 

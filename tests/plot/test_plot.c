@@ -92,6 +92,22 @@ static void axes_fit_what_is_told(void **state) {
     WeftPlotData data = data_of(&desc); /* a peak of thousands does not flatten what is beside it */
     assert_true(data.panels[0].y.high < 4.0f && data.panels[0].y.high > 0.318f);
     weft_plot_data_free(&data);
+    WeftError error; /* but one that is ten times as high is seen whole */
+    weft_reflection_free(cloth[0].reflection);
+    cloth[0].lobe.params[0] = 0.25f;
+    assert_int_equal(weft_reflection_of_lobe(&cloth[0].lobe, &cloth[0].reflection, &error), WEFT_OK);
+    const WeftPlotSubject both[2] = {{.reflection = cloth[0].reflection}, cloth[1].subject};
+    desc.subjects = both;
+    data = data_of(&desc);
+    float top = 0.0f;
+    for (int k = 0; k < data.panels[0].series[0].count; k++) top = fmaxf(top, data.panels[0].series[0].y[k]);
+    assert_true(top > 3.0f && data.panels[0].y.high >= top);
+    weft_plot_data_free(&data);
+    weft_reflection_free(cloth[0].reflection);
+    cloth[0].lobe.params[0] = 0.01f;
+    assert_int_equal(weft_reflection_of_lobe(&cloth[0].lobe, &cloth[0].reflection, &error), WEFT_OK);
+    const WeftPlotSubject again[2] = {{.reflection = cloth[0].reflection}, cloth[1].subject};
+    desc.subjects = again;
     desc.logarithmic = 1;
     data = data_of(&desc);
     assert_true(data.panels[0].y.logarithmic && data.panels[0].y.low > 0.0f &&
