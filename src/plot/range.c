@@ -64,6 +64,17 @@ static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const cha
     return (Reach){most > 0.0 ? most : 1.0, least};
 }
 
+/* Whether a panel of that quantity has what lies above the top. */
+static bool goes_beyond(const WeftPlotData *data, const char *label, double top) {
+    for (int p = 0; p < data->count; p++) {
+        const WeftPlotPanel *panel = &data->panels[p];
+        for (int s = 0; s < panel->series_count && strcmp(panel->y.label, label) == 0; s++)
+            for (int k = 0; k < panel->series[s].count; k++)
+                if ((double)panel->series[s].y[k] > 1.04 * top) return true;
+    }
+    return false;
+}
+
 void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic) {
     const double decades = 6.0;
     for (int p = 0; p < data->count; p++) {
@@ -72,6 +83,8 @@ void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic) {
         Reach reach = reach_of_all(data, form, axis->label, logarithmic);
         axis->low = 0.0f;
         axis->high = (float)(1.04 * reach.most);
+        if (form == WEFT_PLOT_CURVES && goes_beyond(data, axis->label, reach.most))
+            axis->high *= 1.15f; /* room for a mark */
         axis->logarithmic = logarithmic;
         if (!logarithmic) continue;
         double high = ceil(log10(reach.most)), low = floor(log10(fmin(reach.least, reach.most)));
