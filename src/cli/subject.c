@@ -139,13 +139,13 @@ static int of_scene(Subject *subject, const char *path, const char *wanted) {
 
 /* The end of a scene's path in "chair.glb:fabric"; NULL where text is not of that form. */
 static char *scene_end(char *text) {
-    static const char *const suffixes[] = {".gltf", ".glb"};
-    for (size_t k = 0; k < sizeof suffixes / sizeof *suffixes; k++)
-        for (char *at = strstr(text, suffixes[k]); at; at = strstr(at + 1, suffixes[k])) {
-            char *end = at + strlen(suffixes[k]);
-            if (*end == ':' || !*end) return end;
-        }
-    return NULL;
+    for (char *end = text + strcspn(text, ":");; end += 1 + strcspn(end + 1, ":")) {
+        char after = *end;
+        *end = '\0';
+        bool scene = ends_with(text, ".gltf") || ends_with(text, ".glb");
+        *end = after;
+        if (scene || !after) return scene ? end : NULL;
+    }
 }
 
 static int not_known(const char *name) {
