@@ -25,12 +25,12 @@ extern "C" {
 
 /* Unit vectors to be read. */
 typedef struct WeftDirections {
-    const float *x, *y, *z;
+    const float *x, *y, *z; /* n components each */
 } WeftDirections;
 
 /* Colours to be written; each array may be NULL: that channel is not wanted. */
 typedef struct WeftColors {
-    float *r, *g, *b;
+    float *r, *g, *b; /* n values each */
 } WeftColors;
 
 /* f for n pairs, 1/sr; 0 where a direction is not above the horizon, or a component is infinite or NaN. */

@@ -48,13 +48,15 @@ WEFT_API char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TA
 WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y,
                                     float *cos_o, float *value);
 
-/* What can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. NULL past the end. */
+/* What can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. */
 typedef struct WeftBakeKind {
-    const char *id, *help;
-    int lobe;
+    const char *id, *help; /* live as long as the program */
+    int lobe;              /* 0, 1 or 2, see above */
     int formed;        /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words tell */
     int width, height; /* where none are given */
 } WeftBakeKind;
+
+/* By index; NULL past the end. */
 WEFT_API const WeftBakeKind *weft_bake_kind(int index);
 
 /* Sides are 1 to 65536, and a table has at most this many texels. */
@@ -62,16 +64,17 @@ enum { WEFT_BAKE_TEXELS_MAX = 1 << 24 };
 
 /* Zero means default, in every member but kind. */
 typedef struct WeftBakeDesc {
-    const char *kind;     /* the id of a WeftBakeKind */
-    const WeftLobe *lobe; /* counts as white */
-    int width, height;    /* texels */
-    WeftTableForm form;
+    const char *kind;      /* the id of a WeftBakeKind */
+    const WeftLobe *lobe;  /* counts as white */
+    int width, height;     /* texels */
+    WeftTableForm form;    /* the axes; of no account where the kind is not formed */
     double tolerance;      /* absolute, of each value's quadrature; 0: 1e-4. Floats end near 1e-6 */
     int threads;           /* 0: all */
     WeftProgress progress; /* may be NULL; a result other than 0 stops */
     void *user;            /* of progress */
 } WeftBakeDesc;
 
+/* What was baked, in words and numbers. */
 typedef struct WeftBakeInfo {
     char words[160];   /* what the table holds */
     char channels[80]; /* what each channel is, comma between */
@@ -116,6 +119,7 @@ WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const 
     F(NOISY, "noisy")       /* off by what they do not share */                                              \
     F(CORNER, "corner")     /* off in a few texels only */
 
+/* What is wrong with a table: WEFT_TABLE_NONE and the rest of WEFT_TABLE_FAULTS. */
 typedef enum WeftTableFault {
 #define WEFT_TABLE_FAULT_ENUM(id, name) WEFT_TABLE_##id,
     WEFT_TABLE_FAULTS(WEFT_TABLE_FAULT_ENUM)
@@ -150,13 +154,15 @@ typedef struct WeftAuditDesc {
 
 /* A texel, and what is there. */
 typedef struct WeftTablePlace {
-    int x, y;
-    float cos_o, value; /* value: of the lobe's first parameter */
-    float table, albedo;
+    int x, y;            /* from the top left */
+    float cos_o, value;  /* value: of the lobe's first parameter */
+    float table, albedo; /* what the table says, times scale, and E */
 } WeftTablePlace;
 
+/* The most findings of an audit, and the longest sentence of one, its end among the characters. */
 enum { WEFT_AUDIT_FINDINGS = 6, WEFT_AUDIT_TEXT = 320 };
 
+/* What an audit found. */
 typedef struct WeftAudit {
     WeftTableForm form;   /* the axes it was judged by: those said, else those found */
     int fits;             /* 0: E in that form, or a multiple of it, is not what the table is near to */
@@ -174,8 +180,8 @@ typedef struct WeftAudit {
     struct {
         WeftTableFault fault;
         char text[WEFT_AUDIT_TEXT]; /* one plain sentence */
-    } found[WEFT_AUDIT_FINDINGS];
-    int other; /* OTHER_LOBE: the lobe; else -1 */
+    } found[WEFT_AUDIT_FINDINGS];   /* `faults` of them, the gravest first */
+    int other;                      /* OTHER_LOBE: the lobe; else -1 */
 } WeftAudit;
 
 /* Compares a table with the quadrature of a lobe at the table's own texels. errors (may be NULL) becomes F32

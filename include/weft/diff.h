@@ -37,7 +37,7 @@ WEFT_API const char *weft_metric_name(WeftMetric metric);
 /* What is compared. Zero-initialise for the defaults. */
 typedef struct WeftDiffDesc {
     const WeftImage *image, *reference; /* of one size */
-    WeftMetric metric;
+    WeftMetric metric;                  /* what is measured */
     float
         pixels_per_degree; /* flip: of the viewer's sight, 1 .. 500; 0: 67, a 0.7 m wide 4K screen at 0.7 m */
     WeftTonemap tonemap;   /* how linear pictures are shown where that is needed, */
@@ -46,6 +46,7 @@ typedef struct WeftDiffDesc {
     int threads;           /* 0: as many as there are processors; no influence on the result */
 } WeftDiffDesc;
 
+/* How different they are. */
 typedef struct WeftDiff {
     double value;                      /* the metric */
     float worst;                       /* of the map: the largest, of ssim the least */

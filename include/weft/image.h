@@ -16,13 +16,16 @@
 extern "C" {
 #endif
 
+/* Unsigned bytes, unsigned 16 bit numbers of this machine's order, or 32 bit floats. */
 typedef enum WeftPixelType { WEFT_PIXEL_U8 = 0, WEFT_PIXEL_U16 = 1, WEFT_PIXEL_F32 = 2 } WeftPixelType;
 
+/* A picture or a table: plain data, may be filled by hand around pixels of one's own, which are then not to
+ * be given to weft_image_free. */
 typedef struct WeftImage {
-    int width, height; /* 1 .. 65536 */
-    int channels;      /* 1 .. 4 */
-    WeftPixelType type;
-    void *pixels; /* width * height * channels of the type; owned, see weft_image_free */
+    int width, height;  /* 1 .. 65536 */
+    int channels;       /* 1 .. 4 */
+    WeftPixelType type; /* of every channel */
+    void *pixels;       /* width * height * channels of the type; owned, see weft_image_free */
 } WeftImage;
 
 /* A new zeroed image. Fails with WEFT_MESSAGE_DESC or _MEMORY. */

@@ -12,6 +12,7 @@
 extern "C" {
 #endif
 
+/* No lobe has more parameters. */
 enum { WEFT_LOBE_PARAMS_MAX = 8 };
 
 /* Traits: what holds of a lobe over its whole parameter range. */
@@ -27,8 +28,9 @@ enum {
     WEFT_LOBE_TINTED = 256      /* its colour is no factor on f but the albedo of its fibres, in [0, 1] */
 };
 
+/* A parameter of a lobe. */
 typedef struct WeftParamInfo {
-    const char *name, *help;
+    const char *name, *help;   /* as weft_lobe_set takes it, and a line on what it does */
     float def;                 /* default */
     float low, high;           /* plausible range: what a slider spans */
     float hard_low, hard_high; /* values are clamped to this */
@@ -36,11 +38,12 @@ typedef struct WeftParamInfo {
     const char *const *choices;
 } WeftParamInfo;
 
+/* A lobe of the catalogue; lives as long as the program. */
 typedef struct WeftLobeInfo {
-    const char *id;
-    unsigned traits;
-    int param_count; /* <= WEFT_LOBE_PARAMS_MAX */
-    const WeftParamInfo *params;
+    const char *id;              /* "charlie-neubelt" */
+    unsigned traits;             /* a sum of WEFT_LOBE_RECIPROCAL and its like */
+    int param_count;             /* <= WEFT_LOBE_PARAMS_MAX */
+    const WeftParamInfo *params; /* param_count of them */
 } WeftLobeInfo;
 
 /* The catalogue: lobes [0, weft_lobe_count()); NULL out of range. */
@@ -77,8 +80,8 @@ WEFT_API const char *weft_catalogue_text(const char *path);
  * their hard ranges, and where there is no lobe of that index the answer is 0. f0 and f90 are taken as they
  * are. */
 typedef struct WeftLobe {
-    int lobe;
-    float params[WEFT_LOBE_PARAMS_MAX];
+    int lobe;                           /* index in the catalogue */
+    float params[WEFT_LOBE_PARAMS_MAX]; /* in the order of WeftLobeInfo.params */
     /* Colour; f90 counts only for WEFT_LOBE_TWO_COLORS. With WEFT_LOBE_TINTED f0 is the albedo of the fibres:
      * light scattered n times has its n-th power, so f and E fall faster than f0, and more saturated. */
     float f0[3], f90[3];

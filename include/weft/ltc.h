@@ -18,6 +18,7 @@
 extern "C" {
 #endif
 
+/* What a table holds in each cell, by the letters above. */
 typedef enum WeftLtcChannel {
     WEFT_LTC_Z = 0,             /* > 0 */
     WEFT_LTC_Q = 1,             /* >= 0 */
@@ -48,6 +49,7 @@ typedef struct WeftLtcDesc {
     void *user;
 } WeftLtcDesc;
 
+/* A table of fits; may be read by any number of threads. */
 typedef struct WeftLtc WeftLtc;
 
 /* Fits a table; the lobe's other parameters stay as they are, its first parameter and its colours are not
@@ -62,15 +64,17 @@ WEFT_API WeftResult weft_ltc_make(const WeftLobe *lobe, const WeftLtcDesc *desc,
 /* ltc may be NULL. */
 WEFT_API void weft_ltc_free(WeftLtc *ltc);
 
+/* What a table is like. */
 typedef struct WeftLtcInfo {
-    int rows, columns;
-    float low, high; /* of the parameter, in the first and the last row */
-    int cached;      /* it was read from the cache */
-    double seconds;  /* that it took to make or to read */
+    int rows, columns; /* of every channel */
+    float low, high;   /* of the parameter, in the first and the last row */
+    int cached;        /* it was read from the cache */
+    double seconds;    /* that it took to make or to read */
     /* Of the error over the cells with E >= 1e-3, one weight each; and where it is worst. */
     float mean_error, worst_error, worst_cos_o, worst_value;
 } WeftLtcInfo;
 
+/* About a table. */
 WEFT_API WeftLtcInfo weft_ltc_info(const WeftLtc *ltc);
 
 /* rows * columns floats, row after row; lives as long as ltc. NULL where there is no such channel. */
@@ -82,8 +86,8 @@ WEFT_API float weft_ltc_value(const WeftLtc *ltc, int row);
 
 /* The transform for one wo. Plain data; may be filled by hand, z > 0, q >= 0, r >= 0. */
 typedef struct WeftLtcLobe {
-    float z, q, b, r;
-    float amplitude, amplitude_f90;
+    float z, q, b, r;               /* the transform, as above */
+    float amplitude, amplitude_f90; /* of the two colours */
 } WeftLtcLobe;
 
 /* Mixed between the nodes; cos_o and value beyond the table are taken for its ends. */

@@ -16,6 +16,7 @@
 extern "C" {
 #endif
 
+/* No material has more inputs or choices. */
 enum { WEFT_INPUTS_MAX = 64, WEFT_CHOICES_MAX = 16 };
 
 /* SCALAR: value[0]. COLOR: value[0 .. 2], linear Rec. 709. NORMAL: value[0] scales a normal map. DIRECTION:
@@ -28,9 +29,10 @@ typedef enum WeftInputKind {
     WEFT_INPUT_ANGLE
 } WeftInputKind;
 
+/* An input that every material has, such as "sheen_roughness". */
 typedef struct WeftInputInfo {
-    const char *name, *help; /* live as long as the program */
-    WeftInputKind kind;
+    const char *name, *help;   /* live as long as the program */
+    WeftInputKind kind;        /* what its value means */
     float initial, low, high;  /* what it is unless it is set, and what is plausible; angles in degrees */
     float hard_low, hard_high; /* values are clamped to this */
 } WeftInputInfo;
@@ -38,6 +40,7 @@ typedef struct WeftInputInfo {
 /* About the input at index, in the order of weft_material_input_name. Returns 0 past the end. */
 WEFT_API int weft_material_input_info(int index, WeftInputInfo *out);
 
+/* An input of one material: a number or a colour, and what multiplies it. */
 typedef struct WeftInput {
     float value[3];     /* angles in radians */
     int texture;        /* of the scene, counted from 1, by which the value is multiplied; 0: none */
@@ -47,10 +50,12 @@ typedef struct WeftInput {
     float transform[6]; /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
 } WeftInput;
 
+/* What opacity does: nothing; cut out; mix with what is behind. */
 typedef enum WeftAlphaMode { WEFT_ALPHA_OPAQUE = 0, WEFT_ALPHA_MASK, WEFT_ALPHA_BLEND } WeftAlphaMode;
 
+/* A material in numbers. */
 typedef struct WeftMaterial {
-    WeftAlphaMode alpha_mode;
+    WeftAlphaMode alpha_mode;          /* what opacity does */
     float alpha_cutoff;                /* MASK: opacity below it is nothing, from it on everything */
     int double_sided;                  /* 0: seen only from the front */
     int unlit;                         /* not 0: base_color is shown as it is */

@@ -23,21 +23,21 @@ enum {
 
 /* Where something was found: the row's parameter and the pair of directions; phi between them in degrees. */
 typedef struct WeftPlace {
-    float value, cos_o, cos_i, phi;
+    float value, cos_o, cos_i, phi; /* the parameter, the two cosines, the azimuth between */
 } WeftPlace;
 
 /* A white lobe, or a whole white material under an engine profile. For a lobe the rows run over its first
  * parameter from the low to the high end of what is plausible, as `roughness` runs from 0 to 1; the other
  * parameters stay. For a profile they run over the roughness of the sheen. */
 typedef struct WeftPassport {
-    char id[64];
+    char id[64];        /* of the lobe or of the profile */
     int profile;        /* 0: a lobe */
     unsigned traits;    /* of a lobe */
     char parameter[64]; /* what the rows run over; empty where there is one row and no parameter */
     char surface[256];  /* of a profile: the material in words */
     int rows;           /* 1 .. WEFT_PASSPORT_ROWS */
     int row_default;    /* the row nearest to the default; of a profile, to roughness 0.5 */
-    float values[WEFT_PASSPORT_ROWS];
+    float values[WEFT_PASSPORT_ROWS]; /* of the parameter, row by row */
 
     /* Directional albedo, colour white, for wo in the plane of the tangent. */
     float cosines[WEFT_PASSPORT_COSINES]; /* from 1 downwards */

@@ -11,6 +11,7 @@
 extern "C" {
 #endif
 
+/* A picker. */
 typedef struct WeftPick WeftPick;
 
 /* The scene must outlive it. Fails with WEFT_MESSAGE_SCENE_EMPTY, _MEMORY or _RENDER_DEVICE. */
@@ -19,8 +20,9 @@ WEFT_API WeftResult weft_pick_create(const WeftScene *scene, WeftPick **out, Wef
 /* pick may be NULL. */
 WEFT_API void weft_pick_free(WeftPick *pick);
 
+/* What lies there. */
 typedef struct WeftPicked {
-    int mesh, material;
+    int mesh, material;           /* indices in the scene */
     float position[3], normal[3]; /* in the world; the normal unit, interpolated, towards the viewer */
     float tangent[3];             /* unit, along +u, at right angles to the normal */
     float bitangent[3];           /* the same along +v */

@@ -32,6 +32,7 @@
 extern "C" {
 #endif
 
+/* A scene in a driver's hands. */
 typedef struct WeftRaster WeftRaster;
 
 /* Which OpenGL: desktop 3.3 core, or ES 3.0. */
@@ -39,7 +40,7 @@ typedef enum WeftGl { WEFT_GL_DESKTOP = 0, WEFT_GL_ES } WeftGl;
 
 /* Zero means default, in every member. */
 typedef struct WeftRasterDesc {
-    WeftGl gl;
+    WeftGl gl; /* of the context it makes */
     int adopt; /* not 0: draw in the context that is current in this thread, of whichever kind it is (gl is
                   then not asked): OpenGL 3.3 or ES 3.0 with float targets, or later, through EGL or GLX */
     /* A folder whose files win over the library's shader text: shading/lobes/ggx.h below it is taken where it
@@ -77,6 +78,7 @@ WEFT_API void weft_raster_free(WeftRaster *raster);
  * pictures are then partly of the scene as it was, until an update does not fail. */
 WEFT_API WeftResult weft_raster_update(WeftRaster *raster, const WeftLog *log, WeftError *error);
 
+/* Polygon lights of a picture, unless the view says otherwise. */
 enum { WEFT_RASTER_POLYGONS = 8 };
 
 /* How the light of the environment meets a lobe (docs/environment.md has their errors). */
@@ -111,12 +113,12 @@ WEFT_API const char *weft_part_name(int part);
 
 /* Zero means default, in every member. */
 typedef struct WeftRasterView {
-    int width, height;  /* pixels, 1 .. 16384; 0: 960 x 720 */
-    int samples;        /* a pixel, for edges: 1, 2, 4 or 8; 0: 4. A driver may have fewer */
-    const char *camera; /* as in WeftRenderDesc */
-    WeftBackground background;
-    float background_color[3];
-    WeftAmbient ambient;
+    int width, height;         /* pixels, 1 .. 16384; 0: 960 x 720 */
+    int samples;               /* a pixel, for edges: 1, 2, 4 or 8; 0: 4. A driver may have fewer */
+    const char *camera;        /* as in WeftRenderDesc */
+    WeftBackground background; /* what is behind */
+    float background_color[3]; /* linear, for WEFT_BACKGROUND_COLOR */
+    WeftAmbient ambient;       /* how the environment lights */
     int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
     int no_shadows;     /* not 0: lights reach every point that faces them */
     WeftPart part;      /* other than all: nothing, transparent, is behind */
@@ -143,8 +145,8 @@ typedef struct WeftRasterShow {
     int width, height;    /* the picture is scaled to, by its nearest pixels; 0: as it is */
     int clip[4];          /* x, y, width, height of what may change; width 0: no limit */
     float background[3];  /* display values, in [0, 1], where the picture is transparent */
-    WeftTonemap tonemap;
-    float exposure; /* stops */
+    WeftTonemap tonemap;  /* before the sRGB curve */
+    float exposure;       /* stops */
 } WeftRasterShow;
 
 /* Draws the picture drawn last as weft_image_tonemap makes it, dither and all, over the background. It
@@ -162,13 +164,14 @@ WEFT_API int weft_raster_refresh(WeftRaster *raster);
 /* Waits until the driver has done all it was asked to: for timing. */
 WEFT_API void weft_raster_finish(WeftRaster *raster);
 
+/* What a raster is made of, and what it does. */
 typedef struct WeftRasterInfo {
-    const char *driver; /* its own name for itself; lives as long as the raster */
-    int programs;       /* in use */
-    int compiled;       /* shaders compiled since the start */
-    int samplers;       /* the most that one program has */
-    int samples;        /* a pixel, of the last picture */
-    double compile_seconds;
+    const char *driver;     /* its own name for itself; lives as long as the raster */
+    int programs;           /* in use */
+    int compiled;           /* shaders compiled since the start */
+    int samplers;           /* the most that one program has */
+    int samples;            /* a pixel, of the last picture */
+    double compile_seconds; /* that all of them took */
     int making; /* not 0: something is being made in the background (weft_raster_settle waits for it) */
     int made;   /* not 0: and the next picture has it */
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
@@ -176,6 +179,7 @@ typedef struct WeftRasterInfo {
     char complaint[512];
 } WeftRasterInfo;
 
+/* About a raster, as it is now. */
 WEFT_API WeftRasterInfo weft_raster_info(const WeftRaster *raster);
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@
 extern "C" {
 #endif
 
+/* What is behind the scene. */
 typedef enum WeftBackground {
     WEFT_BACKGROUND_AUTO = 0,    /* a plain backdrop under the studio light, else the environment */
     WEFT_BACKGROUND_ENVIRONMENT, /* what lights the scene is seen behind it */
@@ -28,6 +29,7 @@ typedef enum WeftBackground {
 /* Which strategy finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
+/* The most threads of any call. */
 enum { WEFT_THREADS_MAX = 256 };
 
 /* Zero means default, in every member. */
@@ -35,8 +37,8 @@ typedef struct WeftRenderDesc {
     int width, height; /* pixels, 1 .. 65536; 0: 960 x 720 */
     int crop[4];       /* x, y, width, height in pixels from the top left; all 0: everything */
     int max_depth;     /* scattering events on a path, 1 is direct light only; 0: 9 */
-    uint32_t seed;
-    int threads; /* 1 .. WEFT_THREADS_MAX, more are not used; 0: one a processor */
+    uint32_t seed;     /* another one, other noise */
+    int threads;       /* 1 .. WEFT_THREADS_MAX, more are not used; 0: one a processor */
     /* NULL or "auto" frames the scene; a camera's name or index; or "eye;target;fov" as "x,y,z;x,y,z;degrees"
      */
     const char *camera;
@@ -48,6 +50,7 @@ typedef struct WeftRenderDesc {
     int no_shadows;   /* not 0: lights reach every point that faces them; to compare with other renderers */
 } WeftRenderDesc;
 
+/* A picture in the making. */
 typedef struct WeftRender WeftRender;
 
 /* Builds the acceleration structure, the light and albedo tables. scene must outlive the render and not
@@ -77,6 +80,7 @@ WEFT_API void weft_render_free(WeftRender *render);
 WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress,
                                     void *user);
 
+/* How far a picture is, and what it took. */
 typedef struct WeftRenderInfo {
     double samples_per_pixel; /* mean over the picture */
     long long rays;           /* traced so far, shadow rays among them */
@@ -86,6 +90,7 @@ typedef struct WeftRenderInfo {
     float camera_eye[3], camera_target[3], camera_fov; /* what `camera` resolved to; vertical, degrees */
 } WeftRenderInfo;
 
+/* About a render, as it is now. */
 WEFT_API WeftRenderInfo weft_render_info(const WeftRender *render);
 
 /* The picture so far: F32 RGBA, linear Rec. 709 radiance, straight alpha, of the crop's size. Pixels without

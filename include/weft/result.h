@@ -5,6 +5,7 @@
 #ifndef WEFT_RESULT_H
 #define WEFT_RESULT_H
 
+/* Stands before every call of the library: what it exports. */
 #if defined(WEFT_BUILD)
 #define WEFT_API __attribute__((visibility("default")))
 #else
@@ -89,6 +90,7 @@ typedef enum WeftResult {
 /* What a warning's result would be; warnings are only ever logged, never returned. */
 #define WEFT_WARNING WEFT_OK
 
+/* Which message: WEFT_MESSAGE_NONE and the rest of WEFT_MESSAGES. */
 typedef enum WeftMessage {
 #define WEFT_MESSAGE_ENUM(id, result, text) WEFT_MESSAGE_##id,
     WEFT_MESSAGES(WEFT_MESSAGE_ENUM)
@@ -98,23 +100,20 @@ typedef enum WeftMessage {
 
 /* One failure: which message, and one line for people without a newline at its end. */
 typedef struct WeftError {
-    WeftResult result;
-    WeftMessage message;
-    char text[512];
+    WeftResult result;   /* what the call returned */
+    WeftMessage message; /* why */
+    char text[512];      /* "subject: text: detail", UTF-8 */
 } WeftError;
 
 /* Where warnings go. fn may be NULL: then they are dropped. text lives only during the call. fn may be called
  * from a thread the library made, but never from two at once for one log. */
 typedef struct WeftLog {
-    void (*fn)(void *user, WeftMessage message, const char *text);
-    void *user;
+    void (*fn)(void *user, WeftMessage message, const char *text); /* receives each */
+    void *user;                                                    /* handed to fn as it is */
 } WeftLog;
 
 /* The text of a message without subject or detail; never NULL. */
 WEFT_API const char *weft_message_text(WeftMessage message);
-
-/* The library's version, "major.minor.patch". */
-WEFT_API const char *weft_version(void);
 
 #ifdef __cplusplus
 }

@@ -13,6 +13,7 @@
 extern "C" {
 #endif
 
+/* Meshes, materials, lights, cameras and an environment. */
 typedef struct WeftScene WeftScene;
 
 /* Loads path: a .gltf or .glb file, or "builtin:NAME". log (may be NULL) receives warnings. On success *out
@@ -38,12 +39,15 @@ WEFT_API void weft_scene_free(WeftScene *scene);
 WEFT_API const char *weft_builtin_name(int index);
 WEFT_API const char *weft_builtin_help(int index);
 
+/* How much there is in a scene. */
 typedef struct WeftSceneInfo {
+    /* of each: indices run from 0 to one less */
     int mesh_count, material_count, light_count, camera_count, variant_count, image_count;
-    long long triangle_count;
-    float low[3], high[3]; /* bounding box, m */
+    long long triangle_count; /* of all meshes together */
+    float low[3], high[3];    /* bounding box, m */
 } WeftSceneInfo;
 
+/* About a scene, as it is now. */
 WEFT_API WeftSceneInfo weft_scene_info(const WeftScene *scene);
 
 /* Names by index; "" where the file gives none, NULL out of range. Owned by the scene. */
@@ -114,6 +118,7 @@ WEFT_API WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftErro
 WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                          WeftError *error);
 
+/* What shines. */
 typedef enum WeftLightKind {
     WEFT_LIGHT_DIRECTIONAL = 0,
     WEFT_LIGHT_POINT = 1,
@@ -123,7 +128,7 @@ typedef enum WeftLightKind {
 
 /* A punctual light, that of KHR_lights_punctual (Khronos Group, 2018-2020) in radiometric units. */
 typedef struct WeftLight {
-    WeftLightKind kind;
+    WeftLightKind kind; /* which of the members below count */
     float position[3];  /* m; point, spot, middle of a polygon */
     float direction[3]; /* that it travels, of any length but 0; directional, spot, polygon: its normal */
     float color[3]; /* >= 0: W/m^2 across the beam (directional), W/sr (point, spot), radiance (polygon) */
@@ -146,12 +151,13 @@ WEFT_API WeftResult weft_scene_put_light(WeftScene *scene, int index, const Weft
 WEFT_API WeftResult weft_scene_remove_light(WeftScene *scene, int index, WeftError *error);
 
 /* A camera in numbers: what text (as WeftRenderDesc.camera) means in a picture of that aspect, width over
- * height. fov is vertical, degrees, 0 of an orthographic one. Fails with WEFT_MESSAGE_CAMERA_NAME. */
+ * height. */
 typedef struct WeftCamera {
     float eye[3], target[3], up[3]; /* target: where its axis passes the middle of the scene */
-    float fov;
+    float fov;                      /* vertical, degrees; 0 of an orthographic camera */
 } WeftCamera;
 
+/* What that text means there. Fails with WEFT_MESSAGE_CAMERA_NAME. */
 WEFT_API WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,
                                       WeftError *error);
 

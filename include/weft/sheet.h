@@ -16,8 +16,10 @@ typedef struct WeftPanel {
     float none, most;         /* of an image of weft_heat_image: its colours below it; the same: not that */
 } WeftPanel;
 
+/* The most places of a sheet. */
 enum { WEFT_SHEET_PANELS_MAX = 256 };
 
+/* A sheet. */
 typedef struct WeftSheetDesc {
     const char *caption;     /* above everything; may be NULL */
     const WeftPanel *panels; /* row after row */

@@ -1,4 +1,22 @@
-/* weft.h - all of the library */
+/* weft.h - all of the library
+ *
+ * libweft is a plain C library: a catalogue of cloth shading models with eval, sample, pdf and albedo of
+ * each, tables of them, scenes and their materials, a path tracer and a rasteriser, and what measures all of
+ * these.
+ *
+ *     WeftLobe lobe;
+ *     float f[3];
+ *     if (weft_lobe_create("charlie-neubelt", &lobe, &error) != WEFT_OK) return error.result;
+ *     weft_lobe_eval(&lobe, wo, wi, f);
+ *
+ * A header tells of one noun, and of its shapes, units, ranges, ownership and failures. What holds of all:
+ *
+ * - A call that can fail returns a WeftResult and fills a WeftError; result.h has all reasons.
+ * - Descriptors are structs where zero means default: name what differs, as in (WeftRenderDesc){.width =
+ * 640}.
+ * - What a call named _create, _load or _make gives is released with the _free beside it.
+ * - There is no global state. Different objects may be used from different threads at once.
+ * - Directions, units and colours are those that lobe.h states; world space that of scene.h. */
 #ifndef WEFT_H
 #define WEFT_H
 
@@ -20,5 +38,6 @@
 #include "weft/save.h"
 #include "weft/scene.h"
 #include "weft/sheet.h"
+#include "weft/version.h"
 
 #endif

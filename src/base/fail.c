@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "weft/version.h"
+
 static const struct {
     WeftResult result;
     const char *text;

@@ -7,6 +7,7 @@
 #include "names.h"
 #include "report.h"
 #include "verbs.h"
+#include "weft/version.h"
 
 static const Verb *const verbs[] = {&verb_render,
 #ifdef WEFT_VIEW

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "gltf/container.h"
 #include "gltf/saving.h"
+#include "weft/version.h"
 
 static bool ends(const char *path, const char *suffix) {
     size_t length = strlen(path), size = strlen(suffix);

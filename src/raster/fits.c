@@ -5,6 +5,7 @@
 
 #include "base/cache.h"
 #include "base/memory.h"
+#include "weft/version.h"
 
 typedef struct Fit {
     struct Fit *next;

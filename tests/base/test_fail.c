@@ -10,6 +10,7 @@
 #undef fail /* cmocka has a macro of that name */
 
 #include "base/fail.h"
+#include "weft/version.h"
 
 static void an_error_is_one_line(void **state) {
     (void)state;
@@ -73,16 +74,23 @@ static void every_message_has_a_text(void **state) {
     }
     assert_string_equal(weft_message_text(WEFT_MESSAGE_NONE), "");
     assert_string_equal(weft_message_text(WEFT_MESSAGE_COUNT), "");
+}
+
+static void the_version_is_one(void **state) {
+    (void)state;
     int major, minor, patch;
     assert_int_equal(sscanf(weft_version(), "%d.%d.%d", &major, &minor, &patch), 3);
+    assert_int_equal(major, WEFT_VERSION_MAJOR);
+    assert_int_equal(minor, WEFT_VERSION_MINOR);
+    assert_int_equal(patch, WEFT_VERSION_PATCH);
+    assert_string_equal(weft_version(), WEFT_VERSION);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_error_is_one_line),
-        cmocka_unit_test(hostile_names_do_not_break_the_line),
-        cmocka_unit_test(warnings_reach_the_log),
-        cmocka_unit_test(every_message_has_a_text),
+        cmocka_unit_test(an_error_is_one_line),   cmocka_unit_test(hostile_names_do_not_break_the_line),
+        cmocka_unit_test(warnings_reach_the_log), cmocka_unit_test(every_message_has_a_text),
+        cmocka_unit_test(the_version_is_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,31 @@
+/* version.h - which weft a program was built for, and which one it runs with
+ *
+ *   if (strcmp(weft_version(), WEFT_VERSION) != 0) ...
+ *
+ * docs/library.md says what may change between versions. */
+#ifndef WEFT_VERSION_H
+#define WEFT_VERSION_H
+
+#include "weft/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version that this header belongs to: to compare with by the preprocessor, and as text. */
+#define WEFT_VERSION_MAJOR 0
+#define WEFT_VERSION_MINOR 1
+#define WEFT_VERSION_PATCH 0
+#define WEFT_VERSION       "0.1.0"
+
+/* The number in libweft.so.NUMBER. Programs built with the same number run with this library. */
+#define WEFT_VERSION_ABI 0
+
+/* The version of the library that runs, "major.minor.patch". */
+WEFT_API const char *weft_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
