@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "layout.h"
+#include "man.h"
 #include "names.h"
 #include "report.h"
 #include "verbs.h"
@@ -16,17 +17,20 @@ static const Verb *const verbs[] = {&verb_render,
                                     &verb_models, &verb_eval, &verb_check,  &verb_plot,
                                     &verb_bake,   &verb_diff, &verb_doctor, NULL};
 
+static const ExitCode codes[] = {{"0", "done"},
+                                 {"1", "a check or a comparison did not hold"},
+                                 {"2", "a name, a number or an option makes no sense"},
+                                 {"3", "an input could not be read or is invalid"},
+                                 {"4", "memory, disk or a device gave out"},
+                                 {"130", "interrupted; what there was has been written"},
+                                 {NULL, NULL}};
+
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());
     for (int k = 0; verbs[k]; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
     printf("\n`weft VERB --help` or `weft help VERB` tells all of a verb; `weft --version` the\n"
            "version.\n\nExit codes\n");
-    layout_entry(stdout, 12, "0", "done");
-    layout_entry(stdout, 12, "1", "a check or a comparison did not hold");
-    layout_entry(stdout, 12, "2", "a name, a number or an option makes no sense");
-    layout_entry(stdout, 12, "3", "an input could not be read or is invalid");
-    layout_entry(stdout, 12, "4", "memory, disk or a device gave out");
-    layout_entry(stdout, 12, "130", "interrupted; what there was has been written");
+    for (const ExitCode *code = codes; code->code; code++) layout_entry(stdout, 12, code->code, code->words);
 }
 
 static int verb_run(const Verb *verb, int count, char **arguments) {
@@ -55,14 +59,21 @@ static const Verb *verb_find(const char *word) {
     return NULL;
 }
 
-/* weft help [VERB] */
+/* weft help [--man] [VERB]: as text, or as a page for man */
 static int help_run(int count, char **arguments) {
+    bool man = count && strcmp(arguments[0], "--man") == 0;
+    count -= man;
+    arguments += man;
     if (count > 1)
-        return report(WEFT_USAGE, "%.200s: is one operand too many; weft help [VERB]", arguments[1]);
+        return report(WEFT_USAGE, "%.200s: is one operand too many; weft help [--man] [VERB]", arguments[1]);
     const Verb *verb = count ? verb_find(arguments[0]) : NULL;
     if (count && !verb) return WEFT_USAGE;
-    if (verb)
+    if (verb && man)
+        man_verb(verb);
+    else if (verb)
         options_help(verb);
+    else if (man)
+        man_program(verbs, codes);
     else
         program_help();
     return 0;

@@ -1,0 +1,15 @@
+/* man.h - `weft help --man [VERB]`: the help texts as pages for man(1), from the same tables */
+#ifndef WEFT_CLI_MAN_H
+#define WEFT_CLI_MAN_H
+
+#include "options.h"
+
+typedef struct ExitCode {
+    const char *code, *words;
+} ExitCode;
+
+/* Print a page on standard output: of the program, whose verbs and codes end with NULL; of a verb. */
+void man_program(const Verb *const *verbs, const ExitCode *codes);
+void man_verb(const Verb *verb);
+
+#endif
