@@ -238,7 +238,7 @@ int main(int count, char **arguments) {
         cloth_make(&floor, "0.4", NULL, NULL, NULL, &error) &&
         weft_image_create(width, width * 3 / 4, 3, WEFT_PIXEL_F32, &linear, &error) == WEFT_OK) {
         mean = render(&linear, &velvet, &floor, samples, (Strategy)used);
-        if (weft_image_tonemap(&linear, WEFT_TONEMAP_PBR_NEUTRAL, 0, &shown, &error) == WEFT_OK)
+        if (weft_image_tonemap(&linear, WEFT_TONEMAP_PBR_NEUTRAL, 1, &shown, &error) == WEFT_OK)
             weft_image_write(arguments[1], &shown, &error);
     }
     weft_image_free(&linear);

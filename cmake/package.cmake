@@ -1,0 +1,28 @@
+# What a package holds besides the library and the program, and what it says of itself. script/package makes it.
+
+set(WEFT_SITE "" CACHE PATH "A folder that script/site made, to be installed as the documents")
+
+# The catalogue as it was compiled: text to read, to take from, and to begin a --shader-dir with.
+install(DIRECTORY src/shading DESTINATION ${CMAKE_INSTALL_DATADIR}/weft FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+if(WEFT_SITE)
+  install(DIRECTORY ${WEFT_SITE}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html OPTIONAL)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The weft maintainers <maintainers@weft.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION "Shows cloth under the shading models that engines use, in real time and path traced, measures
+ each model, and hands over the shader text and the tables that an engine needs. With the C library, its headers, and
+ the documents.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # and the trigger by which the linker learns of the library
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1") # loaded by name, and so seen by no tool
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, gcc, libc6-dev, pkg-config")
+include(CPack)
