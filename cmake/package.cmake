@@ -13,9 +13,10 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The weft maintainers <maintainers@weft.invalid>")
-set(CPACK_PACKAGE_DESCRIPTION "Shows cloth under the shading models that engines use, in real time and path traced, measures
- each model, and hands over the shader text and the tables that an engine needs. With the C library, its headers, and
- the documents.")
+string(CONCAT CPACK_PACKAGE_DESCRIPTION
+  "Shows cloth under the shading models that engines use, in real time and path\n"
+  "traced, measures each model, and hands over the shader text and the tables\n"
+  "that an engine needs. With the C library, its headers, and the documents.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
