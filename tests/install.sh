@@ -38,6 +38,11 @@ weft diff "$work/mis.png" "$work/light.png" --max 0.1 >/dev/null
 "$work/table/build/table" charlie-neubelt "$work/e.npy" 16 >/dev/null
 weft bake audit "$work/e.npy" --lobe charlie-neubelt --axes cos,alpha,centres --max 1e-3 >/dev/null
 
+# a lamp by tables is the lamp by points, through the exported text
+"$work/opengl/build/velvet" "$work/tables.png"
+"$work/opengl/build/velvet" "$work/points.png" 8
+weft diff "$work/tables.png" "$work/points.png" --max 1e-3 >/dev/null
+
 env -u LD_LIBRARY_PATH "$work/prefix/bin/weft" --version >/dev/null # finds its library beside it
 for header in "$work"/prefix/include/weft/*.h; do # every public header stands alone, in C and in C++
     printf '#include "%s"\n' "$header" >"$work/one.c"
