@@ -13,6 +13,7 @@
 extern "C" {
 #endif
 
+/* What reflects. */
 typedef struct WeftReflection WeftReflection;
 
 /* Of a material, with its numbers and choices and without its textures. Dust lies as it does where it is
