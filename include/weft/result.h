@@ -5,12 +5,7 @@
 #ifndef WEFT_RESULT_H
 #define WEFT_RESULT_H
 
-/* Stands before every call of the library: what it exports. */
-#if defined(WEFT_BUILD)
-#define WEFT_API __attribute__((visibility("default")))
-#else
-#define WEFT_API
-#endif
+#include "weft/version.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -6,7 +6,12 @@
 #ifndef WEFT_VERSION_H
 #define WEFT_VERSION_H
 
-#include "weft/result.h"
+/* Stands before every call of the library: what it exports. */
+#if defined(WEFT_BUILD)
+#define WEFT_API __attribute__((visibility("default")))
+#else
+#define WEFT_API
+#endif
 
 #ifdef __cplusplus
 extern "C" {
