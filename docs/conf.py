@@ -12,11 +12,13 @@ html_title = "weft"
 html_copy_source = False
 html_show_sphinx = False
 
-# What stands in the sidebar, in this order; a page that is not named comes at the end of the last part.
+# What stands in the sidebar, in this order; a page that is not named comes at the end of the last part, and a name
+# without a page is passed over.
 parts = {
     "First": ["getting-started", "cloth", "engines"],
     "Catalogue": ["lobes", "terms", "layers", "workflows", "profiles"],
-    "The program": ["cli", "view", "materials", "gltf", "images", "render", "raster", "check", "bake", "diff"],
+    "The program": ["cli", "view", "materials", "gltf", "images", "render", "raster", "check", "bake", "diff",
+                    "export", "plot", "match", "fit", "doctor"],
     "The library": ["library", "reference", "adding-a-lobe", "architecture"],
     "How it works": ["fibre", "dust", "ltc", "area-lights", "environment", "cost"],
 }
@@ -34,7 +36,8 @@ def contents(app, name, source):
         rest = sorted(p.stem for p in folder.glob("*.md") if p.stem not in named)
         last = list(parts)[-1]
         for caption, pages in parts.items():
-            source[0] += toctree(caption, pages + (rest if caption == last else []))
+            there = [page for page in pages if (folder / f"{page}.md").exists()]
+            source[0] += toctree(caption, there + (rest if caption == last else []))
     elif (folder / name).is_dir():
         pages = sorted(f"{name}/{p.stem}" for p in (folder / name).glob("*.md"))
         if pages:

@@ -21,5 +21,9 @@ find docs -name '*.md' | while read -r page; do
     [ -s "$work/${page%.md}.html" ] || { echo "$page: has no page"; exit 1; }
     grep -q "\"${page%.md}\"" "$work/searchindex.js" || { echo "$page: is not found by the search"; exit 1; }
 done
+# docs/library.md says of each header what is in it
+for header in include/weft/*.h; do
+    grep -q "[\`/]${header##*/}\`" docs/library.md || { echo "docs/library.md: says nothing of ${header##*/}"; exit 1; }
+done
 grep -q 'excludes the cosine' "$work/reference/lobe_8h.html"
 grep -q 'cannot be opened' "$work/reference/result_8h.html"
