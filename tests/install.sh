@@ -28,6 +28,12 @@ done
 cmp "$work/by-cmake" "$work/by-pkg-config"
 grep -q 'cos 1.0  E 0.03125' "$work/by-cmake"
 
+# the program of docs/library.md
+awk '/^```/ { code = /^```c$/; next } code' "$source/docs/library.md" >"$work/page.c"
+# shellcheck disable=SC2046
+cc -std=c11 -Wall -Wextra -Werror "$work/page.c" -o "$work/page" $(pkg-config --cflags --libs weft)
+"$work/page" | grep -q '^f 0\.[0-9]*  pdf 0\.[0-9]*$'
+
 # all strategies of the renderer find the same light
 for strategy in mis light lobe; do "$work/renderer/build/renderer" "$work/$strategy.png" 96 64 $strategy; done |
     awk '{ print; mean[NR] = $NF } END { for (k = 2; k <= 3; k++) if (mean[k] / mean[1] > 1.01 || mean[k] / mean[1] < 0.99) exit 1
