@@ -32,7 +32,7 @@ grep -q 'cos 1.0  E 0.03125' "$work/by-cmake"
 awk '/^```/ { code = /^```c$/; next } code' "$source/docs/library.md" >"$work/page.c"
 # shellcheck disable=SC2046
 cc -std=c11 -Wall -Wextra -Werror "$work/page.c" -o "$work/page" $(pkg-config --cflags --libs weft)
-"$work/page" | grep -q '^f 0\.[0-9]*  pdf 0\.[0-9]*$'
+"$work/page" | grep -Eq '^f [0-9.]+  pdf [0-9.]+$'
 
 # all strategies of the renderer find the same light
 for strategy in mis light lobe; do "$work/renderer/build/renderer" "$work/$strategy.png" 96 64 $strategy; done |
