@@ -20,6 +20,7 @@
 extern "C" {
 #endif
 
+/* How bad it is. */
 typedef enum WeftSeverity {
     WEFT_SEVERITY_NOTE = 0, /* looks otherwise than one may think */
     WEFT_SEVERITY_WARNING,  /* looks wrong in some engine */
@@ -70,6 +71,7 @@ typedef enum WeftSeverity {
       "a normal map or a stretched highlight without tangents")                                              \
     F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")
 
+/* What is found: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {
 #define WEFT_FINDING_ENUM(id, name, severity, fixable, help) WEFT_FINDING_##id,
     WEFT_FINDINGS(WEFT_FINDING_ENUM)
@@ -86,22 +88,25 @@ WEFT_API int weft_finding_fixable(int kind);
 /* "note", "warning" or "error". */
 WEFT_API const char *weft_severity_name(WeftSeverity severity);
 
+/* What it is found in. */
 typedef enum WeftFindingOf { WEFT_OF_ASSET = 0, WEFT_OF_MATERIAL, WEFT_OF_MESH, WEFT_OF_IMAGE } WeftFindingOf;
 
+/* One thing that is wrong. Owned by the doctor. */
 typedef struct WeftFinding {
-    WeftFindingKind kind;
-    WeftSeverity severity;
-    WeftFindingOf of;
-    int index;        /* in the list of that name in the file; 0 of the asset */
-    char subject[96]; /* its name; where the file gives none "materials[3]" */
-    unsigned engines; /* bit k: weft_profile_id(k) is hurt; 0: whatever reads the file */
-    char words[400];  /* what is wrong, with figures: a sentence without a full stop */
-    char fix[280];    /* what to do */
-    int fixable;      /* weft_doctor_fix does it */
-    double figure;    /* what was measured; NAN where nothing was */
-    char place[160];  /* a JSON pointer (RFC 6901) into the file */
+    WeftFindingKind kind;  /* what */
+    WeftSeverity severity; /* of that kind */
+    WeftFindingOf of;      /* where */
+    int index;             /* in the list of that name in the file; 0 of the asset */
+    char subject[96];      /* its name; where the file gives none "materials[3]" */
+    unsigned engines;      /* bit k: weft_profile_id(k) is hurt; 0: whatever reads the file */
+    char words[400];       /* what is wrong, with figures: a sentence without a full stop */
+    char fix[280];         /* what to do */
+    int fixable;           /* weft_doctor_fix does it */
+    double figure;         /* what was measured; NAN where nothing was */
+    char place[160];       /* a JSON pointer (RFC 6901) into the file */
 } WeftFinding;
 
+/* An asset that was examined. */
 typedef struct WeftDoctor WeftDoctor;
 
 /* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, but for
@@ -123,9 +128,11 @@ WEFT_API const WeftFinding *weft_doctor_finding(const WeftDoctor *doctor, int in
 
 /* What was looked at. */
 typedef struct WeftDoctorInfo {
-    int material_count, mesh_count, image_count,
-        sheen_count; /* sheen: of materials with KHR_materials_sheen */
+    int material_count, mesh_count, image_count; /* in the file */
+    int sheen_count;                             /* materials with KHR_materials_sheen */
 } WeftDoctorInfo;
+
+/* About what was examined. */
 WEFT_API WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor);
 
 /* Writes the asset as .glb or .gltf with all that is fixable fixed, and nothing else changed: the text of its

@@ -18,6 +18,7 @@
 extern "C" {
 #endif
 
+/* What a figure shows. */
 typedef enum WeftPlotKind {
     WEFT_PLOT_POLAR = 0,  /* f as a length over theta_i, in the plane of wo and across it */
     WEFT_PLOT_LOBE3D,     /* f as a length over all wi: a surface */
@@ -43,22 +44,23 @@ typedef enum WeftPlotChannel {
     WEFT_PLOT_BLUE
 } WeftPlotChannel;
 
+/* The most subjects, views, and pixels of a side. */
 enum { WEFT_PLOT_SUBJECTS_MAX = 8, WEFT_PLOT_VIEWS_MAX = 6, WEFT_PLOT_SIDE_MAX = 8192 };
 
 /* All are the caller's and are only read. What the reflection was made of says how it looks at other
  * roughnesses; a lobe also how it is sampled. Of a lobe that walks at random (WEFT_LOBE_REFERENCE) each
  * value is a mean over near directions. */
 typedef struct WeftPlotSubject {
-    const WeftReflection *reflection;
-    const WeftLobe *lobe;         /* NULL: it is none */
-    const WeftMaterial *material; /* NULL: it is none */
-    const char *label;            /* UTF-8, one line; NULL: its number */
+    const WeftReflection *reflection; /* what is plotted */
+    const WeftLobe *lobe;             /* NULL: it is none */
+    const WeftMaterial *material;     /* NULL: it is none */
+    const char *label;                /* UTF-8, one line; NULL: its number */
 } WeftPlotSubject;
 
 /* Zero-initialise: a polar plot, linear, of luminance. */
 typedef struct WeftPlotDesc {
-    WeftPlotKind kind;
-    const WeftPlotSubject *subjects;
+    WeftPlotKind kind;                /* what is shown */
+    const WeftPlotSubject *subjects;  /* count of them */
     int count;                        /* 1 .. WEFT_PLOT_SUBJECTS_MAX; difference: 2 */
     float views[WEFT_PLOT_VIEWS_MAX]; /* theta_o in [0, 90), degrees; sphere: of the light */
     int view_count;                   /* 0: the kind's own. Albedo: of E over roughness */
@@ -70,8 +72,7 @@ typedef struct WeftPlotDesc {
     int width, height;                /* pixels, 96 to the inch, <= WEFT_PLOT_SIDE_MAX; 0: its own */
 } WeftPlotDesc;
 
-/* The numbers of a figure. */
-
+/* How the numbers of a panel are laid out. */
 typedef enum WeftPlotForm {
     WEFT_PLOT_CURVES = 0, /* series over x and y */
     WEFT_PLOT_ROSE,       /* series by angle, degrees from the normal, and length */
@@ -80,63 +81,68 @@ typedef enum WeftPlotForm {
     WEFT_PLOT_PICTURE     /* colours, linear Rec. 709 */
 } WeftPlotForm;
 
+/* An axis of a panel. */
 typedef struct WeftPlotAxis {
-    char label[64];
+    char label[64];  /* UTF-8 */
     char unit[16];   /* "" without one */
     float low, high; /* what is shown; values may lie beyond */
-    int logarithmic;
+    int logarithmic; /* not 0: so */
 } WeftPlotAxis;
 
+/* A curve. */
 typedef struct WeftPlotSeries {
-    int entry; /* of the legend */
-    int count;
+    int entry;          /* of the legend */
+    int count;          /* of its points */
     const float *x, *y; /* NAN: nothing there */
 } WeftPlotSeries;
 
 /* A number that belongs to a panel. */
 typedef struct WeftPlotFigure {
-    char name[48], unit[16];
-    double value;
+    char name[48], unit[16]; /* what, and in what; "" without a unit */
+    double value;            /* how much */
 } WeftPlotFigure;
 
+/* The most numbers and marks of a panel, and entries of a legend. */
 enum { WEFT_PLOT_FIGURES_MAX = 6, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX = 24 };
 
 /* A place on the x axis with a name: the mirror direction, a view. */
 typedef struct WeftPlotMark {
-    char label[16];
-    float x;
+    char label[16]; /* its name */
+    float x;        /* where */
 } WeftPlotMark;
 
+/* One panel of a figure. */
 typedef struct WeftPlotPanel {
-    WeftPlotForm form;
-    char title[192];
-    WeftPlotAxis x, y, z; /* z: of the values of a map or a surface */
-    int series_count;
-    WeftPlotSeries *series;
-    int columns, rows;   /* of a grid; rows run with y, or from the top of a picture */
-    int channels;        /* of a grid: 1, or 3 for colours */
-    const float *values; /* columns * rows * channels, NAN: nothing there */
-    int colored;         /* not 0: the three channels are radiance, shown times 2^exposure */
-    float exposure;
-    float center; /* a map whose colours part there: below is blue, above red; NAN: they do not */
-    float view;   /* theta_o; NAN: none */
-    int entry;    /* of the legend's colours, for a surface */
-    int figure_count, mark_count;
-    WeftPlotFigure figures[WEFT_PLOT_FIGURES_MAX];
-    WeftPlotMark marks[WEFT_PLOT_MARKS_MAX];
-    int cell_count; /* of a picture: as many equal columns, each with a label below */
-    char cells[12][32];
+    WeftPlotForm form;      /* which of the members below count */
+    char title[192];        /* above it */
+    WeftPlotAxis x, y, z;   /* z: of the values of a map or a surface */
+    int series_count;       /* curves */
+    WeftPlotSeries *series; /* series_count of them */
+    int columns, rows;      /* of a grid; rows run with y, or from the top of a picture */
+    int channels;           /* of a grid: 1, or 3 for colours */
+    const float *values;    /* columns * rows * channels, NAN: nothing there */
+    int colored;            /* not 0: the three channels are radiance, shown times 2^exposure */
+    float exposure;         /* stops */
+    float center;           /* a map whose colours part there: below is blue, above red; NAN: they do not */
+    float view;             /* theta_o; NAN: none */
+    int entry;              /* of the legend's colours, for a surface */
+    int figure_count, mark_count;                  /* of the two below */
+    WeftPlotFigure figures[WEFT_PLOT_FIGURES_MAX]; /* numbers that belong to it */
+    WeftPlotMark marks[WEFT_PLOT_MARKS_MAX];       /* places on its x axis */
+    int cell_count;     /* of a picture: as many equal columns, each with a label below */
+    char cells[12][32]; /* these labels */
 } WeftPlotPanel;
 
+/* A figure in numbers. */
 typedef struct WeftPlotData {
-    char title[192];
-    int columns; /* panels stand in so many */
-    int count;
-    WeftPlotPanel *panels;
-    int legend_count;
-    char legend[WEFT_PLOT_LEGEND_MAX][128];
-    char note[256];               /* below everything: how it was made; "" without one */
-    struct WeftPlotMemory *owned; /* all of the above, see weft_plot_data_free */
+    char title[192];                        /* above everything */
+    int columns;                            /* panels stand in so many */
+    int count;                              /* of panels */
+    WeftPlotPanel *panels;                  /* row after row */
+    int legend_count;                       /* of its entries */
+    char legend[WEFT_PLOT_LEGEND_MAX][128]; /* in the order of colours */
+    char note[256];                         /* below everything: how it was made; "" without one */
+    struct WeftPlotMemory *owned;           /* all of the above, see weft_plot_data_free */
 } WeftPlotData;
 
 /* What a figure shows, as numbers. Fails with WEFT_MESSAGE_DESC (a value out of its range; samples of what is
