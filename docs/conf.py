@@ -18,7 +18,7 @@ parts = {
     "First": ["getting-started", "cloth", "engines"],
     "Catalogue": ["lobes", "terms", "layers", "workflows", "profiles"],
     "The program": ["cli", "view", "materials", "gltf", "images", "render", "raster", "check", "bake", "diff",
-                    "export", "plot", "match", "fit", "doctor"],
+                    "export", "plots", "match", "fit", "doctor"],
     "The library": ["library", "reference", "adding-a-lobe", "architecture"],
     "How it works": ["fibre", "dust", "ltc", "area-lights", "environment", "cost"],
 }
