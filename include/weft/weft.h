@@ -5,6 +5,7 @@
 #include "weft/arrays.h"
 #include "weft/bake.h"
 #include "weft/diff.h"
+#include "weft/export.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"

@@ -434,7 +434,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         if (!fit) return false;
         t = ambient_table(fit, strategy);
         int sides = t.turning ? AMBIENT_SIDES : 1;
-        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns});
+        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
         t.held = slot * AMBIENT_HELD;
         t.focus = key->focus >> slot & 1;

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 static const char *const folders[] = {"base",  "shading", "image",   "fibre", "scene", "gltf", "text",
-                                      "trace", "raster",  "measure", "plot",  "view",  "cli"};
+                                      "trace", "raster",  "measure", "export", "plot",  "view",  "cli"};
 enum { FOLDERS = sizeof folders / sizeof folders[0] };
 
 static int folder_index(const char *path) {
