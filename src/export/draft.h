@@ -69,6 +69,9 @@ void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out);
 /* Shadertoy's: the ball and its light, behind the functions. */
 void draft_ball(const Draft *draft, Buffer *out);
 
+/* Lines that give an engine profile a cloth to show. */
+void draft_ball_inputs(const Draft *draft, Buffer *out);
+
 /* Lines as printf makes them. */
 __attribute__((format(printf, 2, 3))) void put_line(Buffer *out, const char *format, ...);
 

@@ -13,7 +13,7 @@ static bool in_text(const Draft *draft) {
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
     char plain[WEFT_EXPORT_NAME];
-    snprintf(plain, sizeof plain, "table_%s", draft->text.tables[k].name);
+    snprintf(plain, sizeof plain, "texels_%s", draft->text.tables[k].name);
     return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
 }
 

@@ -280,8 +280,11 @@ static const char *fold_if(Fold *fold, const char *c, const char *end, bool unwr
         put_chosen(fold, other, next, unwrap, out);
     else
         return drop_line(next, end, out);
-    if (v.value && unwrap && token_is(peek(close, end), "return")) return end; /* what follows is never read */
-    return next;
+    if (!v.value || !unwrap || !token_is(peek(close, end), "return")) return next;
+    const char *tail = end; /* what follows is never read */
+    while (tail > next && is_blank(tail[-1])) tail--;
+    buffer_put(out, tail, (size_t)(end - tail));
+    return end;
 }
 
 /* "a ? b : c" at c, where an expression begins and a is known; c itself where it is none. */
@@ -384,6 +387,75 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
     }
 }
 
+/* One of "x = ..., y = ..." in a declaration. */
+typedef struct Declared {
+    const char *start, *end;
+    bool read;
+} Declared;
+
+enum { DECLARED_MAX = 16 };
+
+static bool is_read(Token name, const char *c, const char *end) {
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
+        if (token.kind == TOKEN_NAME && same_token(token, name)) return true;
+    return false;
+}
+
+/* What the declaration at c declares, each with a value; 0 where it is none such. *stop: behind it. */
+static int find_declared(const char *c, const char *end, Declared all[DECLARED_MAX], const char **stop) {
+    int count = 0;
+    Token type = token_solid(&c, end), mark;
+    if (type.kind != TOKEN_NAME || token_is(type, "return") || token_is(type, "else")) return 0;
+    do {
+        Token name = token_solid(&c, end);
+        if (name.kind != TOKEN_NAME || !take(&c, end, "=") || count == DECLARED_MAX) return 0;
+        do {
+            mark = token_next(&c, end);
+            if (token_is(mark, "(")) c = closed(mark.at, end);
+        } while (mark.kind != TOKEN_NONE && !token_is(mark, ",") && !token_is(mark, ";"));
+        all[count++] = (Declared){name.at, mark.at, is_read(name, c, end)};
+    } while (token_is(mark, ","));
+    *stop = c;
+    return count;
+}
+
+/* The declaration at c without the locals that nothing asks for any more; where to go on, c itself where all
+ * of it is read. */
+static const char *put_declared(const char *c, const char *end, Buffer *out) {
+    Declared all[DECLARED_MAX];
+    const char *stop = c;
+    int count = find_declared(c, end, all, &stop), kept = 0;
+    for (int k = 0; k < count; k++) kept += all[k].read;
+    if (kept == count) return c;
+    if (!kept) return drop_line(stop, end, out);
+    buffer_put(out, c, (size_t)(all[0].start - c));
+    for (int k = 0, put = 0; k < count; k++) {
+        if (!all[k].read) continue;
+        if (put++) buffer_put_text(out, ", ");
+        buffer_put(out, all[k].start, (size_t)(all[k].end - all[k].start));
+    }
+    buffer_put(out, ";", 1);
+    return stop;
+}
+
+static void put_read(const Buffer *body, Buffer *out) {
+    const char *c = body->bytes, *end = c ? c + body->size : c;
+    bool begins = true;
+    while (c < end) {
+        Token token = token_next(&c, end);
+        if (begins && token.kind == TOKEN_NAME) {
+            const char *stop = put_declared(token.at, end, out);
+            if (stop != token.at) {
+                c = stop;
+                continue;
+            }
+        }
+        buffer_put(out, token.at, token.size);
+        if (token.kind != TOKEN_BLANK)
+            begins = token_is(token, ";") || token_is(token, "{") || token_is(token, "}");
+    }
+}
+
 /* "const int NAME = 3;" */
 static void find_constants(Fold *fold, const char *c, const char *end) {
     while (c < end && fold->constant_count < CONSTANTS_MAX) {
@@ -414,7 +486,11 @@ void fold_text(const char *text, const FoldFact *facts, int count, Buffer *out) 
         fold->local_count = 0;
         if (open < end) {
             buffer_put(out, c, (size_t)(open + 1 - c));
-            fold_range(fold, open + 1, close - 1, out);
+            Buffer body = {0};
+            fold_range(fold, open + 1, close - 1, &body);
+            put_read(&body, out);
+            out->failed |= body.failed;
+            buffer_free(&body);
             buffer_put(out, "}", 1);
         } else {
             buffer_put(out, c, (size_t)(end - c));

@@ -127,14 +127,17 @@ bool items_keep(Items *items, const char *name) {
     return keep_named(items, (Token){TOKEN_NAME, name, strlen(name)});
 }
 
-bool items_ask(const Items *items, const char *member) {
+bool items_ask(const Items *items, char variable, const char *member) {
     for (int k = 0; k < items->count; k++) {
         const char *c = items->all[k].code;
-        bool behind = false;
+        Token last[2] = {{0}, {0}}; /* the two before */
         for (Token token; items->all[k].kept &&
                           (token = token_next(&c, items->all[k].end)).kind != TOKEN_NONE;) {
-            if (behind && token_is(token, member)) return true;
-            behind = token_is(token, ".");
+            if (last[1].size == 1 && *last[1].at == '.' && last[0].size == 1 && *last[0].at == variable &&
+                token_is(token, member))
+                return true;
+            last[0] = last[1];
+            last[1] = token;
         }
     }
     return false;

@@ -127,7 +127,7 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     for (Token last = {0}; c <= close;) {
         Token token = token_solid(&c, item->end);
         if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME &&
-            !has_token(body, item->end, last)) {
+            !token_is(last, "void") && !has_token(body, item->end, last)) {
             buffer_put_text(out, "\n    (void)");
             put_word(speller, items, last, c, item->end, out);
             buffer_put_text(out, ";");

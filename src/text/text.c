@@ -46,9 +46,15 @@ static void fail_dialect(Text *text, const char *what) {
 }
 
 void text_define(Text *text, const char *name, const char *body) {
-    char line[256];
-    int size = snprintf(line, sizeof line, "%s %s", name, body);
-    macro_define(&text->macros, line, (size_t)size < sizeof line ? (size_t)size : sizeof line - 1);
+    Buffer line = {0};
+    buffer_put_text(&line, name);
+    buffer_put_text(&line, " ");
+    buffer_put_text(&line, body);
+    if (line.failed)
+        fail_memory(text);
+    else
+        macro_define(&text->macros, line.bytes, line.size);
+    buffer_free(&line);
 }
 
 void text_begin(Text *text, const TextDesc *desc) {
