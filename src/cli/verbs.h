@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake, verb_diff;
+extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_bake, verb_export, verb_diff;
 #ifdef WEFT_VIEW
 extern const Verb verb_view;
 #endif
