@@ -91,5 +91,5 @@ void draft_ball_inputs(const Draft *draft, Buffer *out) {
         {"sheen", "    s.sheen = 1.0;"},
     };
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++)
-        if (items_ask(&draft->items, 's', lines[k][0])) put_line(out, "%s", lines[k][1]);
+        if (items_ask(&draft->items, "Surface", 's', lines[k][0])) put_line(out, "%s", lines[k][1]);
 }

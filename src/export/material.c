@@ -146,7 +146,8 @@ static void put_layer(Text *text, int layer) {
 
 /* Surfaces are s, and t where one is made of another. */
 static bool is_read(const Items *reader, int k) {
-    return items_ask(reader, 's', input_infos[k].name) || items_ask(reader, 't', input_infos[k].name);
+    const char *name = input_infos[k].name;
+    return items_ask(reader, "Surface", 's', name) || items_ask(reader, "Surface", 't', name);
 }
 
 /* In place of shading/inputs.h: the inputs that are read; NULL: all. */
@@ -171,7 +172,8 @@ static void put_value(Text *text, const Surface *s, int k) {
     const char *name = input_infos[k].name, *help = input_infos[k].help;
 #define VALUE_SCALAR(input)                                                                                  \
     text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
-#define VALUE_ANGLE(input) VALUE_SCALAR(input)
+#define VALUE_ANGLE(input)                                                                                   \
+    text_line(text, "    s.%s = %s; /* %s; here in radians */", name, number(s->input).text, help)
 #define VALUE_COLOR(input)                                                                                   \
     text_line(text, "    s.%s = rgb(%s, %s, %s); /* %s */", name, number(s->input.r).text,                   \
               number(s->input.g).text, number(s->input.b).text, help)

@@ -127,12 +127,19 @@ bool items_keep(Items *items, const char *name) {
     return keep_named(items, (Token){TOKEN_NAME, name, strlen(name)});
 }
 
-bool items_ask(const Items *items, char variable, const char *member) {
+static bool has_name(const Item *item, const char *name) {
+    const char *c = item->code;
+    for (Token token; (token = token_next(&c, item->end)).kind != TOKEN_NONE;)
+        if (token_is(token, name)) return true;
+    return false;
+}
+
+bool items_ask(const Items *items, const char *type, char variable, const char *member) {
     for (int k = 0; k < items->count; k++) {
+        if (!items->all[k].kept || !has_name(&items->all[k], type)) continue;
         const char *c = items->all[k].code;
         Token last[2] = {{0}, {0}}; /* the two before */
-        for (Token token; items->all[k].kept &&
-                          (token = token_next(&c, items->all[k].end)).kind != TOKEN_NONE;) {
+        for (Token token; (token = token_next(&c, items->all[k].end)).kind != TOKEN_NONE;) {
             if (last[1].size == 1 && *last[1].at == '.' && last[0].size == 1 && *last[0].at == variable &&
                 token_is(token, member))
                 return true;

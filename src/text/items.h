@@ -43,7 +43,7 @@ bool items_keep(Items *items, const char *name);
 /* The item of a name, NULL: none. */
 const Item *items_find(const Items *items, Token name);
 
-/* Whether a kept item asks for a member of that name of a variable of one letter. */
-bool items_ask(const Items *items, char variable, const char *member);
+/* Whether a kept item that names the type asks for a member of that name of a variable of one letter. */
+bool items_ask(const Items *items, const char *type, char variable, const char *member);
 
 #endif
