@@ -107,7 +107,7 @@ static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error)
         return fail(error, WEFT_MESSAGE_EXPORT_LOBE, "fibre-walk", NULL);
     find_zeros(draft, subject);
     find_facts(draft, subject);
-    subject->slots = composition_slots(&subject->choices, subject->zero);
+    subject->slots = composition_slots(&subject->choices, subject->zero, false);
     draft_identifier(desc->profile ? desc->profile : desc->name ? desc->name : "material", draft->id[0]);
     return WEFT_OK;
 }

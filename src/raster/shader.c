@@ -20,7 +20,7 @@ static void find_zeros(const ShaderKey *key, bool zero[INPUT_COUNT]) {
 static CompositionSlots find_slots(const ShaderKey *key) {
     bool zero[INPUT_COUNT];
     find_zeros(key, zero);
-    return composition_slots(&key->choices, zero);
+    return composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
 }
 
 static bool is_mapped(const ShaderInput *input) {

@@ -67,11 +67,12 @@ static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
     to->lobes[to->count++] = id;
 }
 
-CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT]) {
+CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
     CompositionSlots found = {.worn = true};
-    for (int x = 0; x <= 2; x++) {
+    for (int x = 0; x <= (whole_sheen ? 2 : 5); x++) {
         Stack m;
-        Surface s = composition_surface(0.5f * (float)x, zero);
+        Surface s = composition_surface(0.5f * (float)(x % 3), zero);
+        if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
         if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
         const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};

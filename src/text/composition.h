@@ -16,7 +16,8 @@ typedef struct CompositionSlots {
     bool worn; /* no layer rule could do without a sheen */
 } CompositionSlots;
 
-CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT]);
+/* whole_sheen: input sheen is 1 everywhere. */
+CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen);
 
 /* The lobes of these slots, in place of shading/slots.h, and what is known of them and of the sheen's table
  * in place of what shading/stack.h and table.h ask. Call it before text_composition. */
