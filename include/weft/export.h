@@ -41,7 +41,7 @@ WEFT_API const char *weft_export_target_help(int target);
 /* How tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
     WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY */
-    WEFT_EXPORT_LUT_PNG16, /* 16 bits over 0 to a power of two, by which the text multiplies */
+    WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
     WEFT_EXPORT_LUT_EXR,
     WEFT_EXPORT_LUT_DDS,
     WEFT_EXPORT_LUT_NPY,
@@ -72,7 +72,7 @@ enum { WEFT_EXPORT_TABLES_MAX = 8, WEFT_EXPORT_NAME = 96 };
 typedef struct WeftExportTable {
     char name[WEFT_EXPORT_NAME]; /* of the sampler, texture or array in the text */
     WeftImage texels;
-    float scale; /* PNG16: texels are in [0, 1], and the text multiplies by this; else 1 */
+    float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
 } WeftExportTable;
 
 typedef struct WeftExport {

@@ -214,10 +214,6 @@ static int table_file_write(const Export *self, int k, const char *path) {
         low = texels[n] < low ? texels[n] : low;
         high = texels[n] > high ? texels[n] : high;
     }
-    if (self->desc.lut == WEFT_EXPORT_LUT_PNG16 && low < 0.0f) {
-        free(command);
-        return report(WEFT_USAGE, "--lut png16: %s has values below 0; another --lut", table->name);
-    }
     snprintf(about, sizeof about, "%.95s%s", table->name, table->scale > 1.0f ? ", scaled as the text says" : "");
     const TableFile file = {.table = &table->texels, .command = command, .about = about, .low = low, .high = high,
                             .scale = self->desc.lut == WEFT_EXPORT_LUT_PNG16 ? 1.0 : 0.0};
@@ -311,15 +307,15 @@ const Verb verb_export = {
     .operands_most = 2,
     .options = export_options,
     .lists = lists,
-    .notes = "SUBJECT is a lobe, an engine profile, a workflow, a preset (preset:NAME where a lobe\n"
-             "has that name too), a material file .json, or FILE.gltf[:MATERIAL]. A second lobe\n"
-             "stands on the right half of a Shadertoy. docs/export.md explains the functions,\n"
-             "pi, and how engines take them.\n\n"
+    .notes = "SUBJECT is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
+             "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]. A\n"
+             "second lobe stands on the right half of a Shadertoy. docs/export.md explains the\n"
+             "functions, pi, and how engines take them.\n\n"
              "Examples\n"
              "  weft export charlie-neubelt --target hlsl -o charlie.ush\n"
              "  weft export ltc-fibre --target glsl --lut dds -o fuzz.glsl\n"
              "  weft export velvet --target c -o velvet.h\n"
-             "  weft export chair.gltf:fabric --target essl --light-pi folded -o fabric.glsl\n"
-             "  weft export ashikhmin-neubelt charlie-neubelt --target shadertoy -o cloth.glsl\n",
+             "  weft export chair.gltf:fabric --target essl --light-pi folded -o chair.glsl\n"
+             "  weft export ashikhmin-neubelt charlie-neubelt --target shadertoy -o toy.glsl\n",
     .run = export_run,
 };

@@ -1,4 +1,4 @@
-/* ball.c - what makes a Shadertoy of a model: a lit ball, drawn in two halves where there are two lobes
+/* ball.c - what makes a Shadertoy of a model: a lit ball, or one beside the other where there are two lobes
  *
  * The picture is made by weft and not taken from anywhere. A light stands where the mouse says and a second,
  * faint one behind the ball shows the rim; both are distant. Tone: sRGB of the radiance, clamped. */
@@ -8,7 +8,7 @@
 #include "export/draft.h"
 
 static const char scene[] =
-    "/* The ball stands at the origin and fills most of the picture's height. Radiance towards the viewer, of\n"
+    "/* A ball fills most of the picture's height, or of its half. Radiance towards the viewer, of\n"
     " * one distant light of irradiance `light`. */\n"
     "vec3 lit(bool right, float roughness, vec3 n, vec3 v, vec3 l, vec3 light) {\n"
     "    vec3 t = normalize(cross(vec3(0.0, 1.0, 0.0), n) + vec3(1e-6, 0.0, 0.0)), b = cross(n, t);\n"
@@ -22,10 +22,10 @@ static const char scene[] =
     "    float roughness = mix(0.15, 1.0, clamp(mouse.y, 0.0, 1.0)); /* up and down */\n"
     "    float turn = 6.2831853 * (mouse.x - 0.5);                   /* left and right */\n"
     "    vec3 l = normalize(vec3(sin(turn), 0.55, cos(turn)));\n"
-    "    vec2 p = (2.0 * at - iResolution.xy) / iResolution.y;\n"
     "    bool right = halves && at.x > 0.5 * iResolution.x;\n"
+    "    vec2 room = vec2(halves ? 0.5 : 1.0, 1.0) * iResolution.xy;\n"
+    "    vec2 q = (at - vec2(right ? room.x : 0.0, 0.0) - 0.5 * room) / (0.44 * min(room.x, room.y));\n"
     "    vec3 color = vec3(0.022 + 0.02 * at.y / iResolution.y);\n"
-    "    vec2 q = p / 0.86;\n"
     "    if (dot(q, q) < 1.0) {\n"
     "        vec3 n = vec3(q, sqrt(1.0 - dot(q, q))), v = vec3(0.0, 0.0, 1.0);\n"
     "        color = lit(right, roughness, n, v, l, sun) +\n"

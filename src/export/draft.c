@@ -13,7 +13,9 @@ void draft_begin(Draft *draft, const WeftExportDesc *desc) {
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target]};
     snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
-    text_begin(&draft->text, &(TextDesc){.language = TEXT_PLAIN, .comments = true});
+    text_begin(&draft->text, &(TextDesc){.language = TEXT_PLAIN,
+                                         .comments = true,
+                                         .table_side = desc->target == WEFT_EXPORT_SHADERTOY ? 32 : 0});
     text_include(&draft->text, "shading/lang.h");
     text_define(&draft->text, "table_texel", "table_fetch");
     text_line(&draft->text, "\nfloat table_fetch(int t, int stride, int row, int column) { return 0.0; }");

@@ -17,14 +17,27 @@ static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
     return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
 }
 
-/* The least power of two that is not below any of its values; 1 where nothing is scaled. */
-static float table_scale(const Draft *draft, int k) {
+/* What a texel of 16 bits, 0 to 1, is multiplied by, and what is added: powers of two, or 1 and 0. */
+typedef struct Range {
+    float scale, offset;
+} Range;
+
+static float power_above(float x) {
+    float power = 1.0f;
+    while (power < x) power *= 2.0f;
+    return power;
+}
+
+static Range table_range(const Draft *draft, int k) {
     const TextTable *t = &draft->text.tables[k];
-    float high = 0.0f, scale = 1.0f;
-    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft)) return 1.0f;
-    for (int n = 0; n < t->rows * t->columns; n++) high = fmaxf(high, t->texels[n]);
-    while (scale < high) scale *= 2.0f;
-    return scale;
+    float low = 0.0f, high = 0.0f;
+    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft)) return (Range){1.0f, 0.0f};
+    for (int n = 0; n < t->rows * t->columns; n++) {
+        low = fminf(low, t->texels[n]);
+        high = fmaxf(high, t->texels[n]);
+    }
+    float offset = low < 0.0f ? -power_above(-low) : 0.0f;
+    return (Range){power_above(high - offset), offset};
 }
 
 static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
@@ -63,13 +76,16 @@ static void put_declaration(const Draft *draft, int k, Buffer *out) {
 }
 
 static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
-    char name[SPELL_NAME], test[32] = "", factor[48] = "";
-    float scale = table_scale(draft, k);
+    char name[SPELL_NAME], test[32] = "", factor[64] = "", added[40] = "";
+    Range range = table_range(draft, k);
+    const char *f = draft->desc->target == WEFT_EXPORT_C ? "f" : "";
     if (!last) snprintf(test, sizeof test, "if (t == %d) ", k);
-    if (scale > 1.0f) snprintf(factor, sizeof factor, " * %s", number(scale).text);
+    if (range.offset < 0.0f) snprintf(added, sizeof added, " - %s%s", number(-range.offset).text, f);
+    if (range.scale > 1.0f || *added)
+        snprintf(factor, sizeof factor, " * %s%s%s", number(range.scale).text, f, added);
     table_name(draft, k, name);
     if (in_text(draft) || draft->desc->target == WEFT_EXPORT_C)
-        put_line(out, "    %sreturn %s[row * stride + column]%s%s;", test, name, factor, *factor ? "f" : "");
+        put_line(out, "    %sreturn %s[row * stride + column]%s;", test, name, factor);
     else if (draft->desc->target == WEFT_EXPORT_HLSL)
         put_line(out, "    %sreturn %s.Load(int3(column, row, 0))%s;", test, name, factor);
     else
@@ -103,13 +119,15 @@ WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) 
         WeftExportTable *table = &out->tables[out->table_count];
         char name[SPELL_NAME];
         snprintf(table->name, sizeof table->name, "%.95s", table_name(draft, k, name));
-        table->scale = table_scale(draft, k);
+        const Range range = table_range(draft, k);
+        table->scale = range.scale;
+        table->offset = range.offset;
         WeftResult result =
             weft_image_create(from->columns, from->rows, 1, WEFT_PIXEL_F32, &table->texels, error);
         if (result != WEFT_OK) return result;
         out->table_count++;
         float *texels = table->texels.pixels;
-        for (int n = 0; n < from->rows * from->columns; n++) texels[n] = from->texels[n] / table->scale;
+        for (int n = 0; n < from->rows * from->columns; n++) texels[n] = (from->texels[n] - range.offset) / range.scale;
     }
     return WEFT_OK;
 }

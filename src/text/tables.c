@@ -45,6 +45,24 @@ void text_albedo_table(Text *text, const char *function, const char *name, const
     text_line(text, "    return t;\n}");
 }
 
+/* An engine's table at `side` by `side` texel centres of its own. */
+static TableRef smaller(Text *text, TableRef e) {
+    int side = text->desc.table_side;
+    if (!side || (e.rows <= side && e.columns <= side)) return e;
+    float *texels = arena_array(&text->macros.arena, (size_t)side * (size_t)side, sizeof *texels);
+    if (!texels) {
+        text->macros.short_of_memory = true;
+        return e;
+    }
+    for (int row = 0; row < side; row++)
+        for (int column = 0; column < side; column++)
+            texels[row * side + column] =
+                table_linear(e, ((float)column + 0.5f) / (float)side, ((float)row + 0.5f) / (float)side);
+    e.texels = texels;
+    e.rows = e.columns = side;
+    return e;
+}
+
 void text_engine_tables(Text *text, const int *which, int count) {
     /* the names of the tables, and the function's declaration */
     text_include(text, "shading/engine_tables.h");
@@ -54,7 +72,7 @@ void text_engine_tables(Text *text, const int *which, int count) {
         "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;\n    t.tilts = 0;\n    "
         "t.tilt = 0.0;");
     for (int k = 0; k < count; k++) {
-        TableRef e = engine_table(which[k]);
+        TableRef e = smaller(text, engine_table(which[k]));
         text_line(text, "    if (which == %d) {", which[k]);
         put_reference(text, &e, e.rows, engine_names[which[k]], "        ");
         text_line(text, "    }");

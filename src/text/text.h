@@ -38,6 +38,9 @@ typedef struct TextDesc {
     /* Comments stay. A line between items of different files is then a comment that names the second one,
      * TEXT_FILE_MARK; what a file begins with is behind its first one, TEXT_HEAD_MARK. */
     bool comments;
+    /* Engines' tables with more rows or columns are put in anew with so many of both, where a text is to hold
+     * them itself; 0: as they are. */
+    int table_side;
 } TextDesc;
 
 #define TEXT_FILE_MARK "/*@"
