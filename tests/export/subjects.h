@@ -286,28 +286,28 @@ static inline void arrays_free(Arrays *a) {
     for (int k = 0; k < OUTPUTS; k++) free(a->out[k]), free(a->expected[k]);
 }
 
-/* All answers, to 5e-4 relative, and 1e-5 where they are small. share: of the answers that may be further
- * off, which is for lobes that have a fork in them: a rounding decides between two samples. */
-static inline void assert_agree(const Exported *s, const char *target, const Arrays *a, double share) {
-    const double tolerance = 5e-4, least = 1e-5;
-    int beyond = 0, all = 0;
+/* How far an answer is off, over what it may be. f, pdf and E: 5e-4 relative, and 1e-5 where they are small.
+ * Directions have a tolerance of their own: the steep ends of a sampler's maps, where a number that is off by
+ * 1e-7 turns a direction by its square root. */
+static inline double answer_error(const Exported *s, int q, size_t at, double expected, double got) {
+    bool direction = s->is_lobe && q == 1 && at % 4 < 3;
+    return fabs(got - expected) / (direction ? 1e-3 : 5e-4 * fabs(expected) + 1e-5);
+}
+
+static inline void assert_agree(const Exported *s, const char *target, const Arrays *a) {
     double worst = 0.0;
     size_t where = 0;
     int which = 0;
     for (int q = 0; q < OUTPUTS; q++)
         for (size_t k = 0; k < (size_t)4 * PAIRS; k++) {
-            double c = (double)a->expected[q][k], got = (double)a->out[q][k];
-            double error = fabs(got - c) / (fabs(c) + least / tolerance);
-            all++;
-            if (!(error <= tolerance)) beyond++;
+            double error = answer_error(s, q, k, (double)a->expected[q][k], (double)a->out[q][k]);
             if (!(error <= worst)) worst = error, where = k, which = q;
         }
     if (getenv("WEFT_TEST_TELL"))
-        print_message("%-10s %-28s worst %.2g, %d of %d beyond\n", target, s->id, worst, beyond, all);
-    if ((double)beyond > share * all)
-        fail_msg("%s, %s: %d of %d beyond, worst %.3g: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id,
-                 target, beyond, all, worst, where / 4, (int)(where % 4), which, (double)a->out[which][where],
-                 (double)a->expected[which][where]);
+        print_message("%-6s %-28s %.2g of the tolerance\n", target, s->id, worst);
+    if (!(worst <= 1.0))
+        fail_msg("%s, %s: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id, target, where / 4,
+                 (int)(where % 4), which, (double)a->out[which][where], (double)a->expected[which][where]);
 }
 
 #endif

@@ -155,8 +155,6 @@ static void crossed_body(const char *text, char *body) {
              "    hlsl_main();\n    out0 = _entryPointOutput_out0;\n    out1 = _entryPointOutput_out1;\n");
 }
 
-static double fork_share(const Exported *s) { return s->is_lobe ? 5e-4 : 1e-4; }
-
 static void agree(Way way) {
     GlContext *context = contexts[way == WAY_ESSL];
     char *body = malloc(BODY);
@@ -177,7 +175,7 @@ static void agree(Way way) {
             subject_body(s, made, "weft_", "vec3", "vec3", false, body, BODY);
             run(s, context, made, made->text, body, false, &arrays[k]);
         }
-        assert_agree(s, way_names[way], &arrays[k], fork_share(s));
+        assert_agree(s, way_names[way], &arrays[k]);
     }
     free(body);
 }
