@@ -258,9 +258,10 @@ static void lists(void) {
 
 static const Option bake_options[] = {
     OPTION_HEADING("Output"),
-    OPTION_LIST("-o", "OUT",
-                "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of an audit "
-                "the errors: .png a sheet, .exr or .npy the numbers"),
+    OPTION_LIST(
+        "-o", "OUT",
+        "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of an audit "
+        "the errors: .png a sheet, .exr or .npy the numbers"),
     OPTION_NUMBER(
         "--scale", "NUMBER", NULL, 1e-6, 1e6,
         "a .png holds the table / NUMBER, and an audit takes FILE times NUMBER [1; for values above "

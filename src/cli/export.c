@@ -41,7 +41,8 @@ static bool ends_in(const char *text, const char *end) {
 }
 
 /* The material of that number, under its name or that of its file. */
-static WeftResult take_material(Export *self, WeftScene *scene, int index, const char *path, WeftError *error) {
+static WeftResult take_material(Export *self, WeftScene *scene, int index, const char *path,
+                                WeftError *error) {
     Subject *subject = &self->subject;
     const char *own = weft_scene_material_name(scene, index), *slash = strrchr(path, '/');
     const char *file = slash ? slash + 1 : path;
@@ -53,7 +54,8 @@ static WeftResult take_material(Export *self, WeftScene *scene, int index, const
     bool textures = false;
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) textures |= subject->material.inputs[k].texture != 0;
     if (textures && !self->quiet)
-        report(0, "warning: %.200s: has textures, which stay with the engine: the text has their factors", path);
+        report(0, "warning: %.200s: has textures, which stay with the engine: the text has their factors",
+               path);
     self->desc.material = &subject->material;
     self->desc.name = subject->name;
     return result;
@@ -126,15 +128,19 @@ static int unknown(const char *text) {
     char hint[96];
     Nearest nearest = {.typed = text};
     for (int k = 0; k < 3; k++)
-        for (int n = 0; kind_of(kinds_of[k])->name(n); n++) nearest_offer(&nearest, kind_of(kinds_of[k])->name(n));
+        for (int n = 0; kind_of(kinds_of[k])->name(n); n++)
+            nearest_offer(&nearest, kind_of(kinds_of[k])->name(n));
     for (int k = 0; weft_preset_name(k); k++) nearest_offer(&nearest, weft_preset_name(k));
-    return report(WEFT_USAGE, "%.200s: is neither a lobe, a profile, a workflow, a preset nor a .json, .gltf or .glb file%s",
-                  text, nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft models");
+    return report(
+        WEFT_USAGE,
+        "%.200s: is neither a lobe, a profile, a workflow, a preset nor a .json, .gltf or .glb file%s", text,
+        nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft models");
 }
 
 static int read_subject(Export *self, const char *text, const WeftLog *log) {
     bool file = ends_in(text, ".json") || strncmp(text, "preset:", 7) == 0;
-    bool asset = ends_in(text, ".gltf") || ends_in(text, ".glb") || strstr(text, ".gltf:") || strstr(text, ".glb:");
+    bool asset =
+        ends_in(text, ".gltf") || ends_in(text, ".glb") || strstr(text, ".gltf:") || strstr(text, ".glb:");
     bool lobe = weft_lobe_find(text) >= 0;
     if (!lobe && option_given(self->options, "-p"))
         return report(WEFT_USAGE, "-p: is for a lobe, and %.80s is none", text);
@@ -144,7 +150,8 @@ static int read_subject(Export *self, const char *text, const WeftLog *log) {
         self->desc.lobe = &self->subject.lobe;
         return given_lobe(self->options, text, false, &self->subject.lobe);
     }
-    if ((kind_find(kind_of("profile"), text) > 0 || kind_find(kind_of("workflow"), text) >= 0) && !is_alias(text)) {
+    if ((kind_find(kind_of("profile"), text) > 0 || kind_find(kind_of("workflow"), text) >= 0) &&
+        !is_alias(text)) {
         self->desc.profile = text;
         return 0;
     }
@@ -158,8 +165,10 @@ static int read_subject(Export *self, const char *text, const WeftLog *log) {
 static int read_right(Export *self, const char *text) {
     WeftError error;
     if (self->desc.target != WEFT_EXPORT_SHADERTOY)
-        return report(WEFT_USAGE, "%.200s: is one operand too many: two lobes are for --target shadertoy", text);
-    if (!self->desc.lobe) return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", text);
+        return report(WEFT_USAGE, "%.200s: is one operand too many: two lobes are for --target shadertoy",
+                      text);
+    if (!self->desc.lobe)
+        return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", text);
     if (kind_named(kind_of("lobe"), text) < 0) return WEFT_USAGE;
     if (weft_lobe_create(text, &self->subject.right, &error) != WEFT_OK) return report_error(&error);
     self->desc.right = &self->subject.right;
@@ -177,8 +186,8 @@ static int export_read(const Options *options, Export *self) {
     if (!option_text(options, "--target"))
         return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, c or shadertoy");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
-    if (!option_choice(options, "--target", targets, &target) || !option_choice(options, "--lut", luts, &lut) ||
-        !option_choice(options, "--light-pi", pis, &pi))
+    if (!option_choice(options, "--target", targets, &target) ||
+        !option_choice(options, "--lut", luts, &lut) || !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
     self->desc.target = (WeftExportTarget)target;
     self->desc.lut = (WeftExportLut)lut;
@@ -214,8 +223,13 @@ static int table_file_write(const Export *self, int k, const char *path) {
         low = texels[n] < low ? texels[n] : low;
         high = texels[n] > high ? texels[n] : high;
     }
-    snprintf(about, sizeof about, "%.95s%s", table->name, table->scale > 1.0f ? ", scaled as the text says" : "");
-    const TableFile file = {.table = &table->texels, .command = command, .about = about, .low = low, .high = high,
+    snprintf(about, sizeof about, "%.95s%s", table->name,
+             table->scale > 1.0f ? ", scaled as the text says" : "");
+    const TableFile file = {.table = &table->texels,
+                            .command = command,
+                            .about = about,
+                            .low = low,
+                            .high = high,
                             .scale = self->desc.lut == WEFT_EXPORT_LUT_PNG16 ? 1.0 : 0.0};
     int result = command ? table_write(&file, path) : report(WEFT_RESOURCES, "out of memory");
     free(command);
@@ -228,9 +242,9 @@ static int tables_write(const Export *self, Json *json) {
         char *path = table_path(self, k);
         result = path ? table_file_write(self, k, path) : report(WEFT_RESOURCES, "out of memory");
         if (result == 0 && json) json_text(json, NULL, path);
-        if (result == 0 && !json && !self->quiet) report(0, "%s: %d x %d texels", path,
-                                                         self->made.tables[k].texels.width,
-                                                         self->made.tables[k].texels.height);
+        if (result == 0 && !json && !self->quiet)
+            report(0, "%s: %d x %d texels", path, self->made.tables[k].texels.width,
+                   self->made.tables[k].texels.height);
         free(path);
     }
     return result;
@@ -283,9 +297,11 @@ static void lists(void) {
 
 static const Option export_options[] = {
     OPTION_HEADING("Output"),
-    OPTION_TEXT("-o", "FILE", NULL, "write the text to FILE; tables go beside it, under their names in the text"),
+    OPTION_TEXT("-o", "FILE", NULL,
+                "write the text to FILE; tables go beside it, under their names in the text"),
     OPTION_TEXT("--target", "TARGET", NULL, "the language, below"),
-    OPTION_TEXT("--lut", "KIND", "c", "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),
+    OPTION_TEXT("--lut", "KIND", "c",
+                "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),
     OPTION_HEADING("Text"),
     OPTION_TEXT("--light-pi", "HOW", "explicit",
                 "explicit: f has its 1/pi and lights are irradiances; folded: f times pi, for lights whose "

@@ -12,7 +12,8 @@ static const Verb *const verbs[] = {&verb_render,
 #ifdef WEFT_VIEW
                                     &verb_view,
 #endif
-                                    &verb_models, &verb_eval, &verb_check, &verb_bake, &verb_export, &verb_diff, NULL};
+                                    &verb_models, &verb_eval, &verb_check, &verb_bake,
+                                    &verb_export, &verb_diff, NULL};
 
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());

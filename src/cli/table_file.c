@@ -180,8 +180,8 @@ static int dds_file_write(const TableFile *file, const char *path) {
 static const struct {
     const char *suffix;
     int (*write)(const TableFile *file, const char *path);
-} writers[] = {{".h", text_write},  {".png", png_write},  {".exr", exr_write},
-               {".dds", dds_file_write}, {".npy", npy_write}, {".csv", text_write}, {".txt", text_write}};
+} writers[] = {{".h", text_write},  {".png", png_write},  {".exr", exr_write}, {".dds", dds_file_write},
+               {".npy", npy_write}, {".csv", text_write}, {".txt", text_write}};
 enum { WRITERS = sizeof writers / sizeof writers[0] };
 
 static int writer_find(const char *path) {

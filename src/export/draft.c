@@ -8,8 +8,9 @@
 
 void draft_begin(Draft *draft, const WeftExportDesc *desc) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
-        [WEFT_EXPORT_GLSL] = SPELL_GLSL, [WEFT_EXPORT_ESSL] = SPELL_GLSL,      [WEFT_EXPORT_HLSL] = SPELL_HLSL,
-        [WEFT_EXPORT_C] = SPELL_C,       [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL,
+        [WEFT_EXPORT_GLSL] = SPELL_GLSL,      [WEFT_EXPORT_ESSL] = SPELL_GLSL,
+        [WEFT_EXPORT_HLSL] = SPELL_HLSL,      [WEFT_EXPORT_C] = SPELL_C,
+        [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL,
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target]};
     snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
@@ -31,7 +32,8 @@ void draft_free(Draft *draft) {
 void draft_root(Draft *draft, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    if (draft->root_count < DRAFT_ROOTS) vsnprintf(draft->roots[draft->root_count++], SPELL_NAME, format, arguments);
+    if (draft->root_count < DRAFT_ROOTS)
+        vsnprintf(draft->roots[draft->root_count++], SPELL_NAME, format, arguments);
     va_end(arguments);
 }
 

@@ -14,13 +14,13 @@ enum { DRAFT_ROOTS = 24, DRAFT_FACTS = 48, DRAFT_ID = 64, DRAFT_ALBEDOS = 2 };
 typedef struct Draft {
     const WeftExportDesc *desc;
     Speller speller;
-    Text text;                            /* TEXT_PLAIN */
-    char roots[DRAFT_ROOTS][SPELL_NAME];  /* what an engine calls */
+    Text text;                           /* TEXT_PLAIN */
+    char roots[DRAFT_ROOTS][SPELL_NAME]; /* what an engine calls */
     FoldFact facts[DRAFT_FACTS];
-    AlbedoTable *albedos[DRAFT_ALBEDOS];  /* owned; text.tables looks into them */
+    AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables looks into them */
     char albedo_names[DRAFT_ALBEDOS][SPELL_NAME];
     int root_count, fact_count, albedo_count;
-    char id[2][DRAFT_ID]; /* of a lobe, then of that on the right, or of a material: an identifier */
+    char id[2][DRAFT_ID];       /* of a lobe, then of that on the right, or of a material: an identifier */
     bool used[TEXT_TABLES_MAX]; /* tables that the text still reads in the end */
     Items items;
     Buffer folded; /* what the items are cut from */

@@ -15,23 +15,29 @@ static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]
 }
 
 static void put_conventions(const Draft *draft, Buffer *out) {
-    buffer_put_text(out,
-                    " *\n * Conventions: directions are unit vectors in the shading frame: +z the normal, +x the tangent,\n"
-                    " * +y the bitangent. wo points to the viewer, wi to the light, both away from the surface.\n"
-                    " * Colours are linear Rec. 709. Angles are radians. E(cos_o), the albedo, is the part of the\n"
-                    " * light from wo that is reflected at all.\n");
+    buffer_put_text(
+        out, " *\n * Conventions: directions are unit vectors in the shading frame: +z the normal, +x the "
+             "tangent,\n"
+             " * +y the bitangent. wo points to the viewer, wi to the light, both away from the surface.\n"
+             " * Colours are linear Rec. 709. Angles are radians. E(cos_o), the albedo, is the part of the\n"
+             " * light from wo that is reflected at all.\n");
     if (draft->desc->fold_pi)
         buffer_put_text(
             out, " * pi: FOLDED. What is returned is multiplied by pi. The unit of a light is what a white\n"
-                 " * Lambertian surface that faces it sends back: light = irradiance / pi, as engines without 1/pi\n"
-                 " * in their Lambert have it. For lights in W/m^2 export with --light-pi explicit; both give one\n"
+                 " * Lambertian surface that faces it sends back: light = irradiance / pi, as engines "
+                 "without 1/pi\n"
+                 " * in their Lambert have it. For lights in W/m^2 export with --light-pi explicit; both "
+                 "give one\n"
                  " * picture.\n");
     else
         buffer_put_text(
-            out, " * pi: EXPLICIT. f has its 1/pi inside (1/sr), and a light is the irradiance of a surface that\n"
-                 " * faces it (W/m^2). Where a white Lambertian surface shows a light as bright as its number, the\n"
-                 " * light's unit has the 1/pi inside: multiply by pi, or export with --light-pi folded; both give\n"
-                 " * one picture.\n");
+            out,
+            " * pi: EXPLICIT. f has its 1/pi inside (1/sr), and a light is the irradiance of a surface that\n"
+            " * faces it (W/m^2). Where a white Lambertian surface shows a light as bright as its number, "
+            "the\n"
+            " * light's unit has the 1/pi inside: multiply by pi, or export with --light-pi folded; both "
+            "give\n"
+            " * one picture.\n");
 }
 
 static void put_call(const Draft *draft, Buffer *out) {
@@ -64,13 +70,15 @@ static void put_call(const Draft *draft, Buffer *out) {
     if (c) {
         spell_name(&draft->speller, ITEM_RECORD, "Rgb", record);
         put_line(out, " *   %s color = {0.5f, 0.1f, 0.1f}%s, f = %s(m, color, %swo, wi);", record,
-                 two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b), two ? "second, " : "");
+                 two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b),
+                 two ? "second, " : "");
     } else {
         put_line(out, " *   %s sent = %s(m, color, %swo, wi) * max(wi.z, 0.0) * light;", type,
                  function(draft, "eval", b), two ? "second, " : "");
     }
     put_line(out, " *   %s drawn = %s(m, wo, u, v); // u, v in [0, 1); z <= 0: no sample",
-             c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : type, function(draft, "sample", a));
+             c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : type,
+             function(draft, "sample", a));
     put_line(out, " *   float pdf = %s(m, wo, drawn);", function(draft, "pdf", a));
     if (desc->albedo) put_line(out, " *   float e = %s(m, wo.z);", function(draft, "albedo", a));
 }
@@ -78,20 +86,31 @@ static void put_call(const Draft *draft, Buffer *out) {
 static void put_engines(const Draft *draft, Buffer *out) {
     char name[SPELL_NAME];
     function(draft, draft->desc->lobe ? "eval" : "shade", name);
-    put_line(out, " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with", draft->id[0]);
-    put_line(out, " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and", draft->id[0]);
+    put_line(out,
+             " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with",
+             draft->id[0]);
+    put_line(
+        out,
+        " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and",
+        draft->id[0]);
     put_line(out, " * call %s in Code; for a shading model of your own include it in", name);
-    put_line(out, " * ShadingModels.ush and call it in its BxDF with V and L turned into the frame of GBuffer.WorldNormal:");
+    put_line(out, " * ShadingModels.ush and call it in its BxDF with V and L turned into the frame of "
+                  "GBuffer.WorldNormal:");
     put_line(out, " * Unreal's lights are explicit. Its x is GBuffer.WorldTangent.");
-    put_line(out, " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File", draft->id[0]);
+    put_line(
+        out,
+        " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File",
+        draft->id[0]);
     put_line(out, " * whose function, void Name_float(..., out float3 Out), calls %s; behind an", name);
-    put_line(out, " * #include of this file. HDRP, URP: include it behind Lighting.hlsl and add it to the loop over lights.");
+    put_line(out, " * #include of this file. HDRP, URP: include it behind Lighting.hlsl and add it to the "
+                  "loop over lights.");
     put_line(out, " * HDRP's lights are explicit; URP's and the built-in pipeline's are folded.");
 }
 
 static void put_tables(const WeftExport *uploads, Buffer *out) {
     if (!uploads->table_count) return;
-    put_line(out, " *\n * Tables: one channel of 32 bit floats or 16 bit unorms, nothing filtered, no sRGB, no mipmaps; row 0");
+    put_line(out, " *\n * Tables: one channel of 32 bit floats or 16 bit unorms, nothing filtered, no sRGB, "
+                  "no mipmaps; row 0");
     put_line(out, " * is the first of the file. The text fetches texels and interpolates them itself.");
     for (int k = 0; k < uploads->table_count; k++)
         put_line(out, " *   %s, %d x %d", uploads->tables[k].name, uploads->tables[k].texels.width,

@@ -72,19 +72,24 @@ static void put_eval(Text *text, const WeftLobe *lobe, const Names *own, bool fo
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
     bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
     text_include(text, "shading/rgb.h");
-    text_line(text, "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, Dir wi) {",
+    text_line(text,
+              "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
+              "Dir wi) {",
               folded ? " times pi, without the cosine," : ", 1/sr, without the cosine,",
               two      ? " color is f0, second f90 or the colour of the weft."
               : tinted ? " color is the albedo of a fibre, in [0, 1]."
                        : "",
               p, own->record, two ? "Rgb second, " : "");
-    text_line(text, "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Angles a = angles_between(wo, wi);");
+    text_line(
+        text,
+        "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Angles a = angles_between(wo, wi);");
     if (tinted)
-        text_line(text,
-                  "    %sReady r = %s_ready(m);\n    Tint t = %s_tint(r, a);\n    float f = %s%s_eval_at(r, a);\n"
-                  "    return rgb(f * tint_color(t, color.r), f * tint_color(t, color.g), "
-                  "f * tint_color(t, color.b));\n}",
-                  own->record, p, p, pi, p);
+        text_line(
+            text,
+            "    %sReady r = %s_ready(m);\n    Tint t = %s_tint(r, a);\n    float f = %s%s_eval_at(r, a);\n"
+            "    return rgb(f * tint_color(t, color.r), f * tint_color(t, color.g), "
+            "f * tint_color(t, color.b));\n}",
+            own->record, p, p, pi, p);
     else if (two)
         text_line(text,
                   "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
@@ -115,8 +120,7 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const Names *own) {
         return;
     }
     bool rows = draft_lobe_rough(lobe);
-    albedo_table_fill(table, &of, rows ? info->params[0].low : 0.0f,
-                      rows ? info->params[0].high : 0.0f, 0);
+    albedo_table_fill(table, &of, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f, 0);
     char function[96], *name = draft->albedo_names[draft->albedo_count - 1];
     snprintf(function, sizeof function, "%s_albedo_table", own->prefix);
     snprintf(name, SPELL_NAME, "%s_albedo", own->prefix);
@@ -125,8 +129,8 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const Names *own) {
     text_line(&draft->text,
               "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table. */\n"
               "float %s(%s m, float cos_o) {\n    return table_roots(%s(), cos_o, %s%s);\n}",
-              info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record, function,
-              rows ? "m." : "0.0", rows ? info->params[0].name : "");
+              info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record,
+              function, rows ? "m." : "0.0", rows ? info->params[0].name : "");
     draft_root(draft, "%s", name);
 }
 

@@ -83,11 +83,13 @@ static void find_facts(Draft *draft, Subject *subject) {
     if (layer) draft_fact(draft, "m.layer", m[0].layer);
     if (by) draft_fact(draft, "m.by", m[0].by);
     if (under) draft_fact(draft, "m.under", m[0].under);
-    bool moved = c->layer == LAYER_RECIPROCAL || c->layer == LAYER_STOCHASTIC; /* these may change it on the way */
+    bool moved =
+        c->layer == LAYER_RECIPROCAL || c->layer == LAYER_STOCHASTIC; /* these may change it on the way */
     if (albedo && !moved) draft_fact(draft, "m.albedo", m[0].albedo);
 #define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
     SURFACE_CHOICES(CHOICE_FACT)
-    static const char *const shown[] = {"only.diffuse", "only.specular", "only.sheen", "only.coat", "only.dust"};
+    static const char *const shown[] = {"only.diffuse", "only.specular", "only.sheen", "only.coat",
+                                        "only.dust"};
     for (int k = 0; k < 5; k++) draft_fact(draft, shown[k], 1);
     subject->chosen = c->diffuse >= 0 || c->d >= 0 || c->v >= 0 || c->f >= 0 || c->sheen_lobe >= 0 ||
                       c->layer >= 0 || c->layer_by >= 0;
@@ -137,11 +139,12 @@ static void put_layer(Text *text, int layer) {
         for (char *c = name; *c; c++) *c = (char)(*c == '-' ? '_' : *c - 'a' + 'A');
         text_line(text, "const int LAYER_%s = %d;", name, k);
     }
-    text_line(text,
-              "const int LAYER_BY_MAX = %d;\nconst int LAYER_BY_CHANNEL = %d;\n\n"
-              "/* What of the base is left for wo and wi: c the sheen's colour, e_o e_i e_avg its albedo. */\n"
-              "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
-              LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
+    text_line(
+        text,
+        "const int LAYER_BY_MAX = %d;\nconst int LAYER_BY_CHANNEL = %d;\n\n"
+        "/* What of the base is left for wo and wi: c the sheen's colour, e_o e_i e_avg its albedo. */\n"
+        "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
+        LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
 }
 
 /* Surfaces are s, and t where one is made of another. */
@@ -170,8 +173,7 @@ static void put_inputs(Text *text, const Items *reader) {
 
 static void put_value(Text *text, const Surface *s, int k) {
     const char *name = input_infos[k].name, *help = input_infos[k].help;
-#define VALUE_SCALAR(input)                                                                                  \
-    text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
+#define VALUE_SCALAR(input) text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
 #define VALUE_ANGLE(input)                                                                                   \
     text_line(text, "    s.%s = %s; /* %s; here in radians */", name, number(s->input).text, help)
 #define VALUE_COLOR(input)                                                                                   \
@@ -190,8 +192,10 @@ static void put_value(Text *text, const Surface *s, int k) {
 /* The numbers, of which only those that are read. */
 static void put_surface(Draft *draft, const Subject *subject, const Items *reader) {
     text_line(&draft->text,
-              "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() {\n    Surface s;",
-              draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers", draft->id[0]);
+              "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
+              "{\n    Surface s;",
+              draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers",
+              draft->id[0]);
     for (int k = 0; k < INPUT_COUNT; k++)
         if (!reader || is_read(reader, k)) put_value(&draft->text, &subject->surface, k);
     text_line(&draft->text, "    return s;\n}");
@@ -216,8 +220,9 @@ static void put_shade(Draft *draft, const Subject *subject) {
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
     text_line(text, "    Angles a = angles_between(o, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(stack_to_coat(m, o), stack_to_coat(m, wi));");
-    text_line(text, draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, a, %s).f_cos, PI);\n}"
-                                         : "    return stack_value(m, a, %s).f_cos;\n}",
+    text_line(text,
+              draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, a, %s).f_cos, PI);\n}"
+                                   : "    return stack_value(m, a, %s).f_cos;\n}",
               coat ? "b" : "a");
     draft_root(draft, "%s_shade", draft->id[0]);
 }

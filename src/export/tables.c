@@ -102,7 +102,9 @@ void draft_tables(const Draft *draft, Buffer *out) {
             put_declaration(draft, k, out);
         }
     if (last < 0) return;
-    put_line(out, "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
+    put_line(
+        out,
+        "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
     put_line(out, "%sfloat %s(int t, int stride, int row, int column) {",
              draft->desc->target == WEFT_EXPORT_C ? "static inline " : "",
              spell_name(&draft->speller, ITEM_FUNCTION, "table_fetch", name));
@@ -127,7 +129,8 @@ WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) 
         if (result != WEFT_OK) return result;
         out->table_count++;
         float *texels = table->texels.pixels;
-        for (int n = 0; n < from->rows * from->columns; n++) texels[n] = (from->texels[n] - range.offset) / range.scale;
+        for (int n = 0; n < from->rows * from->columns; n++)
+            texels[n] = (from->texels[n] - range.offset) / range.scale;
     }
     return WEFT_OK;
 }

@@ -27,7 +27,7 @@ typedef struct Formula {
 static const Formula formulas[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW)};
 
 /* Makes nothing of the inputs that are nothing. */
-static void leave_out(const bool zero[INPUT_COUNT], Surface *s) {
+static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
 #define NO_SCALAR(name)    s->name = 0.0f
 #define NO_ANGLE(name)     s->name = 0.0f
 #define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
@@ -35,8 +35,7 @@ static void leave_out(const bool zero[INPUT_COUNT], Surface *s) {
 #define NO_DIRECTION(name) (void)0
 #define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
     if (zero[INPUT_##name]) NO_##kind(name);
-    SURFACE_INPUTS(LEAVE_OUT)
-}
+    SURFACE_INPUTS(LEAVE_OUT)}
 
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
     const Material material = material_default("");
@@ -148,4 +147,3 @@ void text_composition_choices(Text *text, const Choices *choices) {
     SURFACE_CHOICES(PUT_CHOICE)
     text_line(text, "    return c;\n}");
 }
-

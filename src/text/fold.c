@@ -129,7 +129,7 @@ static Value read_compared(const Fold *fold, const char **c, const char *end) {
         Value b = read_sum(fold, c, end);
         if (!a.known || !b.known) return UNKNOWN;
         const bool answers[] = {a.value == b.value, a.value != b.value, a.value <= b.value,
-                                a.value >= b.value, a.value < b.value,  a.value > b.value};
+                                a.value >= b.value, a.value<b.value, a.value> b.value};
         return known(answers[k]);
     }
     return a;
@@ -294,7 +294,8 @@ static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffe
     while (k < end) {
         Token token = token_next(&k, end);
         if (token_is(token, "(") || token_is(token, "[")) k = closed(token.at, end);
-        bool over = token_is(token, ";") || token_is(token, ",") || token_is(token, ")") || token_is(token, "}");
+        bool over =
+            token_is(token, ";") || token_is(token, ",") || token_is(token, ")") || token_is(token, "}");
         if (token_is(token, "?")) {
             if (!mark)
                 mark = token.at;

@@ -8,10 +8,11 @@
 #include "shading/lobe_tables.h"
 #include "text/number.h"
 
-static const char *const engine_names[ENGINE_COUNT] = {
-    [ENGINE_FILAMENT_SHEEN] = "filament_sheen", [ENGINE_FILAMENT_GGX] = "filament_ggx",
-    [ENGINE_BABYLON_SHEEN] = "babylon_sheen",   [ENGINE_BABYLON_GGX] = "babylon_ggx",
-    [ENGINE_THREE_GGX] = "three_ggx"};
+static const char *const engine_names[ENGINE_COUNT] = {[ENGINE_FILAMENT_SHEEN] = "filament_sheen",
+                                                       [ENGINE_FILAMENT_GGX] = "filament_ggx",
+                                                       [ENGINE_BABYLON_SHEEN] = "babylon_sheen",
+                                                       [ENGINE_BABYLON_GGX] = "babylon_ggx",
+                                                       [ENGINE_THREE_GGX] = "three_ggx"};
 
 /* Lines that fill `t` with what e is, the table being a layer of its own of so many rows. */
 static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {

@@ -9,8 +9,8 @@
  *
  * The texts are those of src/shading when the library was built. What they include is put in its place, once;
  * comments, unless they are wanted, the branches for C and the macros are gone: tables of parameters are
- * members, enumerations constants. Of each line the Text knows the line that it was made from. A failure stays in the Text: later
- * calls do nothing, and text_end returns it.
+ * members, enumerations constants. Of each line the Text knows the line that it was made from. A failure
+ * stays in the Text: later calls do nothing, and text_end returns it.
  *
  * A Text belongs to one thread at a time; two of them share nothing. */
 #ifndef WEFT_TEXT_TEXT_H
@@ -66,9 +66,9 @@ typedef struct Text {
     Macros macros;
     struct TextName *included;
     struct TextName *headed; /* files whose beginning is in the text */
-    int depth; /* files being included inside each other */
-    bool gap;  /* a blank line is due */
-    const char *marked; /* the file that a comment has named last */
+    int depth;               /* files being included inside each other */
+    bool gap;                /* a blank line is due */
+    const char *marked;      /* the file that a comment has named last */
     WeftError error;
 } Text;
 

@@ -15,8 +15,8 @@ typedef enum TokenKind {
     TOKEN_MARK
 } TokenKind;
 
-/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". What comments are there count as
- * blank. */
+/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". What comments are there count
+ * as blank. */
 typedef struct Token {
     TokenKind kind;
     const char *at;

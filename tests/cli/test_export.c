@@ -1,5 +1,5 @@
-/* `weft export`: the text and its tables are there and hold the same numbers, whatever file holds them; nonsense
- * is refused in one line */
+/* `weft export`: the text and its tables are there and hold the same numbers, whatever file holds them;
+ * nonsense is refused in one line */
 #include "run.h"
 
 #include <math.h>
@@ -35,12 +35,15 @@ static void assert_has(const char *path, const char *part) {
 
 static void all_subjects_are_found(void **state) {
     (void)state;
-    static const char *const subjects[][2] = {
-        {"charlie-neubelt", "weft_charlie_neubelt_eval"}, {"khronos", "weft_khronos_shade"},
-        {"metallic", "weft_metallic_shade"},              {"velvet", "weft_velvet_shade"},
-        {"preset:silk", "weft_silk_shade"},               {"scene.gltf", "weft_cloth_shade"},
-        {"scene.gltf:cloth", "weft_cloth_shade"},         {"scene.gltf:0", "weft_cloth_shade"},
-        {"own.json", "weft_own_shade"}};
+    static const char *const subjects[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
+                                              {"khronos", "weft_khronos_shade"},
+                                              {"metallic", "weft_metallic_shade"},
+                                              {"velvet", "weft_velvet_shade"},
+                                              {"preset:silk", "weft_silk_shade"},
+                                              {"scene.gltf", "weft_cloth_shade"},
+                                              {"scene.gltf:cloth", "weft_cloth_shade"},
+                                              {"scene.gltf:0", "weft_cloth_shade"},
+                                              {"own.json", "weft_own_shade"}};
     static const char own[] = "{\"base_color\": [0.5, 0.25, 0.125], \"sheen_color\": [1, 0.5, 0.25]}";
     file_make("own.json", own, sizeof own - 1);
     for (size_t k = 0; k < sizeof subjects / sizeof subjects[0]; k++) {
@@ -54,21 +57,25 @@ static void all_subjects_are_found(void **state) {
 
 static void options_are_heeded(void **state) {
     (void)state;
-    finish(done(LIST("export", "charlie-neubelt", "-p", "alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o", "a.glsl")));
+    finish(done(LIST("export", "charlie-neubelt", "-p", "alpha=0.5", "--target", "glsl", "--prefix", "fuzz_",
+                     "-o", "a.glsl")));
     assert_has("a.glsl", "m.alpha = 0.5;");
     assert_has("a.glsl", "vec3 fuzz_charlie_neubelt_eval(FuzzCharlieNeubelt m");
     assert_has("a.glsl", "EXPLICIT");
-    finish(done(LIST("export", "charlie-neubelt", "--target", "hlsl", "--light-pi", "folded", "-o", "a.hlsl")));
+    finish(
+        done(LIST("export", "charlie-neubelt", "--target", "hlsl", "--light-pi", "folded", "-o", "a.hlsl")));
     assert_has("a.hlsl", "FOLDED");
     assert_has("a.hlsl", "Unreal");
     assert_has("a.hlsl", "Unity");
-    finish(done(LIST("export", "ashikhmin-neubelt", "charlie-neubelt", "--target", "shadertoy", "-o", "toy")));
+    finish(
+        done(LIST("export", "ashikhmin-neubelt", "charlie-neubelt", "--target", "shadertoy", "-o", "toy")));
     assert_has("toy", "void mainImage");
     Ran ran = done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", "npy", "--json", "-o", "f.glsl"));
     json_t *json = json_loads(ran.out, 0, NULL);
     assert_non_null(json);
     assert_int_equal(json_array_size(json_object_get(json, "tables")), 1);
-    assert_string_equal(json_string_value(json_array_get(json_object_get(json, "tables"), 0)), "f.weft_texels_ltc_fibre.npy");
+    assert_string_equal(json_string_value(json_array_get(json_object_get(json, "tables"), 0)),
+                        "f.weft_texels_ltc_fibre.npy");
     json_decref(json);
     ran_free(&ran);
 }
@@ -87,13 +94,15 @@ static void tables_are_read_back(void **state) {
     WeftLobe lobe;
     WeftExport made;
     assert_int_equal(weft_lobe_create("ltc-fibre", &lobe, NULL), WEFT_OK);
-    assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL), WEFT_OK);
+    assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL),
+                     WEFT_OK);
     assert_int_equal(made.table_count, 1);
     const WeftImage *own = &made.tables[0].texels;
     const float *texels = own->pixels;
     size_t count = (size_t)own->width * (size_t)own->height, size;
     for (int k = 0; weft_export_lut(k); k++)
-        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut(k), "--quiet", "-o", "t.glsl")));
+        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut(k), "--quiet",
+                         "-o", "t.glsl")));
     static const char *const floats[] = {"t.weft_texels_ltc_fibre.exr", "t.weft_texels_ltc_fibre.npy"};
     for (int f = 0; f < 2; f++) {
         WeftImage image = image_of(floats[f]);
@@ -144,7 +153,8 @@ static void png_is_scaled(void **state) {
     assert_int_equal(weft_export(&desc, &plain, NULL), WEFT_OK);
     desc.lut = WEFT_EXPORT_LUT_PNG16;
     assert_int_equal(weft_export(&desc, &scaled, NULL), WEFT_OK);
-    finish(done(LIST("export", "charlie-neubelt", "--albedo", "--target", "glsl", "--lut", "png16", "--quiet", "-o", "p.glsl")));
+    finish(done(LIST("export", "charlie-neubelt", "--albedo", "--target", "glsl", "--lut", "png16", "--quiet",
+                     "-o", "p.glsl")));
     float scale = scaled.tables[0].scale;
     char factor[32];
     snprintf(factor, sizeof factor, ".r * %.1f;", (double)scale);
@@ -155,7 +165,8 @@ static void png_is_scaled(void **state) {
     for (int k = 0; k < image.width * image.height; k++) {
         float got = (float)((uint16_t *)image.pixels)[k] / 65535.0f * scale;
         float own = ((float *)plain.tables[0].texels.pixels)[k];
-        if (fabsf(got - own) > scale * 0.51f / 65535.0f) fail_msg("texel %d: %g, not %g", k, (double)got, (double)own);
+        if (fabsf(got - own) > scale * 0.51f / 65535.0f)
+            fail_msg("texel %d: %g, not %g", k, (double)got, (double)own);
     }
     weft_image_free(&image);
     weft_export_free(&plain);
@@ -199,9 +210,9 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_is_complete),     cmocka_unit_test(all_subjects_are_found),
-        cmocka_unit_test(options_are_heeded),   cmocka_unit_test(tables_are_read_back),
-        cmocka_unit_test(png_is_scaled),        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(help_is_complete),   cmocka_unit_test(all_subjects_are_found),
+        cmocka_unit_test(options_are_heeded), cmocka_unit_test(tables_are_read_back),
+        cmocka_unit_test(png_is_scaled),      cmocka_unit_test(nonsense_is_refused),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -112,11 +112,12 @@ static inline WeftExport subject_export(const WeftExportDesc *desc) {
 static const struct {
     const char *name, *at;
     int row, column;
-} varied[] = {{"base_color", "rgb", 2, 0},         {"roughness", "in2.w", 2, 3}, {"sheen_color", "rgb", 3, 0},
-              {"sheen_roughness", "in3.w", 3, 3},  {"metallic", "in4.x", 4, 0},  {"specular", "in4.y", 4, 1},
-              {"clearcoat", "in4.z", 4, 2},        {"clearcoat_roughness", "in4.w", 4, 3},
-              {"sheen", "in5.x", 5, 0},            {"anisotropy", "in5.y", 5, 1},
-              {"subsurface", "in5.z", 5, 2},       {"sheen_tint", "in5.w", 5, 3}};
+} varied[] = {{"base_color", "rgb", 2, 0},   {"roughness", "in2.w", 2, 3},
+              {"sheen_color", "rgb", 3, 0},  {"sheen_roughness", "in3.w", 3, 3},
+              {"metallic", "in4.x", 4, 0},   {"specular", "in4.y", 4, 1},
+              {"clearcoat", "in4.z", 4, 2},  {"clearcoat_roughness", "in4.w", 4, 3},
+              {"sheen", "in5.x", 5, 0},      {"anisotropy", "in5.y", 5, 1},
+              {"subsurface", "in5.z", 5, 2}, {"sheen_tint", "in5.w", 5, 3}};
 enum { VARIED = sizeof varied / sizeof varied[0] };
 
 static inline Dir any_direction(Draw *draw) {
@@ -137,15 +138,16 @@ static inline void subject_inputs(const Exported *s, float *in[INPUTS]) {
         }
         for (int p = 0; s->is_lobe && p < weft_lobe_info(s->lobe.lobe)->param_count; p++) {
             const WeftParamInfo *info = &weft_lobe_info(s->lobe.lobe)->params[p];
-            float x = info->low + (info->high - info->low) * draw_unit(&draw), *to = &in[2 + p / 4][4 * k + (size_t)(p % 4)];
+            float x = info->low + (info->high - info->low) * draw_unit(&draw),
+                  *to = &in[2 + p / 4][4 * k + (size_t)(p % 4)];
             *to = info->choices ? (float)(int)(x + 0.5f) : x;
         }
     }
 }
 
 /* Statements in any of the languages, which read in0 .. in5 and set members of out0 and out1. */
-static inline void subject_body(const Exported *s, const WeftExport *text, const char *prefix, const char *dir,
-                                const char *rgb, bool c, char *body, size_t room) {
+static inline void subject_body(const Exported *s, const WeftExport *text, const char *prefix,
+                                const char *dir, const char *rgb, bool c, char *body, size_t room) {
     char type[64] = "", id[64];
     size_t used = 0;
     int size = 0;
@@ -163,7 +165,9 @@ static inline void subject_body(const Exported *s, const WeftExport *text, const
         used += (size_t)snprintf(body + used, room - used, __VA_ARGS__);                                     \
         assert_true(used < room);                                                                            \
     } while (0)
-    PUT("    %s o; o.x = in0.x; o.y = in0.y; o.z = in0.z;\n    %s i; i.x = in1.x; i.y = in1.y; i.z = in1.z;\n", dir, dir);
+    PUT("    %s o; o.x = in0.x; o.y = in0.y; o.z = in0.z;\n    %s i; i.x = in1.x; i.y = in1.y; i.z = "
+        "in1.z;\n",
+        dir, dir);
     if (s->is_lobe) {
         const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
         const char *record = strstr(text->text, c ? "_default(void) {" : "_default() {");
@@ -172,13 +176,18 @@ static inline void subject_body(const Exported *s, const WeftExport *text, const
         PUT("    %.*s m = %s_default();\n", (int)strcspn(record, " "), record, id);
         for (int p = 0; p < info->param_count; p++)
             PUT("    m.%s = %s(in%d.%c);\n", info->params[p].name,
-                c ? info->params[p].choices ? "(int)" : "(float)" : info->params[p].choices ? "int" : "float", 2 + p / 4, "xyzw"[p % 4]);
+                c                         ? info->params[p].choices ? "(int)" : "(float)"
+                : info->params[p].choices ? "int"
+                                          : "float",
+                2 + p / 4, "xyzw"[p % 4]);
         PUT("    %s color; color.r = in4.x; color.g = in4.y; color.b = in4.z;\n", rgb);
         bool two = info->traits & WEFT_LOBE_TWO_COLORS;
         if (two) PUT("    %s second; second.r = in5.x; second.g = in5.y; second.b = in5.z;\n", rgb);
         PUT("    %s f = %s_eval(m, color, %so, i);\n", rgb, id, two ? "second, " : "");
         PUT("    %s drawn = %s_sample(m, o, in0.w, in1.w);\n", dir, id);
-        PUT("    out0.w = %s_pdf(m, o, i);\n    out1.x = drawn.x;\n    out1.y = drawn.y;\n    out1.z = drawn.z;\n", id);
+        PUT("    out0.w = %s_pdf(m, o, i);\n    out1.x = drawn.x;\n    out1.y = drawn.y;\n    out1.z = "
+            "drawn.z;\n",
+            id);
         if (has_albedo(s)) PUT("    out1.w = %s_albedo(m, o.z);\n", id);
     } else {
         PUT("    %sSurface s = %s_surface();\n", type, id);
@@ -217,7 +226,8 @@ static inline void lobe_answers(const Exported *s, float *const in[INPUTS], floa
     assert_true(lobe_of(&s->lobe, &base));
     bool rows = info->param_count > 0 && !info->params[0].choices;
     if (has_albedo(s))
-        albedo_table_fill(table, &base, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f, 0);
+        albedo_table_fill(table, &base, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f,
+                          0);
     TableRef e = albedo_table_ref(table);
     for (size_t k = 0; k < PAIRS; k++) {
         WeftLobe lobe = s->lobe;
@@ -303,8 +313,7 @@ static inline void assert_agree(const Exported *s, const char *target, const Arr
             double error = answer_error(s, q, k, (double)a->expected[q][k], (double)a->out[q][k]);
             if (!(error <= worst)) worst = error, where = k, which = q;
         }
-    if (getenv("WEFT_TEST_TELL"))
-        print_message("%-6s %-28s %.2g of the tolerance\n", target, s->id, worst);
+    if (getenv("WEFT_TEST_TELL")) print_message("%-6s %-28s %.2g of the tolerance\n", target, s->id, worst);
     if (!(worst <= 1.0))
         fail_msg("%s, %s: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id, target, where / 4,
                  (int)(where % 4), which, (double)a->out[which][where], (double)a->expected[which][where]);

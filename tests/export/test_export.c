@@ -18,7 +18,8 @@ static int begin(void **state) {
 static void assert_text(const Exported *s, const char *target, const char *text) {
     static const char *const banned[] = {"#if ", "#elif", "STRUCT(", "FN ", " \n", "/*@", "/*!", "\t"};
     for (size_t k = 0; k < sizeof banned / sizeof banned[0]; k++)
-        if (strstr(text, banned[k])) fail_msg("%s, %s: \"%s\": %.60s", s->id, target, banned[k], strstr(text, banned[k]));
+        if (strstr(text, banned[k]))
+            fail_msg("%s, %s: \"%s\": %.60s", s->id, target, banned[k], strstr(text, banned[k]));
     static const char *const wanted[] = {"SPDX-License-Identifier: MIT", "Conventions", "pi: EXPLICIT"};
     for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; k++)
         if (!strstr(text, wanted[k])) fail_msg("%s, %s: no \"%s\"", s->id, target, wanted[k]);
@@ -40,7 +41,8 @@ static void texts_are_clean(void **state) {
             assert_int_equal(made.size, strlen(made.text));
             assert_text(s, weft_export_target(t), made.text);
             if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made.text, "Example"));
-            if (t == WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made.text, "void mainImage(out vec4 pixel"));
+            if (t == WEFT_EXPORT_SHADERTOY)
+                assert_non_null(strstr(made.text, "void mainImage(out vec4 pixel"));
             weft_export_free(&made);
         }
     }
@@ -95,15 +97,19 @@ static void pi_gives_one_picture(void **state) {
             for (char *c = id; *c; c++)
                 if (*c == '-') *c = '_';
             char big = fold ? 'F' : 'E';
-            fprintf(stream, "\nfloat run_%s%d(float light);\nfloat run_%s%d(float light) {\n"
-                            "  %c%dDir o = {0.6f, 0.0f, 0.8f}, i = {-0.48f, 0.64f, 0.6f};\n",
+            fprintf(stream,
+                    "\nfloat run_%s%d(float light);\nfloat run_%s%d(float light) {\n"
+                    "  %c%dDir o = {0.6f, 0.0f, 0.8f}, i = {-0.48f, 0.64f, 0.6f};\n",
                     fold ? "f" : "e", k, fold ? "f" : "e", k, big, k);
             if (s->is_lobe) {
                 bool two = weft_lobe_info(s->lobe.lobe)->traits & WEFT_LOBE_TWO_COLORS;
-                fprintf(stream, "  %c%dRgb c = {0.5f, 0.5f, 0.5f};\n  return %s%s_eval(%s%s_default(), c, %so, i).g * i.z * light;\n}\n",
+                fprintf(stream,
+                        "  %c%dRgb c = {0.5f, 0.5f, 0.5f};\n  return %s%s_eval(%s%s_default(), c, %so, i).g "
+                        "* i.z * light;\n}\n",
                         big, k, prefix, id, prefix, id, two ? "c, " : "");
             } else {
-                fprintf(stream, "  return %s%s_shade(%s%s_surface(), o, i).g * light;\n}\n", prefix, id, prefix, id);
+                fprintf(stream, "  return %s%s_shade(%s%s_surface(), o, i).g * light;\n}\n", prefix, id,
+                        prefix, id);
             }
             weft_export_free(&made);
         }

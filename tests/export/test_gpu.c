@@ -65,8 +65,10 @@ static bool begins(const char *line, const char *with) { return strncmp(line, wi
 /* The text as compute.h takes it. */
 static void put_text(Text *out, const char *text, bool crossed) {
     int layer = 0;
-    text_line(out, "vec4 layer_fetch(int layer, ivec2 at) { return texelFetch(weft_tables, ivec3(at, layer), 0); }\n"
-                   "#define texelFetch(s, at, lod) layer_fetch(s, at)");
+    text_line(
+        out,
+        "vec4 layer_fetch(int layer, ivec2 at) { return texelFetch(weft_tables, ivec3(at, layer), 0); }\n"
+        "#define texelFetch(s, at, lod) layer_fetch(s, at)");
     for (const char *line = text; *line;) {
         int size = (int)strcspn(line, "\n");
         if (begins(line, "uniform "))
@@ -102,8 +104,8 @@ static int order_tables(const WeftExport *made, const char *text, TextTable *out
     return count;
 }
 
-static void run(const Exported *s, GlContext *context, const WeftExport *made, const char *text, const char *body,
-                bool crossed, Arrays *a) {
+static void run(const Exported *s, GlContext *context, const WeftExport *made, const char *text,
+                const char *body, bool crossed, Arrays *a) {
     Text shader;
     Compute *compute = NULL;
     WeftError error = {0};
@@ -187,17 +189,20 @@ static void glsl_compiles(void **state) {
         for (Way way = WAY_GLSL; way <= WAY_ESSL; way++) {
             char name[128];
             snprintf(name, sizeof name, "%s.%s.frag", subjects[k].id, way_names[way]);
-            file_put(name, way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
+            file_put(name,
+                     way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
                      exported[way][k].text, "\nout vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n");
         }
-    shell("for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { grep ERROR log | head -3; exit 1; }; done");
+    shell("for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { grep ERROR log | head -3; exit 1; "
+          "}; done");
 }
 
 static void hlsl_compiles(void **state) {
     (void)state;
     if (!has_program("glslangValidator")) skip();
     for (int k = 0; k < subject_count; k++) hlsl_put(&subjects[k], &exported[WAY_HLSL][k]);
-    shell("for f in *.frag.hlsl; do glslangValidator -D -V -e main -S frag $f -o ${f%.frag.hlsl}.spv >log 2>&1 || "
+    shell("for f in *.frag.hlsl; do glslangValidator -D -V -e main -S frag $f -o ${f%.frag.hlsl}.spv >log "
+          "2>&1 || "
           "{ grep ERROR log | head -3; exit 1; }; done");
 }
 
