@@ -76,7 +76,7 @@ static void put_declaration(const Draft *draft, int k, Buffer *out) {
 }
 
 static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
-    char name[SPELL_NAME], test[32] = "", factor[64] = "", added[40] = "";
+    char name[SPELL_NAME], test[32] = "", factor[112] = "", added[40] = "";
     Range range = table_range(draft, k);
     const char *f = draft->desc->target == WEFT_EXPORT_C ? "f" : "";
     if (!last) snprintf(test, sizeof test, "if (t == %d) ", k);

@@ -211,9 +211,7 @@ const char *layout_put(const Buffer *source, bool *gap, Buffer *out) {
         *gap = false;
         put_plain(source, comment, c, out);
         set_origin(source, c, out);
-        if (record && has_comment(c, stop))
-            put_plain(source, c, stop, out);
-        else if (record)
+        if (record && !has_comment(c, stop))
             put_record(source, c, stop - 1, out);
         else if (enumeration)
             put_enumeration(source, c, stop, out);
