@@ -66,6 +66,7 @@ typedef enum WeftResult {
     M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
     M(PLAUSIBLE, WARNING, "is not plausible")                                                                \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
+    M(EXPORT_LOBE, USAGE, "is a random walk, for the path tracer only: export fibre, which stands for it")   \
     M(LTC_LOBE, USAGE, "has no linearly transformed cosines")                                                \
     M(CACHE_IGNORED, WARNING, "is not used as a cache")                                                      \
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \

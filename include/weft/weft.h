@@ -24,6 +24,7 @@
 #include "weft/bake.h"
 #include "weft/diff.h"
 #include "weft/doctor.h"
+#include "weft/export.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"

@@ -121,7 +121,7 @@ static int bake_read(const Options *options, Bake *bake) {
         return report(WEFT_USAGE, "-p: is for a lobe, and none is given");
     if (lobe) result = bake_lobe(options, lobe, &bake->lobe);
     if (result == 0 && !option_given(options, "-o"))
-        result = report(WEFT_USAGE, "bake: needs -o OUT, a .h, .png, .exr, .npy, .csv or .txt file");
+        result = report(WEFT_USAGE, "bake: needs -o OUT, a .h, .png, .exr, .dds, .npy, .csv or .txt file");
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
         if (!table_suffix_check(path)) result = WEFT_USAGE;
     bake->desc.kind = kind->id;
@@ -258,9 +258,10 @@ static void lists(void) {
 
 static const Option bake_options[] = {
     OPTION_HEADING("Output"),
-    OPTION_LIST("-o", "OUT",
-                "write OUT: .h a C array, .png 16 bit, .exr 32 bit floats, .npy, .csv or .txt; of an audit "
-                "the errors: .png a sheet, .exr or .npy the numbers"),
+    OPTION_LIST(
+        "-o", "OUT",
+        "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of an audit "
+        "the errors: .png a sheet, .exr or .npy the numbers"),
     OPTION_NUMBER(
         "--scale", "NUMBER", NULL, 1e-6, 1e6,
         "a .png holds the table / NUMBER, and an audit takes FILE times NUMBER [1; for values above "

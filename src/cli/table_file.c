@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "dds.h"
 #include "decimal.h"
 #include "output.h"
 #include "report.h"
@@ -154,10 +155,32 @@ static int exr_write(const TableFile *file, const char *path) {
 
 static int npy_write(const TableFile *file, const char *path) { return float_write(file, path, false); }
 
+/* Three channels have no format: a fourth is 0. */
+static int dds_file_write(const TableFile *file, const char *path) {
+    const WeftImage *table = file->table;
+    const int channels = table->channels == 3 ? 4 : table->channels;
+    WeftImage image;
+    WeftError error;
+    Output output;
+    if (weft_image_create(table->width, table->height, channels, WEFT_PIXEL_F32, &image, &error) != WEFT_OK)
+        return report_error(&error);
+    float *to = image.pixels;
+    for (int y = 0; y < table->height; y++)
+        for (int x = 0; x < table->width; x++, to += channels)
+            memcpy(to, texel_at(table, x, y), (size_t)table->channels * sizeof *to);
+    int result = output_begin(&output, path);
+    if (result == 0) {
+        dds_write(output.stream, &image);
+        result = output_end(&output);
+    }
+    weft_image_free(&image);
+    return result;
+}
+
 static const struct {
     const char *suffix;
     int (*write)(const TableFile *file, const char *path);
-} writers[] = {{".h", text_write},  {".png", png_write},  {".exr", exr_write},
+} writers[] = {{".h", text_write},  {".png", png_write},  {".exr", exr_write}, {".dds", dds_file_write},
                {".npy", npy_write}, {".csv", text_write}, {".txt", text_write}};
 enum { WRITERS = sizeof writers / sizeof writers[0] };
 
@@ -170,7 +193,7 @@ static int writer_find(const char *path) {
 
 bool table_suffix_check(const char *path) {
     if (writer_find(path) >= 0) return true;
-    report(WEFT_USAGE, "%s: has no suffix of those a table can have: .h .png .exr .npy .csv .txt", path);
+    report(WEFT_USAGE, "%s: has no suffix of those a table can have: .h .png .exr .dds .npy .csv .txt", path);
     return false;
 }
 

@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_plot, verb_bake, verb_diff,
-    verb_doctor;
+extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_plot, verb_bake, verb_export,
+    verb_diff, verb_doctor;
 #ifdef WEFT_VIEW
 extern const Verb verb_view;
 #endif

@@ -67,7 +67,7 @@ static GLuint make_tables(const Programs *programs, const TextTable *own, int ow
     for (int k = 0; k < count; k++) {
         const AlbedoTable *table = sheen_tables_at(programs->sheens, k);
         TableRef e = albedo_table_ref(table);
-        tables[own_count + k] = (TextTable){e.texels, table->maps * e.rows, e.columns + 1};
+        tables[own_count + k] = (TextTable){e.texels, table->maps * e.rows, e.columns + 1, NULL};
     }
     GLuint texture = tables_create(tables, all, error);
     free(tables);

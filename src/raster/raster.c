@@ -183,7 +183,7 @@ static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError 
     if (result == WEFT_OK) result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     language = context_language(self->context);
-    self->programs.desc = (TextDesc){language, true, self->desc.shader_dir};
+    self->programs.desc = (TextDesc){.language = language, .tables = true, .folder = self->desc.shader_dir};
     result = upload(self, log, error);
     context_leave(self->context, &outer);
     return result;

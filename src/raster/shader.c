@@ -7,86 +7,20 @@
 #include "raster/part.h"
 
 #include "scene/shade.h"
-#include "shading/choice.h"
-#include "shading/engine_tables.h"
 #include "shading/material_stack.h"
-#include "text/dispatch.h"
+#include "text/composition.h"
 #include "text/number.h"
 #include "text/tables.h"
 #include "weft/lobe.h"
 
-/* A workflow or profile: its file, and what makes its stack. */
-typedef struct Composition {
-    const char *folder, *id, *stack;
-} Composition;
-
-#define WORKFLOW_ROW(id, index, stack, help) {"workflows", id, #stack},
-#define PROFILE_ROW(id, index, stack, help)  {"profiles", id, #stack},
-static const Composition workflows[] = {WEFT_WORKFLOWS(WORKFLOW_ROW)};
-static const Composition profiles[] = {WEFT_PROFILES(PROFILE_ROW)};
-
-typedef struct Formula {
-    int albedo;
-    const char *row;
-} Formula;
-
-#define FORMULA_ROW(name, index, formula) {index, "A(" #name ", " #index ", " #formula ")"},
-static const Formula formulas[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW)};
-
-/* A surface in which every lobe of a stack shows; x is 0 or 1 for what a stack may make a choice of. */
-static Surface full_surface(float x) {
-    const Material material = material_default("");
-    Surface s = material_plain(&material);
-    s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
-    s.clearcoat = 1.0f;
-    s.roughness = s.sheen_roughness = 0.5f;
-    s.anisotropy = s.subsurface = s.metallic = x;
-    s.sheen = s.specular = 1.0f;
-    return s;
+static void find_zeros(const ShaderKey *key, bool zero[INPUT_COUNT]) {
+    for (int k = 0; k < INPUT_COUNT; k++) zero[k] = key->inputs[k].state == INPUT_ZERO;
 }
 
-/* What the slots of a key may hold: ids, and the first lobe of each with its parameters. */
-typedef struct KeySlots {
-    TextSlot slots[TEXT_SLOTS];
-    Lobe lobes[TEXT_SLOTS];
-    bool worn; /* a layer rule could do without a sheen */
-} KeySlots;
-
-static void add_lobe(KeySlots *self, int slot, const Slot *from) {
-    TextSlot *to = &self->slots[slot];
-    int id = from->lobe.id;
-    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->pick > 0.0f)) return;
-    for (int k = 0; k < to->count; k++)
-        if (to->lobes[k] == id) return;
-    if (!to->count) self->lobes[slot] = from->lobe;
-    to->lobes[to->count++] = id;
-}
-
-/* Puts in what a key says of inputs that are nothing. */
-static void leave_out(const ShaderKey *key, Surface *s) {
-#define NO_SCALAR(name)    s->name = 0.0f
-#define NO_ANGLE(name)     s->name = 0.0f
-#define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
-#define NO_NORMAL(name)    (void)0
-#define NO_DIRECTION(name) (void)0
-#define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
-    if (key->inputs[INPUT_##name].state == INPUT_ZERO) NO_##kind(name);
-    SURFACE_INPUTS(LEAVE_OUT)
-}
-
-static KeySlots find_slots(const ShaderKey *key) {
-    KeySlots found = {.worn = true};
-    for (int x = 0; x <= 2; x++) {
-        Stack m;
-        Surface s = full_surface(0.5f * (float)x);
-        leave_out(key, &s);
-        stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
-        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
-        for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
-        found.worn &= m.layer != LAYER_SEED;
-    }
-    return found;
+static CompositionSlots find_slots(const ShaderKey *key) {
+    bool zero[INPUT_COUNT];
+    find_zeros(key, zero);
+    return composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
 }
 
 static bool is_mapped(const ShaderInput *input) {
@@ -112,11 +46,12 @@ static const Slot *slot_of(const Stack *m, int slot) {
 
 bool shader_holds(const ShaderKey *key, int slot) {
     Lobe lobes[2];
+    bool zero[INPUT_COUNT];
+    find_zeros(key, zero);
     for (int k = 0; k < 2; k++) {
         Stack m;
-        Surface s = full_surface(0.5f);
-        s.dust = 1.0f;
-        leave_out(key, &s);
+        Surface s = composition_surface(0.5f, zero);
+        s.dust = zero[INPUT_dust] ? 0.0f : 1.0f;
         vary(key, &s, k ? 0.75f : 0.25f);
         stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
         lobes[k] = slot_of(&m, slot)->lobe;
@@ -127,72 +62,6 @@ bool shader_holds(const ShaderKey *key, int slot) {
 }
 
 static bool is_dusty(const ShaderKey *key) { return key->inputs[INPUT_dust].state != INPUT_ZERO; }
-
-/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
-static void put_lobes(Text *text, const ShaderKey *key, const KeySlots *found) {
-    static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
-                                                "HAS_COAT(m)"};
-    int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    if (is_dusty(key)) ids[count++] = LOBE_LTC_FIBRE;
-    for (int k = 0; k < TEXT_SLOTS; k++)
-        for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
-    char kind[16], tilts[16];
-    snprintf(kind, sizeof kind, "%d", key->table_kind);
-    snprintf(tilts, sizeof tilts, "%d", key->table_tilts);
-    text_define(text, "SHEEN_KIND(m)", kind);
-    text_define(text, "SHEEN_TILTS(m)", tilts);
-    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
-    text_define(text, "HAS_DUST(m)", is_dusty(key) ? "true" : "false");
-    text_define(text, "IS_WORN(m)", found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
-    text_dispatch(text, ids, count);
-    text_slots(text, found->slots);
-}
-
-#define ENGINE_NAME(name)                                                                                    \
-    { "ENGINE_" #name, ENGINE_##name }
-static const struct {
-    const char *name;
-    int which;
-} engines[] = {ENGINE_NAME(FILAMENT_SHEEN), ENGINE_NAME(FILAMENT_GGX), ENGINE_NAME(BABYLON_SHEEN),
-               ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
-
-/* The engines' tables that the composition names: each takes a while to make. */
-static void put_engines(Text *text, const char *file, const char *formula) {
-    int which[ENGINE_COUNT], count = 0;
-    const char *source = weft_catalogue_text(file);
-    for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
-        if ((source && strstr(source, engines[k].name)) || strstr(formula, engines[k].name))
-            which[count++] = engines[k].which;
-    text_engine_tables(text, which, count);
-}
-
-/* In place of shading/profile.h: the one composition that this shader is for. */
-static void put_composition(Text *text, const Choices *choices) {
-    const Composition *c = choices->profile > 0 ? &profiles[choices->profile]
-                                                : &workflows[choices->workflow < 0 ? 0 : choices->workflow];
-    char file[128], rows[256] = "";
-    int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
-    for (int k = 0; k < size; k++)
-        if (file[k] == '-') file[k] = '_';
-    Surface s = full_surface(0.5f);
-    int albedo = compose_begin(s, *choices, dir(0.0f, 0.0f, 1.0f)).albedo;
-    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
-        if (formulas[k].albedo == albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
-    put_engines(text, file + strlen("shading/"), rows);
-    text_provide(text, "shading/profile.h");
-    text_include(text, "shading/workflow.h");
-    text_include(text, file);
-    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
-    text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
-    text_include(text, "shading/compose.h");
-}
-
-static void put_choices(Text *text, const Choices *choices) {
-    text_line(text, "\nChoices material_choices() {\n    Choices c;");
-#define PUT_CHOICE(name, help) text_line(text, "    c.%s = %d;", #name, choices->name);
-    SURFACE_CHOICES(PUT_CHOICE)
-    text_line(text, "    return c;\n}");
-}
 
 /* One vec4 an input, two for where its texture lies, and the sheen's table: material.c fills them. */
 static void put_uniforms(Text *text, const ShaderKey *key) {
@@ -335,7 +204,7 @@ static void put_lights(Text *text, const ShaderKey *key) {
 }
 
 /* Whether a pixel looks another way for another tangent. */
-static bool turns(const ShaderKey *key, const KeySlots *found) {
+static bool turns(const ShaderKey *key, const CompositionSlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
         const ShaderInput *input = &key->inputs[turning[k]];
@@ -345,7 +214,7 @@ static bool turns(const ShaderKey *key, const KeySlots *found) {
     return found->slots[2].count && weft_lobe_info(found->lobes[2].id)->traits & TRAIT_ANISOTROPIC;
 }
 
-static bool same_slots(const KeySlots *a, const KeySlots *b) {
+static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
     bool same = a->worn == b->worn;
     for (int k = 0; k < TEXT_SLOTS; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
@@ -371,7 +240,7 @@ static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
 
 /* Whether two keys leave out and hold the same. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
-    const KeySlots x = find_slots(a), y = find_slots(b);
+    const CompositionSlots x = find_slots(a), y = find_slots(b);
     return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b) &&
            same_tables(a, b);
 }
@@ -434,7 +303,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         if (!fit) return false;
         t = ambient_table(fit, strategy);
         int sides = t.turning ? AMBIENT_SIDES : 1;
-        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns});
+        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
         t.held = slot * AMBIENT_HELD;
         t.focus = key->focus >> slot & 1;
@@ -446,7 +315,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
     return true;
 }
 
-static void put_ambient(Text *text, const ShaderKey *key, const KeySlots *found, Fits *fits) {
+static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {
     const Lobe dust = lobe_default(LOBE_LTC_FIBRE);
     environment_text(text);
     text_line(text, "\nAmbientWeights ambient_held(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
@@ -470,15 +339,15 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
         depth_text(key, text);
         return;
     }
-    const KeySlots found = find_slots(key);
+    const CompositionSlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     if (turns(key, &found)) text_define(text, "TURNS", "1");
     part_text(key->part, text);
     put_lights(text, key);
-    put_lobes(text, key, &found);
+    text_composition_lobes(text, &found, is_dusty(key), key->table_kind, key->table_tilts);
     if (key->polygons) text_lobe_tables(text);
-    put_composition(text, &key->choices);
-    put_choices(text, &key->choices);
+    text_composition(text, &key->choices);
+    text_composition_choices(text, &key->choices);
     put_uniforms(text, key);
     if (key->ambient) put_ambient(text, key, &found, fits);
     put_table(text, key);

@@ -9,13 +9,29 @@ static bool blank_is_enough(const Buffer *out, size_t line) {
     return out->bytes && line > 1 && (out->bytes[line - 2] == '\n' || out->bytes[line - 2] == '{');
 }
 
-void layout_strip(const char *source, const char *end, Buffer *out) {
+/* Whether the line that c is in is a directive, or goes on with one. */
+static bool in_directive(const char *source, const char *c) {
+    for (;;) {
+        const char *line = c;
+        while (line > source && line[-1] != '\n') line--;
+        const char *first = line;
+        while (first < c && is_blank(*first)) first++;
+        if (*first == '#') return true;
+        if (line - source < 2 || line[-2] != '\\') return false;
+        c = line - 1;
+    }
+}
+
+void layout_strip(const char *source, const char *end, bool keep, Buffer *out) {
     size_t line = out->size; /* where the line being written starts */
     bool had_comment = false;
     for (const char *c = source; c < end;) {
         const char *next = c + 1;
         if (*c == '"') {
             next = string_end(c, end);
+        } else if (keep && is_comment(c, end) && !in_directive(source, c)) {
+            next = comment_end(c, end);
+            for (const char *k = c; k < next; k++) out->origin.line += *k == '\n';
         } else if (*c == '/' && next < end && (*next == '*' || *next == '/')) {
             bool block = *next == '*';
             for (next = c + 2;
@@ -111,6 +127,11 @@ static void put_record(const Buffer *source, const char *c, const char *end, Buf
     buffer_put_text(out, "};");
 }
 
+static bool has_comment(const char *c, const char *end) {
+    while (c < end && !is_comment(c, end)) c++;
+    return c < end;
+}
+
 /* enum { A, B = 4, C } as constants; GLSL has no enumerations. */
 static void put_enumeration(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *m = find_mark(c, end, "{") + 1, *close = find_mark(m, end, "}");
@@ -171,11 +192,13 @@ const char *layout_put(const Buffer *source, bool *gap, Buffer *out) {
     for (const char *c = source->bytes; c < end;) {
         int newlines = 0;
         for (; c < end && (is_blank(*c) || *c == ';'); c++) newlines += *c == '\n';
-        if (c == end) break;
+        if (!has_words(c, end)) break;
+        const char *comment = c;
+        c = blank_end(c, end);
         const char *stop = item_end(c, end), *cursor = c;
         const char *wrong = wrong_in(source, c, stop, out);
         if (wrong) return wrong;
-        set_origin(source, c, out);
+        set_origin(source, comment, out);
         Token keyword = token_next(&cursor, stop), second = token_solid(&cursor, stop);
         bool type = token_is(keyword, "typedef"), record = token_is(keyword, "struct");
         bool enumeration = token_is(keyword, "enum") || (type && token_is(second, "enum"));
@@ -186,7 +209,9 @@ const char *layout_put(const Buffer *source, bool *gap, Buffer *out) {
         }
         if ((*gap || newlines > 1) && out->size) buffer_put(out, "\n", 1);
         *gap = false;
-        if (record)
+        put_plain(source, comment, c, out);
+        set_origin(source, c, out);
+        if (record && !has_comment(c, stop))
             put_record(source, c, stop - 1, out);
         else if (enumeration)
             put_enumeration(source, c, stop, out);

@@ -1,13 +1,13 @@
-/* layout.h - how the flattened text looks: no comments, one blank line where there were some, records a
- * member a line, enumerations as constants */
+/* layout.h - how the flattened text looks: one blank line where there were some, records a member a line,
+ * enumerations as constants; comments only where they are asked for */
 #ifndef WEFT_TEXT_LAYOUT_H
 #define WEFT_TEXT_LAYOUT_H
 
 #include "text/buffer.h"
 
 /* Appends source without comments, and without the lines that held nothing else. out->origin is where source
- * comes from, and moves on with its lines. */
-void layout_strip(const char *source, const char *end, Buffer *out);
+ * comes from, and moves on with its lines. keep: comments stay, but for those in directives. */
+void layout_strip(const char *source, const char *end, bool keep, Buffer *out);
 
 /* Appends the declarations and functions of source, in which nothing is left to expand, each line with the
  * origin of its first word. *gap: a blank line is due before the next. Returns NULL, or what is in the way of

@@ -3,16 +3,23 @@
 #define WEFT_TEXT_NUMBER_H
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct Number {
     char text[32];
 } Number;
 
-/* All of its digits, and a point or an exponent in any case: without one it would be an integer. */
+/* As many digits as it takes to be read as the same, and a point or an exponent in any case: without one it
+ * would be an integer. */
 static inline Number number(float value) {
     Number n;
-    int size = snprintf(n.text, sizeof n.text - 2, "%.9g", (double)value);
+    int size = 0;
+    for (int digits = 6; digits <= 9; digits++) {
+        size = snprintf(n.text, sizeof n.text - 2, "%.*g", digits, (double)value);
+        float read = strtof(n.text, NULL);
+        if (!(read < value) && !(read > value)) break;
+    }
     if (!strpbrk(n.text, ".e")) memcpy(n.text + size, ".0", 3);
     return n;
 }

@@ -1,15 +1,23 @@
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "text/tables.h"
 
+#include "shading/albedo.h"
 #include "shading/engine_tables.h"
 #include "shading/lobe_tables.h"
 #include "text/number.h"
 
-/* Lines that fill `t` with what e is, the table being a layer of its own. */
-static void put_reference(Text *text, const TableRef *e, const char *indent) {
-    int columns = e->kind == TABLE_ROOTS ? e->columns + 1 : e->columns;
-    int layer = text_table(text, (TextTable){e->texels, e->rows, columns});
+static const char *const engine_names[ENGINE_COUNT] = {[ENGINE_FILAMENT_SHEEN] = "filament_sheen",
+                                                       [ENGINE_FILAMENT_GGX] = "filament_ggx",
+                                                       [ENGINE_BABYLON_SHEEN] = "babylon_sheen",
+                                                       [ENGINE_BABYLON_GGX] = "babylon_ggx",
+                                                       [ENGINE_THREE_GGX] = "three_ggx"};
+
+/* Lines that fill `t` with what e is, the table being a layer of its own of so many rows. */
+static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {
+    bool own = e->kind == TABLE_ROOTS || e->kind == TABLE_TINTED;
+    int layer = text_table(text, (TextTable){e->texels, rows, own ? e->columns + 1 : e->columns, name});
     text_line(text, "%st.texels = %d;\n%st.kind = %d;\n%st.rows = %d;\n%st.columns = %d;", indent, layer,
               indent, e->kind, indent, e->rows, indent, e->columns);
     text_line(text, "%st.low = %s;\n%st.high = %s;\n%st.tilts = %d;\n%st.tilt = %s;", indent,
@@ -26,9 +34,34 @@ void text_lobe_tables(Text *text) {
     for (int k = 0; k < LOBE_TABLE_COUNT; k++) {
         if (!lobe_table_refs[k].texels) continue;
         text_line(text, "\nTableRef lobe_table_%s() {\n    TableRef t;", names[k]);
-        put_reference(text, &lobe_table_refs[k], "    ");
+        put_reference(text, &lobe_table_refs[k], lobe_table_refs[k].rows, names[k], "    ");
         text_line(text, "    return t;\n}");
     }
+}
+
+void text_albedo_table(Text *text, const char *function, const char *name, const AlbedoTable *table) {
+    const TableRef e = albedo_table_ref(table);
+    text_line(text, "\nTableRef %s() {\n    TableRef t;", function);
+    put_reference(text, &e, table->maps * e.rows, name, "    ");
+    text_line(text, "    return t;\n}");
+}
+
+/* An engine's table at `side` by `side` texel centres of its own. */
+static TableRef smaller(Text *text, TableRef e) {
+    int side = text->desc.table_side;
+    if (!side || (e.rows <= side && e.columns <= side)) return e;
+    float *texels = arena_array(&text->macros.arena, (size_t)side * (size_t)side, sizeof *texels);
+    if (!texels) {
+        text->macros.short_of_memory = true;
+        return e;
+    }
+    for (int row = 0; row < side; row++)
+        for (int column = 0; column < side; column++)
+            texels[row * side + column] =
+                table_linear(e, ((float)column + 0.5f) / (float)side, ((float)row + 0.5f) / (float)side);
+    e.texels = texels;
+    e.rows = e.columns = side;
+    return e;
 }
 
 void text_engine_tables(Text *text, const int *which, int count) {
@@ -40,9 +73,9 @@ void text_engine_tables(Text *text, const int *which, int count) {
         "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;\n    t.tilts = 0;\n    "
         "t.tilt = 0.0;");
     for (int k = 0; k < count; k++) {
-        TableRef e = engine_table(which[k]);
+        TableRef e = smaller(text, engine_table(which[k]));
         text_line(text, "    if (which == %d) {", which[k]);
-        put_reference(text, &e, "        ");
+        put_reference(text, &e, e.rows, engine_names[which[k]], "        ");
         text_line(text, "    }");
     }
     text_line(text, "    return t;\n}");

@@ -2,11 +2,15 @@
 #ifndef WEFT_TEXT_TABLES_H
 #define WEFT_TEXT_TABLES_H
 
+#include "shading/albedo.h"
 #include "text/text.h"
 
 /* The functions of shading/lobe_tables.h, whose place this takes, for the tables that are made by now; those
  * that are baked always are. text_lobe calls it where it must. */
 void text_lobe_tables(Text *text);
+
+/* Defines a function without parameters that returns the table, which must outlive the text. */
+void text_albedo_table(Text *text, const char *function, const char *name, const AlbedoTable *table);
 
 /* Defines the function of shading/engine_tables.h for those tables; any other is TABLE_NONE there, so E is 0.
  * Call it once in a text that has a profile. Making a table takes up to half a second the first time. */

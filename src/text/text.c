@@ -46,9 +46,15 @@ static void fail_dialect(Text *text, const char *what) {
 }
 
 void text_define(Text *text, const char *name, const char *body) {
-    char line[256];
-    int size = snprintf(line, sizeof line, "%s %s", name, body);
-    macro_define(&text->macros, line, (size_t)size < sizeof line ? (size_t)size : sizeof line - 1);
+    Buffer line = {0};
+    buffer_put_text(&line, name);
+    buffer_put_text(&line, " ");
+    buffer_put_text(&line, body);
+    if (line.failed)
+        fail_memory(text);
+    else
+        macro_define(&text->macros, line.bytes, line.size);
+    buffer_free(&line);
 }
 
 void text_begin(Text *text, const TextDesc *desc) {
@@ -59,6 +65,7 @@ void text_begin(Text *text, const TextDesc *desc) {
         text_line(text, "#version 300 es\nprecision highp float;\nprecision highp int;");
         break;
     case TEXT_GLSL_450: text_line(text, "#version 450"); break;
+    case TEXT_PLAIN: break;
     }
     text_define(text, desc->language == TEXT_GLSL_ES_300 ? "GL_ES" : "GL_core_profile", "1");
     if (!desc->tables) return;
@@ -126,9 +133,30 @@ static void check_macros(Text *text) {
     if (*text->macros.wrong) fail_dialect(text, text->macros.wrong);
 }
 
+/* A comment that says whose the next items are, and with the first of them what their file begins with. */
+static void put_marks(Text *text, const char *file, const Buffer *source) {
+    if (text->marked == file) return;
+    bool first = source->bytes && is_comment(source->bytes, source->bytes + source->size);
+    for (const TextName *name = text->headed; name; name = name->next) first &= name->name != file;
+    text_line(text, "\n" TEXT_FILE_MARK " %s */", file);
+    text->marked = file;
+    if (!first) return;
+    const char *stop = comment_end(source->bytes, source->bytes + source->size);
+    text_line(text, TEXT_HEAD_MARK "%.*s", (int)(stop - source->bytes) - 2, source->bytes + 2);
+    TextName *name = arena_array(&text->macros.arena, 1, sizeof *name);
+    if (!name) {
+        fail_memory(text);
+        return;
+    }
+    *name = (TextName){text->headed, file};
+    text->headed = name;
+}
+
 /* The declarations between two directives of source. What a macro stands for comes from where it is called.
  */
 static void put_chunk(Text *text, const Buffer *source, const char *chunk, const char *end) {
+    if (text->desc.comments && blank_end(chunk, end) < end)
+        put_marks(text, buffer_origin(source, 0).file, source);
     define_types(text, chunk, end);
     Buffer expanded = {0};
     while (chunk < end && !expanded.failed && !*text->macros.wrong) {
@@ -360,7 +388,7 @@ void text_include(Text *text, const char *file) {
     if (!find_file(text, file, &source)) return;
     Buffer stripped = {.origin = {source.path, 1}};
     text->buffer.origin = stripped.origin;
-    layout_strip(source.bytes, source.end, &stripped);
+    layout_strip(source.bytes, source.end, text->desc.comments, &stripped);
     free(source.own);
     text->depth++;
     if (stripped.failed)

@@ -8,9 +8,9 @@
  *   text_free(&text);
  *
  * The texts are those of src/shading when the library was built. What they include is put in its place, once;
- * comments, the branches for C and the macros are gone: tables of parameters are members, enumerations
- * constants. Of each line the Text knows the line that it was made from. A failure stays in the Text: later
- * calls do nothing, and text_end returns it.
+ * comments, unless they are wanted, the branches for C and the macros are gone: tables of parameters are
+ * members, enumerations constants. Of each line the Text knows the line that it was made from. A failure
+ * stays in the Text: later calls do nothing, and text_end returns it.
  *
  * A Text belongs to one thread at a time; two of them share nothing. */
 #ifndef WEFT_TEXT_TEXT_H
@@ -22,7 +22,8 @@
 typedef enum TextLanguage {
     TEXT_GLSL_330,    /* desktop OpenGL 3.3 core */
     TEXT_GLSL_ES_300, /* OpenGL ES 3.0, WebGL 2 */
-    TEXT_GLSL_450     /* Vulkan, through its compilers */
+    TEXT_GLSL_450,    /* Vulkan, through its compilers */
+    TEXT_PLAIN        /* what these share, without a first line: for another language to be made from */
 } TextLanguage;
 
 /* Zero-initialise. */
@@ -34,12 +35,22 @@ typedef struct TextDesc {
     /* A folder whose files win over those of the library: shading/lobes/ggx.h below it is taken where it is
      * there. May be NULL; must outlive the Text. */
     const char *folder;
+    /* Comments stay. A line between items of different files is then a comment that names the second one,
+     * TEXT_FILE_MARK; what a file begins with is behind its first one, TEXT_HEAD_MARK. */
+    bool comments;
+    /* Engines' tables with more rows or columns are put in anew with so many of both, where a text is to hold
+     * them itself; 0: as they are. */
+    int table_side;
 } TextDesc;
+
+#define TEXT_FILE_MARK "/*@"
+#define TEXT_HEAD_MARK "/*!"
 
 /* A layer of weft_tables: `rows` rows of `columns` floats. Borrowed: it must outlive whoever uploads it. */
 typedef struct TextTable {
     const float *texels;
     int rows, columns;
+    const char *name; /* for people; may be NULL; borrowed too */
 } TextTable;
 
 enum { TEXT_TABLES_MAX = 32 };
@@ -54,8 +65,10 @@ typedef struct Text {
     Buffer buffer;
     Macros macros;
     struct TextName *included;
-    int depth; /* files being included inside each other */
-    bool gap;  /* a blank line is due */
+    struct TextName *headed; /* files whose beginning is in the text */
+    int depth;               /* files being included inside each other */
+    bool gap;                /* a blank line is due */
+    const char *marked;      /* the file that a comment has named last */
     WeftError error;
 } Text;
 

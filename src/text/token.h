@@ -15,7 +15,8 @@ typedef enum TokenKind {
     TOKEN_MARK
 } TokenKind;
 
-/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". */
+/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". What comments are there count
+ * as blank. */
 typedef struct Token {
     TokenKind kind;
     const char *at;
@@ -35,14 +36,30 @@ static inline const char *string_end(const char *c, const char *end) {
     return c < end ? c + 1 : end;
 }
 
+static inline bool is_comment(const char *c, const char *end) {
+    return c + 1 < end && c[0] == '/' && c[1] == '*';
+}
+
+/* Behind the comment that opens at c, or end. */
+static inline const char *comment_end(const char *c, const char *end) {
+    for (c += 2; c + 1 < end && (c[0] != '*' || c[1] != '/');) c++;
+    return c + 1 < end ? c + 2 : end;
+}
+
+/* Behind the blanks and comments at c, or end. */
+static inline const char *blank_end(const char *c, const char *end) {
+    while (c < end && (is_blank(*c) || is_comment(c, end))) c = is_blank(*c) ? c + 1 : comment_end(c, end);
+    return c;
+}
+
 /* Takes the next token from [*cursor, end); TOKEN_NONE at the end. */
 static inline Token token_next(const char **cursor, const char *end) {
     const char *c = *cursor;
     Token token = {TOKEN_NONE, c, 0};
     if (c == end) return token;
-    if (is_blank(*c)) {
+    if (is_blank(*c) || is_comment(c, end)) {
         token.kind = TOKEN_BLANK;
-        while (c < end && is_blank(*c)) c++;
+        c = blank_end(c, end);
     } else if (is_digit(*c) || (*c == '.' && c + 1 < end && is_digit(c[1]))) {
         token.kind = TOKEN_NUMBER;
         for (; c < end && (is_name(*c) || *c == '.'); c++)

@@ -106,7 +106,7 @@ static void tables_are_read_as_they_are(void **state) {
         if (create(context, "", "out0.x = texelFetch(weft_tables, ivec3(in0.zyx), 0).r;", 1, 1, &compute,
                    &error) != WEFT_OK)
             fail_msg("%s", error.text);
-        static const TextTable sizes[] = {{NULL, 4, 5}, {NULL, 1, 1}, {NULL, 2, 9}};
+        static const TextTable sizes[] = {{NULL, 4, 5, NULL}, {NULL, 1, 1, NULL}, {NULL, 2, 9, NULL}};
         enum { TABLES = 3, N = 20 + 1 + 18 };
         float values[N], in[4 * N], out[4 * N];
         const float *const ins[] = {in};

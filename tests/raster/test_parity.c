@@ -112,7 +112,8 @@ static void make_program(void *user, int language, int thread) {
     WeftError *error = &programs->errors[language];
     Text text;
     if (!context) return;
-    text_begin(&text, &(TextDesc){context_language(context), true, programs->folder});
+    text_begin(&text, &(TextDesc){
+                          .language = context_language(context), .tables = true, .folder = programs->folder});
     subject->put(&text, programs->which);
     if (text_end(&text, error) == WEFT_OK) {
         ComputeDesc desc = {.name = programs->name,
@@ -632,7 +633,7 @@ static AlbedoTable tinted, leaning, scaled;
 
 static void put_table(Text *text, const char *name, const AlbedoTable *table) {
     TableRef e = albedo_table_ref(table);
-    int layer = text_table(text, (TextTable){e.texels, e.rows * table->maps, e.columns + 1});
+    int layer = text_table(text, (TextTable){e.texels, e.rows * table->maps, e.columns + 1, NULL});
     text_line(text, "\nTableRef %s() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", name, layer,
               e.kind);
     text_line(text, "    t.rows = %d;\n    t.columns = %d;\n    t.low = %s;\n    t.high = %s;", e.rows,

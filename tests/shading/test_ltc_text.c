@@ -283,7 +283,7 @@ static void compare_on(TextLanguage language) {
     assert_int_equal(text_end(&text, &error), WEFT_OK);
     ComputeDesc desc = {.name = "a transform", .text = &text, .body = body, .inputs = 3, .outputs = 2};
     if (compute_create(context, &desc, &compute, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_int_equal(compute_tables(compute, &(TextTable){texels, PLANES * ROWS, COLUMNS}, 1, &error),
+    assert_int_equal(compute_tables(compute, &(TextTable){texels, PLANES * ROWS, COLUMNS, NULL}, 1, &error),
                      WEFT_OK);
     static float in[3][4 * PAIRS], out[2][4 * PAIRS];
     Random random = {15};

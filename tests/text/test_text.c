@@ -190,7 +190,7 @@ static void a_surface_is_glsl(void **state) {
         text_dispatch(&text, ids, count);
         text_engine_tables(&text, (const int[]){ENGINE_THREE_GGX}, 1);
         assert_int_equal(text.table_count, LOBE_TABLE_COUNT + 1);
-        assert_int_equal(text_table(&text, (TextTable){NULL, 1, 1}),
+        assert_int_equal(text_table(&text, (TextTable){.rows = 1, .columns = 1}),
                          LOBE_TABLE_COUNT + 1); /* the surface's own E */
         text_include(&text, "shading/compose.h");
         for (const CatalogueFile *file = catalogue_files; file->name; file++)

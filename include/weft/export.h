@@ -1,0 +1,96 @@
+/* export.h - a shading model as text for an engine: GLSL, HLSL, C or a complete Shadertoy, with its tables
+ *
+ *   WeftExport text;
+ *   weft_export(&(WeftExportDesc){.lobe = &lobe, .target = WEFT_EXPORT_HLSL}, &text, &error);
+ *   fwrite(text.text, 1, text.size, file);
+ *   weft_export_free(&text);
+ *
+ * The text is that of the catalogue, so it does what this library does; it begins with what it is, its
+ * conventions, its licence and how to call it. Directions are in the shading frame as weft/lobe.h has it.
+ *
+ *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; ID_albedo where asked
+ *   of a material   NAME_surface (its numbers), NAME_shade (f times the cosine)
+ *
+ * It does not hold textures, normal maps, emission, environments and area lights: they are the engine's. */
+#ifndef WEFT_EXPORT_H
+#define WEFT_EXPORT_H
+
+#include <stddef.h>
+
+#include "weft/image.h"
+#include "weft/lobe.h"
+#include "weft/material.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum WeftExportTarget {
+    WEFT_EXPORT_GLSL = 0,  /* functions for GLSL 3.30 core and later */
+    WEFT_EXPORT_ESSL,      /* for GLSL ES 3.00: OpenGL ES 3, WebGL 2 */
+    WEFT_EXPORT_HLSL,      /* for shader model 5 and later: Unreal, Unity */
+    WEFT_EXPORT_C,         /* one header, C99 and C++, that includes nothing but math.h and stdbool.h */
+    WEFT_EXPORT_SHADERTOY, /* one whole shader: a ball, the mouse moves roughness and light */
+    WEFT_EXPORT_TARGETS
+} WeftExportTarget;
+
+/* "glsl", "essl", "hlsl", "c", "shadertoy" and a line on each; NULL past the end. */
+WEFT_API const char *weft_export_target(int target);
+WEFT_API const char *weft_export_target_help(int target);
+
+/* How tables reach the program. Only PNG16 changes their numbers. */
+typedef enum WeftExportLut {
+    WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY */
+    WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
+    WEFT_EXPORT_LUT_EXR,
+    WEFT_EXPORT_LUT_DDS,
+    WEFT_EXPORT_LUT_NPY,
+    WEFT_EXPORT_LUTS
+} WeftExportLut;
+
+/* "c", "png16", "exr", "dds", "npy"; NULL past the end. */
+WEFT_API const char *weft_export_lut(int lut);
+
+/* Zero means default, in every member. Of lobe, profile and material exactly one is given. */
+typedef struct WeftExportDesc {
+    const WeftLobe *lobe;         /* its parameters are what ID_default returns */
+    const WeftLobe *right;        /* SHADERTOY: a second lobe, for the right half of the picture */
+    const char *profile;          /* the id of an engine profile, or of a workflow */
+    const WeftMaterial *material; /* its numbers; what it has at 0 may not be in the text */
+    const char *name;             /* of the material, in names of the text; NULL: "material" */
+    WeftExportTarget target;
+    WeftExportLut lut;
+    int albedo;         /* not 0: of a lobe ID_albedo too, which reads a table */
+    int fold_pi;        /* not 0: f comes multiplied by pi, for lights whose unit has the 1/pi inside */
+    const char *prefix; /* of every name, a C identifier of at most 24 characters; NULL: "weft_" */
+    const char *call;   /* what made the text, for its first lines; may be NULL */
+} WeftExportDesc;
+
+enum { WEFT_EXPORT_TABLES_MAX = 8, WEFT_EXPORT_NAME = 96 };
+
+/* A table that the text reads: F32, one channel, to be uploaded as it is, without filtering or mipmaps. */
+typedef struct WeftExportTable {
+    char name[WEFT_EXPORT_NAME]; /* of the sampler, texture or array in the text */
+    WeftImage texels;
+    float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
+} WeftExportTable;
+
+typedef struct WeftExport {
+    char *text; /* owned; ends with a zero byte that size does not count */
+    size_t size;
+    WeftExportTable tables[WEFT_EXPORT_TABLES_MAX]; /* that are not in the text itself */
+    int table_count;
+} WeftExport;
+
+/* Makes a text. Fails with WEFT_MESSAGE_EXPORT_LOBE (a lobe that is a random walk), _CHECK_NAME (no such
+ * profile), _DESC or _MEMORY; *out is then zero. A table of E takes up to seconds. */
+WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error);
+
+/* Releases what it owns and zeroes it. text may be NULL or all zero. */
+WEFT_API void weft_export_free(WeftExport *text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

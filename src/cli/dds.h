@@ -1,0 +1,13 @@
+/* dds.h - a table as a DirectDraw surface, the container that Unreal, Unity and Direct3D read as it is */
+#ifndef WEFT_CLI_DDS_H
+#define WEFT_CLI_DDS_H
+
+#include <stdio.h>
+
+#include "weft/image.h"
+
+/* Writes one surface without mipmaps of 32 bit floats of 1, 2 or 4 channels, an image of F32. What went wrong
+ * is in the stream. */
+void dds_write(FILE *stream, const WeftImage *image);
+
+#endif

@@ -1,0 +1,98 @@
+/* ball.c - what makes a Shadertoy of a model: a lit ball, or one beside the other where there are two lobes
+ *
+ * The picture is made by weft and not taken from anywhere. A light stands where the mouse says and a second,
+ * faint one behind the ball shows the rim; both are distant. Tone: sRGB of the radiance, clamped. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "export/draft.h"
+
+static const char scene[] =
+    "/* A ball fills most of the picture's height, or of its half. Radiance towards the viewer, of\n"
+    " * one distant light of irradiance `light`. */\n"
+    "vec3 lit(bool right, float roughness, vec3 n, vec3 v, vec3 l, vec3 light) {\n"
+    "    vec3 t = normalize(cross(vec3(0.0, 1.0, 0.0), n) + vec3(1e-6, 0.0, 0.0)), b = cross(n, t);\n"
+    "    vec3 wo = vec3(dot(v, t), dot(v, b), dot(v, n)), wi = vec3(dot(l, t), dot(l, b), dot(l, n));\n"
+    "    return shown(right, roughness, wo, wi) * light;\n"
+    "}\n"
+    "\n"
+    "void mainImage(out vec4 pixel, in vec2 at) {\n"
+    "    vec2 mouse = iMouse.z > 0.0 || iMouse.x + iMouse.y > 0.0\n"
+    "                     ? iMouse.xy / iResolution.xy : vec2(0.5 + 0.35 * sin(iTime), 0.5);\n"
+    "    float roughness = mix(0.15, 1.0, clamp(mouse.y, 0.0, 1.0)); /* up and down */\n"
+    "    float turn = 6.2831853 * (mouse.x - 0.5);                   /* left and right */\n"
+    "    vec3 l = normalize(vec3(sin(turn), 0.55, cos(turn)));\n"
+    "    bool right = halves && at.x > 0.5 * iResolution.x;\n"
+    "    vec2 room = vec2(halves ? 0.5 : 1.0, 1.0) * iResolution.xy;\n"
+    "    vec2 q = (at - vec2(right ? room.x : 0.0, 0.0) - 0.5 * room) / (0.44 * min(room.x, room.y));\n"
+    "    vec3 color = vec3(0.022 + 0.02 * at.y / iResolution.y);\n"
+    "    if (dot(q, q) < 1.0) {\n"
+    "        vec3 n = vec3(q, sqrt(1.0 - dot(q, q))), v = vec3(0.0, 0.0, 1.0);\n"
+    "        color = lit(right, roughness, n, v, l, sun) +\n"
+    "                lit(right, roughness, n, v, normalize(vec3(-0.5, 0.3, -0.8)), 0.4 * sun);\n"
+    "    }\n"
+    "    if (halves && abs(at.x - 0.5 * iResolution.x) < 1.0) color = vec3(0.25);\n"
+    "    color = clamp(color, 0.0, 1.0);\n"
+    "    vec3 high = 1.055 * pow(color, vec3(1.0 / 2.4)) - 0.055;\n"
+    "    pixel = vec4(mix(12.92 * color, high, step(0.0031308, color)), 1.0);\n"
+    "}\n";
+
+static char *named(const Draft *draft, ItemKind kind, const char *id, const char *end,
+                   char name[SPELL_NAME]) {
+    char plain[DRAFT_ID + 16];
+    snprintf(plain, sizeof plain, "%s%s", id, end);
+    return spell_name(&draft->speller, kind, plain, name);
+}
+
+/* f times the cosine of one half's lobe. */
+static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, const char *indent,
+                     Buffer *out) {
+    char record[SPELL_NAME], make[SPELL_NAME], eval[SPELL_NAME];
+    bool two = weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS, rough = draft_lobe_rough(lobe);
+    put_line(out, "%s%s m = %s(%s);", indent,
+             spell_name(&draft->speller, ITEM_RECORD, draft_lobe_record(lobe->lobe), record),
+             named(draft, ITEM_FUNCTION, id, rough ? "_rough" : "_default", make), rough ? "roughness" : "");
+    put_line(out, "%sreturn %s(m, cloth, %swo, wi) * max(wi.z, 0.0);", indent,
+             named(draft, ITEM_FUNCTION, id, "_eval", eval), two ? "vec3(1.0), " : "");
+}
+
+void draft_ball(const Draft *draft, Buffer *out) {
+    const WeftExportDesc *desc = draft->desc;
+    char record[SPELL_NAME], make[SPELL_NAME], shade[SPELL_NAME];
+    bool halves = desc->right && desc->right->lobe != desc->lobe->lobe;
+    put_line(out, "\n/* Here the picture begins. */\n");
+    put_line(out, "const vec3 cloth = vec3(0.82, 0.3, 0.24); /* its colour */");
+    put_line(out, "const vec3 sun = vec3(%s);", desc->fold_pi ? "1.0" : "3.14159265");
+    put_line(out, "const bool halves = %s;", halves ? "true" : "false");
+    put_line(out, "\n/* What is shown: the left or the right half's model. */");
+    put_line(out, "vec3 shown(bool right, float roughness, vec3 wo, vec3 wi) {");
+    if (halves) {
+        put_line(out, "    if (right) {");
+        put_lobe(draft, desc->right, draft->id[1], "        ", out);
+        put_line(out, "    }");
+    }
+    if (desc->lobe) {
+        put_lobe(draft, desc->lobe, draft->id[0], "    ", out);
+    } else {
+        put_line(out, "    %s s = %s();", spell_name(&draft->speller, ITEM_RECORD, "Surface", record),
+                 named(draft, ITEM_FUNCTION, draft->id[0], "_surface", make));
+        if (desc->profile) draft_ball_inputs(draft, out);
+        put_line(out, "    return %s(s, wo, wi);",
+                 named(draft, ITEM_FUNCTION, draft->id[0], "_shade", shade));
+    }
+    put_line(out, "}\n");
+    buffer_put_text(out, scene);
+}
+
+/* An engine's defaults show no sheen: a cloth of two colours, as rough as the mouse says. */
+void draft_ball_inputs(const Draft *draft, Buffer *out) {
+    static const char *const lines[][2] = {
+        {"base_color", "    s.base_color = 0.5 * cloth;"},
+        {"roughness", "    s.roughness = max(roughness, 0.4);"},
+        {"sheen_color", "    s.sheen_color = cloth;"},
+        {"sheen_roughness", "    s.sheen_roughness = roughness;"},
+        {"sheen", "    s.sheen = 1.0;"},
+    };
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++)
+        if (items_ask(&draft->items, "Surface", 's', lines[k][0])) put_line(out, "%s", lines[k][1]);
+}

@@ -1,0 +1,78 @@
+/* draft.h - a text for an engine while it is made: catalogue text, what of it is wanted, what is known */
+#ifndef WEFT_EXPORT_DRAFT_H
+#define WEFT_EXPORT_DRAFT_H
+
+#include "shading/albedo.h"
+#include "text/fold.h"
+#include "text/items.h"
+#include "text/spell.h"
+#include "text/text.h"
+#include "weft/export.h"
+
+enum { DRAFT_ROOTS = 24, DRAFT_FACTS = 48, DRAFT_ID = 64, DRAFT_ALBEDOS = 2 };
+
+typedef struct Draft {
+    const WeftExportDesc *desc;
+    Speller speller;
+    Text text;                           /* TEXT_PLAIN */
+    char roots[DRAFT_ROOTS][SPELL_NAME]; /* what an engine calls */
+    FoldFact facts[DRAFT_FACTS];
+    AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables looks into them */
+    char albedo_names[DRAFT_ALBEDOS][SPELL_NAME];
+    int root_count, fact_count, albedo_count;
+    char id[2][DRAFT_ID];       /* of a lobe, then of that on the right, or of a material: an identifier */
+    bool used[TEXT_TABLES_MAX]; /* tables that the text still reads in the end */
+    Items items;
+    Buffer folded; /* what the items are cut from */
+} Draft;
+
+/* Both may be called in any case after one another. */
+void draft_begin(Draft *draft, const WeftExportDesc *desc);
+void draft_free(Draft *draft);
+
+/* Text that is wanted, under a name with the id in it: draft_root(draft, "%s_eval", id). */
+__attribute__((format(printf, 2, 3))) void draft_root(Draft *draft, const char *format, ...);
+
+/* path must outlive the draft. */
+void draft_fact(Draft *draft, const char *path, int value);
+
+/* An empty table of E to fill, NULL where memory is short. */
+AlbedoTable *draft_albedo(Draft *draft);
+
+/* Closes the text, folds it and keeps what the roots need. */
+WeftResult draft_cut(Draft *draft, WeftError *error);
+
+/* "a-b" as an identifier. */
+void draft_identifier(const char *name, char id[DRAFT_ID]);
+
+/* A lobe's functions; which: 0, or 1 for that on the right. */
+void draft_lobe(Draft *draft, const WeftLobe *lobe, int which);
+
+/* Whether its record has a first parameter that an artist's roughness sets. */
+bool draft_lobe_rough(const WeftLobe *lobe);
+
+/* How a lobe's record is called. */
+const char *draft_lobe_record(int lobe);
+
+/* A profile's, a workflow's or a material's functions. */
+WeftResult draft_material(Draft *draft, WeftError *error);
+
+/* The tables in the words of the target: samplers or arrays, and the function that reads a texel. */
+void draft_tables(const Draft *draft, Buffer *out);
+
+/* What the program must upload, in the order in which the text names them. */
+WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error);
+
+/* The comment at the top. */
+void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out);
+
+/* Shadertoy's: the ball and its light, behind the functions. */
+void draft_ball(const Draft *draft, Buffer *out);
+
+/* Lines that give an engine profile a cloth to show. */
+void draft_ball_inputs(const Draft *draft, Buffer *out);
+
+/* Lines as printf makes them. */
+__attribute__((format(printf, 2, 3))) void put_line(Buffer *out, const char *format, ...);
+
+#endif

@@ -1,0 +1,147 @@
+/* head.c - the comment that a text begins with: what it is, whose, what its numbers mean, how to call it */
+#include <stdio.h>
+
+#include "export/draft.h"
+
+/* How the target writes a direction. */
+static const char *vector(const Draft *draft) {
+    return draft->desc->target == WEFT_EXPORT_HLSL ? "float3" : "vec3";
+}
+
+static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]) {
+    char plain[DRAFT_ID + 16];
+    snprintf(plain, sizeof plain, "%s_%s", draft->id[0], end);
+    return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
+}
+
+static void put_conventions(const Draft *draft, Buffer *out) {
+    buffer_put_text(
+        out, " *\n * Conventions: directions are unit vectors in the shading frame: +z the normal, +x the "
+             "tangent,\n"
+             " * +y the bitangent. wo points to the viewer, wi to the light, both away from the surface.\n"
+             " * Colours are linear Rec. 709. Angles are radians. E(cos_o), the albedo, is the part of the\n"
+             " * light from wo that is reflected at all.\n");
+    if (draft->desc->fold_pi)
+        buffer_put_text(
+            out, " * pi: FOLDED. What is returned is multiplied by pi. The unit of a light is what a white\n"
+                 " * Lambertian surface that faces it sends back: light = irradiance / pi, as engines "
+                 "without 1/pi\n"
+                 " * in their Lambert have it. For lights in W/m^2 export with --light-pi explicit; both "
+                 "give one\n"
+                 " * picture.\n");
+    else
+        buffer_put_text(
+            out,
+            " * pi: EXPLICIT. f has its 1/pi inside (1/sr), and a light is the irradiance of a surface that\n"
+            " * faces it (W/m^2). Where a white Lambertian surface shows a light as bright as its number, "
+            "the\n"
+            " * light's unit has the 1/pi inside: multiply by pi, or export with --light-pi folded; both "
+            "give\n"
+            " * one picture.\n");
+}
+
+static void put_call(const Draft *draft, Buffer *out) {
+    char a[SPELL_NAME], b[SPELL_NAME], record[SPELL_NAME];
+    const WeftExportDesc *desc = draft->desc;
+    bool c = desc->target == WEFT_EXPORT_C;
+    const char *type = vector(draft);
+    if (desc->target == WEFT_EXPORT_SHADERTOY) return;
+    put_line(out, " *\n * Example");
+    if (c) {
+        put_line(out, " *   %s wo = {0.6f, 0.0f, 0.8f}, wi = {-0.48f, 0.64f, 0.6f};",
+                 spell_name(&draft->speller, ITEM_RECORD, "Dir", a));
+    } else {
+        put_line(out, " *   %s wo = %s(dot(v, t), dot(v, b), dot(v, n)); // t, b, n: the frame", type, type);
+        put_line(out, " *   %s wi = %s(dot(l, t), dot(l, b), dot(l, n));", type, type);
+    }
+    if (!desc->lobe) {
+        put_line(out, " *   %s s = %s();", spell_name(&draft->speller, ITEM_RECORD, "Surface", record),
+                 function(draft, "surface", a));
+        put_line(out, " *   %s %s = %s(s, wo, wi); // times the light",
+                 c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : type, "f_cos",
+                 function(draft, "shade", b));
+        return;
+    }
+    bool two = weft_lobe_info(desc->lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS;
+    bool rough = draft_lobe_rough(desc->lobe);
+    put_line(out, " *   %s m = %s(%s);",
+             spell_name(&draft->speller, ITEM_RECORD, draft_lobe_record(desc->lobe->lobe), record),
+             function(draft, rough ? "rough" : "default", a), rough ? (c ? "0.5f" : "0.5") : "");
+    if (c) {
+        spell_name(&draft->speller, ITEM_RECORD, "Rgb", record);
+        put_line(out, " *   %s color = {0.5f, 0.1f, 0.1f}%s, f = %s(m, color, %swo, wi);", record,
+                 two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b),
+                 two ? "second, " : "");
+    } else {
+        put_line(out, " *   %s sent = %s(m, color, %swo, wi) * max(wi.z, 0.0) * light;", type,
+                 function(draft, "eval", b), two ? "second, " : "");
+    }
+    put_line(out, " *   %s drawn = %s(m, wo, u, v); // u, v in [0, 1); z <= 0: no sample",
+             c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : type,
+             function(draft, "sample", a));
+    put_line(out, " *   float pdf = %s(m, wo, drawn);", function(draft, "pdf", a));
+    if (desc->albedo) put_line(out, " *   float e = %s(m, wo.z);", function(draft, "albedo", a));
+}
+
+static void put_engines(const Draft *draft, Buffer *out) {
+    char name[SPELL_NAME];
+    function(draft, draft->desc->lobe ? "eval" : "shade", name);
+    put_line(out,
+             " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with",
+             draft->id[0]);
+    put_line(
+        out,
+        " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and",
+        draft->id[0]);
+    put_line(out, " * call %s in Code; for a shading model of your own include it in", name);
+    put_line(out, " * ShadingModels.ush and call it in its BxDF with V and L turned into the frame of "
+                  "GBuffer.WorldNormal:");
+    put_line(out, " * Unreal's lights are explicit. Its x is GBuffer.WorldTangent.");
+    put_line(
+        out,
+        " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File",
+        draft->id[0]);
+    put_line(out, " * whose function, void Name_float(..., out float3 Out), calls %s; behind an", name);
+    put_line(out, " * #include of this file. HDRP, URP: include it behind Lighting.hlsl and add it to the "
+                  "loop over lights.");
+    put_line(out, " * HDRP's lights are explicit; URP's and the built-in pipeline's are folded.");
+}
+
+static void put_tables(const WeftExport *uploads, Buffer *out) {
+    if (!uploads->table_count) return;
+    put_line(out, " *\n * Tables: one channel of 32 bit floats or 16 bit unorms, nothing filtered, no sRGB, "
+                  "no mipmaps; row 0");
+    put_line(out, " * is the first of the file. The text fetches texels and interpolates them itself.");
+    for (int k = 0; k < uploads->table_count; k++)
+        put_line(out, " *   %s, %d x %d", uploads->tables[k].name, uploads->tables[k].texels.width,
+                 uploads->tables[k].texels.height);
+}
+
+void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out) {
+    static const char *const languages[WEFT_EXPORT_TARGETS] = {
+        "GLSL 3.30 core and later; goes behind your #version",
+        "GLSL ES 3.00; goes behind #version 300 es and precision highp float;",
+        "HLSL, shader model 5 and later",
+        "C99 and C++",
+        "Shadertoy: paste all of it into a new shader",
+    };
+    const WeftExportDesc *desc = draft->desc;
+    const char *what = desc->lobe      ? weft_lobe_info(desc->lobe->lobe)->id
+                       : desc->profile ? desc->profile
+                                       : (desc->name ? desc->name : "material");
+    char safe[DRAFT_ID + 16];
+    snprintf(safe, sizeof safe, "%.70s", what);
+    for (char *k = safe; *k; k++)
+        if (*k == '*' || (unsigned char)*k < ' ') *k = '_'; /* which could end the comment */
+    put_line(out, "/* %s%s%s - for %s", safe, desc->right ? " | " : "",
+             desc->right ? weft_lobe_info(desc->right->lobe)->id : "", languages[desc->target]);
+    put_line(out, " *");
+    put_line(out, " * Made by weft %s from its catalogue of cloth-shading models.", weft_version());
+    put_line(out, " * SPDX-License-Identifier: MIT");
+    put_line(out, " * Copyright (c) 2026 The weft maintainers");
+    put_conventions(draft, out);
+    put_call(draft, out);
+    if (desc->target == WEFT_EXPORT_HLSL) put_engines(draft, out);
+    put_tables(uploads, out);
+    put_line(out, " */");
+}

@@ -1,0 +1,155 @@
+/* lobe.c - a lobe behind functions that an engine calls: colour in, directions in, no record of angles */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "export/draft.h"
+
+#include "base/fail.h"
+#include "text/dispatch.h"
+#include "text/number.h"
+#include "text/tables.h"
+
+typedef struct Names {
+    const char *prefix, *record;
+} Names;
+
+#define NAMES(id, name, Record, NAME) {#name, #Record},
+static const Names names[LOBE_COUNT] = {WEFT_LOBES(NAMES)};
+
+const char *draft_lobe_record(int lobe) { return names[lobe].record; }
+
+bool draft_lobe_rough(const WeftLobe *lobe) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    return info->param_count > 0 && !info->params[0].choices;
+}
+
+/* The names of the lobe's own f and pdf make room for those that an engine calls. */
+static void rename_own(Text *text, const char *name) {
+    char from[96], to[96];
+    snprintf(from, sizeof from, "%s_eval", name);
+    snprintf(to, sizeof to, "%s_eval_at", name);
+    text_define(text, from, to);
+    snprintf(from, sizeof from, "%s_pdf", name);
+    snprintf(to, sizeof to, "%s_pdf_at", name);
+    text_define(text, from, to);
+}
+
+static void put_default(Text *text, const WeftLobe *lobe, const Names *own) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    text_line(text, "\n%s %s_default() {\n    %s m;", own->record, own->prefix, own->record);
+    for (int k = 0; k < info->param_count; k++) {
+        const WeftParamInfo *p = &info->params[k];
+        char value[32];
+        if (p->choices)
+            snprintf(value, sizeof value, "%d", (int)lobe->params[k]);
+        else
+            snprintf(value, sizeof value, "%s", number(lobe->params[k]).text);
+        text_line(text, "    m.%s = %s; /* %s%s%s */", p->name, value, p->help, p->choices ? ": " : "",
+                  p->choices ? p->choices[(int)lobe->params[k]] : "");
+    }
+    if (!info->param_count) text_line(text, "    m.none = 0.0;");
+    text_line(text, "    return m;\n}");
+}
+
+static void put_rough(Text *text, const WeftLobe *lobe, const Names *own) {
+    const WeftParamInfo *p = &weft_lobe_info(lobe->lobe)->params[0];
+    char value[96] = "roughness";
+    if (strcmp(p->name, "alpha") == 0)
+        snprintf(value, sizeof value, "roughness * roughness");
+    else if (strcmp(p->name, "roughness") != 0)
+        snprintf(value, sizeof value, "mix(%s, %s, roughness)", number(p->low).text, number(p->high).text);
+    text_line(text,
+              "\n/* The same with %s from an artist's roughness, 0 to 1. */\n"
+              "%s %s_rough(float roughness) {\n    %s m = %s_default();\n    m.%s = clamp(%s, %s, %s);\n"
+              "    return m;\n}",
+              p->name, own->record, own->prefix, own->record, own->prefix, p->name, value,
+              number(p->hard_low).text, number(p->hard_high).text);
+}
+
+/* f in a colour: a factor, a mixture of two, or what fibres of that albedo make of it. */
+static void put_eval(Text *text, const WeftLobe *lobe, const Names *own, bool folded) {
+    unsigned traits = weft_lobe_info(lobe->lobe)->traits;
+    const char *p = own->prefix, *pi = folded ? "PI * " : "";
+    bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
+    text_include(text, "shading/rgb.h");
+    text_line(text,
+              "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
+              "Dir wi) {",
+              folded ? " times pi, without the cosine," : ", 1/sr, without the cosine,",
+              two      ? " color is f0, second f90 or the colour of the weft."
+              : tinted ? " color is the albedo of a fibre, in [0, 1]."
+                       : "",
+              p, own->record, two ? "Rgb second, " : "");
+    text_line(
+        text,
+        "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Angles a = angles_between(wo, wi);");
+    if (tinted)
+        text_line(
+            text,
+            "    %sReady r = %s_ready(m);\n    Tint t = %s_tint(r, a);\n    float f = %s%s_eval_at(r, a);\n"
+            "    return rgb(f * tint_color(t, color.r), f * tint_color(t, color.g), "
+            "f * tint_color(t, color.b));\n}",
+            own->record, p, p, pi, p);
+    else if (two)
+        text_line(text,
+                  "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
+                  "                    %s_second(m, color.b, second.b));\n"
+                  "    return rgb_scale(rgb_mix(color, other, %s_share(m, a)), %s%s_eval_at(m, a));\n}",
+                  p, p, p, p, pi, p);
+    else
+        text_line(text, "    return rgb_scale(color, %s%s_eval_at(m, a));\n}", pi, p);
+}
+
+static void put_pdf(Text *text, const Names *own) {
+    text_line(text,
+              "\n/* Density of %s_sample at wi, 1/sr; 0 below the horizon. */\n"
+              "float %s_pdf(%s m, Dir wo, Dir wi) {\n"
+              "    if (wo.z <= 0.0 || wi.z <= 0.0) return 0.0;\n"
+              "    return %s_pdf_at(m, angles_between(wo, wi));\n}",
+              own->prefix, own->prefix, own->record, own->prefix);
+}
+
+/* E of the white lobe, over its first parameter. */
+static void put_albedo(Draft *draft, const WeftLobe *lobe, const Names *own) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    AlbedoTable *table = draft_albedo(draft);
+    Lobe of;
+    lobe_of(lobe, &of);
+    if (!table) {
+        fail(&draft->text.error, WEFT_MESSAGE_MEMORY, "table", NULL);
+        return;
+    }
+    bool rows = draft_lobe_rough(lobe);
+    albedo_table_fill(table, &of, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f, 0);
+    char function[96], *name = draft->albedo_names[draft->albedo_count - 1];
+    snprintf(function, sizeof function, "%s_albedo_table", own->prefix);
+    snprintf(name, SPELL_NAME, "%s_albedo", own->prefix);
+    text_include(&draft->text, "shading/table.h");
+    text_albedo_table(&draft->text, function, name, table);
+    text_line(&draft->text,
+              "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table. */\n"
+              "float %s(%s m, float cos_o) {\n    return table_roots(%s(), cos_o, %s%s);\n}",
+              info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record,
+              function, rows ? "m." : "0.0", rows ? info->params[0].name : "");
+    draft_root(draft, "%s", name);
+}
+
+void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
+    const Names *own = &names[lobe->lobe];
+    Text *text = &draft->text;
+    rename_own(text, own->prefix);
+    text_include(text, "shading/angles.h");
+    text_lobe(text, lobe->lobe);
+    put_default(text, lobe, own);
+    if (draft_lobe_rough(lobe)) put_rough(text, lobe, own);
+    put_eval(text, lobe, own, draft->desc->fold_pi != 0);
+    snprintf(draft->id[which], DRAFT_ID, "%s", own->prefix);
+    draft_root(draft, "%s_default", own->prefix);
+    draft_root(draft, "%s_eval", own->prefix);
+    if (draft_lobe_rough(lobe)) draft_root(draft, "%s_rough", own->prefix);
+    if (draft->desc->target == WEFT_EXPORT_SHADERTOY) return;
+    put_pdf(text, own);
+    draft_root(draft, "%s_pdf", own->prefix);
+    draft_root(draft, "%s_sample", own->prefix);
+    if (draft->desc->albedo) put_albedo(draft, lobe, own);
+}

@@ -1,0 +1,273 @@
+/* material.c - a profile, a workflow or a material as two functions: its numbers, and f times the cosine
+ *
+ * The text is made twice: of the first it is seen which inputs the composition reads, and the second has only
+ * those in its record. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "export/draft.h"
+
+#include "base/fail.h"
+#include "export/sheen.h"
+#include "scene/material_numbers.h"
+#include "shading/choice.h"
+#include "text/composition.h"
+#include "text/number.h"
+#include "text/tables.h"
+
+typedef struct Rule {
+    const char *id, *base;
+} Rule;
+
+#define RULE(id, index, base, conserves, help) {id, #base},
+static const Rule rules[] = {WEFT_LAYERS(RULE)};
+
+#define INPUT_TYPE(kind, name, def, low, high, hard_low, hard_high, help) #kind,
+static const char *const input_types[INPUT_COUNT] = {SURFACE_INPUTS(INPUT_TYPE)};
+
+typedef struct Subject {
+    Material material;
+    Surface surface;
+    Choices choices;
+    bool zero[INPUT_COUNT]; /* inputs that the material has at nothing */
+    Stack stack;            /* what its choices come to */
+    bool one_layer, chosen; /* its rule is the same for all surfaces; a choice is made beside its profile */
+    CompositionSlots slots;
+    AlbedoTable *table; /* of its sheen, NULL: none is asked for */
+} Subject;
+
+/* The ids of a list as a choice has them. */
+static WeftResult find_profile(const char *id, Material *out, WeftError *error) {
+    int profile = choice_find(CHOICE_profile, id), workflow = choice_find(CHOICE_workflow, id);
+    *out = material_default(id);
+    if (profile > 0)
+        material_choose(out, CHOICE_profile, profile);
+    else if (workflow >= 0)
+        material_choose(out, CHOICE_workflow, workflow);
+    else
+        return fail(error, WEFT_MESSAGE_CHECK_NAME, id, NULL);
+    return WEFT_OK;
+}
+
+static bool is_walk(int lobe) { return lobe >= 0 && weft_lobe_info(lobe)->traits & WEFT_LOBE_REFERENCE; }
+
+/* Inputs of a material that are nothing and stay so; of a profile all may be something. */
+static void find_zeros(const Draft *draft, Subject *subject) {
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        const Input *input = &subject->material.inputs[k];
+        bool number = input_infos[k].kind == INPUT_SCALAR || input_infos[k].kind == INPUT_COLOR;
+        bool some = input->texture != 0 || draft->desc->profile != NULL;
+        for (int c = 0; c < (input_infos[k].kind == INPUT_COLOR ? 3 : 1); c++) some |= input->value[c] > 0.0f;
+        subject->zero[k] = number && !some;
+    }
+    if (draft->desc->profile) subject->zero[INPUT_dust] = true; /* no engine has it */
+}
+
+/* What all surfaces have in common: facts for the conditions of the text. */
+static void find_facts(Draft *draft, Subject *subject) {
+    const Choices *c = &subject->choices;
+    Stack m[3];
+    for (int x = 0; x < 3; x++) {
+        Surface s = composition_surface(0.5f * (float)x, subject->zero);
+        stack_make(&m[x], &s, c, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    }
+    bool layer = true, by = true, under = true, albedo = true;
+    for (int x = 1; x < 3; x++) {
+        layer &= m[x].layer == m[0].layer;
+        by &= m[x].by == m[0].by;
+        under &= m[x].under == m[0].under;
+        albedo &= m[x].albedo == m[0].albedo;
+    }
+    subject->stack = m[1];
+    subject->one_layer = layer;
+    if (layer) draft_fact(draft, "m.layer", m[0].layer);
+    if (by) draft_fact(draft, "m.by", m[0].by);
+    if (under) draft_fact(draft, "m.under", m[0].under);
+    bool moved =
+        c->layer == LAYER_RECIPROCAL || c->layer == LAYER_STOCHASTIC; /* these may change it on the way */
+    if (albedo && !moved) draft_fact(draft, "m.albedo", m[0].albedo);
+#define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
+    SURFACE_CHOICES(CHOICE_FACT)
+    static const char *const shown[] = {"only.diffuse", "only.specular", "only.sheen", "only.coat",
+                                        "only.dust"};
+    for (int k = 0; k < 5; k++) draft_fact(draft, shown[k], 1);
+    subject->chosen = c->diffuse >= 0 || c->d >= 0 || c->v >= 0 || c->f >= 0 || c->sheen_lobe >= 0 ||
+                      c->layer >= 0 || c->layer_by >= 0;
+}
+
+static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error) {
+    const WeftExportDesc *desc = draft->desc;
+    WeftResult result = WEFT_OK;
+    if (desc->profile)
+        result = find_profile(desc->profile, &subject->material, error);
+    else if ((result = numbers_sound(desc->material, error)) == WEFT_OK)
+        subject->material = material_of_numbers(desc->material);
+    if (result != WEFT_OK) return result;
+    subject->surface = material_plain(&subject->material);
+    subject->choices = material_choices(&subject->material);
+    if (is_walk(subject->choices.sheen_lobe) || is_walk(subject->choices.diffuse))
+        return fail(error, WEFT_MESSAGE_EXPORT_LOBE, "fibre-walk", NULL);
+    find_zeros(draft, subject);
+    find_facts(draft, subject);
+    subject->slots = composition_slots(&subject->choices, subject->zero, false);
+    draft_identifier(desc->profile ? desc->profile : desc->name ? desc->name : "material", draft->id[0]);
+    return WEFT_OK;
+}
+
+/* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
+static bool needs_e(const Subject *subject) {
+    return subject->slots.slots[2].count && (!subject->one_layer || (subject->stack.layer != LAYER_ADDITIVE &&
+                                                                     subject->stack.layer != LAYER_SEED));
+}
+
+static bool needs_table(const Subject *subject) {
+    return needs_e(subject) &&
+           (subject->stack.albedo == ALBEDO_TABLE || subject->stack.albedo == ALBEDO_KHRONOS);
+}
+
+/* In place of shading/layer.h: the one rule. */
+static void put_layer(Text *text, int layer) {
+    char file[96];
+    text_provide(text, "shading/layer.h");
+    snprintf(file, sizeof file, "shading/layers/%s.h", rules[layer].id);
+    for (char *c = file; *c; c++)
+        if (*c == '-') *c = '_';
+    text_include(text, file);
+    for (int k = 0; k < LAYER_COUNT; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s", rules[k].id);
+        for (char *c = name; *c; c++) *c = (char)(*c == '-' ? '_' : *c - 'a' + 'A');
+        text_line(text, "const int LAYER_%s = %d;", name, k);
+    }
+    text_line(
+        text,
+        "const int LAYER_BY_MAX = %d;\nconst int LAYER_BY_CHANNEL = %d;\n\n"
+        "/* What of the base is left for wo and wi: c the sheen's colour, e_o e_i e_avg its albedo. */\n"
+        "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
+        LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
+}
+
+/* Surfaces are s, and t where one is made of another. */
+static bool is_read(const Items *reader, int k) {
+    const char *name = input_infos[k].name;
+    return items_ask(reader, "Surface", 's', name) || items_ask(reader, "Surface", 't', name);
+}
+
+/* In place of shading/inputs.h: the inputs that are read; NULL: all. */
+static void put_inputs(Text *text, const Items *reader) {
+    char rows[INPUT_COUNT * 64] = "", choices[CHOICE_COUNT * 32] = "";
+    if (!reader) return;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        size_t used = strlen(rows);
+        if (is_read(reader, k))
+            snprintf(rows + used, sizeof rows - used, "P(%s, %s, 0, 0, 0, 0, 0, 0) ", input_types[k],
+                     input_infos[k].name);
+    }
+#define CHOICE_ROW(name, help) "C(" #name ", 0) "
+    snprintf(choices, sizeof choices, "%s", SURFACE_CHOICES(CHOICE_ROW));
+    text_provide(text, "shading/inputs.h");
+    text_line(text, "\nconst int CHOICE_AUTO = -1;");
+    text_define(text, "SURFACE_INPUTS(P)", rows);
+    text_define(text, "SURFACE_CHOICES(C)", choices);
+}
+
+static void put_value(Text *text, const Surface *s, int k) {
+    const char *name = input_infos[k].name, *help = input_infos[k].help;
+#define VALUE_SCALAR(input) text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
+#define VALUE_ANGLE(input)                                                                                   \
+    text_line(text, "    s.%s = %s; /* %s; here in radians */", name, number(s->input).text, help)
+#define VALUE_COLOR(input)                                                                                   \
+    text_line(text, "    s.%s = rgb(%s, %s, %s); /* %s */", name, number(s->input.r).text,                   \
+              number(s->input.g).text, number(s->input.b).text, help)
+#define VALUE_DIR(input, words)                                                                              \
+    text_line(text, "    s.%s = dir(%s, %s, %s); /* %s */", name, number(s->input.x).text,                   \
+              number(s->input.y).text, number(s->input.z).text, words)
+#define VALUE_NORMAL(input)    VALUE_DIR(input, "unit vector in the shading frame")
+#define VALUE_DIRECTION(input) VALUE_DIR(input, "unit vector in the tangent plane")
+#define VALUE(kind, input, def, low, high, hard_low, hard_high, words)                                       \
+    if (k == INPUT_##input) VALUE_##kind(input);
+    SURFACE_INPUTS(VALUE)
+}
+
+/* The numbers, of which only those that are read. */
+static void put_surface(Draft *draft, const Subject *subject, const Items *reader) {
+    text_line(&draft->text,
+              "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
+              "{\n    Surface s;",
+              draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers",
+              draft->id[0]);
+    for (int k = 0; k < INPUT_COUNT; k++)
+        if (!reader || is_read(reader, k)) put_value(&draft->text, &subject->surface, k);
+    text_line(&draft->text, "    return s;\n}");
+    draft_root(draft, "%s_surface", draft->id[0]);
+}
+
+static void put_shade(Draft *draft, const Subject *subject) {
+    Text *text = &draft->text;
+    bool coat = subject->slots.slots[3].count > 0;
+    text_line(text,
+              "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
+              "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
+              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Dir o = wo;\n    Stack m = %s;",
+              draft->desc->fold_pi ? " times pi" : "", draft->id[0], composition_stack(&subject->choices));
+    if (subject->chosen) text_line(text, "    m = compose_choices(m, s, material_choices());");
+    if (!subject->zero[INPUT_dust]) text_line(text, "    m = compose_dust(m, s, o);");
+    if (subject->table) text_line(text, "    m.table = sheen_table();");
+    if (needs_e(subject)) text_line(text, "    m.e_o = stack_albedo(m, o);");
+    if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)
+        text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, m.at);");
+    if (subject->stack.layer == LAYER_MULTIPLICATIVE)
+        text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
+    text_line(text, "    Angles a = angles_between(o, wi);");
+    if (coat) text_line(text, "    Angles b = angles_between(stack_to_coat(m, o), stack_to_coat(m, wi));");
+    text_line(text,
+              draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, a, %s).f_cos, PI);\n}"
+                                   : "    return stack_value(m, a, %s).f_cos;\n}",
+              coat ? "b" : "a");
+    draft_root(draft, "%s_shade", draft->id[0]);
+}
+
+/* reader: what the text came to before it was known which inputs are read, or NULL. */
+static void put_text(Draft *draft, Subject *subject, const Items *reader) {
+    Text *text = &draft->text;
+    TableRef e = {.kind = TABLE_NONE};
+    if (subject->table) e = albedo_table_ref(subject->table);
+    put_inputs(text, reader);
+    text_include(text, "shading/angles.h");
+    text_composition_lobes(text, &subject->slots, !subject->zero[INPUT_dust], e.kind, e.tilts);
+    if (!subject->slots.slots[2].count) text_define(text, "IS_WORN(m)", "false");
+    if (subject->one_layer) put_layer(text, subject->stack.layer);
+    text_composition(text, &subject->choices);
+    if (subject->chosen) text_composition_choices(text, &subject->choices);
+    if (subject->table) text_albedo_table(text, "sheen_table", "sheen", subject->table);
+    put_surface(draft, subject, reader);
+    put_shade(draft, subject);
+}
+
+/* All again, once it is seen what the first text reads. */
+static WeftResult draft_again(Draft *draft, Subject *subject, WeftError *error) {
+    Draft first;
+    draft_begin(&first, draft->desc);
+    memcpy(first.id, draft->id, sizeof first.id);
+    memcpy(first.facts, draft->facts, sizeof first.facts);
+    first.fact_count = draft->fact_count;
+    put_text(&first, subject, NULL);
+    first.root_count = 0; /* its numbers are what is to be left out */
+    draft_root(&first, "%s_shade", first.id[0]);
+    WeftResult result = draft_cut(&first, error);
+    if (result == WEFT_OK) put_text(draft, subject, &first.items);
+    draft_free(&first);
+    return result;
+}
+
+WeftResult draft_material(Draft *draft, WeftError *error) {
+    Subject subject = {0};
+    WeftResult result = find_subject(draft, &subject, error);
+    if (result != WEFT_OK) return result;
+    if (needs_table(&subject)) {
+        subject.table = draft_albedo(draft);
+        if (!subject.table) return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
+        sheen_table_fill(&subject.surface, &subject.choices, subject.table);
+    }
+    return draft_again(draft, &subject, error);
+}

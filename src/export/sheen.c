@@ -1,0 +1,21 @@
+#include "export/sheen.h"
+
+void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTable *out) {
+    enum { INPUTS = 3 };
+    Stack m;
+    Surface s = *surface;
+    float low = 0.0f, high = 0.0f;
+    s.sheen_color = (Rgb){0.5f, 0.5f, 0.5f};
+    s.sheen = 1.0f;
+    stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    Lobe lobe = m.sheen.lobe;
+    for (int ends = 0; ends < 1 << INPUTS; ends++) {
+        s.sheen_roughness = (float)(ends & 1);
+        s.roughness = (float)(ends >> 1 & 1);
+        s.anisotropy = (float)(ends >> 2 & 1);
+        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        low = ends ? min(low, m.at) : m.at;
+        high = ends ? max(high, m.at) : m.at;
+    }
+    albedo_table_fill(out, &lobe, low, high, 0);
+}

@@ -1,0 +1,11 @@
+/* sheen.h - the table of E that an exported material reads */
+#ifndef WEFT_EXPORT_SHEEN_H
+#define WEFT_EXPORT_SHEEN_H
+
+#include "shading/material_stack.h"
+
+/* Fills the table of E of the surface's sheen, over all that its parameter can be while the inputs that it
+ * comes from run from 0 to 1. */
+void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTable *out);
+
+#endif

@@ -1,0 +1,149 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "text/composition.h"
+
+#include "shading/engine_tables.h"
+#include "text/number.h"
+#include "text/tables.h"
+#include "weft/lobe.h"
+
+/* A workflow or profile: its file, and what makes its stack. */
+typedef struct Composition {
+    const char *folder, *id, *stack;
+} Composition;
+
+#define WORKFLOW_ROW(id, index, stack, help) {"workflows", id, #stack},
+#define PROFILE_ROW(id, index, stack, help)  {"profiles", id, #stack},
+static const Composition workflows[] = {WEFT_WORKFLOWS(WORKFLOW_ROW)};
+static const Composition profiles[] = {WEFT_PROFILES(PROFILE_ROW)};
+
+typedef struct Formula {
+    int albedo;
+    const char *row;
+} Formula;
+
+#define FORMULA_ROW(name, index, formula) {index, "A(" #name ", " #index ", " #formula ")"},
+static const Formula formulas[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW)};
+
+/* Makes nothing of the inputs that are nothing. */
+static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
+#define NO_SCALAR(name)    s->name = 0.0f
+#define NO_ANGLE(name)     s->name = 0.0f
+#define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
+#define NO_NORMAL(name)    (void)0
+#define NO_DIRECTION(name) (void)0
+#define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
+    if (zero[INPUT_##name]) NO_##kind(name);
+    SURFACE_INPUTS(LEAVE_OUT)}
+
+Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
+    const Material material = material_default("");
+    Surface s = material_plain(&material);
+    s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
+    s.clearcoat = 1.0f;
+    s.roughness = s.sheen_roughness = 0.5f;
+    s.anisotropy = s.subsurface = s.metallic = x;
+    s.sheen = s.specular = 1.0f;
+    leave_out(zero, &s);
+    return s;
+}
+
+static const Composition *composition_of(const Choices *choices) {
+    return choices->profile > 0 ? &profiles[choices->profile]
+                                : &workflows[choices->workflow < 0 ? 0 : choices->workflow];
+}
+
+const char *composition_stack(const Choices *choices) { return composition_of(choices)->stack; }
+
+static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
+    TextSlot *to = &self->slots[slot];
+    int id = from->lobe.id;
+    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->pick > 0.0f)) return;
+    for (int k = 0; k < to->count; k++)
+        if (to->lobes[k] == id) return;
+    if (!to->count) self->lobes[slot] = from->lobe;
+    to->lobes[to->count++] = id;
+}
+
+CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
+    CompositionSlots found = {.worn = true};
+    for (int x = 0; x <= (whole_sheen ? 2 : 5); x++) {
+        Stack m;
+        Surface s = composition_surface(0.5f * (float)(x % 3), zero);
+        if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
+        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
+        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
+        for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
+        found.worn &= m.layer != LAYER_SEED;
+    }
+    return found;
+}
+
+/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
+void text_composition_lobes(Text *text, const CompositionSlots *found, bool dusty, int table_kind,
+                            int table_tilts) {
+    static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
+                                                "HAS_COAT(m)"};
+    int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    if (dusty) ids[count++] = LOBE_LTC_FIBRE;
+    for (int k = 0; k < TEXT_SLOTS; k++)
+        for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
+    char kind[16], tilts[16];
+    snprintf(kind, sizeof kind, "%d", table_kind);
+    snprintf(tilts, sizeof tilts, "%d", table_tilts);
+    text_define(text, "SHEEN_KIND(m)", kind);
+    text_define(text, "SHEEN_TILTS(m)", tilts);
+    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
+    text_define(text, "HAS_DUST(m)", dusty ? "true" : "false");
+    text_define(text, "IS_WORN(m)", found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    text_dispatch(text, ids, count);
+    text_slots(text, found->slots);
+}
+
+#define ENGINE_NAME(name)                                                                                    \
+    { "ENGINE_" #name, ENGINE_##name }
+static const struct {
+    const char *name;
+    int which;
+} engines[] = {ENGINE_NAME(FILAMENT_SHEEN), ENGINE_NAME(FILAMENT_GGX), ENGINE_NAME(BABYLON_SHEEN),
+               ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
+
+/* The engines' tables that the composition names: each takes a while to make. */
+static void put_engines(Text *text, const char *file, const char *formula) {
+    int which[ENGINE_COUNT], count = 0;
+    const char *source = weft_catalogue_text(file);
+    for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
+        if ((source && strstr(source, engines[k].name)) || strstr(formula, engines[k].name))
+            which[count++] = engines[k].which;
+    text_engine_tables(text, which, count);
+}
+
+/* In place of shading/profile.h: the one composition that this shader is for. */
+void text_composition(Text *text, const Choices *choices) {
+    const Composition *c = composition_of(choices);
+    char file[128], rows[256] = "";
+    int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
+    for (int k = 0; k < size; k++)
+        if (file[k] == '-') file[k] = '_';
+    const bool none[INPUT_COUNT] = {false};
+    Surface s = composition_surface(0.5f, none);
+    int albedo = compose_begin(s, *choices, dir(0.0f, 0.0f, 1.0f)).albedo;
+    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
+        if (formulas[k].albedo == albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
+    put_engines(text, file + strlen("shading/"), rows);
+    text_provide(text, "shading/profile.h");
+    text_include(text, "shading/workflow.h");
+    text_include(text, file);
+    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
+    text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
+    text_include(text, "shading/compose.h");
+}
+
+void text_composition_choices(Text *text, const Choices *choices) {
+    text_line(text, "\nChoices material_choices() {\n    Choices c;");
+#define PUT_CHOICE(name, help) text_line(text, "    c.%s = %d;", #name, choices->name);
+    SURFACE_CHOICES(PUT_CHOICE)
+    text_line(text, "    return c;\n}");
+}

@@ -1,0 +1,37 @@
+/* composition.h - what a material's choices make of a surface, as text for that one composition alone */
+#ifndef WEFT_TEXT_COMPOSITION_H
+#define WEFT_TEXT_COMPOSITION_H
+
+#include "scene/shade.h"
+#include "text/dispatch.h"
+
+/* A surface in which every lobe of a stack shows, but for the inputs that are zero; x is 0, 1/2 or 1 for what
+ * a stack may make a choice of. */
+Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
+
+/* What the slots of a stack may hold: ids, and the first lobe of each with its parameters. */
+typedef struct CompositionSlots {
+    TextSlot slots[TEXT_SLOTS];
+    Lobe lobes[TEXT_SLOTS];
+    bool worn; /* no layer rule could do without a sheen */
+} CompositionSlots;
+
+/* whole_sheen: input sheen is 1 everywhere. */
+CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen);
+
+/* The lobes of these slots, in place of shading/slots.h, and what is known of them and of the sheen's table
+ * in place of what shading/stack.h and table.h ask. Call it before text_composition. */
+void text_composition_lobes(Text *text, const CompositionSlots *slots, bool dusty, int table_kind,
+                            int table_tilts);
+
+/* In place of shading/profile.h: the one composition, with the tables of its engine; and shading/compose.h
+ * behind it. */
+void text_composition(Text *text, const Choices *choices);
+
+/* Choices material_choices(): these. */
+void text_composition_choices(Text *text, const Choices *choices);
+
+/* The call that makes its stack, "khronos_stack(s, o)". */
+const char *composition_stack(const Choices *choices);
+
+#endif

@@ -1,0 +1,223 @@
+#include "text/spell.h"
+
+#include <stdio.h>
+
+typedef struct Word {
+    const char *plain, *spelt;
+} Word;
+
+/* What a language has another word for; in C the last four are functions of the text's own. */
+static const Word glsl_words[] = {{"Dir", "vec3"}, {"Rgb", "vec3"}, {NULL, NULL}};
+static const Word hlsl_words[] = {{"Dir", "float3"}, {"Rgb", "float3"}, {"mix", "lerp"}, {NULL, NULL}};
+static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"}, {"sqrt", "sqrtf"}, {"sin", "sinf"},
+                               {"cos", "cosf"},  {"exp", "expf"},     {"exp2", "exp2f"}, {"log2", "log2f"},
+                               {"pow", "powf"},  {NULL, NULL}};
+static const Word *const words_of[] = {glsl_words, hlsl_words, c_words};
+
+static const Word c_helpers[] = {
+    {"min", "(float a, float b) { return a < b ? a : b; }"},
+    {"max", "(float a, float b) { return a > b ? a : b; }"},
+    {"clamp", "(float x, float low, float high) { return x < low ? low : x > high ? high : x; }"},
+    {"mix", "(float a, float b, float t) { return a + (b - a) * t; }"},
+    {NULL, NULL}};
+
+static bool is_vector(const Speller *speller, Token name) {
+    return speller->language != SPELL_C && (token_is(name, "Dir") || token_is(name, "Rgb"));
+}
+
+static char upper(char c) { return c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c; }
+
+char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]) {
+    int size = 0;
+    bool first = true;
+    for (const char *c = speller->prefix; *c; c++) {
+        if (kind == ITEM_RECORD && *c == '_') {
+            first = true;
+            continue;
+        }
+        name[size++] = kind == ITEM_CONSTANT || (kind == ITEM_RECORD && first) ? upper(*c) : *c;
+        first = false;
+    }
+    snprintf(name + size, (size_t)(SPELL_NAME - size), "%s", plain);
+    return name;
+}
+
+static void put_name(const Speller *speller, ItemKind kind, Token plain, Buffer *out) {
+    char text[SPELL_NAME - SPELL_PREFIX], name[SPELL_NAME];
+    snprintf(text, sizeof text, "%.*s", (int)plain.size, plain.at);
+    buffer_put_text(out, spell_name(speller, kind, text, name));
+}
+
+static const Word *find_word(const Word *words, Token name) {
+    for (; words->plain; words++)
+        if (token_is(name, words->plain)) return words;
+    return NULL;
+}
+
+/* A float in C ends in f, or is a double. */
+static void put_number(const Speller *speller, Token number, Buffer *out) {
+    bool real = false;
+    for (size_t k = 0; k < number.size; k++) real |= number.at[k] == '.' || number.at[k] == 'e';
+    buffer_put(out, number.at, number.size);
+    if (speller->language == SPELL_C && real && number.at[number.size - 1] != 'f') buffer_put(out, "f", 1);
+}
+
+/* A name that is no member's. c is behind it. */
+static void put_word(const Speller *speller, const Items *items, Token name, const char *c, const char *end,
+                     Buffer *out) {
+    bool call = token_is(token_solid(&c, end), "(");
+    const Word *word = find_word(words_of[speller->language], name);
+    bool vector = is_vector(speller, name), cast = token_is(name, "float") || token_is(name, "int");
+    const Item *item = vector ? NULL : items_find(items, name);
+    if (word && (call || vector))
+        buffer_put_text(out, word->spelt);
+    else if (item)
+        put_name(speller, item->kind, name, out);
+    else if (speller->language == SPELL_C && call && find_word(c_helpers, name))
+        put_name(speller, ITEM_FUNCTION, name, out);
+    else if (speller->language == SPELL_C && call && cast) {
+        buffer_put(out, "(", 1);
+        buffer_put(out, name.at, name.size);
+        buffer_put(out, ")", 1);
+    } else {
+        buffer_put(out, name.at, name.size);
+    }
+}
+
+/* Members keep their names; of a record's list that is all but the type that each line begins with. */
+static void put_code(const Speller *speller, const Items *items, const char *c, const char *end, bool record,
+                     Buffer *out) {
+    bool member = false;
+    while (c < end) {
+        Token token = token_next(&c, end);
+        if (token.kind == TOKEN_NUMBER)
+            put_number(speller, token, out);
+        else if (token.kind == TOKEN_NAME && !member)
+            put_word(speller, items, token, c, end, out);
+        else
+            buffer_put(out, token.at, token.size);
+        if (token.kind == TOKEN_BLANK) continue;
+        member = token_is(token, ".") || (record && !token_is(token, "{") && !token_is(token, ";"));
+    }
+}
+
+static const char *find(const char *c, const char *end, const char *mark) {
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
+        if (token_is(token, mark)) return token.at;
+    return end;
+}
+
+static bool has_token(const char *c, const char *end, Token name) {
+    bool member = false;
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        if (!member && token.size == name.size && memcmp(token.at, name.at, name.size) == 0) return true;
+        if (token.kind != TOKEN_BLANK) member = token_is(token, ".");
+    }
+    return false;
+}
+
+/* C: the function, where a parameter that it does not look at is named as such. */
+static void put_c_function(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
+    const char *open = find(item->code, item->end, "("), *close = find(open, item->end, ")");
+    const char *body = find(close, item->end, "{"), *c = open + 1;
+    buffer_put_text(out, "static inline ");
+    put_code(speller, items, item->code, open + 1, false, out);
+    if (blank_end(open + 1, close) == close) buffer_put_text(out, "void");
+    put_code(speller, items, open + 1, body + 1, false, out);
+    for (Token last = {0}; c <= close;) {
+        Token token = token_solid(&c, item->end);
+        if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME &&
+            !token_is(last, "void") && !has_token(body, item->end, last)) {
+            buffer_put_text(out, "\n    (void)");
+            put_word(speller, items, last, c, item->end, out);
+            buffer_put_text(out, ";");
+        }
+        last = token;
+    }
+    put_code(speller, items, body + 1, item->end, false, out);
+}
+
+static void put_record(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
+    const char *open = find(item->code, item->end, "{"), *close = item->end - 1;
+    while (close > open && *close != '}') close--;
+    buffer_put_text(out, speller->language == SPELL_C ? "typedef struct " : "struct ");
+    put_name(speller, ITEM_RECORD, item->name, out);
+    buffer_put_text(out, " ");
+    put_code(speller, items, open, close, true, out);
+    buffer_put_text(out, "}");
+    if (speller->language == SPELL_C) {
+        buffer_put_text(out, " ");
+        put_name(speller, ITEM_RECORD, item->name, out);
+    }
+    buffer_put_text(out, ";");
+}
+
+static void put_constant(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
+    const char *c = item->code, *value = find(item->code, item->end, "=") + 1;
+    token_solid(&c, item->end);
+    Token type = token_solid(&c, item->end);
+    bool enumerated = speller->language == SPELL_C && token_is(type, "int");
+    if (enumerated) {
+        buffer_put_text(out, "enum { ");
+    } else {
+        buffer_put_text(out, speller->language == SPELL_GLSL ? "const " : "static const ");
+        buffer_put(out, type.at, type.size);
+        buffer_put_text(out, " ");
+    }
+    put_name(speller, ITEM_CONSTANT, item->name, out);
+    buffer_put_text(out, " =");
+    put_code(speller, items, value, item->end - 1, false, out);
+    buffer_put_text(out, enumerated ? " };" : ";");
+}
+
+/* The functions of C that stand for what shading languages have, where they are called. */
+static void put_helpers(const Speller *speller, const Items *items, Buffer *out) {
+    for (const Word *helper = c_helpers; helper->plain; helper++) {
+        const Token name = {TOKEN_NAME, helper->plain, strlen(helper->plain)};
+        bool called = false;
+        for (int k = 0; k < items->count && !called; k++)
+            called = items->all[k].kept && has_token(items->all[k].code, items->all[k].end, name);
+        if (!called) continue;
+        buffer_put_text(out, "static inline float ");
+        put_name(speller, ITEM_FUNCTION, name, out);
+        buffer_put_text(out, helper->spelt);
+        buffer_put_text(out, "\n");
+    }
+    buffer_put_text(out, "\n");
+}
+
+static bool is_line(const Item *item) {
+    return !item->comment && !memchr(item->code, '\n', (size_t)(item->end - item->code));
+}
+
+void spell_items(const Speller *speller, const Items *items, Buffer *out) {
+    bool line = false, any = false;
+    int file = -1;
+    if (speller->language == SPELL_C) put_helpers(speller, items, out);
+    for (int k = 0; k < items->count; k++) {
+        const Item *item = &items->all[k];
+        if (!item->kept || (item->kind == ITEM_RECORD && is_vector(speller, item->name))) continue;
+        const ItemFile *from = item->file < 0 ? NULL : &items->files[item->file];
+        bool first = from && from->head && item->file != file;
+        for (int j = 0; j < k && first; j++) first = !items->all[j].kept || items->all[j].file != item->file;
+        if (any && (!line || !is_line(item) || first)) buffer_put_text(out, "\n");
+        if (first) {
+            buffer_put_text(out, "/*");
+            buffer_put(out, from->head + 3, (size_t)(from->head_end - from->head) - 3);
+            buffer_put_text(out, "\n\n");
+        }
+        file = item->file;
+        if (item->comment) buffer_put(out, item->comment, (size_t)(item->code - item->comment));
+        if (item->kind == ITEM_RECORD)
+            put_record(speller, items, item, out);
+        else if (item->kind == ITEM_CONSTANT)
+            put_constant(speller, items, item, out);
+        else if (speller->language == SPELL_C)
+            put_c_function(speller, items, item, out);
+        else
+            put_code(speller, items, item->code, item->end, false, out);
+        buffer_put_text(out, "\n");
+        line = is_line(item);
+        any = true;
+    }
+}

@@ -1,0 +1,30 @@
+/* spell.h - a plain text (TEXT_PLAIN) in the words of a language, under names of its own
+ *
+ *   Dir, Rgb        vec3 or float3; records in C
+ *   charlie_d       weft_charlie_d, and so every function, record (WeftAngles) and constant (WEFT_PI) */
+#ifndef WEFT_TEXT_SPELL_H
+#define WEFT_TEXT_SPELL_H
+
+#include "text/buffer.h"
+#include "text/items.h"
+
+typedef enum SpellLanguage {
+    SPELL_GLSL, /* 3.30 core and ES 3.00 */
+    SPELL_HLSL, /* shader model 5 */
+    SPELL_C     /* C99 and C++: functions are static inline */
+} SpellLanguage;
+
+enum { SPELL_PREFIX = 32, SPELL_NAME = 128 };
+
+typedef struct Speller {
+    SpellLanguage language;
+    char prefix[SPELL_PREFIX]; /* "weft_", may be empty */
+} Speller;
+
+/* Appends the items that are kept, in their order, each behind its comment. */
+void spell_items(const Speller *speller, const Items *items, Buffer *out);
+
+/* The name that an item of that kind gets. Returns name. */
+char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]);
+
+#endif

@@ -1,0 +1,218 @@
+/* `weft export`: the text and its tables are there and hold the same numbers, whatever file holds them;
+ * nonsense is refused in one line */
+#include "run.h"
+
+#include <math.h>
+
+#include <jansson.h>
+
+#include "weft/export.h"
+
+static Ran done(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
+    return ran;
+}
+
+static void finish(Ran ran) { ran_free(&ran); }
+
+static void help_is_complete(void **state) {
+    (void)state;
+    Ran ran = done(LIST("export", "--help"));
+    for (int k = 0; weft_export_target(k); k++) assert_non_null(strstr(ran.out, weft_export_target(k)));
+    for (int k = 0; weft_export_lut(k); k++) assert_non_null(strstr(ran.out, weft_export_lut(k)));
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") > 80) fail_msg("over 80 columns: %.100s", line);
+    ran_free(&ran);
+}
+
+static void assert_has(const char *path, const char *part) {
+    size_t size;
+    char *text = file_bytes(path, &size);
+    if (!text || !strstr(text, part)) fail_msg("%s: no \"%s\"", path, part);
+    free(text);
+}
+
+static void all_subjects_are_found(void **state) {
+    (void)state;
+    static const char *const subjects[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
+                                              {"khronos", "weft_khronos_shade"},
+                                              {"metallic", "weft_metallic_shade"},
+                                              {"velvet", "weft_velvet_shade"},
+                                              {"preset:silk", "weft_silk_shade"},
+                                              {"scene.gltf", "weft_cloth_shade"},
+                                              {"scene.gltf:cloth", "weft_cloth_shade"},
+                                              {"scene.gltf:0", "weft_cloth_shade"},
+                                              {"own.json", "weft_own_shade"}};
+    static const char own[] = "{\"base_color\": [0.5, 0.25, 0.125], \"sheen_color\": [1, 0.5, 0.25]}";
+    file_make("own.json", own, sizeof own - 1);
+    for (size_t k = 0; k < sizeof subjects / sizeof subjects[0]; k++) {
+        finish(done(LIST("export", subjects[k][0], "--target", "c", "-o", "out.h")));
+        assert_has("out.h", subjects[k][1]);
+        assert_has("out.h", "SPDX-License-Identifier: MIT");
+        assert_has("out.h", "Conventions");
+    }
+    assert_has("out.h", "0.5f, 0.25f, 0.125f");
+}
+
+static void options_are_heeded(void **state) {
+    (void)state;
+    finish(done(LIST("export", "charlie-neubelt", "-p", "alpha=0.5", "--target", "glsl", "--prefix", "fuzz_",
+                     "-o", "a.glsl")));
+    assert_has("a.glsl", "m.alpha = 0.5;");
+    assert_has("a.glsl", "vec3 fuzz_charlie_neubelt_eval(FuzzCharlieNeubelt m");
+    assert_has("a.glsl", "EXPLICIT");
+    finish(
+        done(LIST("export", "charlie-neubelt", "--target", "hlsl", "--light-pi", "folded", "-o", "a.hlsl")));
+    assert_has("a.hlsl", "FOLDED");
+    assert_has("a.hlsl", "Unreal");
+    assert_has("a.hlsl", "Unity");
+    finish(
+        done(LIST("export", "ashikhmin-neubelt", "charlie-neubelt", "--target", "shadertoy", "-o", "toy")));
+    assert_has("toy", "void mainImage");
+    Ran ran = done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", "npy", "--json", "-o", "f.glsl"));
+    json_t *json = json_loads(ran.out, 0, NULL);
+    assert_non_null(json);
+    assert_int_equal(json_array_size(json_object_get(json, "tables")), 1);
+    assert_string_equal(json_string_value(json_array_get(json_object_get(json, "tables"), 0)),
+                        "f.weft_texels_ltc_fibre.npy");
+    json_decref(json);
+    ran_free(&ran);
+}
+
+static WeftImage image_of(const char *path) {
+    WeftImage image;
+    WeftError error = {0};
+    if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+/* Every file holds the library's numbers: to the last bit as floats, to half a step as 16 bits. */
+static void tables_are_read_back(void **state) {
+    (void)state;
+    enum { HEADER = 148 };
+    WeftLobe lobe;
+    WeftExport made;
+    assert_int_equal(weft_lobe_create("ltc-fibre", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL),
+                     WEFT_OK);
+    assert_int_equal(made.table_count, 1);
+    const WeftImage *own = &made.tables[0].texels;
+    const float *texels = own->pixels;
+    size_t count = (size_t)own->width * (size_t)own->height, size;
+    for (int k = 0; weft_export_lut(k); k++)
+        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut(k), "--quiet",
+                         "-o", "t.glsl")));
+    static const char *const floats[] = {"t.weft_texels_ltc_fibre.exr", "t.weft_texels_ltc_fibre.npy"};
+    for (int f = 0; f < 2; f++) {
+        WeftImage image = image_of(floats[f]);
+        assert_int_equal(image.width, own->width);
+        assert_int_equal(image.height, own->height);
+        assert_int_equal(image.channels, 1);
+        for (size_t k = 0; k < count; k++)
+            if (fabsf(((float *)image.pixels)[k] - texels[k]) > 0.0f) fail_msg("%s: texel %zu", floats[f], k);
+        weft_image_free(&image);
+    }
+    char *dds = file_bytes("t.weft_texels_ltc_fibre.dds", &size);
+    assert_int_equal(size, HEADER + 4 * count);
+    assert_memory_equal(dds, "DDS ", 4);
+    assert_memory_equal(dds + 84, "DX10", 4);
+    uint32_t height, width, format;
+    memcpy(&height, dds + 12, 4);
+    memcpy(&width, dds + 16, 4);
+    memcpy(&format, dds + 128, 4);
+    assert_int_equal(height, own->height);
+    assert_int_equal(width, own->width);
+    assert_int_equal(format, 41); /* R32_FLOAT */
+    for (size_t k = 0; k < count; k++) {
+        float texel;
+        memcpy(&texel, dds + HEADER + 4 * k, 4);
+        if (fabsf(texel - texels[k]) > 0.0f) fail_msg("dds: texel %zu", k);
+    }
+    free(dds);
+    char *array = file_bytes("t.weft_texels_ltc_fibre.h", &size);
+    assert_non_null(array);
+    char *at = strstr(array, "] = {");
+    assert_non_null(at);
+    at += 5;
+    for (size_t k = 0; k < count; k++) {
+        at += strspn(at, "\n ,f");
+        if (fabsf(strtof(at, &at) - texels[k]) > 0.0f) fail_msg("array: texel %zu", k);
+    }
+    free(array);
+    weft_export_free(&made);
+}
+
+/* 16 bits: pixels times the factor in the text. */
+static void png_is_scaled(void **state) {
+    (void)state;
+    WeftLobe lobe;
+    WeftExport plain, scaled;
+    assert_int_equal(weft_lobe_create("charlie-neubelt", &lobe, NULL), WEFT_OK);
+    WeftExportDesc desc = {.lobe = &lobe, .albedo = 1, .lut = WEFT_EXPORT_LUT_EXR};
+    assert_int_equal(weft_export(&desc, &plain, NULL), WEFT_OK);
+    desc.lut = WEFT_EXPORT_LUT_PNG16;
+    assert_int_equal(weft_export(&desc, &scaled, NULL), WEFT_OK);
+    finish(done(LIST("export", "charlie-neubelt", "--albedo", "--target", "glsl", "--lut", "png16", "--quiet",
+                     "-o", "p.glsl")));
+    float scale = scaled.tables[0].scale;
+    char factor[32];
+    snprintf(factor, sizeof factor, ".r * %.1f;", (double)scale);
+    assert_true(scale > 1.0f);
+    assert_has("p.glsl", factor);
+    WeftImage image = image_of("p.weft_texels_charlie_neubelt_albedo.png");
+    assert_int_equal(image.type, WEFT_PIXEL_U16);
+    for (int k = 0; k < image.width * image.height; k++) {
+        float got = (float)((uint16_t *)image.pixels)[k] / 65535.0f * scale;
+        float own = ((float *)plain.tables[0].texels.pixels)[k];
+        if (fabsf(got - own) > scale * 0.51f / 65535.0f)
+            fail_msg("texel %d: %g, not %g", k, (double)got, (double)own);
+    }
+    weft_image_free(&image);
+    weft_export_free(&plain);
+    weft_export_free(&scaled);
+}
+
+static void nonsense_is_refused(void **state) {
+    (void)state;
+    const struct {
+        const char *const *arguments;
+        int code;
+        const char *part;
+    } cases[] = {
+        {LIST("export"), 2, "operand"},
+        {LIST("export", "ggx", "-o", "x"), 2, "needs --target"},
+        {LIST("export", "ggx", "--target", "glsl"), 2, "needs -o"},
+        {LIST("export", "ggx", "--target", "metal", "-o", "x"), 2, "--target"},
+        {LIST("export", "ggx", "--target", "c", "--lut", "tiff", "-o", "x"), 2, "--lut"},
+        {LIST("export", "ggx", "--target", "c", "--light-pi", "no", "-o", "x"), 2, "--light-pi"},
+        {LIST("export", "charlie-neubet", "--target", "c", "-o", "x"), 2, "did you mean charlie-neubelt?"},
+        {LIST("export", "preset:velvt", "--target", "c", "-o", "x"), 2, "is not a preset"},
+        {LIST("export", "fibre-walk", "--target", "c", "-o", "x"), 2, "is a random walk"},
+        {LIST("export", "fibre-walk", "--target", "glsl", "-o", "x"), 2, "is a random walk"},
+        {LIST("export", "ggx", "-p", "beta=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
+        {LIST("export", "khronos", "-p", "alpha=1", "--target", "c", "-o", "x"), 2, "-p"},
+        {LIST("export", "khronos", "--albedo", "--target", "c", "-o", "x"), 2, "--albedo"},
+        {LIST("export", "ggx", "silk", "--target", "c", "-o", "x"), 2, "shadertoy"},
+        {LIST("export", "khronos", "silk", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
+        {LIST("export", "ggx", "--prefix", "9a", "--target", "c", "-o", "x"), 2, "prefix"},
+        {LIST("export", "ggx", "--prefix", "a b", "--target", "c", "-o", "x"), 2, "prefix"},
+        {LIST("export", "missing.json", "--target", "c", "-o", "x"), 3, "missing.json"},
+        {LIST("export", "missing.gltf", "--target", "c", "-o", "x"), 3, "missing.gltf"},
+        {LIST("export", "scene.gltf:wool", "--target", "c", "-o", "x"), 2, "is not a material"},
+        {LIST("export", "scene.gltf:7", "--target", "c", "-o", "x"), 2, "is not a material"},
+        {LIST("export", "ggx", "--target", "c", "-o", "no/such/folder/x"), 4, "no/such/folder/x"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        assert_complaint(NULL, cases[k].arguments, cases[k].code, cases[k].part);
+    assert_int_not_equal(access("x", F_OK), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_is_complete),   cmocka_unit_test(all_subjects_are_found),
+        cmocka_unit_test(options_are_heeded), cmocka_unit_test(tables_are_read_back),
+        cmocka_unit_test(png_is_scaled),      cmocka_unit_test(nonsense_is_refused),
+    };
+    return cmocka_run_group_tests(tests, scene_begin, work_end);
+}

@@ -1,0 +1,322 @@
+/* subjects.h - all that can be exported, the same questions put to a text in any language, and the library's
+ * answers */
+#ifndef WEFT_TESTS_EXPORT_SUBJECTS_H
+#define WEFT_TESTS_EXPORT_SUBJECTS_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "weft/export.h"
+
+#include "base/memory.h"
+#include "export/sheen.h"
+#include "measure/draw.h"
+#include "measure/grid.h"
+#include "scene/material_numbers.h"
+#include "scene/shade.h"
+#include "shading/choice.h"
+#include "shading/material_stack.h"
+
+enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, SUBJECTS_MAX = 128 };
+
+/* A lobe, or a material: a profile's, a workflow's or a preset's. */
+typedef struct Exported {
+    const char *id;
+    bool is_lobe, fixed; /* fixed: a material with its own numbers */
+    WeftLobe lobe;
+    WeftMaterial numbers;
+    Material material;
+    bool profile;
+} Exported;
+
+static inline int subjects_lobes(Exported *out) {
+    int count = 0;
+    for (int k = 0; k < weft_lobe_count(); k++) {
+        const WeftLobeInfo *info = weft_lobe_info(k);
+        if (info->traits & WEFT_LOBE_REFERENCE) continue;
+        out[count] = (Exported){.id = info->id, .is_lobe = true};
+        assert_int_equal(weft_lobe_create(info->id, &out[count].lobe, NULL), WEFT_OK);
+        count++;
+    }
+    return count;
+}
+
+static inline int subjects_profiles(Exported *out) {
+    int count = 0;
+    for (int k = 0; weft_workflow_id(k); k++) {
+        out[count] = (Exported){.id = weft_workflow_id(k), .profile = true};
+        out[count].material = material_default("");
+        material_choose(&out[count++].material, CHOICE_workflow, k);
+    }
+    for (int k = 1; weft_profile_id(k); k++) {
+        out[count] = (Exported){.id = weft_profile_id(k), .profile = true};
+        out[count].material = material_default("");
+        material_choose(&out[count++].material, CHOICE_profile, k);
+    }
+    return count;
+}
+
+static inline int subjects_presets(Exported *out) {
+    int count = 0;
+    WeftScene *scene;
+    assert_int_equal(weft_scene_load("builtin:spheres", &scene, NULL, NULL), WEFT_OK);
+    for (; weft_preset_name(count); count++) {
+        char path[64];
+        snprintf(path, sizeof path, "preset:%s", weft_preset_name(count));
+        assert_int_equal(weft_scene_dress(scene, "*", path, NULL, NULL), WEFT_OK);
+        out[count] = (Exported){.id = weft_preset_name(count), .fixed = true};
+        assert_int_equal(weft_scene_material(scene, 0, &out[count].numbers, NULL), WEFT_OK);
+        out[count].material = material_of_numbers(&out[count].numbers);
+    }
+    weft_scene_free(scene);
+    return count;
+}
+
+static inline bool has_albedo(const Exported *s) {
+    return s->is_lobe && !(weft_lobe_info(s->lobe.lobe)->traits & WEFT_LOBE_ANISOTROPIC);
+}
+
+static inline WeftExportDesc subject_desc(const Exported *s, WeftExportTarget target) {
+    WeftExportDesc desc = {.target = target, .lut = WEFT_EXPORT_LUT_EXR, .name = s->id};
+    if (target == WEFT_EXPORT_C) desc.lut = WEFT_EXPORT_LUT_C;
+    if (s->is_lobe) {
+        desc.lobe = &s->lobe;
+        /* that of stretched highlights and of threads takes seconds */
+        desc.albedo = target != WEFT_EXPORT_SHADERTOY && has_albedo(s);
+    } else if (s->profile) {
+        desc.profile = s->id;
+    } else {
+        desc.material = &s->numbers;
+    }
+    return desc;
+}
+
+static inline WeftExport subject_export(const WeftExportDesc *desc) {
+    WeftExport out;
+    WeftError error = {0};
+    if (weft_export(desc, &out, &error) != WEFT_OK) fail_msg("%s: %s", desc->name, error.text);
+    return out;
+}
+
+/* Of a material that is not fixed these vary: where each is in the inputs. */
+static const struct {
+    const char *name, *at;
+    int row, column;
+} varied[] = {{"base_color", "rgb", 2, 0},   {"roughness", "in2.w", 2, 3},
+              {"sheen_color", "rgb", 3, 0},  {"sheen_roughness", "in3.w", 3, 3},
+              {"metallic", "in4.x", 4, 0},   {"specular", "in4.y", 4, 1},
+              {"clearcoat", "in4.z", 4, 2},  {"clearcoat_roughness", "in4.w", 4, 3},
+              {"sheen", "in5.x", 5, 0},      {"anisotropy", "in5.y", 5, 1},
+              {"subsurface", "in5.z", 5, 2}, {"sheen_tint", "in5.w", 5, 3}};
+enum { VARIED = sizeof varied / sizeof varied[0] };
+
+static inline Dir any_direction(Draw *draw) {
+    double z = 1.0 - (double)draw_unit(draw), phi = 6.28318530717959 * (double)draw_unit(draw);
+    return grid_direction(draw_unit(draw) < 0.25f ? (exp2)(-10.0 * z) : z, phi);
+}
+
+/* in[row][4 k + column] */
+static inline void subject_inputs(const Exported *s, float *in[INPUTS]) {
+    Draw draw = draw_start(20, 0);
+    for (size_t k = 0; k < PAIRS; k++) {
+        Dir o = any_direction(&draw), i = any_direction(&draw);
+        const float rows[2][4] = {{o.x, o.y, o.z, draw_unit(&draw)}, {i.x, i.y, i.z, draw_unit(&draw)}};
+        for (size_t c = 0; c < 4; c++) {
+            in[0][4 * k + c] = rows[0][c];
+            in[1][4 * k + c] = rows[1][c];
+            for (int row = 2; row < INPUTS; row++) in[row][4 * k + c] = draw_unit(&draw);
+        }
+        for (int p = 0; s->is_lobe && p < weft_lobe_info(s->lobe.lobe)->param_count; p++) {
+            const WeftParamInfo *info = &weft_lobe_info(s->lobe.lobe)->params[p];
+            float x = info->low + (info->high - info->low) * draw_unit(&draw),
+                  *to = &in[2 + p / 4][4 * k + (size_t)(p % 4)];
+            *to = info->choices ? (float)(int)(x + 0.5f) : x;
+        }
+    }
+}
+
+/* Statements in any of the languages, which read in0 .. in5 and set members of out0 and out1. */
+static inline void subject_body(const Exported *s, const WeftExport *text, const char *prefix,
+                                const char *dir, const char *rgb, bool c, char *body, size_t room) {
+    char type[64] = "", id[64];
+    size_t used = 0;
+    int size = 0;
+    for (const char *k = prefix; *k; k++)
+        if (*k != '_') {
+            type[size] = *k;
+            if (size == 0 || k[-1] == '_') type[size] = (char)(type[size] - 'a' + 'A');
+            size++;
+        }
+    snprintf(id, sizeof id, "%s%s", prefix, s->id);
+    for (char *k = id; *k; k++)
+        if (*k == '-') *k = '_';
+#define PUT(...)                                                                                             \
+    do {                                                                                                     \
+        used += (size_t)snprintf(body + used, room - used, __VA_ARGS__);                                     \
+        assert_true(used < room);                                                                            \
+    } while (0)
+    PUT("    %s o; o.x = in0.x; o.y = in0.y; o.z = in0.z;\n    %s i; i.x = in1.x; i.y = in1.y; i.z = "
+        "in1.z;\n",
+        dir, dir);
+    if (s->is_lobe) {
+        const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
+        const char *record = strstr(text->text, c ? "_default(void) {" : "_default() {");
+        while (record[-1] != '\n') record--;
+        if (strncmp(record, "static inline ", 14) == 0) record += 14;
+        PUT("    %.*s m = %s_default();\n", (int)strcspn(record, " "), record, id);
+        for (int p = 0; p < info->param_count; p++)
+            PUT("    m.%s = %s(in%d.%c);\n", info->params[p].name,
+                c                         ? info->params[p].choices ? "(int)" : "(float)"
+                : info->params[p].choices ? "int"
+                                          : "float",
+                2 + p / 4, "xyzw"[p % 4]);
+        PUT("    %s color; color.r = in4.x; color.g = in4.y; color.b = in4.z;\n", rgb);
+        bool two = info->traits & WEFT_LOBE_TWO_COLORS;
+        if (two) PUT("    %s second; second.r = in5.x; second.g = in5.y; second.b = in5.z;\n", rgb);
+        PUT("    %s f = %s_eval(m, color, %so, i);\n", rgb, id, two ? "second, " : "");
+        PUT("    %s drawn = %s_sample(m, o, in0.w, in1.w);\n", dir, id);
+        PUT("    out0.w = %s_pdf(m, o, i);\n    out1.x = drawn.x;\n    out1.y = drawn.y;\n    out1.z = "
+            "drawn.z;\n",
+            id);
+        if (has_albedo(s)) PUT("    out1.w = %s_albedo(m, o.z);\n", id);
+    } else {
+        PUT("    %sSurface s = %s_surface();\n", type, id);
+        const char *numbers = strstr(text->text, c ? "_surface(void) {" : "_surface() {");
+        assert_non_null(numbers);
+        for (int v = 0; v < VARIED && !s->fixed; v++) {
+            char found[64];
+            snprintf(found, sizeof found, "    s.%s = ", varied[v].name);
+            if (!strstr(numbers, found)) continue; /* the composition does not read it */
+            if (strcmp(varied[v].at, "rgb") == 0)
+                PUT("    s.%s.r = in%d.x; s.%s.g = in%d.y; s.%s.b = in%d.z;\n", varied[v].name, varied[v].row,
+                    varied[v].name, varied[v].row, varied[v].name, varied[v].row);
+            else
+                PUT("    s.%s = %s;\n", varied[v].name, varied[v].at);
+        }
+        PUT("    %s f = %s_shade(s, o, i);\n", rgb, id);
+    }
+    PUT("    out0.x = f.r;\n    out0.y = f.g;\n    out0.z = f.b;\n");
+}
+
+static inline void put_varied(Surface *s, float *const in[INPUTS], size_t k) {
+    const float *a = in[2] + 4 * k, *b = in[3] + 4 * k, *c = in[4] + 4 * k, *d = in[5] + 4 * k;
+    s->base_color = (Rgb){a[0], a[1], a[2]};
+    s->sheen_color = (Rgb){b[0], b[1], b[2]};
+    s->roughness = a[3], s->sheen_roughness = b[3];
+    s->metallic = c[0], s->specular = c[1], s->clearcoat = c[2], s->clearcoat_roughness = c[3];
+    s->sheen = d[0], s->anisotropy = d[1], s->subsurface = d[2], s->sheen_tint = d[3];
+}
+
+/* The library's answers, out[0 .. 1][4 k + column]. */
+static inline void lobe_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
+    const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
+    AlbedoTable *table = calloc(1, sizeof *table);
+    assert_non_null(table);
+    Lobe base;
+    assert_true(lobe_of(&s->lobe, &base));
+    bool rows = info->param_count > 0 && !info->params[0].choices;
+    if (has_albedo(s))
+        albedo_table_fill(table, &base, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f,
+                          0);
+    TableRef e = albedo_table_ref(table);
+    for (size_t k = 0; k < PAIRS; k++) {
+        WeftLobe lobe = s->lobe;
+        Dir o = dir(in[0][4 * k], in[0][4 * k + 1], in[0][4 * k + 2]);
+        for (int p = 0; p < info->param_count; p++) lobe.params[p] = in[2 + p / 4][4 * k + (size_t)(p % 4)];
+        for (size_t c = 0; c < 3; c++) lobe.f0[c] = in[4][4 * k + c], lobe.f90[c] = in[5][4 * k + c];
+        weft_lobe_eval(&lobe, in[0] + 4 * k, in[1] + 4 * k, out[0] + 4 * k);
+        out[0][4 * k + 3] = weft_lobe_pdf(&lobe, in[0] + 4 * k, in[1] + 4 * k);
+        Lobe inner;
+        assert_true(lobe_of(&lobe, &inner));
+        Dir drawn = lobe_sample(&inner, o, in[0][4 * k + 3], in[1][4 * k + 3]);
+        out[1][4 * k] = drawn.x, out[1][4 * k + 1] = drawn.y, out[1][4 * k + 2] = drawn.z;
+        out[1][4 * k + 3] = has_albedo(s) ? table_roots(e, o.z, rows ? lobe.params[0] : 0.0f) : 0.0f;
+    }
+    free(table);
+}
+
+static inline void material_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
+    const Choices choices = material_choices(&s->material);
+    Surface plain = material_plain(&s->material);
+    AlbedoTable *table = calloc(1, sizeof *table);
+    assert_non_null(table);
+    sheen_table_fill(&plain, &choices, table);
+    for (size_t k = 0; k < PAIRS; k++) {
+        Surface surface = plain;
+        Stack stack;
+        Dir o = dir(in[0][4 * k], in[0][4 * k + 1], in[0][4 * k + 2]);
+        Dir i = dir(in[1][4 * k], in[1][4 * k + 1], in[1][4 * k + 2]);
+        if (!s->fixed) put_varied(&surface, in, k);
+        stack_make(&stack, &surface, &choices, albedo_table_ref(table), o);
+        Rgb f = stack_eval_of(&stack, slots_of(true, true, true, true, true), o, i).f_cos;
+        out[0][4 * k] = f.r, out[0][4 * k + 1] = f.g, out[0][4 * k + 2] = f.b, out[0][4 * k + 3] = 0.0f;
+        for (size_t c = 0; c < 4; c++) out[1][4 * k + c] = 0.0f;
+    }
+    free(table);
+}
+
+static inline void subject_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
+    (s->is_lobe ? lobe_answers : material_answers)(s, in, out);
+}
+
+typedef struct Arrays {
+    float *in[INPUTS], *out[OUTPUTS], *expected[OUTPUTS];
+} Arrays;
+
+/* The inputs and the library's answers. */
+static inline void arrays_fill(const Exported *s, Arrays *a);
+
+static inline void arrays_fill(const Exported *s, Arrays *a) {
+    subject_inputs(s, a->in);
+    subject_answers(s, a->in, a->expected);
+}
+
+static inline Arrays arrays_make(void) {
+    Arrays a;
+    for (int k = 0; k < INPUTS; k++) assert_non_null(a.in[k] = alloc_array(PAIRS, 16));
+    for (int k = 0; k < OUTPUTS; k++) {
+        assert_non_null(a.out[k] = alloc_array(PAIRS, 16));
+        assert_non_null(a.expected[k] = alloc_array(PAIRS, 16));
+    }
+    return a;
+}
+
+static inline void arrays_free(Arrays *a) {
+    for (int k = 0; k < INPUTS; k++) free(a->in[k]);
+    for (int k = 0; k < OUTPUTS; k++) free(a->out[k]), free(a->expected[k]);
+}
+
+/* How far an answer is off, over what it may be. f, pdf and E: 5e-4 relative, and 1e-5 where they are small.
+ * Directions have a tolerance of their own: the steep ends of a sampler's maps, where a number that is off by
+ * 1e-7 turns a direction by its square root. */
+static inline double answer_error(const Exported *s, int q, size_t at, double expected, double got) {
+    bool direction = s->is_lobe && q == 1 && at % 4 < 3;
+    return fabs(got - expected) / (direction ? 1e-3 : 5e-4 * fabs(expected) + 1e-5);
+}
+
+static inline void assert_agree(const Exported *s, const char *target, const Arrays *a) {
+    double worst = 0.0;
+    size_t where = 0;
+    int which = 0;
+    for (int q = 0; q < OUTPUTS; q++)
+        for (size_t k = 0; k < (size_t)4 * PAIRS; k++) {
+            double error = answer_error(s, q, k, (double)a->expected[q][k], (double)a->out[q][k]);
+            if (!(error <= worst)) worst = error, where = k, which = q;
+        }
+    if (getenv("WEFT_TEST_TELL")) print_message("%-6s %-28s %.2g of the tolerance\n", target, s->id, worst);
+    if (!(worst <= 1.0))
+        fail_msg("%s, %s: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id, target, where / 4,
+                 (int)(where % 4), which, (double)a->out[which][where], (double)a->expected[which][where]);
+}
+
+#endif

@@ -1,0 +1,135 @@
+/* The texts for C compile with gcc and clang, as C99, C11 and C++, without a warning, all in one file under
+ * prefixes of their own; and answer as the library does. */
+#include "export/subjects.h"
+
+#include <dlfcn.h>
+
+enum { BODY = 1 << 14 };
+
+static Exported subjects[SUBJECTS_MAX];
+static int subject_count;
+static char folder[] = "/tmp/weft-test-export-XXXXXX";
+static Arrays arrays[SUBJECTS_MAX];
+
+static bool has_program(const char *name) {
+    char command[128];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", name);
+    return system(command) == 0;
+}
+
+static FILE *file_open(const char *name) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    return stream;
+}
+
+/* The text, and a function run_K that puts the questions to it. */
+static void put_subject(FILE *all, int k) {
+    char prefix[16], name[32], type[16], dir[32], rgb[32], *body = malloc(BODY);
+    const Exported *s = &subjects[k];
+    snprintf(prefix, sizeof prefix, "w%d_", k);
+    snprintf(type, sizeof type, "W%d", k);
+    snprintf(dir, sizeof dir, "%sDir", type);
+    snprintf(rgb, sizeof rgb, "%sRgb", type);
+    snprintf(name, sizeof name, "%d.h", k);
+    WeftExportDesc desc = subject_desc(s, WEFT_EXPORT_C);
+    desc.prefix = prefix;
+    WeftExport made = subject_export(&desc);
+    assert_int_equal(made.table_count, 0);
+    FILE *header = file_open(name);
+    fputs(made.text, header);
+    assert_int_equal(fclose(header), 0);
+    assert_non_null(body);
+    subject_body(s, &made, prefix, dir, rgb, true, body, BODY);
+    fprintf(all, "#include \"%s\"\nvoid run_%d(int n, const float4 *const in[6], float4 *const out[2]);\n",
+            name, k);
+    fprintf(all, "void run_%d(int n, const float4 *const in[6], float4 *const out[2]) {\n", k);
+    fprintf(all,
+            "  for (int k = 0; k < n; k++) {\n    float4 out0 = {0.0f, 0.0f, 0.0f, 0.0f}, out1 = out0;\n");
+    for (int j = 0; j < INPUTS; j++) fprintf(all, "    float4 in%d = in[%d][k];\n", j, j);
+    for (int j = 0; j < INPUTS; j++) fprintf(all, "    (void)in%d;\n", j);
+    fprintf(all, "%s    out[0][k] = out0;\n    out[1][k] = out1;\n  }\n}\n", body);
+    weft_export_free(&made);
+    free(body);
+}
+
+static void compile(const char *compiler, const char *more) {
+    char command[512];
+    if (!has_program(compiler)) {
+        print_message("%s is not here\n", compiler);
+        return;
+    }
+    snprintf(command, sizeof command, "cd %s && %s -Wall -Wextra -Werror %s", folder, compiler, more);
+    if (system(command) != 0) fail_msg("%s %s", compiler, more);
+}
+
+static void agree(const char *compiler) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s.so", folder, compiler);
+    if (!has_program(compiler)) skip();
+    void *library = dlopen(path, RTLD_NOW);
+    if (!library) fail_msg("%s", dlerror());
+    for (int k = 0; k < subject_count; k++) {
+        union {
+            void *symbol;
+            void (*run)(int n, float *const in[6], float *const out[2]);
+        } at;
+        char name[32];
+        snprintf(name, sizeof name, "run_%d", k);
+        at.symbol = dlsym(library, name);
+        assert_non_null(at.symbol);
+        at.run(PAIRS, arrays[k].in, arrays[k].out);
+        assert_agree(&subjects[k], compiler, &arrays[k]);
+    }
+    dlclose(library);
+}
+
+static void gcc_agrees(void **state) {
+    (void)state;
+    compile("gcc", "-std=c99 -O1 -shared -fPIC all.c -o gcc.so -lm");
+    agree("gcc");
+}
+
+static void clang_agrees(void **state) {
+    (void)state;
+    compile("clang", "-std=c11 -O0 -shared -fPIC all.c -o clang.so -lm");
+    agree("clang");
+}
+
+/* In a C++ compiler's eyes too; every header guards itself. */
+static void is_cpp(void **state) {
+    (void)state;
+    compile("g++", "-std=c++11 -fsyntax-only -x c++ all.c");
+}
+
+static int begin(void **state) {
+    (void)state;
+    if (!mkdtemp(folder)) return -1;
+    subject_count = subjects_lobes(subjects);
+    subject_count += subjects_profiles(subjects + subject_count);
+    if (getenv("WEFT_TEST_LONG")) subject_count += subjects_presets(subjects + subject_count);
+    FILE *all = file_open("all.c");
+    fprintf(all, "typedef struct { float x, y, z, w; } float4;\n");
+    for (int k = 0; k < subject_count; k++) {
+        put_subject(all, k);
+        arrays[k] = arrays_make();
+        arrays_fill(&subjects[k], &arrays[k]);
+    }
+    return fclose(all);
+}
+
+static int end(void **state) {
+    (void)state;
+    char command[64];
+    for (int k = 0; k < subject_count; k++) arrays_free(&arrays[k]);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gcc_agrees), cmocka_unit_test(clang_agrees),
+                                       cmocka_unit_test(is_cpp)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
