@@ -29,6 +29,7 @@
 #include "weft/lobe.h"
 #include "weft/ltc.h"
 #include "weft/material.h"
+#include "weft/match.h"
 #include "weft/measure.h"
 #include "weft/pick.h"
 #include "weft/plot.h"
