@@ -55,14 +55,15 @@ typedef struct WeftMatch {
 /* Changes lobe, whose numbers are where to begin, to what comes closest to `from`: all parameters that are
  * numbers within their plausible range (or from where they begin), f0, and f90 of WEFT_LOBE_TWO_COLORS, which
  * are at least 0 and with WEFT_LOBE_TINTED at most 1. Choices stay. Bit k of hold (may be 0): parameter k
- * stays; WEFT_HOLD_COLOR: f0, WEFT_HOLD_COLOR_2: f90. Of parameters that have no influence the start's
+ * stays; WEFT_HOLD_COLOR: f0, WEFT_HOLD_COLOR_2: f90. Where `from` is
+ * isotropic and the start too, parameters stay by which that would end. Of parameters that have no influence the start's
  * numbers stay. Fails with WEFT_MESSAGE_LOBE_NAME, _DESC (a lobe with WEFT_LOBE_REFERENCE) or _MEMORY. */
 enum { WEFT_HOLD_COLOR = 1 << 8, WEFT_HOLD_COLOR_2 = 1 << 9 };
 WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold,
                                     WeftLobe *lobe, WeftMatch *out, WeftError *error);
 
 /* Likewise material, whose inputs and choices are where to begin. Free are those of base_color, sheen_color,
- * sheen_roughness, roughness and specular that it reads (weft_material_reads), sheen and sheen_tint where it
+ * sheen_roughness, roughness (0.25 at least) and specular that it reads (weft_material_reads), sheen and sheen_tint where it
  * does not read sheen_color, and specular_color in the workflow of that name; all within their plausible
  * range, or from where they begin. held (may be NULL): not 0 for an input that stays, WEFT_INPUTS_MAX of
  * them. Where both are grey, colours stay grey. Fails with WEFT_MESSAGE_PARAM_VALUE or _MEMORY. */
@@ -71,6 +72,41 @@ WEFT_API WeftResult weft_match_material(const WeftReflection *from, WeftApart me
 
 /* Whether weft_match_material may change that input of the material. */
 WEFT_API int weft_match_is_free(const WeftMaterial *material, int input);
+
+/* Many matches at once, on `threads` threads (0: one a processor). progress (may be NULL) can stop it:
+ * WEFT_INTERRUPTED. Each says in `result` how it went; fails with the first that did not. */
+typedef struct WeftMatchJob {
+    const WeftReflection *from;
+    int is_lobe;           /* lobe is what is matched, else material */
+    unsigned hold;         /* of the lobe */
+    const int *held;       /* of the material; may be NULL */
+    WeftLobe lobe;         /* where to begin, then the match */
+    WeftMaterial material; /* likewise */
+    WeftMatch found;
+    WeftResult result;
+} WeftMatchJob;
+WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
+                                    WeftProgress progress, void *user, WeftError *error);
+
+/* What became of one material of an asset. Numbers are those of its factors: with textures, `matched` is
+ * made for what texel and factor are on average, and the factor scaled as that was. */
+typedef struct WeftAssetMatch {
+    char name[64];
+    int changed; /* 0: it has no sheen, or is unlit, and stays as it is */
+    int clipped; /* not 0: a factor would have passed 1, where glTF ends */
+    WeftMatch found;
+    WeftMaterial copied, matched;
+} WeftAssetMatch;
+
+/* Writes the glTF file at `path` again for another engine, as `out`: the factors base_color, roughness,
+ * sheen_color, sheen_roughness and specular of materials that have a sheen, so that under profile `to` they
+ * come closest to what they are under profile `from` (indices of weft_profile_id); all else stays as it is,
+ * byte for byte. report (may be NULL) must hold `room` records and receives as many as there are materials;
+ * *count is their number. Fails with WEFT_MESSAGE_DESC (a profile that there is not), and with what reading
+ * and writing the file can fail with. */
+WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
+                                     WeftAssetMatch *report, int room, int *count, const WeftLog *log,
+                                     WeftError *error);
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,12 @@
 #include "weft/match.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
+#include "base/thread.h"
 #include "measure/lobe_search.h"
 #include "measure/material_search.h"
 
@@ -54,9 +58,10 @@ static WeftResult lobe_apart(const Samples *samples, const WeftLobe *lobe, doubl
     return result;
 }
 
-static WeftResult lobe_matched(const Samples *samples, unsigned hold, WeftLobe *lobe, WeftMatch *out,
-                               WeftError *error) {
-    const LobeSearch search = {.samples = samples, .hold = hold};
+static WeftResult lobe_matched(const Samples *samples, const WeftReflection *from, unsigned hold,
+                               WeftLobe *lobe, WeftMatch *out, WeftError *error) {
+    const LobeSearch search = {
+        .samples = samples, .hold = hold, .isotropic = samples_isotropic(samples, from)};
     LobeFound found = {.lobe = *lobe};
     double exact = 0.0;
     WeftResult result = lobe_apart(samples, lobe, &out->copied, error);
@@ -82,7 +87,7 @@ WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigne
     if (info->traits & WEFT_LOBE_REFERENCE)
         return fail(error, WEFT_MESSAGE_DESC, info->id, "it is known by its mean alone");
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = lobe_matched(&samples, hold, lobe, out, error);
+    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, lobe, out, error);
     samples_free(&samples);
     return result;
 }
@@ -111,5 +116,47 @@ WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, con
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
     if (result == WEFT_OK) result = material_matched(&samples, held, material, out, error);
     samples_free(&samples);
+    return result;
+}
+
+typedef struct Batch {
+    WeftMatchJob *jobs;
+    int count;
+    WeftApart metric;
+    WeftProgress progress;
+    void *user;
+    atomic_int done;
+    atomic_bool stopped;
+    WeftError *errors;
+} Batch;
+
+static void job_run(void *user, int item, int thread) {
+    Batch *batch = user;
+    WeftMatchJob *job = &batch->jobs[item];
+    job->result = WEFT_INTERRUPTED;
+    if (atomic_load(&batch->stopped)) return;
+    WeftError *error = &batch->errors[item];
+    job->result =
+        job->is_lobe
+            ? weft_match_lobe(job->from, batch->metric, job->hold, &job->lobe, &job->found, error)
+            : weft_match_material(job->from, batch->metric, job->held, &job->material, &job->found, error);
+    int done = atomic_fetch_add(&batch->done, 1) + 1;
+    if (thread == 0 && batch->progress && batch->progress(batch->user, (double)done / batch->count) != 0)
+        atomic_store(&batch->stopped, true);
+}
+
+WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
+                           WeftProgress progress, void *user, WeftError *error) {
+    Batch batch = {.jobs = jobs, .count = count, .metric = metric, .progress = progress, .user = user};
+    batch.errors = alloc_array((size_t)count, sizeof *batch.errors);
+    if (!batch.errors) return short_of_memory(error);
+    parallel_for(threads, count, job_run, &batch);
+    WeftResult result = atomic_load(&batch.stopped) ? WEFT_INTERRUPTED : WEFT_OK;
+    for (int k = 0; k < count && result == WEFT_OK; k++)
+        if (jobs[k].result != WEFT_OK) {
+            result = jobs[k].result;
+            if (error) *error = batch.errors[k];
+        }
+    free(batch.errors);
     return result;
 }

@@ -15,6 +15,8 @@
 static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness, INPUT_specular,   INPUT_sheen,
                                  INPUT_sheen_tint,      INPUT_base_color, INPUT_sheen_color,
                                  INPUT_specular_color};
+/* A highlight that is narrower falls between the directions. */
+static const double roughness_least = 0.25;
 enum { INPUTS = sizeof inputs / sizeof *inputs, PARTS = 2 };
 
 /* An axis is an input's channel, or all three of a colour that stays grey. */
@@ -70,14 +72,14 @@ static void material_at(const Walker *self, const double *x, WeftMaterial *mater
     }
 }
 
-static double apart_at(Walker *self, const double *x) {
+static double apart_at(Walker *self, const double *x, int count) {
     WeftMaterial material;
     material_at(self, x, &material);
     reflection_change(self->reflection, &material, self->table);
-    Samples few = *self->samples;
-    few.count = few.first;
-    samples_ask(&few, self->reflection, WEFT_PART_ALL, self->x);
-    return samples_apart(self->samples, self->samples->first, (const float *const *)self->x);
+    Samples some = *self->samples;
+    some.count = count;
+    samples_ask(&some, self->reflection, WEFT_PART_ALL, self->x);
+    return samples_apart(self->samples, count, (const float *const *)self->x);
 }
 
 /* Scales the colours of base and sheen as if what each reflects were in proportion to them: nearly right,
@@ -104,15 +106,16 @@ static void scale_colors(Walker *self, double *x) {
     }
 }
 
-static double error_at(void *user, double *x, bool quick) {
+static double error_at(void *user, double *x, SearchCare care) {
     enum { ROUNDS = 2 };
     Walker *self = user;
-    double error = apart_at(self, x);
-    for (int round = 0; quick && round < ROUNDS; round++) {
+    const Samples *s = self->samples;
+    double error = apart_at(self, x, care == SEARCH_FULL ? s->count : s->first);
+    for (int round = 0; care == SEARCH_GLANCE && round < ROUNDS; round++) {
         double before[SEARCH_MOST];
         memcpy(before, x, sizeof before);
         scale_colors(self, x);
-        double now = apart_at(self, x);
+        double now = apart_at(self, x, s->first);
         if (now < error) {
             error = now;
             continue;
@@ -137,11 +140,12 @@ static Search make_search(Walker *self, const int *held, double *x) {
         int channels = is_color(input) && !grey ? 3 : 1;
         for (int c = 0; c < channels && search.axes < SEARCH_MOST; c++) {
             double start = (double)self->material.inputs[input].value[c];
+            double low = input == INPUT_roughness ? roughness_least : (double)info.low;
             self->axis[search.axes] = (Axis){input, channels == 3 ? c : -1};
             if (!is_color(input)) self->axis[search.axes].channel = 0;
             x[search.axes] = start;
             search.axis[search.axes++] =
-                (SearchAxis){fmin((double)info.low, start), fmax((double)info.high, start)};
+                (SearchAxis){fmin(low, start), fmax((double)info.high, start)};
         }
     }
     self->axes = search.axes;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "weft/raster.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -40,8 +41,8 @@ static double halton(int k, int base) {
 }
 
 /* Half vectors of distribution ggx, each mirroring wo: narrow enough for a highlight, wide enough for all. */
-enum { LOBES = 2 };
-static const double alphas[LOBES] = {0.5, 0.1};
+enum { LOBES = 3 };
+static const double alphas[LOBES] = {0.5, 0.12, 0.03};
 
 static double ggx(double alpha, double cos_h) {
     double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
@@ -53,7 +54,7 @@ static double density(const double o[3], const double i[3]) {
     double h[3] = {o[0] + i[0], o[1] + i[1], o[2] + i[2]};
     double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), cos_h = h[2] / length;
     double sum = 0.5 * i[2] / pi, d = fmax(0.5 * length, 1e-6); /* wo . h */
-    for (int k = 0; k < LOBES; k++) sum += 0.25 * ggx(alphas[k], cos_h) * cos_h / (4.0 * d);
+    for (int k = 0; k < LOBES; k++) sum += 0.5 / LOBES * ggx(alphas[k], cos_h) * cos_h / (4.0 * d);
     return sum;
 }
 
@@ -63,7 +64,7 @@ static void draw(const double o[3], double pick, double u, double v, double i[3]
         i[0] = r * cos(2.0 * pi * v), i[1] = r * sin(2.0 * pi * v), i[2] = sqrt(1.0 - u);
         return;
     }
-    double alpha = alphas[pick < 0.75 ? 0 : 1];
+    double alpha = alphas[(int)fmin((pick - 0.5) * 2.0 * LOBES, LOBES - 1)];
     double z = sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u)), r = sqrt(fmax(1.0 - z * z, 0.0));
     double h[3] = {r * cos(2.0 * pi * v), r * sin(2.0 * pi * v), z};
     double d = 2.0 * (o[0] * h[0] + o[1] * h[1] + o[2] * h[2]);
@@ -145,6 +146,24 @@ void samples_ask(const Samples *self, const WeftReflection *reflection, int part
                 for (int c = 0; c < 3; c++) x[c][first] = f[j][c] * self->i[2][first];
         }
     }
+}
+
+bool samples_isotropic(const Samples *self, const WeftReflection *reflection) {
+    enum { LOOKS = 64 };
+    for (int k = 0; k < self->count && k < LOOKS; k++) {
+        float f[2][1][3];
+        for (int turned = 0; turned < 2; turned++) {
+            float c = turned ? 0.28f : 1.0f, s = turned ? 0.96f : 0.0f;
+            const float *o[3] = {self->o[0] + k, self->o[1] + k, self->o[2] + k};
+            const float *i[3] = {self->i[0] + k, self->i[1] + k, self->i[2] + k};
+            const float wo[3] = {c * *o[0] - s * *o[1], s * *o[0] + c * *o[1], *o[2]};
+            const float wi[1][3] = {{c * *i[0] - s * *i[1], s * *i[0] + c * *i[1], *i[2]}};
+            weft_reflection_eval(reflection, WEFT_PART_ALL, wo, 1, wi, f[turned]);
+        }
+        for (int c = 0; c < 3; c++)
+            if (fabsf(f[0][0][c] - f[1][0][c]) > 1e-3f * (fabsf(f[0][0][c]) + 1e-6f)) return false;
+    }
+    return true;
 }
 
 /* The curve of IEC 61966-2-1. */
@@ -312,12 +331,12 @@ static void weigh(const Samples *self, int count, int c, const float *x, float s
 }
 
 double blend_solve(const Samples *self, int count, int c, const Blend *blend, double weights[BLEND_MOST]) {
-    enum { ROUNDS = 9 };
+    const int rounds = count == self->count ? 9 : 5;
     float *x = blend->work, *rest = x + self->count, *w = rest + self->count, soft = self->scale;
     const float *columns[BLEND_MOST];
     for (int j = 0; j < blend->columns; j++) columns[j] = blend->column[j][c], weights[j] = 0.0;
     for (int k = 0; k < count; k++) rest[k] = self->x[c][k] - (blend->fixed[c] ? blend->fixed[c][k] : 0.0f);
-    for (int round = 0; round < ROUNDS && blend->columns > 0; round++, soft *= 0.3f) {
+    for (int round = 0; round < rounds && blend->columns > 0; round++, soft *= 0.3f) {
         Normal normal;
         blend_add(blend, count, c, weights, x);
         if (round == 0)

@@ -1,6 +1,7 @@
 #include "measure/search.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include <nlopt.h>
@@ -14,6 +15,7 @@ typedef struct Place {
 
 typedef struct Walk {
     const Search *search;
+    SearchCare care;
     Place best;
     long long evaluations;
 } Walk;
@@ -42,17 +44,17 @@ static void places_of(const Search *search, const double *x, double *at) {
     for (int k = 0; k < search->axes; k++) at[k] = place_of(&search->axis[k], x[k]);
 }
 
-static double error_at(Walk *walk, const double *at, bool quick, double *x) {
+static double error_at(Walk *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
     walk->evaluations++;
-    double error = walk->search->error(walk->search->user, x, quick);
+    double error = walk->search->error(walk->search->user, x, care);
     return error < 1e30 ? error : 1e30; /* NaN too */
 }
 
 static double objective(unsigned n, const double *at, double *gradient, void *user) {
     (void)gradient;
     Walk *walk = user;
-    double x[SEARCH_MOST], error = error_at(walk, at, false, x);
+    double x[SEARCH_MOST], error = error_at(walk, at, walk->care, x);
     if (error < walk->best.error) {
         walk->best.error = error;
         memcpy(walk->best.at, at, n * sizeof *at);
@@ -72,7 +74,7 @@ static void descend_once(Walk *walk, const double *from, double step) {
     nlopt_set_lower_bounds1(method, 0.0);
     nlopt_set_upper_bounds1(method, 1.0);
     nlopt_set_initial_step1(method, step);
-    nlopt_set_maxeval(method, walk->search->most);
+    nlopt_set_maxeval(method, walk->care == SEARCH_FULL ? walk->search->most / 2 : walk->search->most);
     nlopt_set_ftol_rel(method, 1e-7);
     nlopt_set_xtol_abs1(method, 1e-6);
     nlopt_set_stopval(method, 1e-8);
@@ -81,11 +83,13 @@ static void descend_once(Walk *walk, const double *from, double step) {
 }
 
 /* A simplex that has shrunk along a valley is opened again, where it stands. */
-static Place descend(Walk *walk, const Place *from) {
-    double step = 0.1;
+static Place descend(Walk *walk, const Place *from, SearchCare care) {
+    double step = care == SEARCH_FULL ? 0.03 : 0.1;
+    int rounds = care == SEARCH_FULL ? 6 : 1;
+    walk->care = care;
     walk->best = *from;
     walk->best.error = 1e30;
-    for (int round = 0; round < 6; round++, step = fmax(0.5 * step, 0.01)) {
+    for (int round = 0; round < rounds; round++, step = fmax(0.5 * step, 0.01)) {
         double before = walk->best.error;
         Place start = walk->best;
         descend_once(walk, start.at, step);
@@ -124,27 +128,40 @@ static void keep(Place *best, int *count, int room, int axes, const Place *place
         best[worst] = *place;
 }
 
-double search_run(const Search *search, double *x, long long *evaluations) {
-    Walk walk = {.search = search};
-    Place best = {.error = 0.0}, place, starts[DESCENTS_MOST];
+/* The best of the rough descents. */
+static Place roughly(Walk *walk, const Place *start) {
+    const Search *search = walk->search;
+    Place starts[DESCENTS_MOST], place;
     int count = 0, room = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
     int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
-    double y[SEARCH_MOST];
-    places_of(search, x, best.at);
-    best.error = error_at(&walk, best.at, false, y);
-    Place start = best;
-    bool moves = search->axes > 0 && best.error > 1e-7;
-    for (int k = 0; k < grid && moves && room > 0; k++) {
+    for (int k = 0; k < grid && room > 0; k++) {
+        double x[SEARCH_MOST];
         for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, a);
-        place.error = error_at(&walk, place.at, true, y);
-        places_of(search, y, place.at);
+        place.error = error_at(walk, place.at, SEARCH_GLANCE, x);
+        places_of(search, x, place.at);
         keep(starts, &count, room, search->axes, &place);
     }
-    for (int k = -1; k < count && moves && best.error > 1e-7; k++) {
-        Place found = descend(&walk, k < 0 ? &start : &starts[k]);
-        if (found.error < best.error) best = found;
+    Place best = descend(walk, start, SEARCH_ROUGH);
+    for (int k = 0; k < count && best.error > 1e-7; k++) {
+        place = descend(walk, &starts[k], SEARCH_ROUGH);
+        if (place.error < best.error) best = place;
     }
-    if (best.error < start.error) values_of(search, best.at, x);
+    return best;
+}
+
+double search_run(const Search *search, double *x, long long *evaluations) {
+    Walk walk = {.search = search};
+    Place start = {.error = 0.0}, best;
+    double y[SEARCH_MOST];
+    places_of(search, x, start.at);
+    start.error = error_at(&walk, start.at, SEARCH_FULL, y);
+    best = start;
+    if (search->axes > 0 && start.error > 1e-7) {
+        Place rough = roughly(&walk, &start);
+        best = descend(&walk, &rough, SEARCH_FULL);
+    }
+    bool better = best.error < start.error;
+    if (better) values_of(search, best.at, x);
     if (evaluations) *evaluations += walk.evaluations;
-    return best.error;
+    return better ? best.error : start.error;
 }
