@@ -25,6 +25,7 @@
 #include "weft/diff.h"
 #include "weft/doctor.h"
 #include "weft/export.h"
+#include "weft/fit.h"
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"
