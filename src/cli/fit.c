@@ -57,8 +57,8 @@ static void text_write(const Fitting *fitting) {
         better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
     }
     row_write("", "baseline: ggx over lambert", &fit->baseline);
-    printf("%4s  %-27s %7.4f\n\n%d of %d are closer than the baseline\n", "", "the base alone", fit->base_alone,
-           better, fit->count);
+    printf("%4s  %-27s %7.4f\n\n%d of %d are closer than the baseline\n", "", "the base alone",
+           fit->base_alone, better, fit->count);
 }
 
 static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
@@ -152,7 +152,8 @@ static int fit_make(Fitting *fitting) {
     if (result != WEFT_OK) return report_error(&error);
     interrupt_watch();
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
-    if (result == WEFT_INTERRUPTED) return report(result, "%s: interrupted; nothing was written", fitting->path);
+    if (result == WEFT_INTERRUPTED)
+        return report(result, "%s: interrupted; nothing was written", fitting->path);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 

@@ -113,9 +113,10 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
         panels[5 * r + 3] = (WeftPanel){.image = &all->apart[r][1], .title = "fit \xe2\x88\x92 data"};
         panels[5 * r + 4] = (WeftPanel){.image = &all->apart[r][2], .title = "baseline \xe2\x88\x92 data"};
     }
-    snprintf(caption, sizeof caption,
-             "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0; differences to \xc2\xb1%.2g",
-             path, 0.25 * (double)all->scale);
+    snprintf(
+        caption, sizeof caption,
+        "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0; differences to \xc2\xb1%.2g",
+        path, 0.25 * (double)all->scale);
     const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = PANELS, .columns = 5};
     WeftResult result = weft_sheet_compose(&desc, &sheet, error);
     if (result == WEFT_OK) result = weft_image_write(output, &sheet, error);

@@ -50,10 +50,10 @@ static int lobe_rows(const WeftLobe *copied, const WeftLobe *matched, Row rows[R
     int count = 0;
     for (int k = 0; k < info->param_count; k++)
         if (!info->params[k].choices)
-            rows[count++] =
-                row_of(info->params[k].name, 1, true, &copied->params[k], &matched->params[k]);
+            rows[count++] = row_of(info->params[k].name, 1, true, &copied->params[k], &matched->params[k]);
     rows[count++] = row_of("color", 3, true, copied->f0, matched->f0);
-    if (info->traits & WEFT_LOBE_TWO_COLORS) rows[count++] = row_of("f90", 3, true, copied->f90, matched->f90);
+    if (info->traits & WEFT_LOBE_TWO_COLORS)
+        rows[count++] = row_of("f90", 3, true, copied->f90, matched->f90);
     return count;
 }
 
@@ -211,6 +211,7 @@ static int match_run(const Options *options) {
     if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
     match.metric = (WeftApart)metric;
     if (option_given(options, "--table")) return match_table(options, match.metric);
+    if (option_given(options, "--maps")) return match_maps(options, match.metric);
     if (option_given(options, "--to") || option_given(options, "--workflow"))
         return match_asset(options, match.metric);
     if (options->operand_count != 2)
@@ -225,6 +226,9 @@ static const Option match_options[] = {
     OPTION_TEXT("--metric", "NAME", "cosine", "what is made least: cosine, log or picture"),
     OPTION_LIST("--hold", "NAME", "a parameter or input of TO that keeps the number it was typed with"),
     OPTION_SWITCH("--table", "match every profile to every other and print what was left"),
+    OPTION_SWITCH("--maps",
+                  "match every sheen lobe to every other over a sweep of its width, and print a formula "
+                  "where one adds no more than 0.03 to the error"),
     OPTION_HEADING("A whole asset"),
     OPTION_TEXT("--from", "PROFILE", "khronos", "the engine it was made for"),
     OPTION_TEXT("--to", "PROFILE", NULL, "the engine it is for now: its sheens are rewritten"),

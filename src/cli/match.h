@@ -28,6 +28,9 @@ int match_sheet_write(const Match *match, const char *path);
 /* `weft match --table`: every profile as every other. */
 int match_table(const Options *options, WeftApart metric);
 
+/* `weft match --maps`: every sheen as every other, over a sweep of its width. */
+int match_maps(const Options *options, WeftApart metric);
+
 /* `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
 int match_asset(const Options *options, WeftApart metric);
 

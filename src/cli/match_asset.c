@@ -83,8 +83,8 @@ static int to_engine(const Options *options, const char *out, WeftApart metric) 
     if (to < 0) return WEFT_USAGE;
     WeftAssetMatch *matches = calloc(ROOM, sizeof *matches);
     if (!matches) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
-    WeftResult result = weft_match_asset(options->operands[0], out, from, to, metric, matches, ROOM, &count,
-                                         &log, &error);
+    WeftResult result =
+        weft_match_asset(options->operands[0], out, from, to, metric, matches, ROOM, &count, &log, &error);
     if (count > ROOM) count = ROOM;
     if (result == WEFT_OK && option_given(options, "--json"))
         asset_json(matches, count, metric);

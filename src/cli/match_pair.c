@@ -23,7 +23,9 @@ static void copy_lobe(const WeftLobe *from, WeftLobe *to) {
     const WeftLobeInfo *of = weft_lobe_info(from->lobe), *info = weft_lobe_info(to->lobe);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
-        int like = p->choices && from->lobe != to->lobe ? -1 : from->lobe == to->lobe ? k : param_like(of, info, k);
+        int like = p->choices && from->lobe != to->lobe ? -1
+                   : from->lobe == to->lobe             ? k
+                                                        : param_like(of, info, k);
         if (like >= 0) to->params[k] = fminf(fmaxf(from->params[like], p->hard_low), p->hard_high);
     }
     memcpy(to->f0, from->f0, sizeof to->f0);
@@ -61,7 +63,8 @@ static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy
             continue;
         }
         while (k < info->param_count && strcmp(info->params[k].name, name) != 0) k++;
-        if (k == info->param_count) return report(WEFT_USAGE, "%.80s: is not a parameter of %s", name, info->id);
+        if (k == info->param_count)
+            return report(WEFT_USAGE, "%.80s: is not a parameter of %s", name, info->id);
         *hold |= 1u << k;
         copy->params[k] = typed->params[k];
     }

@@ -29,7 +29,8 @@ static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
     for (int k = 0; k < PICTURES && result == WEFT_OK; k++) {
         result = weft_reflection_sphere(of[k], SIZE, &all->linear[k], error);
         if (result == WEFT_OK)
-            result = weft_image_tonemap(&all->linear[k], WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &all->shown[k], error);
+            result =
+                weft_image_tonemap(&all->linear[k], WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &all->shown[k], error);
         if (result == WEFT_OK)
             result = weft_difference(&all->linear[k], &all->linear[0], &all->difference[k], error);
     }

@@ -60,8 +60,8 @@ static void text_write(const Table *table, WeftApart metric) {
         const WeftMatchJob *job = &table->jobs[k];
         if (from == to) continue;
         changes_text(table, from, job, text, sizeof text);
-        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_id(from), weft_profile_id(to),
-               job->found.copied, job->found.matched, text);
+        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_id(from), weft_profile_id(to), job->found.copied,
+               job->found.matched, text);
     }
 }
 
@@ -95,7 +95,8 @@ int match_table(const Options *options, WeftApart metric) {
     WeftError error;
     int result = prepare(&table);
     if (result == 0) {
-        WeftResult done = weft_match_many(table.jobs, table.count * table.count, metric, 0, NULL, NULL, &error);
+        WeftResult done =
+            weft_match_many(table.jobs, table.count * table.count, metric, 0, NULL, NULL, &error);
         if (done != WEFT_OK) result = report_error(&error);
     }
     if (result == 0 && option_given(options, "--json"))

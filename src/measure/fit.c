@@ -110,7 +110,7 @@ WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3
  * New Change of Variables for Efficient BRDF Representation", 1998. */
 static void rusinkiewicz(double th, double td, double pd, double phi, float wo[3], float wi[3]) {
     double x = (sin)(td) * (cos)(pd), y = (sin)(td) * (sin)(pd), z = (cos)(td);
-    double i[3] = {(cos)(th) * x + (sin)(th) * z, y, (cos)(th) * z - (sin)(th) * x};
+    double i[3] = {(cos)(th)*x + (sin)(th)*z, y, (cos)(th)*z - (sin)(th)*x};
     const double h[3] = {(sin)(th), 0.0, (cos)(th)};
     double o[3] = {2.0 * z * h[0] - i[0], 2.0 * z * h[1] - i[1], 2.0 * z * h[2] - i[2]};
     double c = (cos)(phi), s = (sin)(phi);

@@ -201,8 +201,7 @@ WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
     Asset asset = {.error = error ? error : &own};
     gltf_open(&asset, path, NULL, 0);
     result = asset.result;
-    if (result == WEFT_OK)
-        result = asset_write(&asset, scene, out, from, to, metric, report, room, error);
+    if (result == WEFT_OK) result = asset_write(&asset, scene, out, from, to, metric, report, room, error);
     gltf_close(&asset);
     weft_scene_free(scene);
     return result;

@@ -12,9 +12,9 @@
 #include "weft/raster.h"
 
 /* What may change, in this order. */
-static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness, INPUT_specular,   INPUT_sheen,
-                                 INPUT_sheen_tint,      INPUT_base_color, INPUT_sheen_color,
-                                 INPUT_specular_color};
+static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness,     INPUT_specular,
+                                 INPUT_sheen,           INPUT_sheen_tint,    INPUT_base_color,
+                                 INPUT_sheen_color,     INPUT_specular_color};
 /* A highlight that is narrower falls between the directions. */
 static const double roughness_least = 0.25;
 enum { INPUTS = sizeof inputs / sizeof *inputs, PARTS = 2 };
@@ -101,7 +101,8 @@ static void scale_colors(Walker *self, double *x) {
         blend_solve(s, few.count, c, &blend, weights);
         for (int k = 0; k < self->axes; k++)
             for (int p = 0; p < PARTS; p++)
-                if (self->axis[k].input == colors[p] && (self->axis[k].channel < 0 || self->axis[k].channel == c))
+                if (self->axis[k].input == colors[p] &&
+                    (self->axis[k].channel < 0 || self->axis[k].channel == c))
                     x[k] = fmin(x[k] * weights[p], 1.0);
     }
 }
@@ -144,8 +145,7 @@ static Search make_search(Walker *self, const int *held, double *x) {
             self->axis[search.axes] = (Axis){input, channels == 3 ? c : -1};
             if (!is_color(input)) self->axis[search.axes].channel = 0;
             x[search.axes] = start;
-            search.axis[search.axes++] =
-                (SearchAxis){fmin(low, start), fmax((double)info.high, start)};
+            search.axis[search.axes++] = (SearchAxis){fmin(low, start), fmax((double)info.high, start)};
         }
     }
     self->axes = search.axes;

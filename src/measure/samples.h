@@ -10,15 +10,15 @@
 
 typedef struct Samples {
     int count;
-    int outs;      /* > 0: sample k has direction wo number k % outs; 0: each its own */
-    int first;     /* samples [0, first) stand for all where that is enough */
-    int channels;  /* 3, or 1 where the others are the same */
+    int outs;           /* > 0: sample k has direction wo number k % outs; 0: each its own */
+    int first;          /* samples [0, first) stand for all where that is enough */
+    int channels;       /* 3, or 1 where the others are the same */
     float *o[3], *i[3]; /* unit vectors, above the horizon */
     float *weight;
     float *x[3];    /* what is to be met */
     float *goal[3]; /* g of it */
     WeftApart metric;
-    float scale; /* the m of LOG */
+    float scale;     /* the m of LOG */
     double whole[2]; /* what is below the line: of `first` samples, of all */
     float *block;
 } Samples;

@@ -24,8 +24,8 @@ static bool by_logarithm(const SearchAxis *axis) { return axis->low > 0.0 && axi
 
 static double value_of(const SearchAxis *axis, double at) {
     double t = fmin(fmax(at, 0.0), 1.0);
-    double value =
-        by_logarithm(axis) ? axis->low * pow(axis->high / axis->low, t) : axis->low + (axis->high - axis->low) * t;
+    double value = by_logarithm(axis) ? axis->low * pow(axis->high / axis->low, t)
+                                      : axis->low + (axis->high - axis->low) * t;
     return fmin(fmax(value, axis->low), axis->high);
 }
 

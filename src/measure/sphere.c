@@ -14,9 +14,8 @@ typedef struct Lamp {
 } Lamp;
 
 /* x right, y up, z towards the viewer. */
-static const Lamp lamps[LIGHTS] = {{{0.424264, 0.565685, 0.707107}, 2.0},
-                                   {{-0.692820, 0.519615, -0.5}, 2.0},
-                                   {{0.0, 0.0, 1.0}, 0.6}};
+static const Lamp lamps[LIGHTS] = {
+    {{0.424264, 0.565685, 0.707107}, 2.0}, {{-0.692820, 0.519615, -0.5}, 2.0}, {{0.0, 0.0, 1.0}, 0.6}};
 
 typedef struct Sphere {
     const WeftReflection *reflection;

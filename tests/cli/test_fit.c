@@ -15,8 +15,9 @@ static int table_begin(void **state) {
     for (int k = 0; k < 900; k++)
         fprintf(angles, "%d %d %d %d\n", 5 + k % 7 * 11, 37 * k % 360, 3 + k / 7 % 8 * 10, 101 * k % 360);
     fclose(angles);
-    Ran ran = run_shell("\"$0\" eval ashikhmin-neubelt -p alpha=0.3 -p color=0.8,0.5,0.2 angles.txt >f.txt && "
-                        "paste -d' ' angles.txt f.txt | cut -d' ' -f1-7 >table.csv");
+    Ran ran =
+        run_shell("\"$0\" eval ashikhmin-neubelt -p alpha=0.3 -p color=0.8,0.5,0.2 angles.txt >f.txt && "
+                  "paste -d' ' angles.txt f.txt | cut -d' ' -f1-7 >table.csv");
     int code = ran.code;
     ran_free(&ran);
     return code;
@@ -50,8 +51,8 @@ static void a_lobe_is_found(void **state) {
     weft_lobe_eval(&lobe, wo, wi[0], g);
     assert_true(fabsf(f[0][0] - 0.8f * g[0]) < 0.005f * g[0] && fabsf(f[0][2] - 0.2f * g[2]) < 0.005f * g[2]);
     weft_reflection_free(of);
-    ran = RUN("render", "builtin:cloth", "--material", "m.json", "--width", "32", "--height", "24", "--spp", "1",
-              "-o", "m.png");
+    ran = RUN("render", "builtin:cloth", "--material", "m.json", "--width", "32", "--height", "24", "--spp",
+              "1", "-o", "m.png");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
 }

@@ -69,7 +69,8 @@ static void pictures_are_written(void **state) {
     assert_true(image.width > 900 && image.height > 600);
     weft_image_free(&image);
     ran_free(&ran);
-    json_t *json = printed(LIST("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "--json"));
+    json_t *json =
+        printed(LIST("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "--json"));
     assert_true(fabs(value_of(json, "matched", "density") - 2.0) < 1e-6);
     json_decref(json);
 }
@@ -77,8 +78,8 @@ static void pictures_are_written(void **state) {
 /* The sheen of a file, for another engine: only its factors change. */
 static void an_asset_is_rewritten(void **state) {
     (void)state;
-    json_t *json = printed(LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf",
-                                "--json"));
+    json_t *json = printed(
+        LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
     const json_t *cloth = json_array_get(json, 0);
     assert_true(json_is_true(json_object_get(cloth, "changed")));
     assert_true(number(cloth, "matched") < number(cloth, "copied"));
@@ -134,7 +135,8 @@ static double flip(const WeftImage *image, const WeftImage *reference) {
 /* The chair: drawn by the other engine it is closer to what it was than with its own numbers. */
 static void the_chair_looks_as_it_did(void **state) {
     (void)state;
-    const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth", "filament-sheen"};
+    const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth",
+                                                                  "filament-sheen"};
     char chair[512];
     if (!folder || !*folder) folder = WEFT_SOURCE_DIR "/../shared/data";
     snprintf(chair, sizeof chair, "%s/gltf/SheenChair/SheenChair.gltf", folder);
@@ -170,16 +172,17 @@ static void complaints(void **state) {
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three"), 2, "-o");
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "two", "-o", "a.glb"), 2, "two");
     assert_complaint(NULL, LIST("match", "not-there.gltf", "--to", "three", "-o", "a.glb"), 3, "not-there");
-    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "--workflow", "metallic", "-o", "a.glb"),
-                     2, "--workflow");
+    assert_complaint(NULL,
+                     LIST("match", "scene.gltf", "--to", "three", "--workflow", "metallic", "-o", "a.glb"), 2,
+                     "--workflow");
     assert_complaint(NULL, LIST("match", "not-there.binary", "ggx"), 3, "not-there");
     assert_int_equal(access("a.glb", F_OK), -1);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lobe_is_itself),      cmocka_unit_test(a_match_is_closer),
-        cmocka_unit_test(pictures_are_written),  cmocka_unit_test(an_asset_is_rewritten),
+        cmocka_unit_test(a_lobe_is_itself),          cmocka_unit_test(a_match_is_closer),
+        cmocka_unit_test(pictures_are_written),      cmocka_unit_test(an_asset_is_rewritten),
         cmocka_unit_test(the_chair_looks_as_it_did), cmocka_unit_test(complaints)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

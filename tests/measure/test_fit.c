@@ -241,8 +241,8 @@ static void bad_tables_end_in_one_line(void **state) {
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "velours"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.base = "ggx"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "lambert"}, &fit, &error), WEFT_USAGE);
-    assert_int_equal(
-        weft_fit(data, &(WeftFitDesc){.metric = WEFT_APART_PICTURE, .chosen = 1}, &fit, &error), WEFT_USAGE);
+    assert_int_equal(weft_fit(data, &(WeftFitDesc){.metric = WEFT_APART_PICTURE, .chosen = 1}, &fit, &error),
+                     WEFT_USAGE);
     weft_data_free(data);
 }
 
@@ -256,16 +256,17 @@ static void a_table_is_read(void **state) {
     size_t used = (size_t)snprintf(text, LINE, "theta_o, phi_o, theta_i, phi_i, r, g, b\n# made\n\n");
     seed = 3;
     for (int k = 0; k < LINES; k++) {
-        double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()}, r = 3.14159265 / 180.0;
+        double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()},
+               r = 3.14159265 / 180.0;
         float o[3] = {(float)(sin(t[0] * r) * cos(t[1] * r)), (float)(sin(t[0] * r) * sin(t[1] * r)),
                       (float)cos(t[0] * r)};
         float i[3] = {(float)(sin(t[2] * r) * cos(t[3] * r)), (float)(sin(t[2] * r) * sin(t[3] * r)),
                       (float)cos(t[2] * r)},
               x[3];
         weft_lobe_eval(&lobe, o, i, x);
-        used += (size_t)snprintf(text + used, LINE, "%.5f%s%.5f %.5f\t%.5f, %.7g,%.7g,%.7g\n", t[0],
-                                 k % 2 ? "," : " , ", t[1], t[2], t[3], (double)x[0], (double)x[1],
-                                 (double)x[2]);
+        used +=
+            (size_t)snprintf(text + used, LINE, "%.5f%s%.5f %.5f\t%.5f, %.7g,%.7g,%.7g\n", t[0],
+                             k % 2 ? "," : " , ", t[1], t[2], t[3], (double)x[0], (double)x[1], (double)x[2]);
     }
     WeftData *data;
     WeftFit fit;
@@ -287,7 +288,7 @@ static void a_table_is_read(void **state) {
  * beats the baseline. */
 static void fabrics_are_ranked(void **state) {
     (void)state;
-    static const char *const names[] = {"red-fabric",   "pink-felt",    "beige-fabric",
+    static const char *const names[] = {"red-fabric",   "pink-felt",   "beige-fabric",
                                         "black-fabric", "blue-fabric", "green-fabric"};
     const char *folder = getenv("WEFT_DATA");
     int count = getenv("WEFT_TEST_LONG") ? 6 : 1, better = 0;
@@ -299,8 +300,8 @@ static void fabrics_are_ranked(void **state) {
         close(fd);
         unlink(taken);
         snprintf(path, sizeof path, "%s.binary", taken);
-        snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/%s.resynth.binary.xz' >%s 2>/dev/null", folder,
-                 names[k], path);
+        snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/%s.resynth.binary.xz' >%s 2>/dev/null",
+                 folder, names[k], path);
         if (system(command) != 0) { /* NOLINT(cert-env33-c): of the test's own words */
             unlink(path);
             print_message("skipped: no measured fabrics at hand, or no xz\n");
@@ -325,9 +326,11 @@ static void fabrics_are_ranked(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_are_found_without_noise), cmocka_unit_test(lobes_are_found_in_noise),
-        cmocka_unit_test(a_material_says_it),            cmocka_unit_test(bad_tables_end_in_one_line),
-        cmocka_unit_test(a_table_is_read),               cmocka_unit_test(fabrics_are_ranked)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lobes_are_found_without_noise),
+                                       cmocka_unit_test(lobes_are_found_in_noise),
+                                       cmocka_unit_test(a_material_says_it),
+                                       cmocka_unit_test(bad_tables_end_in_one_line),
+                                       cmocka_unit_test(a_table_is_read),
+                                       cmocka_unit_test(fabrics_are_ranked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

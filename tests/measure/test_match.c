@@ -60,7 +60,8 @@ static WeftMaterial cloth(int profile) {
     weft_material_default(&material);
     for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++)
         assert_int_equal(weft_material_set(&material, inputs[k][0], inputs[k][1], NULL, &error), WEFT_OK);
-    assert_int_equal(weft_material_set(&material, "profile", weft_profile_id(profile), NULL, &error), WEFT_OK);
+    assert_int_equal(weft_material_set(&material, "profile", weft_profile_id(profile), NULL, &error),
+                     WEFT_OK);
     return material;
 }
 
@@ -199,8 +200,8 @@ static void what_is_held_stays(void **state) {
     to.params[1] = 2.5f;
     WeftReflection *reflection = of_lobe(&from);
     WeftMatch match;
-    assert_int_equal(
-        weft_match_lobe(reflection, WEFT_APART_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL), WEFT_OK);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_APART_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL),
+                     WEFT_OK);
     assert_true(fabsf(to.params[1] - 2.5f) < 1e-6f && fabsf(to.f0[0] - 1.0f) < 1e-6f);
     assert_true(match.matched < match.copied);
     WeftLobe walk = lobe_named("fibre-walk");
@@ -247,7 +248,8 @@ static void never_worse_than_the_copy(void **state) {
         int k = 1 + j * step;
         double again;
         WeftReflection *to = of_material(&all[j].material);
-        assert_int_equal(weft_apart(to, all[j].from, WEFT_PART_ALL, WEFT_APART_COSINE, &again, NULL), WEFT_OK);
+        assert_int_equal(weft_apart(to, all[j].from, WEFT_PART_ALL, WEFT_APART_COSINE, &again, NULL),
+                         WEFT_OK);
         print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_id(k / count), weft_profile_id(k % count),
                       all[j].found.copied, all[j].found.matched);
         assert_true(all[j].found.matched <= all[j].found.copied);
@@ -300,9 +302,9 @@ static void a_sphere_is_a_picture(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_is_half),          cmocka_unit_test(the_sum_is_the_integral),
-        cmocka_unit_test(itself_stays),          cmocka_unit_test(lobes_come_back),
-        cmocka_unit_test(what_is_held_stays),    cmocka_unit_test(never_worse_than_the_copy),
+        cmocka_unit_test(half_is_half),           cmocka_unit_test(the_sum_is_the_integral),
+        cmocka_unit_test(itself_stays),           cmocka_unit_test(lobes_come_back),
+        cmocka_unit_test(what_is_held_stays),     cmocka_unit_test(never_worse_than_the_copy),
         cmocka_unit_test(threads_change_nothing), cmocka_unit_test(a_sphere_is_a_picture)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
