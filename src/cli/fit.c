@@ -153,7 +153,7 @@ static int fit_make(Fitting *fitting) {
     interrupt_watch();
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
     if (result == WEFT_INTERRUPTED)
-        return report(result, "%s: interrupted; nothing was written", fitting->path);
+        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 

@@ -128,7 +128,7 @@ int fit_sheet_write(const char *path, const char *base, const WeftFit *fit, cons
     WeftError error;
     Slices all = {.scale = 1.0f};
     WeftReflection *of[COLUMNS] = {NULL};
-    Drawn drawn[COLUMNS] = {{NULL}};
+    Drawn drawn[COLUMNS] = {{.reflection = NULL}};
     WeftResult result = weft_reflection_read(path, &of[0], &error);
     drawn[0].reflection = of[0];
     if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], base, &drawn[1], &of[1], &error);

@@ -48,6 +48,13 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftApart metri
     }
 }
 
+static bool has_changed(const WeftAssetMatch *match, int input) {
+    const float *was = match->copied.inputs[input].value, *now = match->matched.inputs[input].value;
+    for (int c = 0; c < 3; c++)
+        if (was[c] < now[c] || was[c] > now[c]) return true;
+    return false;
+}
+
 static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metric) {
     Json json = {.stream = stdout};
     WeftInputInfo info;
@@ -63,8 +70,7 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metri
         json_number(&json, "matched", match->found.matched);
         json_open(&json, "factors", '{');
         for (int n = 0; weft_material_input_info(n, &info); n++)
-            if (memcmp(match->copied.inputs[n].value, match->matched.inputs[n].value,
-                       sizeof match->copied.inputs[n].value) != 0)
+            if (has_changed(match, n))
                 json_floats(&json, info.name, match->matched.inputs[n].value,
                             info.kind == WEFT_INPUT_COLOR ? 3 : 1);
         json_close(&json, '}');

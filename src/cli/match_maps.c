@@ -44,7 +44,7 @@ static int prepare(Maps *maps) {
     WeftError error;
     for (int k = 0; k < weft_lobe_count() && maps->count < LOBES_MOST; k++)
         if (is_sheen(k)) maps->lobes[maps->count++] = k;
-    maps->jobs = calloc((size_t)(maps->count * maps->count * SWEEP), sizeof *maps->jobs);
+    maps->jobs = calloc((size_t)LOBES_MOST * LOBES_MOST * SWEEP, sizeof *maps->jobs);
     if (!maps->jobs) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
     for (int n = 0; n < maps->count; n++)
         for (int k = 0; k < SWEEP; k++) {

@@ -24,7 +24,7 @@ static int prepare(Table *table) {
         result = subject_read(typed, &table->from[table->count]);
     }
     if (result != 0) return result;
-    table->jobs = calloc((size_t)(table->count * table->count), sizeof *table->jobs);
+    table->jobs = calloc((size_t)PROFILES_MOST * PROFILES_MOST, sizeof *table->jobs);
     if (!table->jobs) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
     WeftError error;
     for (int from = 0; from < table->count; from++)
@@ -91,7 +91,7 @@ static void json_write(const Table *table, WeftApart metric) {
 }
 
 int match_table(const Options *options, WeftApart metric) {
-    static Table table;
+    Table table = {.count = 0};
     WeftError error;
     int result = prepare(&table);
     if (result == 0) {

@@ -56,7 +56,7 @@ static size_t step_through(size_t count) {
 
 static bool is_sample(const float wo[3], const float wi[3], const float f[3]) {
     return wo[2] >= cosine_least && wi[2] >= cosine_least && f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f &&
-           f[0] + f[1] + f[2] < INFINITY; // NOLINT
+           f[0] + f[1] + f[2] < 1e30f;
 }
 
 /* In an order in which any first part stands for all. */

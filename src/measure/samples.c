@@ -108,7 +108,8 @@ static bool spread_pictures(Samples *self) {
     int outs = 0;
     double normals[SIDE * SIDE][3];
     for (int p = 0; p < SIDE * SIDE; p++) {
-        double x = (p % SIDE + 0.5) / SIDE * 2.0 - 1.0, y = 1.0 - (p / SIDE + 0.5) / SIDE * 2.0; // NOLINT
+        int row = p / SIDE;
+        double x = (p % SIDE + 0.5) / SIDE * 2.0 - 1.0, y = 1.0 - (row + 0.5) / SIDE * 2.0;
         if (x * x + y * y > 0.998) continue;
         normals[outs][0] = x, normals[outs][1] = y;
         normals[outs++][2] = sqrt(1.0 - x * x - y * y);
@@ -293,7 +294,7 @@ static bool solve_active(const Normal *normal, int columns, unsigned active, dou
 
 /* Least squares without negative weights: of so few columns every set can be tried. */
 static void solve_positive(const Normal *normal, int columns, double *weights) {
-    double least = INFINITY; // NOLINT
+    double least = 1e300;
     for (unsigned active = 0; active < 1u << columns; active++) {
         double trial[BLEND_MOST], cost = 0.0;
         bool good = solve_active(normal, columns, active, trial);

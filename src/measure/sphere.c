@@ -53,7 +53,8 @@ static void row_draw(void *user, int row, int thread) {
         double sum[3] = {0.0};
         int hits = 0;
         for (int ray = 0; ray < RAYS * RAYS; ray++) {
-            double u = column + (ray % RAYS + 0.5) / RAYS, v = row + ((double)(ray / RAYS) + 0.5) / RAYS;
+            int across = ray % RAYS, down = ray / RAYS;
+            double u = column + (across + 0.5) / RAYS, v = row + (down + 0.5) / RAYS;
             double x = (2.0 * u / size - 1.0) * 1.04, y = (1.0 - 2.0 * v / size) * 1.04;
             if (x * x + y * y >= 1.0) continue;
             shade(sphere->reflection, x, y, sum);
