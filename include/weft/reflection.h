@@ -5,6 +5,7 @@
 #ifndef WEFT_REFLECTION_H
 #define WEFT_REFLECTION_H
 
+#include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/material.h"
 #include "weft/raster.h"
@@ -45,6 +46,14 @@ WEFT_API void weft_reflection_eval(const WeftReflection *reflection, int part, c
  * exact to about 1 %. */
 WEFT_API void weft_reflection_albedo(const WeftReflection *reflection, int part, float cos_o,
                                      float albedo[3]);
+
+/* A picture of a sphere of it, F32 RGBA, linear, transparent around, of size x size pixels (8 .. 4096): seen
+ * from far away, its tangent level, under three directional lights that cast no shadow: of irradiance 2 from
+ * 45 degrees off the viewer, up and to the right; 2 from 120 degrees off, left and up, behind the sphere; 0.6
+ * from the viewer. No pixel is estimated: the same call has the same bytes. Fails with WEFT_MESSAGE_DESC or
+ * _MEMORY. */
+WEFT_API WeftResult weft_reflection_sphere(const WeftReflection *reflection, int size, WeftImage *out,
+                                           WeftError *error);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "measure/merl.h"
+#include "measure/reflection.h"
 #include "scene/material_numbers.h"
 #include "scene/shade.h"
 #include "shading/choice.h"
@@ -34,16 +35,19 @@ struct WeftReflection {
     Merl merl;
 };
 
-/* E of the sheen, where the stack asks for a table of its own; engines' own are made before they are asked.
- */
+/* Whether E of the sheen is asked of a table of its lobe, and the stack that says so. Engines' own tables are
+ * made before they are asked. */
+static bool asks_for_table(const Whole *self, Stack *stack) {
+    stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    if (!(stack->sheen.pick > 0.0f) && stack->layer != LAYER_MULTIPLICATIVE) return false;
+    if (stack->albedo == ALBEDO_TABLE || stack->albedo == ALBEDO_KHRONOS) return true;
+    stack_albedo(*stack, dir(0.0f, 0.0f, 1.0f));
+    return false;
+}
+
 static bool make_table(Whole *self) {
     Stack stack;
-    stack_make(&stack, &self->surface, &self->choices, self->table, dir(0.0f, 0.0f, 1.0f));
-    if (!(stack.sheen.pick > 0.0f) && stack.layer != LAYER_MULTIPLICATIVE) return true;
-    if (stack.albedo != ALBEDO_TABLE && stack.albedo != ALBEDO_KHRONOS) {
-        stack_albedo(stack, dir(0.0f, 0.0f, 1.0f));
-        return true;
-    }
+    if (!asks_for_table(self, &stack)) return true;
     self->own = alloc_array(1, sizeof *self->own);
     if (!self->own) return false;
     albedo_table_fill(self->own, &stack.sheen.lobe, stack.at, stack.at, 0);
@@ -51,14 +55,43 @@ static bool make_table(Whole *self) {
     return true;
 }
 
-static bool whole_make(Whole *self, const Material *material) {
+static void whole_set(Whole *self, const Material *material) {
     Surface surface = material_plain(material);
     surface.dust_noise = 0.0f;
     self->along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f);
     self->surface = dust_settle(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
     self->choices = material_choices(material);
     self->table = (TableRef){.kind = TABLE_NONE};
+}
+
+static bool whole_make(Whole *self, const Material *material) {
+    whole_set(self, material);
     return make_table(self);
+}
+
+/* Widens low .. high to where the parameter that E is asked for runs while roughnesses run from 0 to 1. */
+static void widest(const Whole *self, float *low, float *high) {
+    for (int ends = 0; ends < 4; ends++) {
+        Whole end = *self;
+        Stack stack;
+        end.surface.sheen_roughness = ends & 1 ? 1.0f : 0.0f;
+        end.surface.roughness = ends & 2 ? 1.0f : 0.0f;
+        asks_for_table(&end, &stack);
+        *low = fminf(*low, stack.at);
+        *high = fmaxf(*high, stack.at);
+    }
+}
+
+void reflection_change(WeftReflection *self, const WeftMaterial *material, AlbedoTable *shared) {
+    Stack stack;
+    const Material taken = material_of_numbers(material);
+    whole_set(&self->whole, &taken);
+    if (!asks_for_table(&self->whole, &stack) || stack.layer == LAYER_ADDITIVE) return;
+    float low = stack.at, high = stack.at;
+    widest(&self->whole, &low, &high);
+    if (!shared->rows || !albedo_table_serves(shared, &stack.sheen.lobe, low, high, false))
+        albedo_table_fill(shared, &stack.sheen.lobe, low, high, 0);
+    self->whole.table = albedo_table_ref(shared);
 }
 
 static WeftReflection *reflection_of_kind(ReflectionKind kind, WeftReflection **out, WeftError *error) {

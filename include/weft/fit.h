@@ -1,0 +1,92 @@
+/* fit.h - measured reflectance, and the lobes of the catalogue that come closest to it
+ *
+ * A candidate is a lobe over a diffuse base: f = base color * white base + lobe, with all parameters of the
+ * lobe that are numbers, its colours and that of the base free, within plausible ranges. Candidates are all
+ * lobes but diffuse ones and WEFT_LOBE_REFERENCE.
+ *
+ * The error is that of match.h over the samples of the data, each of which counts alike:
+ *
+ *   error = sum |g(x_fit) - g(x)| / sum g(x) over samples and channels,  x = f cos_i
+ *
+ * LOG (the default): g(x) = ln(1 + x / mean x); COSINE: g(x) = x. Samples with a direction more than 80
+ * degrees off the normal are left out, as is usual, since there the measurement is least to be trusted: Addy
+ * Ngan, Fredo Durand, Wojciech Matusik, "Experimental Analysis of BRDF Models", EGSR 2005, section 3.2. */
+#ifndef WEFT_FIT_H
+#define WEFT_FIT_H
+
+#include "weft/match.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WeftData WeftData;
+
+/* Reads a measurement: ".binary" in MERL's format, of which every bin whose numbers are right for a grid of
+ * 24 x 24 x 12 (theta_h, theta_d, phi_d) is a sample; else a table of lines
+ *
+ *   theta_o, phi_o, theta_i, phi_i, r, g, b        degrees, from the normal and the tangent; f in 1/sr
+ *
+ * separated by commas, blanks or tabs, at most 1 million; empty lines and those that begin with # are passed
+ * over, and so is one line of names above the numbers. Where one of r, g, b is negative, nothing was
+ * measured. Fails with WEFT_MESSAGE_MEASURED, _BRDF_TABLE (which says in what line), _MEMORY and with what
+ * reading a file can fail with. Release with weft_data_free. */
+WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
+
+/* The same from size bytes; name is the subject of errors, and its suffix says what they are. */
+WEFT_API WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
+                                          WeftError *error);
+
+/* Of count pairs of unit directions and their f, 1/sr, all copied; isotropic: not 0 where f stays the same
+ * however both directions turn, which halves the work. Fails with WEFT_MESSAGE_DESC where nothing is above 0
+ * or nothing is left, or _MEMORY. */
+WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3],
+                                     const float (*f)[3], int isotropic, WeftData **out, WeftError *error);
+
+WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
+
+/* How many samples count; how many there were. */
+WEFT_API int weft_data_count(const WeftData *data, int *all);
+
+/* One candidate, fitted. */
+typedef struct WeftFitted {
+    WeftLobe lobe;
+    float base[3]; /* colour of the base */
+    double error;
+    long long evaluations;
+} WeftFitted;
+
+enum { WEFT_FITTED_MOST = 64 };
+
+typedef struct WeftFit {
+    int count;
+    WeftFitted fitted[WEFT_FITTED_MOST]; /* the best first */
+    WeftFitted baseline;                 /* ggx over lambert, f90 = 1: what engines have for everything */
+    double base_alone;                   /* the error of the base without a lobe */
+} WeftFit;
+
+/* Zero-initialise for the defaults. */
+typedef struct WeftFitDesc {
+    WeftApart metric; /* LOG where `chosen` is 0; PICTURE is refused */
+    int chosen;
+    const char *base; /* a diffuse lobe, with its default parameters; NULL: lambert */
+    const char *only; /* one candidate instead of all; NULL: all */
+    int threads;      /* 0: one a processor; no influence on the result */
+    WeftProgress progress;
+    void *user;
+} WeftFitDesc;
+
+/* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,
+ * _DESC or _MEMORY; WEFT_INTERRUPTED where progress says so. */
+WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
+
+/* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
+ * inputs cannot say it: a lobe with more shape than roughness, density and nap have, or a base brighter than
+ * white. */
+WEFT_API int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMaterial *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

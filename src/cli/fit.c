@@ -1,0 +1,216 @@
+/* fit.c - `weft fit`: a measured BRDF, and the lobes that come closest to it */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "fit_sheet.h"
+#include "interrupt.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+#include "verbs.h"
+#include "weft/weft.h"
+
+typedef struct Fitting {
+    const Options *options;
+    const char *path, *base, *material, *plot; /* material, plot: NULL: none */
+    WeftApart metric;
+    WeftData *data;
+    WeftFit fit;
+} Fitting;
+
+/* "alpha 0.31, density 1.2": the parameters that are numbers. */
+static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < info->param_count && used < size; k++)
+        if (!info->params[k].choices)
+            used += (size_t)snprintf(text + used, size - used, "%s%s %.3g", used ? ", " : "",
+                                     info->params[k].name, (double)lobe->params[k]);
+    return text;
+}
+
+static void row_write(const char *rank, const char *name, const WeftFitted *fitted) {
+    char params[160], base[64], color[64];
+    snprintf(base, sizeof base, "%.3f,%.3f,%.3f", (double)fitted->base[0], (double)fitted->base[1],
+             (double)fitted->base[2]);
+    snprintf(color, sizeof color, "%.3g,%.3g,%.3g", (double)fitted->lobe.f0[0], (double)fitted->lobe.f0[1],
+             (double)fitted->lobe.f0[2]);
+    printf("%4s  %-27s %7.4f  %-19s  %-24s %s\n", rank, name, fitted->error, base, color,
+           params_text(&fitted->lobe, params, sizeof params));
+}
+
+static void text_write(const Fitting *fitting) {
+    const WeftFit *fit = &fitting->fit;
+    int all = 0, count = weft_data_count(fitting->data, &all), better = 0;
+    printf("%s: %d samples of %d; error is %s, relative; base %s\n\n", fitting->path, count, all,
+           weft_apart_name(fitting->metric), fitting->base);
+    printf("%4s  %-27s %7s  %-19s  %-24s %s\n", "", "lobe over the base", "error", "base color", "lobe color",
+           "parameters");
+    for (int k = 0; k < fit->count; k++) {
+        char rank[8];
+        snprintf(rank, sizeof rank, "%d", k + 1);
+        row_write(rank, weft_lobe_info(fit->fitted[k].lobe.lobe)->id, &fit->fitted[k]);
+        better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
+    }
+    row_write("", "baseline: ggx over lambert", &fit->baseline);
+    printf("%4s  %-27s %7.4f\n\n%d of %d are closer than the baseline\n", "", "the base alone",
+           fit->base_alone, better, fit->count);
+}
+
+static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
+    const WeftLobeInfo *info = weft_lobe_info(fitted->lobe.lobe);
+    json_open(json, key, '{');
+    json_text(json, "lobe", info->id);
+    json_number(json, "error", fitted->error);
+    json_floats(json, "base_color", fitted->base, 3);
+    json_floats(json, "color", fitted->lobe.f0, 3);
+    if (info->traits & WEFT_LOBE_TWO_COLORS) json_floats(json, "f90", fitted->lobe.f90, 3);
+    json_open(json, "params", '{');
+    for (int k = 0; k < info->param_count; k++)
+        if (!info->params[k].choices) json_float(json, info->params[k].name, fitted->lobe.params[k]);
+    json_close(json, '}');
+    json_whole(json, "evaluations", fitted->evaluations);
+    json_close(json, '}');
+}
+
+static void json_write(const Fitting *fitting) {
+    Json json = {.stream = stdout};
+    int all = 0, count = weft_data_count(fitting->data, &all);
+    json_open(&json, NULL, '{');
+    json_text(&json, "data", fitting->path);
+    json_whole(&json, "samples", count);
+    json_whole(&json, "samples_in_file", all);
+    json_text(&json, "metric", weft_apart_name(fitting->metric));
+    json_text(&json, "base", fitting->base);
+    json_open(&json, "ranking", '[');
+    for (int k = 0; k < fitting->fit.count; k++) json_fitted(&json, NULL, &fitting->fit.fitted[k]);
+    json_close(&json, ']');
+    json_fitted(&json, "baseline", &fitting->fit.baseline);
+    json_number(&json, "base_alone", fitting->fit.base_alone);
+    json_close(&json, '}');
+}
+
+static bool suffix_is(const char *path, const char *suffix) {
+    size_t length = strlen(path), end = strlen(suffix);
+    return length > end && strcasecmp(path + length - end, suffix) == 0;
+}
+
+static int on_progress(void *user, double fraction) {
+    (void)user, (void)fraction;
+    return interrupt_seen();
+}
+
+/* The best whose numbers a material has room for. */
+static int material_write(const Fitting *fitting) {
+    WeftError error;
+    WeftMaterial material;
+    WeftScene *scene;
+    int best = 0;
+    while (best < fitting->fit.count &&
+           !weft_fitted_material(&fitting->fit.fitted[best], fitting->base, &material))
+        best++;
+    if (best == fitting->fit.count)
+        return report(WEFT_FAILED, "%s: no fit could be said by a material's inputs", fitting->material);
+    if (best > 0)
+        report(0, "warning: %s: is %s, number %d, since a material has no inputs for all of %s",
+               fitting->material, weft_lobe_info(fitting->fit.fitted[best].lobe.lobe)->id, best + 1,
+               weft_lobe_info(fitting->fit.fitted[0].lobe.lobe)->id);
+    WeftResult result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
+    if (result == WEFT_OK) result = weft_scene_put_material(scene, 0, &material, &error);
+    if (result == WEFT_OK) result = weft_scene_save_material(scene, 0, fitting->material, &error);
+    weft_scene_free(scene);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+static int outputs_check(Fitting *fitting) {
+    int result = 0;
+    fitting->material = option_text(fitting->options, "-o");
+    fitting->plot = option_text(fitting->options, "--plot");
+    if (fitting->material && !suffix_is(fitting->material, ".json"))
+        return report(WEFT_USAGE, "%s: a material is a .json", fitting->material);
+    if (fitting->plot && !suffix_is(fitting->plot, ".png"))
+        return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
+    if (fitting->plot && !suffix_is(fitting->path, ".binary"))
+        return report(WEFT_USAGE, "%s: slices are drawn of a .binary, which has no gaps", fitting->path);
+    if (fitting->material) result = output_probe(fitting->material);
+    if (result == 0 && fitting->plot) result = output_probe(fitting->plot);
+    return result;
+}
+
+static int fit_make(Fitting *fitting) {
+    WeftError error;
+    const WeftFitDesc desc = {.metric = fitting->metric,
+                              .chosen = 1,
+                              .base = fitting->base,
+                              .only = option_text(fitting->options, "--lobe"),
+                              .progress = on_progress};
+    WeftResult result = weft_data_read(fitting->path, &fitting->data, &error);
+    if (result != WEFT_OK) return report_error(&error);
+    interrupt_watch();
+    result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
+    if (result == WEFT_INTERRUPTED)
+        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+static int fit_run(const Options *options) {
+    static const char *const metrics[] = {"cosine", "log", NULL};
+    Fitting fitting = {.options = options, .path = options->operands[0]};
+    int metric = 0;
+    if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
+    fitting.metric = (WeftApart)metric;
+    fitting.base = option_text(options, "--base");
+    int result = outputs_check(&fitting);
+    if (result == 0) result = fit_make(&fitting);
+    if (result == 0 && fitting.material) result = material_write(&fitting);
+    if (result == 0 && fitting.plot)
+        result = fit_sheet_write(fitting.path, fitting.base, &fitting.fit, fitting.plot);
+    if (result == 0 && option_given(options, "--json"))
+        json_write(&fitting);
+    else if (result == 0)
+        text_write(&fitting);
+    weft_data_free(fitting.data);
+    return result;
+}
+
+static const Option fit_options[] = {
+    OPTION_HEADING("Fit"),
+    OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
+    OPTION_TEXT("--base", "LOBE", "lambert", "the diffuse lobe below, with its default parameters"),
+    OPTION_TEXT("--lobe", "LOBE", NULL, "fit this lobe alone"),
+    OPTION_HEADING("Result"),
+    OPTION_TEXT("-o", "FILE.json", NULL, "write the best as a material that weft render takes"),
+    OPTION_TEXT("--plot", "FILE.png", NULL,
+                "draw slices of a .binary: data, the best fit, the baseline, and how these differ"),
+    OPTION_SWITCH("--json", "the ranking as JSON on standard output"),
+    OPTION_END,
+};
+
+const Verb verb_fit = {
+    .name = "fit",
+    .operands = "DATA [options]",
+    .help = "fits the lobes of the catalogue to a measured BRDF",
+    .operands_least = 1,
+    .operands_most = 1,
+    .options = fit_options,
+    .notes = "DATA is a measured BRDF in MERL's format (.binary), or a table of lines\n"
+             "\"theta_o, phi_o, theta_i, phi_i, r, g, b\": degrees from the normal and from the\n"
+             "tangent, f in 1/sr. Lines that start with # are passed over; one line of names may\n"
+             "stand above. A negative number was not measured.\n\n"
+             "Every lobe of the catalogue that is no diffuse term is fitted, over a diffuse\n"
+             "base: all parameters, the colours of both. The baseline is ggx over lambert.\n"
+             "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"
+             "  log      g = ln(1 + x / mean x)\n"
+             "  cosine   g = x\n"
+             "Directions more than 80 degrees off the normal do not count. docs/fit.md tells\n"
+             "more.\n\n"
+             "Examples\n"
+             "  weft fit red-fabric.binary\n"
+             "  weft fit felt.binary -o felt.json --plot felt.png\n"
+             "  weft fit gonio.csv --metric cosine --base eon --json\n",
+    .run = fit_run,
+};

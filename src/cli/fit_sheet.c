@@ -1,0 +1,146 @@
+#include "fit_sheet.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "report.h"
+
+/* A slice: theta_h from left to right, theta_d from the bottom up, 0 .. 90 degrees; colours are x = f cos_i,
+ * times what brings the data's 98th of 100 to white. */
+enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = ROWS * (2 * COLUMNS - 1) };
+static const double azimuths[ROWS] = {90.0, 0.0};
+
+/* One of the three that are drawn: a reflection, over a base where base is not NULL. */
+typedef struct Drawn {
+    const WeftReflection *reflection;
+    WeftLobe base;
+    int has_base;
+} Drawn;
+
+/* The directions of a pixel; 0 where one is below the horizon or grazes. */
+static int directions(int column, int row, double phi_d, float wo[3], float wi[1][3]) {
+    const double quarter = 1.57079632679490;
+    double th = (column + 0.5) / SIDE * quarter, td = (SIDE - row - 0.5) / SIDE * quarter;
+    double pd = phi_d / 90.0 * quarter, x = sin(td) * cos(pd), y = sin(td) * sin(pd), z = cos(td);
+    const double i[3] = {cos(th) * x + sin(th) * z, y, cos(th) * z - sin(th) * x};
+    const double h[3] = {sin(th), 0.0, cos(th)};
+    for (int c = 0; c < 3; c++) {
+        wi[0][c] = (float)i[c];
+        wo[c] = (float)(2.0 * z * h[c] - i[c]);
+    }
+    return wo[2] > 0.1736f && wi[0][2] > 0.1736f;
+}
+
+static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftError *error) {
+    WeftResult result = weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, out, error);
+    for (int k = 0; k < SIDE * SIDE && result == WEFT_OK; k++) {
+        float wo[3], wi[1][3], f[1][3] = {{0.0f}}, below[3] = {0.0f};
+        float *pixel = (float *)out->pixels + (size_t)4 * (size_t)k;
+        if (!directions(k % SIDE, k / SIDE, phi_d, wo, wi)) continue;
+        weft_reflection_eval(drawn->reflection, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
+        if (drawn->has_base) weft_lobe_eval(&drawn->base, wo, wi[0], below);
+        for (int c = 0; c < 3; c++) pixel[c] = (f[0][c] + below[c]) * wi[0][2];
+        pixel[3] = 1.0f;
+    }
+    return result;
+}
+
+/* A fit as two things to be added. */
+static WeftResult drawn_of(const WeftFitted *fitted, const char *base, Drawn *drawn,
+                           WeftReflection **reflection, WeftError *error) {
+    WeftResult result = weft_lobe_create(base, &drawn->base, error);
+    for (int c = 0; c < 3; c++) drawn->base.f0[c] = drawn->base.f90[c] = fitted->base[c];
+    drawn->has_base = 1;
+    if (result == WEFT_OK) result = weft_reflection_of_lobe(&fitted->lobe, reflection, error);
+    drawn->reflection = *reflection;
+    return result;
+}
+
+/* How bright what is bright is: 98 of 100 pixels of the data are no brighter. */
+static float bright(const WeftImage *image) {
+    float low = 0.0f, high = 1e4f;
+    for (int halving = 0; halving < 40; halving++) {
+        float middle = 0.5f * (low + high);
+        int above = 0, all = 0;
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            const float *pixel = (const float *)image->pixels + (size_t)4 * (size_t)k;
+            all += pixel[3] > 0.0f;
+            above += fmaxf(pixel[0], fmaxf(pixel[1], pixel[2])) > middle;
+        }
+        if (50 * above > all)
+            low = middle;
+        else
+            high = middle;
+    }
+    return fmaxf(high, 1e-6f);
+}
+
+typedef struct Slices {
+    WeftImage linear[ROWS][COLUMNS], shown[ROWS][COLUMNS], apart[ROWS][COLUMNS];
+    float scale;
+} Slices;
+
+static WeftResult draw_all(Slices *all, const Drawn *drawn, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int r = 0; r < ROWS && result == WEFT_OK; r++) {
+        for (int c = 0; c < COLUMNS && result == WEFT_OK; c++)
+            result = draw(&drawn[c], azimuths[r], &all->linear[r][c], error);
+        if (r == 0 && result == WEFT_OK) all->scale = bright(&all->linear[0][0]);
+        for (int c = 0; c < COLUMNS && result == WEFT_OK; c++) {
+            result = weft_image_tonemap(&all->linear[r][c], WEFT_TONEMAP_NONE, -log2f(all->scale),
+                                        &all->shown[r][c], error);
+            if (c > 0 && result == WEFT_OK)
+                result = weft_difference_image(&all->linear[r][c], &all->linear[r][0], 0.25f * all->scale,
+                                               &all->apart[r][c], error);
+        }
+    }
+    return result;
+}
+
+static WeftResult compose(const Slices *all, const char *path, const WeftFit *fit, const char *output,
+                          WeftError *error) {
+    char names[COLUMNS][64], notes[ROWS][64], caption[320];
+    WeftPanel panels[PANELS] = {{0}};
+    WeftImage sheet = {0};
+    snprintf(names[0], sizeof names[0], "data");
+    snprintf(names[1], sizeof names[1], "%s, error %.4f", weft_lobe_info(fit->fitted[0].lobe.lobe)->id,
+             fit->fitted[0].error);
+    snprintf(names[2], sizeof names[2], "baseline ggx, error %.4f", fit->baseline.error);
+    for (int r = 0; r < ROWS; r++) {
+        snprintf(notes[r], sizeof notes[r], "phi_d %.0f\xc2\xb0", azimuths[r]);
+        for (int c = 0; c < COLUMNS; c++)
+            panels[5 * r + c] = (WeftPanel){.image = &all->shown[r][c], .title = names[c], .note = notes[r]};
+        panels[5 * r + 3] = (WeftPanel){.image = &all->apart[r][1], .title = "fit \xe2\x88\x92 data"};
+        panels[5 * r + 4] = (WeftPanel){.image = &all->apart[r][2], .title = "baseline \xe2\x88\x92 data"};
+    }
+    snprintf(
+        caption, sizeof caption,
+        "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0; differences to \xc2\xb1%.2g",
+        path, 0.25 * (double)all->scale);
+    const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = PANELS, .columns = 5};
+    WeftResult result = weft_sheet_compose(&desc, &sheet, error);
+    if (result == WEFT_OK) result = weft_image_write(output, &sheet, error);
+    weft_image_free(&sheet);
+    return result;
+}
+
+int fit_sheet_write(const char *path, const char *base, const WeftFit *fit, const char *output) {
+    WeftError error;
+    Slices all = {.scale = 1.0f};
+    WeftReflection *of[COLUMNS] = {NULL};
+    Drawn drawn[COLUMNS] = {{.reflection = NULL}};
+    WeftResult result = weft_reflection_read(path, &of[0], &error);
+    drawn[0].reflection = of[0];
+    if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], base, &drawn[1], &of[1], &error);
+    if (result == WEFT_OK) result = drawn_of(&fit->baseline, "lambert", &drawn[2], &of[2], &error);
+    if (result == WEFT_OK) result = draw_all(&all, drawn, &error);
+    if (result == WEFT_OK) result = compose(&all, path, fit, output, &error);
+    for (int r = 0; r < ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            weft_image_free(&all.linear[r][c]);
+            weft_image_free(&all.shown[r][c]);
+            weft_image_free(&all.apart[r][c]);
+        }
+    for (int c = 0; c < COLUMNS; c++) weft_reflection_free(of[c]);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}

@@ -1,0 +1,37 @@
+/* match.h - one match of `weft match`: what was typed, where the search begins, and what it found */
+#ifndef WEFT_CLI_MATCH_H
+#define WEFT_CLI_MATCH_H
+
+#include "options.h"
+#include "subject.h"
+
+typedef struct Match {
+    const Options *options;
+    WeftApart metric;
+    Subject from, to; /* `to` becomes the match */
+    Subject copy;     /* `to` with the numbers of `from` as they are: where the search begins */
+    WeftMatch found;
+} Match;
+
+/* Reads both and makes the copy; release with match_free in any case. Returns 0 or an exit code after one
+ * line on standard error; so do the next two. */
+int match_begin(Match *match, const char *from, const char *to);
+int match_search(Match *match);
+void match_free(Match *match);
+
+/* Whether both have inputs: are profiles or materials. */
+bool match_has_parts(const Match *match);
+
+/* The sheet: from, copy and match, and how the last two differ from the first. */
+int match_sheet_write(const Match *match, const char *path);
+
+/* `weft match --table`: every profile as every other. */
+int match_table(const Options *options, WeftApart metric);
+
+/* `weft match --maps`: every sheen as every other, over a sweep of its width. */
+int match_maps(const Options *options, WeftApart metric);
+
+/* `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
+int match_asset(const Options *options, WeftApart metric);
+
+#endif

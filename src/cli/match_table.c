@@ -1,0 +1,109 @@
+/* match_table.c - every profile as every other: how far apart they are with the same numbers, and with better
+ * ones */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json.h"
+#include "match.h"
+#include "report.h"
+
+enum { PROFILES_MOST = 32 };
+
+typedef struct Table {
+    int count;
+    Subject from[PROFILES_MOST];
+    WeftMatchJob *jobs; /* [from][to] */
+} Table;
+
+static int prepare(Table *table) {
+    char typed[64];
+    int result = 0;
+    for (; result == 0 && weft_profile_id(table->count) && table->count < PROFILES_MOST; table->count++) {
+        snprintf(typed, sizeof typed, "profile:%s", weft_profile_id(table->count));
+        result = subject_read(typed, &table->from[table->count]);
+    }
+    if (result != 0) return result;
+    table->jobs = calloc((size_t)PROFILES_MOST * PROFILES_MOST, sizeof *table->jobs);
+    if (!table->jobs) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
+    WeftError error;
+    for (int from = 0; from < table->count; from++)
+        for (int to = 0; to < table->count; to++) {
+            WeftMatchJob *job = &table->jobs[from * table->count + to];
+            job->from = table->from[from].reflection;
+            job->material = table->from[from].material;
+            if (weft_material_set(&job->material, "profile", weft_profile_id(to), NULL, &error) != WEFT_OK)
+                return report_error(&error);
+        }
+    return 0;
+}
+
+/* What changed, in the order of the inputs. */
+static void changes_text(const Table *table, int from, const WeftMatchJob *job, char *text, size_t size) {
+    const WeftMaterial *was = &table->from[from].material;
+    WeftInputInfo info;
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; weft_material_input_info(k, &info) && used < size; k++) {
+        float a = was->inputs[k].value[0], b = job->material.inputs[k].value[0];
+        if (a < b || a > b)
+            used += (size_t)snprintf(text + used, size - used, "%s%s %.3g", used ? ", " : "", info.name,
+                                     (double)b);
+    }
+}
+
+static void text_write(const Table *table, WeftApart metric) {
+    char text[300];
+    printf("%-14s %-14s %7s %7s  %s\n", "from", "to", "copied", "matched", weft_apart_name(metric));
+    for (int k = 0; k < table->count * table->count; k++) {
+        int from = k / table->count, to = k % table->count;
+        const WeftMatchJob *job = &table->jobs[k];
+        if (from == to) continue;
+        changes_text(table, from, job, text, sizeof text);
+        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_id(from), weft_profile_id(to), job->found.copied,
+               job->found.matched, text);
+    }
+}
+
+static void json_write(const Table *table, WeftApart metric) {
+    Json json = {.stream = stdout};
+    WeftInputInfo info;
+    json_open(&json, NULL, '{');
+    json_text(&json, "metric", weft_apart_name(metric));
+    json_open(&json, "pairs", '[');
+    for (int k = 0; k < table->count * table->count; k++) {
+        const WeftMatchJob *job = &table->jobs[k];
+        json_open(&json, NULL, '{');
+        json_text(&json, "from", weft_profile_id(k / table->count));
+        json_text(&json, "to", weft_profile_id(k % table->count));
+        json_number(&json, "copied", job->found.copied);
+        json_number(&json, "matched", job->found.matched);
+        json_open(&json, "inputs", '{');
+        for (int n = 0; weft_material_input_info(n, &info); n++)
+            if (weft_match_is_free(&job->material, n))
+                json_floats(&json, info.name, job->material.inputs[n].value,
+                            info.kind == WEFT_INPUT_COLOR ? 3 : 1);
+        json_close(&json, '}');
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+}
+
+int match_table(const Options *options, WeftApart metric) {
+    Table table = {.count = 0};
+    WeftError error;
+    int result = prepare(&table);
+    if (result == 0) {
+        WeftResult done =
+            weft_match_many(table.jobs, table.count * table.count, metric, 0, NULL, NULL, &error);
+        if (done != WEFT_OK) result = report_error(&error);
+    }
+    if (result == 0 && option_given(options, "--json"))
+        json_write(&table, metric);
+    else if (result == 0)
+        text_write(&table, metric);
+    for (int k = 0; k < table.count; k++) subject_free(&table.from[k]);
+    free(table.jobs);
+    return result;
+}

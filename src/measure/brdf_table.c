@@ -1,0 +1,110 @@
+#include "measure/brdf_table.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "base/number.h"
+
+enum { NUMBERS = 7, LINE_MOST = 400 };
+
+/* Direction from degrees; the cosine is the sine of the rest to 90, so that it is exactly 0 there. */
+static void direction(double theta, double phi, float w[3]) {
+    const double radians = 3.14159265358979323846 / 180.0;
+    w[0] = (float)(sin(theta * radians) * cos(phi * radians));
+    w[1] = (float)(sin(theta * radians) * sin(phi * radians));
+    w[2] = (float)sin((90.0 - theta) * radians);
+}
+
+/* How many numbers a line begins with, -1 where something else follows them. */
+static int line_numbers(const char *line, float numbers[NUMBERS]) {
+    int count = 0;
+    for (;;) {
+        line += strspn(line, " \t\r");
+        if (count && *line == ',') line += 1 + strspn(line + 1, " \t\r");
+        if (!*line) return count;
+        float number;
+        line = number_prefix(line, &number);
+        if (!line || !strchr(" \t\r,", *line) || count == NUMBERS) return -1;
+        numbers[count++] = number;
+    }
+}
+
+/* A line of names, which may stand above the numbers. */
+static bool is_header(const char *line) {
+    return strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_\"", line[strspn(line, " \t\r")]) !=
+           NULL;
+}
+
+static WeftResult take_line(BrdfTable *table, const char *line, int number, bool *header, const char *name,
+                            WeftError *error) {
+    float v[NUMBERS];
+    const char *first = line + strspn(line, " \t\r");
+    if (!*first || *first == '#') return WEFT_OK;
+    if (!*header && is_header(line)) {
+        *header = true;
+        return WEFT_OK;
+    }
+    *header = true;
+    if (line_numbers(line, v) != NUMBERS)
+        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d has not seven numbers", number);
+    for (int k = 0; k < 4; k += 2)
+        if (!(v[k] >= 0.0f && v[k] <= 90.0f) || !(fabsf(v[k + 1]) <= 3600.0f))
+            return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: %g, %g is no direction above", number,
+                        (double)v[k], (double)v[k + 1]);
+    if (v[4] < 0.0f || v[5] < 0.0f || v[6] < 0.0f) return WEFT_OK;
+    if (v[4] > 1e6f || v[5] > 1e6f || v[6] > 1e6f)
+        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: more than 1e6 per steradian", number);
+    direction((double)v[0], (double)v[1], table->wo[table->count]);
+    direction((double)v[2], (double)v[3], table->wi[table->count]);
+    memcpy(table->f[table->count++], v + 4, 3 * sizeof *v);
+    return WEFT_OK;
+}
+
+static int count_lines(const char *text, size_t size) {
+    int count = 1;
+    for (size_t k = 0; k < size && count <= 2 * BRDF_TABLE_ROWS; k++) count += text[k] == '\n';
+    return count;
+}
+
+static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, const char *name,
+                             WeftError *error) {
+    WeftResult result = WEFT_OK;
+    bool header = false;
+    int number = 1;
+    for (const char *at = text, *end = text + size; at < end && result == WEFT_OK; number++) {
+        char line[LINE_MOST + 1];
+        const char *stop = memchr(at, '\n', (size_t)(end - at));
+        size_t length = (size_t)((stop ? stop : end) - at);
+        if (length > LINE_MOST || memchr(at, 0, length))
+            return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d is too long or not text", number);
+        memcpy(line, at, length);
+        line[length] = '\0';
+        result = take_line(table, line, number, &header, name, error);
+        at += length + 1;
+    }
+    return result;
+}
+
+WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out,
+                           WeftError *error) {
+    *out = (BrdfTable){0};
+    int lines = count_lines(text, size);
+    if (lines > BRDF_TABLE_ROWS)
+        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "it has more than %d lines", BRDF_TABLE_ROWS);
+    out->wo = alloc_array((size_t)lines, sizeof *out->wo);
+    out->wi = alloc_array((size_t)lines, sizeof *out->wi);
+    out->f = alloc_array((size_t)lines, sizeof *out->f);
+    if (!out->wo || !out->wi || !out->f) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    return take_lines(out, text, size, name, error);
+}
+
+void brdf_table_free(BrdfTable *table) {
+    free(table->wo);
+    free(table->wi);
+    free(table->f);
+    *table = (BrdfTable){0};
+}

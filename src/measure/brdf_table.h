@@ -1,0 +1,21 @@
+/* brdf_table.h - measured reflectance as lines of numbers (weft/fit.h has the format) */
+#ifndef WEFT_MEASURE_BRDF_TABLE_H
+#define WEFT_MEASURE_BRDF_TABLE_H
+
+#include <stddef.h>
+
+#include "weft/result.h"
+
+/* wo, wi and f of what was measured. */
+typedef struct BrdfTable {
+    int count;
+    float (*wo)[3], (*wi)[3], (*f)[3];
+} BrdfTable;
+
+enum { BRDF_TABLE_ROWS = 1000000 };
+
+/* Fails with WEFT_MESSAGE_BRDF_TABLE or _MEMORY; release with brdf_table_free in any case. */
+WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out, WeftError *error);
+void brdf_table_free(BrdfTable *table);
+
+#endif

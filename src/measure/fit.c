@@ -1,0 +1,362 @@
+#include "weft/fit.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "measure/brdf_table.h"
+#include "measure/lobe_search.h"
+#include "measure/merl.h"
+#include "shading/choice.h"
+#include "shading/registry.h"
+
+struct WeftData {
+    int count, all;
+    bool isotropic;
+    float (*wo)[3], (*wi)[3], (*f)[3];
+};
+
+/* The cosine of 80 degrees: what is lower grazes. */
+static const float cosine_least = 0.17364818f;
+enum { FILE_MOST = 1 << 28, SAMPLES_LEAST = 16 };
+
+void weft_data_free(WeftData *self) {
+    if (!self) return;
+    free(self->wo);
+    free(self->wi);
+    free(self->f);
+    free(self);
+}
+
+int weft_data_count(const WeftData *self, int *all) {
+    if (all) *all = self->all;
+    return self->count;
+}
+
+/* A step that meets every one of count before any for the second time. */
+static size_t step_through(size_t count) {
+    size_t step = (size_t)((double)count * 0.6180339887498949) | 1u;
+    for (;; step++) {
+        size_t a = count, b = step;
+        while (b) {
+            size_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a <= 1) return step;
+    }
+}
+
+static bool is_sample(const float wo[3], const float wi[3], const float f[3]) {
+    return wo[2] >= cosine_least && wi[2] >= cosine_least && f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f &&
+           f[0] + f[1] + f[2] < 1e30f;
+}
+
+/* In an order in which any first part stands for all. */
+static bool take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
+    size_t n = (size_t)self->all, step = step_through(n), at = 0;
+    bool any = false;
+    for (size_t k = 0; k < n; k++, at = (at + step) % n) {
+        if (!is_sample(wo[at], wi[at], f[at])) continue;
+        memcpy(self->wo[self->count], wo[at], sizeof *wo);
+        memcpy(self->wi[self->count], wi[at], sizeof *wi);
+        memcpy(self->f[self->count++], f[at], sizeof *f);
+        any |= f[at][0] + f[at][1] + f[at][2] > 0.0f;
+    }
+    return any;
+}
+
+/* Of what came from a file of that name; or from a caller, where message is DESC. */
+static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
+                            bool isotropic, const char *name, WeftMessage message, WeftData **out,
+                            WeftError *error) {
+    WeftData *self = alloc_array(1, sizeof *self);
+    size_t n = (size_t)(count > 0 ? count : 0);
+    if (self) {
+        *self = (WeftData){.all = (int)n, .isotropic = isotropic};
+        self->wo = alloc_array(n, sizeof *self->wo);
+        self->wi = alloc_array(n, sizeof *self->wi);
+        self->f = alloc_array(n, sizeof *self->f);
+    }
+    WeftResult result = WEFT_OK;
+    if (!self || !self->wo || !self->wi || !self->f)
+        result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    else if (n == 0 || !take_samples(self, wo, wi, f))
+        result = fail(error, message, name, "nothing in it is above 0");
+    else if (self->count < SAMPLES_LEAST)
+        result = fail(error, message, name, "it has %d samples that do not graze, and %d are needed",
+                      self->count, SAMPLES_LEAST);
+    if (result != WEFT_OK) {
+        weft_data_free(self);
+        self = NULL;
+    }
+    *out = self;
+    return result;
+}
+
+WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
+                            int isotropic, WeftData **out, WeftError *error) {
+    return data_make(count, wo, wi, f, isotropic != 0, "samples", WEFT_MESSAGE_DESC, out, error);
+}
+
+/* The directions of a place in MERL's coordinates, turned about the normal by phi. Szymon Rusinkiewicz, "A
+ * New Change of Variables for Efficient BRDF Representation", 1998. */
+static void rusinkiewicz(double th, double td, double pd, double phi, float wo[3], float wi[3]) {
+    double x = (sin)(td) * (cos)(pd), y = (sin)(td) * (sin)(pd), z = (cos)(td);
+    double i[3] = {(cos)(th)*x + (sin)(th)*z, y, (cos)(th)*z - (sin)(th)*x};
+    const double h[3] = {(sin)(th), 0.0, (cos)(th)};
+    double o[3] = {2.0 * z * h[0] - i[0], 2.0 * z * h[1] - i[1], 2.0 * z * h[2] - i[2]};
+    double c = (cos)(phi), s = (sin)(phi);
+    wi[0] = (float)(c * i[0] - s * i[1]), wi[1] = (float)(s * i[0] + c * i[1]), wi[2] = (float)i[2];
+    wo[0] = (float)(c * o[0] - s * o[1]), wo[1] = (float)(s * o[0] + c * o[1]), wo[2] = (float)o[2];
+}
+
+enum { SIDE_H = 24, SIDE_D = 24, SIDE_P = 12, MERL_SAMPLES = SIDE_H * SIDE_D * SIDE_P };
+
+/* The middle of the bin that stands for cell k of n. */
+static double middle(int k, int n, int bins, int *bin) {
+    *bin = (int)((k + 0.5) * bins / n);
+    return (*bin + 0.5) / bins;
+}
+
+/* Each pair is turned by another azimuth: f is the same, and what is not isotropic will not fit by chance. */
+static void merl_samples(const Merl *merl, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
+    const double half_pi = 1.57079632679490;
+    for (int k = 0; k < MERL_SAMPLES; k++) {
+        int h, d, p;
+        double root = middle(k / (SIDE_D * SIDE_P), SIDE_H, MERL_THETA_H, &h);
+        double td = middle(k / SIDE_P % SIDE_D, SIDE_D, MERL_THETA_D, &d) * half_pi;
+        double pd = middle(k % SIDE_P, SIDE_P, MERL_PHI_D, &p) * 2.0 * half_pi;
+        size_t bin = ((size_t)h * MERL_THETA_D + (size_t)d) * MERL_PHI_D + (size_t)p;
+        rusinkiewicz(root * root * half_pi, td, pd, 2.39996322972865 * k, wo[k], wi[k]);
+        for (int c = 0; c < 3; c++) f[k][c] = merl->f[c][bin];
+    }
+}
+
+static WeftResult data_of_merl(const Merl *merl, const char *name, WeftData **out, WeftError *error) {
+    float(*block)[3] = alloc_array((size_t)3 * MERL_SAMPLES, sizeof *block);
+    if (!block) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    float(*wo)[3] = block, (*wi)[3] = block + MERL_SAMPLES, (*f)[3] = block + (size_t)2 * MERL_SAMPLES;
+    merl_samples(merl, wo, wi, f);
+    WeftResult result = data_make(MERL_SAMPLES, (const float(*)[3])wo, (const float(*)[3])wi,
+                                  (const float(*)[3])f, true, name, WEFT_MESSAGE_MEASURED, out, error);
+    free(block);
+    return result;
+}
+
+static bool is_merl(const char *name) {
+    size_t length = strlen(name);
+    return length > 7 && strcasecmp(name + length - 7, ".binary") == 0;
+}
+
+WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
+                                 WeftError *error) {
+    WeftResult result;
+    *out = NULL;
+    if (is_merl(name)) {
+        Merl merl;
+        result = merl_read_memory(data, size, name, &merl, error);
+        if (result == WEFT_OK) result = data_of_merl(&merl, name, out, error);
+        merl_free(&merl);
+        return result;
+    }
+    BrdfTable table;
+    result = brdf_table_read(data, size, name, &table, error);
+    if (result == WEFT_OK)
+        result = data_make(table.count, (const float(*)[3])table.wo, (const float(*)[3])table.wi,
+                           (const float(*)[3])table.f, false, name, WEFT_MESSAGE_BRDF_TABLE, out, error);
+    brdf_table_free(&table);
+    return result;
+}
+
+WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error) {
+    FileBytes bytes;
+    *out = NULL;
+    WeftResult result = file_read(path, FILE_MOST, &bytes, error);
+    if (result != WEFT_OK) return result;
+    result = weft_data_read_memory(bytes.data, bytes.size, path, out, error);
+    free(bytes.data);
+    return result;
+}
+
+/* The fit. */
+
+typedef struct Work {
+    const WeftFitDesc *desc;
+    Samples samples;
+    WeftLobe base, lambert, ggx;
+    int lobes[WEFT_FITTED_MOST], count;
+    WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
+    bool isotropic;
+    atomic_int done;
+    atomic_bool stopped, failed;
+} Work;
+
+static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
+    Samples *s = &work->samples;
+    if (!samples_create(s, data->count, metric)) return false;
+    for (int k = 0; k < data->count; k++) {
+        s->weight[k] = 1.0f;
+        for (int c = 0; c < 3; c++) {
+            s->o[c][k] = data->wo[k][c];
+            s->i[c][k] = data->wi[k][c];
+            s->x[c][k] = data->f[k][c] * data->wi[k][2];
+        }
+    }
+    s->first = data->count > 4000 ? data->count / 4 : data->count > 1000 ? 1000 : data->count;
+    samples_settle(s);
+    return true;
+}
+
+static void fit_one(void *user, int item, int thread) {
+    Work *work = user;
+    bool baseline = item == work->count;
+    WeftFitted *fitted = &work->fitted[item];
+    if (atomic_load(&work->stopped)) return;
+    LobeSearch search = {.samples = &work->samples, .base = &work->base, .isotropic = work->isotropic};
+    LobeFound found = {.error = 0.0};
+    if (baseline) {
+        search.base = &work->lambert;
+        search.hold = WEFT_HOLD_COLOR_2;
+        found.lobe = work->ggx;
+    } else {
+        WeftError error;
+        if (weft_lobe_create(weft_lobe_info(work->lobes[item])->id, &found.lobe, &error) != WEFT_OK) return;
+    }
+    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
+    *fitted = (WeftFitted){.lobe = found.lobe, .error = found.error, .evaluations = found.evaluations};
+    memcpy(fitted->base, found.base, sizeof fitted->base);
+    int done = atomic_fetch_add(&work->done, 1) + 1;
+    const WeftFitDesc *desc = work->desc;
+    if (thread == 0 && desc->progress && desc->progress(desc->user, (double)done / (work->count + 1)) != 0)
+        atomic_store(&work->stopped, true);
+}
+
+static double base_alone(Work *work) {
+    const LobeSearch search = {.samples = &work->samples, .base = &work->base, .hold = WEFT_HOLD_COLOR};
+    LobeFound found = {.lobe = work->lambert};
+    memset(found.lobe.f0, 0, sizeof found.lobe.f0);
+    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
+    return found.error;
+}
+
+static int by_error(const void *a, const void *b) {
+    const WeftFitted *x = a, *y = b;
+    return (x->error > y->error) - (x->error < y->error);
+}
+
+static WeftResult candidates(Work *work, WeftError *error) {
+    const WeftFitDesc *desc = work->desc;
+    WeftResult result = weft_lobe_create(desc->base ? desc->base : "lambert", &work->base, error);
+    if (result == WEFT_OK) result = weft_lobe_create("lambert", &work->lambert, error);
+    if (result == WEFT_OK) result = weft_lobe_create("ggx", &work->ggx, error);
+    WeftLobe only = {.lobe = -1};
+    if (result == WEFT_OK && desc->only) result = weft_lobe_create(desc->only, &only, error);
+    if (result != WEFT_OK) return result;
+    if (!(weft_lobe_info(work->base.lobe)->traits & WEFT_LOBE_DIFFUSE))
+        return fail(error, WEFT_MESSAGE_DESC, desc->base, "is no diffuse lobe");
+    for (int k = 0; k < weft_lobe_count() && work->count < WEFT_FITTED_MOST; k++) {
+        unsigned traits = weft_lobe_info(k)->traits;
+        if (traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
+        if (only.lobe < 0 || only.lobe == k) work->lobes[work->count++] = k;
+    }
+    return work->count ? WEFT_OK
+                       : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
+}
+
+static WeftResult work_run(Work *work, WeftFit *out, WeftError *error) {
+    /* those that take longest first */
+    for (int k = 0; k < work->count; k++)
+        for (int j = k; j > 0 && weft_lobe_info(work->lobes[j])->param_count >
+                                     weft_lobe_info(work->lobes[j - 1])->param_count;
+             j--) {
+            int swapped = work->lobes[j];
+            work->lobes[j] = work->lobes[j - 1];
+            work->lobes[j - 1] = swapped;
+        }
+    parallel_for(work->desc->threads, work->count + 1, fit_one, work);
+    if (atomic_load(&work->stopped)) return WEFT_INTERRUPTED;
+    out->base_alone = base_alone(work);
+    if (atomic_load(&work->failed)) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    out->baseline = work->fitted[work->count];
+    out->count = work->count;
+    memcpy(out->fitted, work->fitted, (size_t)work->count * sizeof *out->fitted);
+    qsort(out->fitted, (size_t)out->count, sizeof *out->fitted, by_error);
+    return WEFT_OK;
+}
+
+WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error) {
+    WeftApart metric = desc->chosen ? desc->metric : WEFT_APART_LOG;
+    memset(out, 0, sizeof *out);
+    if (metric != WEFT_APART_LOG && metric != WEFT_APART_COSINE)
+        return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
+    Work *work = alloc_array(1, sizeof *work);
+    if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    work->desc = desc;
+    work->isotropic = data->isotropic;
+    WeftResult result = candidates(work, error);
+    if (result == WEFT_OK && !samples_make(work, data, metric))
+        result = fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    if (result == WEFT_OK) result = work_run(work, out, error);
+    samples_free(&work->samples);
+    free(work);
+    return result;
+}
+
+/* The material. */
+
+/* The roughness of which a lobe makes that first parameter; it grows with it, or falls. */
+static float roughness_of(const WeftLobe *lobe) {
+    double low = 0.0, high = 2.0;
+    float first = lobe_rough(lobe->lobe, 0.0f).params[0], last = lobe_rough(lobe->lobe, 2.0f).params[0];
+    for (int halving = 0; halving < 50; halving++) {
+        double middle_of = 0.5 * (low + high);
+        float now = lobe_rough(lobe->lobe, (float)middle_of).params[0];
+        bool before = first < last ? now < lobe->params[0] : now > lobe->params[0];
+        *(before ? &low : &high) = middle_of;
+    }
+    return (float)(0.5 * (low + high));
+}
+
+static float param_or(const WeftLobe *lobe, const char *name, float none) {
+    int k = lobe_param(lobe->lobe, name);
+    return k >= 0 ? lobe->params[k] : none;
+}
+
+static void input_set(WeftMaterial *material, InputId input, const float *values, int count) {
+    memcpy(material->inputs[input].value, values, (size_t)count * sizeof *values);
+    material->inputs[input].given = 1;
+}
+
+int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMaterial *out) {
+    const WeftLobe *lobe = &fitted->lobe;
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    float roughness = info->param_count > 0 ? roughness_of(lobe) : 0.0f;
+    float density = param_or(lobe, "density", 1.0f), tilt = param_or(lobe, "tilt", 0.0f);
+    float azimuth = param_or(lobe, "azimuth", 0.0f);
+    Lobe said = lobe_fibres(lobe_rough(lobe->lobe, roughness), density, tilt, azimuth);
+    bool same = true;
+    for (int k = 0; k < info->param_count; k++)
+        same &= fabsf(said.params[k] - lobe->params[k]) <= 1e-4f * (fabsf(lobe->params[k]) + 1e-3f);
+    for (int c = 0; c < 3; c++) same &= fitted->base[c] <= 1.0f && lobe->f0[c] <= 1000.0f;
+    weft_material_default(out);
+    weft_material_choose(out, CHOICE_workflow, choice_find(CHOICE_workflow, "cloth"));
+    weft_material_choose(out, CHOICE_diffuse, choice_find(CHOICE_diffuse, base ? base : "lambert"));
+    weft_material_choose(out, CHOICE_sheen_lobe, choice_find(CHOICE_sheen_lobe, info->id));
+    weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
+    input_set(out, INPUT_base_color, fitted->base, 3);
+    input_set(out, INPUT_sheen_color, lobe->f0, 3);
+    input_set(out, INPUT_sheen_second, lobe->f90, 3);
+    input_set(out, INPUT_sheen_roughness, &roughness, 1);
+    input_set(out, INPUT_sheen_density, &density, 1);
+    input_set(out, INPUT_nap, &tilt, 1);
+    input_set(out, INPUT_nap_direction, &azimuth, 1);
+    return same;
+}

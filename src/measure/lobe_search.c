@@ -1,0 +1,272 @@
+#include "measure/lobe_search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "measure/search.h"
+#include "weft/arrays.h"
+
+enum { TINTS = 6 }; /* albedos of a tinted lobe that a point of the grid tries */
+static const float tints[TINTS] = {0.1f, 0.3f, 0.5f, 0.7f, 0.85f, 0.97f};
+
+typedef struct Walker {
+    const LobeSearch *search;
+    WeftLobe start;
+    bool tinted, second; /* its colour is no factor; it has two that are */
+    int free[WEFT_LOBE_PARAMS_MAX], frees;
+    /* x: of f0, of f90 and without either, or of a colour's channels, or of tints */
+    float *column[TINTS];
+    float *base, *fixed[3], *work, *block;
+    double weights[3][BLEND_MOST]; /* of the latest evaluation: [channel], base, f0, f90 */
+} Walker;
+
+static const WeftLobeInfo *info_of(const Walker *self) { return weft_lobe_info(self->start.lobe); }
+
+/* x of a lobe in three channels. */
+static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, float *g, float *b) {
+    const WeftDirections o = {s->o[0], s->o[1], s->o[2]}, i = {s->i[0], s->i[1], s->i[2]};
+    weft_eval_n(lobe, (size_t)count, o, i, (WeftColors){r, g, b}, NULL);
+    float *const x[3] = {r, g, b};
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; x[c] && k < count; k++) x[c][k] *= s->i[2][k];
+}
+
+/* What a colour adds where it is held; where it is free it is a column of the blend. */
+static void add_color(const Walker *self, Blend *blend, int part, int count) {
+    bool held = (self->search->hold & (part ? WEFT_HOLD_COLOR_2 : WEFT_HOLD_COLOR)) != 0;
+    const float *color = part ? self->start.f90 : self->start.f0, *column = self->column[part];
+    for (int c = 0; c < 3; c++) {
+        if (!held) blend->column[blend->columns][c] = column;
+        for (int k = 0; held && k < count; k++) self->fixed[c][k] += color[c] * column[k];
+    }
+    if (!held) blend->columns++;
+}
+
+static Blend blend_of(const Walker *self, int count) {
+    Blend blend = {.work = self->work};
+    if (self->search->base) {
+        for (int c = 0; c < 3; c++) blend.column[0][c] = self->base;
+        blend.columns = 1;
+    }
+    for (int c = 0; c < 3; c++) {
+        memcpy(self->fixed[c], self->column[self->tinted ? c : 2], (size_t)count * sizeof(float));
+        blend.fixed[c] = self->fixed[c];
+    }
+    if (!self->tinted) add_color(self, &blend, 0, count);
+    if (self->second) add_color(self, &blend, 1, count);
+    return blend;
+}
+
+static WeftLobe lobe_at(const Walker *self, const double *x) {
+    WeftLobe lobe = self->start;
+    for (int k = 0; k < self->frees; k++) lobe.params[self->free[k]] = (float)x[k];
+    if (self->tinted && !(self->search->hold & WEFT_HOLD_COLOR))
+        for (int c = 0; c < 3; c++)
+            lobe.f0[c] = (float)x[self->frees + (c < self->search->samples->channels ? c : 0)];
+    return lobe;
+}
+
+/* Of each channel, the best of some tints: into x. */
+static double try_tints(Walker *self, double *x) {
+    const Samples *s = self->search->samples;
+    WeftLobe lobe = lobe_at(self, x);
+    double sum = 0.0, weights[BLEND_MOST];
+    for (int first = 0; first < TINTS; first += 3) {
+        memcpy(lobe.f0, tints + first, sizeof lobe.f0);
+        ask(s, &lobe, s->first, self->column[first], self->column[first + 1], self->column[first + 2]);
+    }
+    for (int c = 0; c < s->channels; c++) {
+        double least = 1e30;
+        for (int k = 0; k < TINTS; k++) {
+            Blend blend = {.work = self->work, .columns = self->search->base ? 1 : 0};
+            blend.column[0][c] = self->base;
+            blend.fixed[c] = self->column[k];
+            double error = blend_solve(s, s->first, c, &blend, weights);
+            if (error < least) least = error, x[self->frees + c] = (double)tints[k];
+        }
+        sum += least;
+    }
+    return sum;
+}
+
+/* x without colour, and what f0 and f90 add: f is a sum of the three. */
+static void ask_parts(const Walker *self, WeftLobe lobe, int count) {
+    for (int c = 0; c < 3; c++) lobe.f0[c] = c == 0, lobe.f90[c] = c == 1;
+    ask(self->search->samples, &lobe, count, self->column[0], self->column[1], self->column[2]);
+    for (int part = 0; part < 2; part++)
+        for (int k = 0; k < count; k++)
+            self->column[part][k] = fmaxf(self->column[part][k] - self->column[2][k], 0.0f);
+}
+
+static double error_at(void *user, double *x, SearchCare care) {
+    Walker *self = user;
+    const Samples *s = self->search->samples;
+    int count = care == SEARCH_FULL ? s->count : s->first;
+    bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
+    if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
+    WeftLobe lobe = lobe_at(self, x);
+    if (self->tinted)
+        ask(s, &lobe, count, self->column[0], self->column[1], self->column[2]);
+    else
+        ask_parts(self, lobe, count);
+    Blend blend = blend_of(self, count);
+    double sum = 0.0;
+    for (int c = 0; c < s->channels; c++) sum += blend_solve(s, count, c, &blend, self->weights[c]);
+    return sum;
+}
+
+/* x of some samples, and of the same pairs turned about the normal. */
+enum { LOOKS = 64 };
+static int look(const Samples *s, const WeftLobe *lobe, bool turned, float x[LOOKS]) {
+    const float c = 0.28f, t = 0.96f;
+    float o[2][LOOKS], i[2][LOOKS];
+    int count = s->count < LOOKS ? s->count : LOOKS;
+    for (int k = 0; k < count; k++) {
+        o[0][k] = turned ? c * s->o[0][k] - t * s->o[1][k] : s->o[0][k];
+        o[1][k] = turned ? t * s->o[0][k] + c * s->o[1][k] : s->o[1][k];
+        i[0][k] = turned ? c * s->i[0][k] - t * s->i[1][k] : s->i[0][k];
+        i[1][k] = turned ? t * s->i[0][k] + c * s->i[1][k] : s->i[1][k];
+    }
+    weft_eval_n(lobe, (size_t)count, (WeftDirections){o[0], o[1], s->o[2]},
+                (WeftDirections){i[0], i[1], s->i[2]}, (WeftColors){x, NULL, NULL}, NULL);
+    return count;
+}
+
+static bool differ(const float *a, const float *b, int count, float most) {
+    for (int k = 0; k < count; k++)
+        if (fabsf(a[k] - b[k]) > most * (fabsf(a[k]) + 1e-6f)) return true;
+    return false;
+}
+
+static bool turns(const Samples *s, const WeftLobe *lobe) {
+    float x[LOOKS], y[LOOKS];
+    int count = look(s, lobe, false, x);
+    look(s, lobe, true, y);
+    return differ(x, y, count, 1e-3f);
+}
+
+/* Parameters that would make what is isotropic something that is not, when only isotropic will do. */
+static unsigned hold_turning(const Walker *self) {
+    const WeftLobeInfo *info = info_of(self);
+    unsigned hold = self->search->hold;
+    if (!self->search->isotropic || turns(self->search->samples, &self->start)) return hold;
+    for (int k = 0; k < info->param_count; k++) {
+        WeftLobe lobe = self->start;
+        if (info->params[k].choices) continue;
+        lobe.params[k] = info->params[k].high;
+        if (turns(self->search->samples, &lobe)) hold |= 1u << k;
+    }
+    return hold;
+}
+
+/* Whether a parameter changes f anywhere: at some settings of the others that are free, chosen once and for
+ * all. */
+static bool has_influence(const Walker *self, int param, unsigned hold) {
+    enum { SETTINGS = 3 };
+    const WeftLobeInfo *info = info_of(self);
+    float x[LOOKS], y[LOOKS];
+    for (int setting = 0; setting < SETTINGS; setting++) {
+        WeftLobe lobe = self->start;
+        float t = 0.3f + 0.25f * (float)setting;
+        for (int k = 0; k < info->param_count; k++)
+            if (!info->params[k].choices && !(hold >> k & 1u))
+                lobe.params[k] = info->params[k].low + t * (info->params[k].high - info->params[k].low);
+        int count = look(self->search->samples, &lobe, false, x);
+        lobe.params[param] = info->params[param].high;
+        look(self->search->samples, &lobe, false, y);
+        if (differ(x, y, count, 1e-6f)) return true;
+    }
+    return false;
+}
+
+/* Whether f is a sum of what f0 and f90 are factors of, and whether f90 is one. */
+static void look_at_colors(Walker *self) {
+    const Samples *s = self->search->samples;
+    int count = s->count < LOOKS ? s->count : LOOKS;
+    float f[2][3][LOOKS];
+    WeftLobe lobe = self->start;
+    for (int second = 0; second < 2; second++) {
+        for (int c = 0; c < 3; c++) lobe.f0[c] = 0.5f * (float)c, lobe.f90[c] = (float)second;
+        ask(s, &lobe, count, f[second][0], f[second][1], f[second][2]);
+    }
+    for (int k = 0; k < count; k++) {
+        float middle = 0.5f * (f[0][0][k] + f[0][2][k]);
+        self->tinted |= fabsf(f[0][1][k] - middle) > 1e-4f * middle;
+        self->second |= fabsf(f[0][0][k] - f[1][0][k]) > 1e-6f * middle;
+    }
+    self->second = self->second && !self->tinted;
+}
+
+static SearchAxis axis_of(double low, double high, double start) {
+    return (SearchAxis){fmin(low, start), fmax(high, start)};
+}
+
+static Search make_search(Walker *self, double *x) {
+    static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
+    const WeftLobeInfo *info = info_of(self);
+    Search search = {.error = error_at, .user = self, .descents = 3, .most = 1000};
+    unsigned hold = hold_turning(self);
+    for (int k = 0; k < info->param_count; k++) {
+        const WeftParamInfo *p = &info->params[k];
+        if (p->choices || hold >> k & 1u || !has_influence(self, k, hold)) continue;
+        double start = fmin(fmax((double)self->start.params[k], (double)p->hard_low), (double)p->hard_high);
+        x[search.axes] = start;
+        search.axis[search.axes++] = axis_of((double)p->low, (double)p->high, start);
+        self->free[self->frees++] = k;
+    }
+    search.grid = grids[search.axes < 6 ? search.axes : 6];
+    if (self->tinted && !(self->search->hold & WEFT_HOLD_COLOR))
+        for (int c = 0; c < self->search->samples->channels; c++) {
+            x[search.axes] = (double)self->start.f0[c];
+            search.axis[search.axes] = axis_of(0.0, 1.0, x[search.axes]);
+            search.axes++;
+            search.grid = search.grid > 24 ? search.grid : 24;
+        }
+    return search;
+}
+
+static bool walker_make(Walker *self, const LobeSearch *search, const WeftLobe *start) {
+    size_t n = (size_t)search->samples->count;
+    *self = (Walker){.search = search, .start = *start};
+    look_at_colors(self);
+    self->block = alloc_array((TINTS + 7) * n, sizeof(float));
+    if (!self->block) return false;
+    for (int k = 0; k < TINTS; k++) self->column[k] = self->block + (size_t)k * n;
+    for (int c = 0; c < 3; c++) self->fixed[c] = self->block + (size_t)(TINTS + c) * n;
+    self->base = self->block + (TINTS + 3) * n;
+    self->work = self->base + n;
+    if (!search->base) return true;
+    WeftLobe white = *search->base;
+    for (int c = 0; c < 3; c++) white.f0[c] = white.f90[c] = 1.0f;
+    ask(search->samples, &white, search->samples->count, self->base, NULL, NULL);
+    return true;
+}
+
+/* What the last evaluation found for colours. */
+static void colors_of(const Walker *self, LobeFound *out) {
+    const LobeSearch *search = self->search;
+    for (int c = 0; c < 3; c++) {
+        const double *weights = self->weights[c < search->samples->channels ? c : 0];
+        int k = 0;
+        if (search->base) out->base[c] = (float)weights[k++];
+        if (self->tinted) continue;
+        if (!(search->hold & WEFT_HOLD_COLOR)) out->lobe.f0[c] = (float)weights[k++];
+        if (self->second && !(search->hold & WEFT_HOLD_COLOR_2)) out->lobe.f90[c] = (float)weights[k];
+    }
+}
+
+bool lobe_search_run(const LobeSearch *search, LobeFound *out) {
+    Walker self;
+    double x[SEARCH_MOST] = {0.0};
+    if (!walker_make(&self, search, &out->lobe)) return false;
+    const Search walk = make_search(&self, x);
+    out->start = error_at(&self, x, SEARCH_FULL);
+    search_run(&walk, x, &out->evaluations);
+    out->error = error_at(&self, x, SEARCH_FULL);
+    out->lobe = lobe_at(&self, x);
+    colors_of(&self, out);
+    free(self.block);
+    return true;
+}

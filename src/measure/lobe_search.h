@@ -1,0 +1,28 @@
+/* lobe_search.h - the numbers and colours of a lobe, over a diffuse base or alone, that come closest to
+ * samples
+ *
+ * Colours are factors on f, so the best ones for given numbers follow at once (blend_solve); only the numbers
+ * are searched, and of a tinted lobe its colour too, which is no factor. */
+#ifndef WEFT_MEASURE_LOBE_SEARCH_H
+#define WEFT_MEASURE_LOBE_SEARCH_H
+
+#include "measure/samples.h"
+
+typedef struct LobeSearch {
+    const Samples *samples;
+    const WeftLobe *base; /* its white x is what a base colour scales; NULL: none */
+    unsigned hold;        /* as weft_match_lobe has it */
+    bool isotropic;       /* what is to be met is: then a lobe that is stays so */
+} LobeSearch;
+
+typedef struct LobeFound {
+    WeftLobe lobe;
+    float base[3]; /* colour of the base */
+    double start, error;
+    long long evaluations;
+} LobeFound;
+
+/* From out->lobe. False where memory is short. */
+bool lobe_search_run(const LobeSearch *search, LobeFound *out);
+
+#endif

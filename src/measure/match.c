@@ -1,0 +1,162 @@
+#include "weft/match.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "measure/lobe_search.h"
+#include "measure/material_search.h"
+
+static WeftResult short_of_memory(WeftError *error) {
+    return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
+}
+
+/* The directions with what is to be met. */
+static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftApart metric,
+                               WeftError *error) {
+    char number[16];
+    snprintf(number, sizeof number, "%d", (int)metric);
+    *samples = (Samples){0};
+    if (!weft_apart_name(metric)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
+    if (!samples_spread(samples, metric)) return short_of_memory(error);
+    samples_ask(samples, from, part, samples->x);
+    samples_settle(samples);
+    return WEFT_OK;
+}
+
+static WeftResult apart_of(const Samples *samples, const WeftReflection *to, int part, double *apart,
+                           WeftError *error) {
+    Samples other;
+    bool held = samples_create(&other, samples->count, samples->metric);
+    if (held) {
+        samples_ask(samples, to, part, other.x);
+        *apart = samples_apart(samples, samples->count, (const float *const *)other.x);
+    }
+    samples_free(&other);
+    return held ? WEFT_OK : short_of_memory(error);
+}
+
+WeftResult weft_apart(const WeftReflection *to, const WeftReflection *from, int part, WeftApart metric,
+                      double *apart, WeftError *error) {
+    Samples samples;
+    *apart = 0.0;
+    WeftResult result = samples_from(&samples, from, part, metric, error);
+    if (result == WEFT_OK) result = apart_of(&samples, to, part, apart, error);
+    samples_free(&samples);
+    return result;
+}
+
+/* The error of a lobe as it is. */
+static WeftResult lobe_apart(const Samples *samples, const WeftLobe *lobe, double *apart, WeftError *error) {
+    WeftReflection *to;
+    WeftResult result = weft_reflection_of_lobe(lobe, &to, error);
+    if (result == WEFT_OK) result = apart_of(samples, to, WEFT_PART_ALL, apart, error);
+    weft_reflection_free(to);
+    return result;
+}
+
+static WeftResult lobe_matched(const Samples *samples, const WeftReflection *from, unsigned hold,
+                               WeftLobe *lobe, WeftMatch *out, WeftError *error) {
+    const LobeSearch search = {
+        .samples = samples, .hold = hold, .isotropic = samples_isotropic(samples, from)};
+    LobeFound found = {.lobe = *lobe};
+    double exact = 0.0;
+    WeftResult result = lobe_apart(samples, lobe, &out->copied, error);
+    out->matched = out->copied;
+    if (result != WEFT_OK || out->copied < 1e-7) return result;
+    if (!lobe_search_run(&search, &found)) return short_of_memory(error);
+    out->evaluations = found.evaluations;
+    result = lobe_apart(samples, &found.lobe, &exact, error);
+    if (result != WEFT_OK || !(exact < out->copied)) return result;
+    out->matched = exact;
+    *lobe = found.lobe;
+    return WEFT_OK;
+}
+
+WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, WeftLobe *lobe,
+                           WeftMatch *out, WeftError *error) {
+    Samples samples;
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    char number[16];
+    *out = (WeftMatch){.copied = 0.0};
+    snprintf(number, sizeof number, "%d", lobe->lobe);
+    if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, number, NULL);
+    if (info->traits & WEFT_LOBE_REFERENCE)
+        return fail(error, WEFT_MESSAGE_DESC, info->id, "it is known by its mean alone");
+    WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
+    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, lobe, out, error);
+    samples_free(&samples);
+    return result;
+}
+
+static WeftResult material_matched(const Samples *samples, const int *held, WeftMaterial *material,
+                                   WeftMatch *out, WeftError *error) {
+    WeftReflection *copy;
+    WeftMaterial found = *material;
+    double exact = 0.0;
+    WeftResult result = weft_reflection_create(material, &copy, error);
+    if (result == WEFT_OK) result = apart_of(samples, copy, WEFT_PART_ALL, &out->copied, error);
+    weft_reflection_free(copy);
+    out->matched = out->copied;
+    if (result != WEFT_OK || out->copied < 1e-7) return result;
+    if (!material_search_run(samples, held, &found, &exact, &out->evaluations)) return short_of_memory(error);
+    if (!(exact < out->copied)) return WEFT_OK;
+    out->matched = exact;
+    *material = found;
+    return WEFT_OK;
+}
+
+WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
+                               WeftMaterial *material, WeftMatch *out, WeftError *error) {
+    Samples samples;
+    *out = (WeftMatch){.copied = 0.0};
+    WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
+    if (result == WEFT_OK) result = material_matched(&samples, held, material, out, error);
+    samples_free(&samples);
+    return result;
+}
+
+typedef struct Batch {
+    WeftMatchJob *jobs;
+    int count;
+    WeftApart metric;
+    WeftProgress progress;
+    void *user;
+    atomic_int done;
+    atomic_bool stopped;
+    WeftError *errors;
+} Batch;
+
+static void job_run(void *user, int item, int thread) {
+    Batch *batch = user;
+    WeftMatchJob *job = &batch->jobs[item];
+    job->result = WEFT_INTERRUPTED;
+    if (atomic_load(&batch->stopped)) return;
+    WeftError *error = &batch->errors[item];
+    job->result =
+        job->is_lobe
+            ? weft_match_lobe(job->from, batch->metric, job->hold, &job->lobe, &job->found, error)
+            : weft_match_material(job->from, batch->metric, job->held, &job->material, &job->found, error);
+    int done = atomic_fetch_add(&batch->done, 1) + 1;
+    if (thread == 0 && batch->progress && batch->progress(batch->user, (double)done / batch->count) != 0)
+        atomic_store(&batch->stopped, true);
+}
+
+WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
+                           WeftProgress progress, void *user, WeftError *error) {
+    Batch batch = {.jobs = jobs, .count = count, .metric = metric, .progress = progress, .user = user};
+    batch.errors = alloc_array((size_t)count, sizeof *batch.errors);
+    if (!batch.errors) return short_of_memory(error);
+    parallel_for(threads, count, job_run, &batch);
+    WeftResult result = atomic_load(&batch.stopped) ? WEFT_INTERRUPTED : WEFT_OK;
+    for (int k = 0; k < count && result == WEFT_OK; k++)
+        if (jobs[k].result != WEFT_OK) {
+            result = jobs[k].result;
+            if (error) *error = batch.errors[k];
+        }
+    free(batch.errors);
+    return result;
+}

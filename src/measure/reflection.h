@@ -1,0 +1,14 @@
+/* reflection.h - a reflection whose material changes often */
+#ifndef WEFT_MEASURE_REFLECTION_H
+#define WEFT_MEASURE_REFLECTION_H
+
+#include "shading/albedo.h"
+#include "weft/reflection.h"
+
+/* Puts another material in place of that which a reflection was created of, in no time: E of its sheen is
+ * looked up in one table for all roughnesses, which is made in `shared`, all zero at first, and again where
+ * that does not serve. It must outlive the reflection. Of a sheen that takes nothing from the base E, which
+ * is then asked for no f, is not known. */
+void reflection_change(WeftReflection *reflection, const WeftMaterial *material, AlbedoTable *shared);
+
+#endif

@@ -1,0 +1,352 @@
+#include "measure/samples.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "weft/raster.h"
+
+static const double pi = 3.14159265358979323846;
+
+static const char *const names[WEFT_APART_COUNT] = {"cosine", "log", "picture"};
+
+const char *weft_apart_name(WeftApart metric) {
+    return (unsigned)metric < WEFT_APART_COUNT ? names[metric] : NULL;
+}
+
+bool samples_create(Samples *self, int count, WeftApart metric) {
+    size_t n = (size_t)count;
+    *self = (Samples){.count = count, .first = count, .channels = 3, .metric = metric, .scale = 1.0f};
+    self->block = n <= SIZE_MAX / 13 ? alloc_array(13 * n, sizeof(float)) : NULL;
+    if (!self->block) return false;
+    float *at = self->block;
+    for (int c = 0; c < 3; c++, at += 4 * n)
+        self->o[c] = at, self->i[c] = at + n, self->x[c] = at + 2 * n, self->goal[c] = at + 3 * n;
+    self->weight = at;
+    return true;
+}
+
+void samples_free(Samples *self) {
+    free(self->block);
+    *self = (Samples){0};
+}
+
+/* Digits of k in a base, the other way round, in [0, 1). John H. Halton, "On the Efficiency of Certain
+ * Quasi-Random Sequences of Points in Evaluating Multi-Dimensional Integrals", 1960. */
+static double halton(int k, int base) {
+    double value = 0.0, digit = 1.0 / base;
+    for (; k > 0; k /= base, digit /= base) value += (k % base) * digit;
+    return value;
+}
+
+/* Half vectors of distribution ggx, each mirroring wo: narrow enough for a highlight, wide enough for all. */
+enum { LOBES = 3 };
+static const double alphas[LOBES] = {0.5, 0.12, 0.03};
+
+static double ggx(double alpha, double cos_h) {
+    double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
+    return alpha * alpha / (pi * t * t);
+}
+
+/* The density of a wi: half by the cosine, the rest about the mirror direction. */
+static double density(const double o[3], const double i[3]) {
+    double h[3] = {o[0] + i[0], o[1] + i[1], o[2] + i[2]};
+    double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), cos_h = h[2] / length;
+    double sum = 0.5 * i[2] / pi, d = fmax(0.5 * length, 1e-6); /* wo . h */
+    for (int k = 0; k < LOBES; k++) sum += 0.5 / LOBES * ggx(alphas[k], cos_h) * cos_h / (4.0 * d);
+    return sum;
+}
+
+static void draw(const double o[3], double pick, double u, double v, double i[3]) {
+    if (pick < 0.5) {
+        double r = sqrt(u);
+        i[0] = r * cos(2.0 * pi * v), i[1] = r * sin(2.0 * pi * v), i[2] = sqrt(1.0 - u);
+        return;
+    }
+    double alpha = alphas[(int)fmin((pick - 0.5) * 2.0 * LOBES, LOBES - 1)];
+    double z = sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u)), r = sqrt(fmax(1.0 - z * z, 0.0));
+    double h[3] = {r * cos(2.0 * pi * v), r * sin(2.0 * pi * v), z};
+    double d = 2.0 * (o[0] * h[0] + o[1] * h[1] + o[2] * h[2]);
+    for (int k = 0; k < 3; k++) i[k] = d * h[k] - o[k];
+}
+
+static void put(Samples *self, int k, const double o[3], const double i[3], double weight) {
+    bool above = i[2] > 1e-3;
+    for (int c = 0; c < 3; c++) {
+        self->o[c][k] = (float)o[c];
+        self->i[c][k] = (float)(above ? i[c] : c == 2);
+    }
+    self->weight[k] = (float)(above ? weight : 0.0);
+}
+
+/* wo uniform in cos_o^2, which is what a sphere shows, at the middles of strata, in azimuths all around. */
+static bool spread_wide(Samples *self, WeftApart metric) {
+    enum { OUTS = 16, INS = 256 };
+    if (!samples_create(self, OUTS * INS, metric)) return false;
+    self->outs = OUTS;
+    self->first = self->count / 4;
+    for (int k = 0; k < self->count; k++) {
+        int out = k % OUTS, in = k / OUTS;
+        double z2 = (out + 0.5) / OUTS, r = sqrt(1.0 - z2), phi = 2.0 * pi * halton(out + 1, 2), i[3];
+        const double o[3] = {r * cos(phi), r * sin(phi), sqrt(z2)};
+        /* every wo has the sequence from another place */
+        int at = in + INS * out + 1;
+        draw(o, (in + 0.5) * 0.6180339887498949 - floor((in + 0.5) * 0.6180339887498949), halton(at, 2),
+             halton(at, 3), i);
+        put(self, k, o, i, i[2] > 0.0 ? 1.0 / density(o, i) : 0.0);
+    }
+    return true;
+}
+
+/* Pixels of a square about the disk. A light stands in the plane of view and up, at an angle off the viewer.
+ */
+static bool spread_pictures(Samples *self) {
+    enum { SIDE = 15, LIGHTS = 4, ROOM = SIDE * SIDE * LIGHTS };
+    static const double degrees[LIGHTS] = {15.0, 60.0, 105.0, 150.0};
+    if (!samples_create(self, ROOM, WEFT_APART_PICTURE)) return false;
+    int outs = 0;
+    double normals[SIDE * SIDE][3];
+    for (int p = 0; p < SIDE * SIDE; p++) {
+        int row = p / SIDE;
+        double x = (p % SIDE + 0.5) / SIDE * 2.0 - 1.0, y = 1.0 - (row + 0.5) / SIDE * 2.0;
+        if (x * x + y * y > 0.998) continue;
+        normals[outs][0] = x, normals[outs][1] = y;
+        normals[outs++][2] = sqrt(1.0 - x * x - y * y);
+    }
+    self->outs = outs;
+    self->count = self->first = outs * LIGHTS;
+    for (int k = 0; k < self->count; k++) {
+        const double *n = normals[k % outs], a = degrees[k / outs] * pi / 180.0;
+        const double light[3] = {sin(a) * 0.8, sin(a) * 0.6, cos(a)};
+        double s = hypot(n[0], n[2]), t[3] = {n[2] / s, 0.0, -n[0] / s}; /* level */
+        const double b[3] = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]};
+        const double o[3] = {t[2], b[2], n[2]};
+        const double i[3] = {light[0] * t[0] + light[1] * t[1] + light[2] * t[2],
+                             light[0] * b[0] + light[1] * b[1] + light[2] * b[2],
+                             light[0] * n[0] + light[1] * n[1] + light[2] * n[2]};
+        put(self, k, o, i, 1.0);
+    }
+    return true;
+}
+
+bool samples_spread(Samples *self, WeftApart metric) {
+    return metric == WEFT_APART_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
+}
+
+void samples_ask(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
+    float wi[256][3], f[256][3];
+    for (int out = 0; out < self->outs; out++) {
+        const float wo[3] = {self->o[0][out], self->o[1][out], self->o[2][out]};
+        for (int first = out; first < self->count;) {
+            int n = 0;
+            for (int k = first; k < self->count && n < 256; k += self->outs, n++)
+                for (int c = 0; c < 3; c++) wi[n][c] = self->i[c][k];
+            weft_reflection_eval(reflection, part, wo, n, (const float(*)[3])wi, f);
+            for (int j = 0; j < n; j++, first += self->outs)
+                for (int c = 0; c < 3; c++) x[c][first] = f[j][c] * self->i[2][first];
+        }
+    }
+}
+
+bool samples_isotropic(const Samples *self, const WeftReflection *reflection) {
+    enum { LOOKS = 64 };
+    for (int k = 0; k < self->count && k < LOOKS; k++) {
+        float f[2][1][3];
+        for (int turned = 0; turned < 2; turned++) {
+            float c = turned ? 0.28f : 1.0f, s = turned ? 0.96f : 0.0f;
+            const float *o[3] = {self->o[0] + k, self->o[1] + k, self->o[2] + k};
+            const float *i[3] = {self->i[0] + k, self->i[1] + k, self->i[2] + k};
+            const float wo[3] = {c * *o[0] - s * *o[1], s * *o[0] + c * *o[1], *o[2]};
+            const float wi[1][3] = {{c * *i[0] - s * *i[1], s * *i[0] + c * *i[1], *i[2]}};
+            weft_reflection_eval(reflection, WEFT_PART_ALL, wo, 1, wi, f[turned]);
+        }
+        for (int c = 0; c < 3; c++)
+            if (fabsf(f[0][0][c] - f[1][0][c]) > 1e-3f * (fabsf(f[0][0][c]) + 1e-6f)) return false;
+    }
+    return true;
+}
+
+/* The curve of IEC 61966-2-1. */
+static float display(float linear) {
+    float x = fminf(fmaxf(linear, 0.0f), 1.0f);
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
+}
+
+static float goal_of(const Samples *self, float x) {
+    switch (self->metric) {
+    case WEFT_APART_LOG: return log1pf(x / self->scale);
+    case WEFT_APART_PICTURE: return display((float)pi * x);
+    default: return x;
+    }
+}
+
+/* d goal / dx between two values; above what is displayed some is left, so that it is not forgotten. */
+static float slope_of(const Samples *self, float a, float b) {
+    float x = 0.5f * (a + b);
+    switch (self->metric) {
+    case WEFT_APART_LOG: return 1.0f / (self->scale + x);
+    case WEFT_APART_PICTURE: {
+        float y = (float)pi * x;
+        return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
+    }
+    default: return 1.0f;
+    }
+}
+
+static bool same_channels(const Samples *self) {
+    for (int k = 0; k < self->count; k++)
+        for (int c = 1; c < 3; c++)
+            if (fabsf(self->x[c][k] - self->x[0][k]) > 1e-6f * self->x[0][k]) return false;
+    return true;
+}
+
+/* What is below the line, of all channels that count. */
+static double whole_of(const Samples *self, int count) {
+    double sum = 0.0;
+    for (int c = 0; c < self->channels; c++)
+        for (int k = 0; k < count; k++)
+            sum += (double)self->weight[k] *
+                   (self->metric == WEFT_APART_PICTURE ? 1.0 : (double)self->goal[c][k]);
+    return sum;
+}
+
+void samples_settle(Samples *self) {
+    double sum = 0.0, weights = 0.0;
+    self->channels = same_channels(self) ? 1 : 3;
+    for (int k = 0; k < self->count; k++) {
+        weights += (double)self->weight[k];
+        for (int c = 0; c < 3; c++) sum += (double)self->weight[k] * (double)self->x[c][k] / 3.0;
+    }
+    self->scale = sum > 0.0 ? (float)(sum / weights) : 1.0f;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < self->count; k++) self->goal[c][k] = goal_of(self, self->x[c][k]);
+    self->whole[0] = whole_of(self, self->first);
+    self->whole[1] = whole_of(self, self->count);
+}
+
+static double channel_apart(const Samples *self, int count, int c, const float *x) {
+    double sum = 0.0;
+    const float *w = self->weight, *goal = self->goal[c], *from = self->x[c];
+    if (self->metric == WEFT_APART_COSINE)
+        for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(x[k] - from[k]));
+    else
+        for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(goal_of(self, x[k]) - goal[k]));
+    return sum;
+}
+
+static double share(const Samples *self, int count, double sum) {
+    double whole = self->whole[count == self->count];
+    return whole > 0.0 ? sum / whole : sum > 0.0 ? 1.0 : 0.0;
+}
+
+double samples_apart(const Samples *self, int count, const float *const x[3]) {
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) sum += channel_apart(self, count, c, x[c]) * self->channels / 3.0;
+    return share(self, count, sum);
+}
+
+/* Normal equations of one channel: A weights = b. */
+typedef struct Normal {
+    double a[BLEND_MOST][BLEND_MOST], b[BLEND_MOST];
+} Normal;
+
+static void normal_make(Normal *normal, int columns, const float *const column[], const float *w,
+                        const float *rest, int count) {
+    for (int j = 0; j < columns; j++) {
+        double b = 0.0;
+        for (int k = 0; k < count; k++) b += (double)(w[k] * column[j][k]) * (double)rest[k];
+        normal->b[j] = b;
+        for (int l = 0; l <= j; l++) {
+            double a = 0.0;
+            for (int k = 0; k < count; k++) a += (double)(w[k] * column[j][k]) * (double)column[l][k];
+            normal->a[j][l] = normal->a[l][j] = a;
+        }
+    }
+}
+
+/* Gauss elimination of the columns in `active`, a set of bits. False where they depend on each other. */
+static bool solve_active(const Normal *normal, int columns, unsigned active, double *weights) {
+    double m[BLEND_MOST][BLEND_MOST + 1];
+    int index[BLEND_MOST], n = 0;
+    for (int j = 0; j < columns; j++) {
+        weights[j] = 0.0;
+        if (active >> j & 1u) index[n++] = j;
+    }
+    for (int r = 0; r < n; r++) {
+        for (int c = 0; c < n; c++) m[r][c] = normal->a[index[r]][index[c]];
+        m[r][n] = normal->b[index[r]];
+    }
+    for (int p = 0; p < n; p++) {
+        if (!(m[p][p] > 1e-10 * normal->a[index[p]][index[p]])) return false;
+        for (int r = p + 1; r < n; r++) {
+            double t = m[r][p] / m[p][p];
+            for (int c = p; c <= n; c++) m[r][c] -= t * m[p][c];
+        }
+    }
+    for (int r = n - 1; r >= 0; r--) {
+        double sum = m[r][n];
+        for (int c = r + 1; c < n; c++) sum -= m[r][c] * weights[index[c]];
+        weights[index[r]] = sum / m[r][r];
+    }
+    return true;
+}
+
+/* Least squares without negative weights: of so few columns every set can be tried. */
+static void solve_positive(const Normal *normal, int columns, double *weights) {
+    double least = 1e300;
+    for (unsigned active = 0; active < 1u << columns; active++) {
+        double trial[BLEND_MOST], cost = 0.0;
+        bool good = solve_active(normal, columns, active, trial);
+        for (int j = 0; good && j < columns; j++) {
+            good = !(trial[j] < 0.0);
+            for (int l = 0; l < columns; l++) cost += trial[j] * normal->a[j][l] * trial[l];
+            cost -= 2.0 * trial[j] * normal->b[j];
+        }
+        if (!good || !(cost < least)) continue;
+        least = cost;
+        for (int j = 0; j < columns; j++) weights[j] = trial[j];
+    }
+}
+
+/* x of the blend. */
+static void blend_add(const Blend *blend, int count, int c, const double *weights, float *x) {
+    const float *fixed = blend->fixed[c];
+    for (int k = 0; k < count; k++) x[k] = fixed ? fixed[k] : 0.0f;
+    for (int j = 0; j < blend->columns; j++) {
+        const float *column = blend->column[j][c];
+        float a = (float)weights[j];
+        for (int k = 0; k < count; k++) x[k] += a * column[k];
+    }
+}
+
+/* A sample's weight in least squares: so that its square counts for what its size does. `soft` keeps those
+ * that are met from counting for everything. */
+static void weigh(const Samples *self, int count, int c, const float *x, float soft, float *w) {
+    const float *from = self->x[c];
+    if (self->metric == WEFT_APART_COSINE)
+        for (int k = 0; k < count; k++) w[k] = self->weight[k] / fmaxf(fabsf(x[k] - from[k]), soft);
+    else
+        for (int k = 0; k < count; k++)
+            w[k] = self->weight[k] * slope_of(self, x[k], from[k]) / fmaxf(fabsf(x[k] - from[k]), soft);
+}
+
+double blend_solve(const Samples *self, int count, int c, const Blend *blend, double weights[BLEND_MOST]) {
+    const int rounds = count == self->count ? 9 : 5;
+    float *x = blend->work, *rest = x + self->count, *w = rest + self->count, soft = self->scale;
+    const float *columns[BLEND_MOST];
+    for (int j = 0; j < blend->columns; j++) columns[j] = blend->column[j][c], weights[j] = 0.0;
+    for (int k = 0; k < count; k++) rest[k] = self->x[c][k] - (blend->fixed[c] ? blend->fixed[c][k] : 0.0f);
+    for (int round = 0; round < rounds && blend->columns > 0; round++, soft *= 0.3f) {
+        Normal normal;
+        blend_add(blend, count, c, weights, x);
+        if (round == 0)
+            for (int k = 0; k < count; k++) w[k] = self->weight[k];
+        else
+            weigh(self, count, c, x, soft, w);
+        normal_make(&normal, blend->columns, columns, w, rest, count);
+        solve_positive(&normal, blend->columns, weights);
+    }
+    blend_add(blend, count, c, weights, x);
+    return share(self, count, channel_apart(self, count, c, x));
+}

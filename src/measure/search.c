@@ -1,0 +1,167 @@
+#include "measure/search.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include <nlopt.h>
+
+enum { GRID_MOST = 1024, DESCENTS_MOST = 8 };
+
+/* A place in the unit cube, and the error there. */
+typedef struct Place {
+    double at[SEARCH_MOST], error;
+} Place;
+
+typedef struct Walk {
+    const Search *search;
+    SearchCare care;
+    Place best;
+    long long evaluations;
+} Walk;
+
+static bool by_logarithm(const SearchAxis *axis) { return axis->low > 0.0 && axis->high >= 10.0 * axis->low; }
+
+static double value_of(const SearchAxis *axis, double at) {
+    double t = fmin(fmax(at, 0.0), 1.0);
+    double value = by_logarithm(axis) ? axis->low * pow(axis->high / axis->low, t)
+                                      : axis->low + (axis->high - axis->low) * t;
+    return fmin(fmax(value, axis->low), axis->high);
+}
+
+static double place_of(const SearchAxis *axis, double value) {
+    if (!(axis->high > axis->low)) return 0.0;
+    double t = by_logarithm(axis) ? log(value / axis->low) / log(axis->high / axis->low)
+                                  : (value - axis->low) / (axis->high - axis->low);
+    return fmin(fmax(t, 0.0), 1.0);
+}
+
+static void values_of(const Search *search, const double *at, double *x) {
+    for (int k = 0; k < search->axes; k++) x[k] = value_of(&search->axis[k], at[k]);
+}
+
+static void places_of(const Search *search, const double *x, double *at) {
+    for (int k = 0; k < search->axes; k++) at[k] = place_of(&search->axis[k], x[k]);
+}
+
+static double error_at(Walk *walk, const double *at, SearchCare care, double *x) {
+    values_of(walk->search, at, x);
+    walk->evaluations++;
+    double error = walk->search->error(walk->search->user, x, care);
+    return error < 1e30 ? error : 1e30; /* NaN too */
+}
+
+static double objective(unsigned n, const double *at, double *gradient, void *user) {
+    (void)gradient;
+    Walk *walk = user;
+    double x[SEARCH_MOST], error = error_at(walk, at, walk->care, x);
+    if (error < walk->best.error) {
+        walk->best.error = error;
+        memcpy(walk->best.at, at, n * sizeof *at);
+    }
+    return error;
+}
+
+/* Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", PhD thesis, University of
+ * Texas at Austin, 1990, as Steven G. Johnson wrote it for NLopt: no random numbers. */
+static void descend_once(Walk *walk, const double *from, double step) {
+    unsigned n = (unsigned)walk->search->axes;
+    double at[SEARCH_MOST], least;
+    nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
+    if (!method) return;
+    memcpy(at, from, n * sizeof *at);
+    nlopt_set_min_objective(method, objective, walk);
+    nlopt_set_lower_bounds1(method, 0.0);
+    nlopt_set_upper_bounds1(method, 1.0);
+    nlopt_set_initial_step1(method, step);
+    nlopt_set_maxeval(method, walk->care == SEARCH_FULL ? walk->search->most / 2 : walk->search->most);
+    nlopt_set_ftol_rel(method, 1e-7);
+    nlopt_set_xtol_abs1(method, 1e-6);
+    nlopt_set_stopval(method, 1e-8);
+    nlopt_optimize(method, at, &least);
+    nlopt_destroy(method);
+}
+
+/* A simplex that has shrunk along a valley is opened again, where it stands. */
+static Place descend(Walk *walk, const Place *from, SearchCare care) {
+    double step = care == SEARCH_FULL ? 0.03 : 0.1;
+    int rounds = care == SEARCH_FULL ? 6 : 1;
+    walk->care = care;
+    walk->best = *from;
+    walk->best.error = 1e30;
+    for (int round = 0; round < rounds; round++, step = fmax(0.5 * step, 0.01)) {
+        double before = walk->best.error;
+        Place start = walk->best;
+        descend_once(walk, start.at, step);
+        if (!(walk->best.error < 0.999 * before && walk->best.error > 1e-7)) break;
+    }
+    return walk->best;
+}
+
+/* Point number k of the sequence of John H. Halton, 1960: even over the cube, however many there are. */
+static double halton(int k, int axis) {
+    static const int primes[SEARCH_MOST] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
+    double value = 0.0, digit = 1.0 / primes[axis];
+    for (; k > 0; k /= primes[axis], digit /= primes[axis]) value += (k % primes[axis]) * digit;
+    return value;
+}
+
+static double distance(const Place *a, const Place *b, int axes) {
+    double most = 0.0;
+    for (int k = 0; k < axes; k++) most = fmax(most, fabs(a->at[k] - b->at[k]));
+    return most;
+}
+
+/* Keeps a point among the best, of which none is near another. */
+static void keep(Place *best, int *count, int room, int axes, const Place *place) {
+    for (int k = 0; k < *count; k++) {
+        if (distance(&best[k], place, axes) >= 0.1) continue;
+        if (place->error < best[k].error) best[k] = *place;
+        return;
+    }
+    int worst = 0;
+    for (int k = 1; k < *count; k++)
+        if (best[k].error > best[worst].error) worst = k;
+    if (*count < room)
+        best[(*count)++] = *place;
+    else if (place->error < best[worst].error)
+        best[worst] = *place;
+}
+
+/* The best of the rough descents. */
+static Place roughly(Walk *walk, const Place *start) {
+    const Search *search = walk->search;
+    Place starts[DESCENTS_MOST], place;
+    int count = 0, room = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
+    int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
+    for (int k = 0; k < grid && room > 0; k++) {
+        double x[SEARCH_MOST];
+        for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, a);
+        place.error = error_at(walk, place.at, SEARCH_GLANCE, x);
+        places_of(search, x, place.at);
+        keep(starts, &count, room, search->axes, &place);
+    }
+    Place best = descend(walk, start, SEARCH_ROUGH);
+    for (int k = 0; k < count && best.error > 1e-7; k++) {
+        place = descend(walk, &starts[k], SEARCH_ROUGH);
+        if (place.error < best.error) best = place;
+    }
+    return best;
+}
+
+double search_run(const Search *search, double *x, long long *evaluations) {
+    Walk walk = {.search = search};
+    Place start = {.error = 0.0}, best;
+    double y[SEARCH_MOST];
+    places_of(search, x, start.at);
+    start.error = error_at(&walk, start.at, SEARCH_FULL, y);
+    best = start;
+    if (search->axes > 0 && start.error > 1e-7) {
+        Place rough = roughly(&walk, &start);
+        best = descend(&walk, &rough, SEARCH_FULL);
+    }
+    bool better = best.error < start.error;
+    if (better) values_of(search, best.at, x);
+    if (evaluations) *evaluations += walk.evaluations;
+    return better ? best.error : start.error;
+}

@@ -1,0 +1,88 @@
+/* `weft fit`: what it prints and writes, and how it ends. */
+#include "run.h"
+
+#include <math.h>
+
+#include <jansson.h>
+
+#include "weft/weft.h"
+
+/* A table of a lobe, made by `weft eval`. */
+static int table_begin(void **state) {
+    if (work_begin(state) != 0) return -1;
+    FILE *angles = fopen("angles.txt", "w");
+    if (!angles) return -1;
+    for (int k = 0; k < 900; k++)
+        fprintf(angles, "%d %d %d %d\n", 5 + k % 7 * 11, 37 * k % 360, 3 + k / 7 % 8 * 10, 101 * k % 360);
+    fclose(angles);
+    Ran ran =
+        run_shell("\"$0\" eval ashikhmin-neubelt -p alpha=0.3 -p color=0.8,0.5,0.2 angles.txt >f.txt && "
+                  "paste -d' ' angles.txt f.txt | cut -d' ' -f1-7 >table.csv");
+    int code = ran.code;
+    ran_free(&ran);
+    return code;
+}
+
+static void a_lobe_is_found(void **state) {
+    (void)state;
+    Ran ran = RUN("fit", "table.csv", "--lobe", "ashikhmin-neubelt", "--json", "-o", "m.json");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    json_t *json = json_loads(ran.out, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(json);
+    const json_t *best = json_array_get(json_object_get(json, "ranking"), 0);
+    assert_string_equal(json_string_value(json_object_get(best, "lobe")), "ashikhmin-neubelt");
+    double alpha = json_number_value(json_object_get(json_object_get(best, "params"), "alpha"));
+    assert_true(fabs(alpha - 0.3) < 0.003);
+    assert_int_equal(json_integer_value(json_object_get(json, "samples_in_file")), 900);
+    json_decref(json);
+    ran_free(&ran);
+    /* the material it wrote is what the table came from */
+    WeftMaterial material;
+    WeftReflection *of;
+    WeftLobe lobe;
+    WeftError error;
+    if (weft_material_read("m.json", &material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_reflection_create(&material, &of, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_create("ashikhmin-neubelt", &lobe, NULL), WEFT_OK);
+    lobe.params[0] = 0.3f;
+    const float wo[3] = {0.6f, 0.0f, 0.8f}, wi[1][3] = {{-0.28f, 0.0f, 0.96f}};
+    float f[1][3], g[3];
+    weft_reflection_eval(of, WEFT_PART_ALL, wo, 1, wi, f);
+    weft_lobe_eval(&lobe, wo, wi[0], g);
+    assert_true(fabsf(f[0][0] - 0.8f * g[0]) < 0.005f * g[0] && fabsf(f[0][2] - 0.2f * g[2]) < 0.005f * g[2]);
+    weft_reflection_free(of);
+    ran = RUN("render", "builtin:cloth", "--material", "m.json", "--width", "32", "--height", "24", "--spp",
+              "1", "-o", "m.png");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
+static void the_table_is_printed(void **state) {
+    (void)state;
+    Ran ran = RUN("fit", "table.csv", "--lobe", "charlie-neubelt", "--metric", "cosine");
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.out, "charlie-neubelt"));
+    assert_non_null(strstr(ran.out, "baseline: ggx over lambert"));
+    assert_non_null(strstr(ran.out, "error is cosine"));
+    ran_free(&ran);
+}
+
+static void complaints(void **state) {
+    (void)state;
+    file_make("bad.csv", "1,2,3\n", 6);
+    file_make("short.binary", "abc", 3);
+    assert_complaint(NULL, LIST("fit", "bad.csv"), 3, "line 1");
+    assert_complaint(NULL, LIST("fit", "short.binary"), 3, "3 bytes");
+    assert_complaint(NULL, LIST("fit", "not-there.csv"), 3, "not-there");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "velours"), 2, "velours");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--base", "ggx"), 2, "diffuse");
+    assert_complaint(NULL, LIST("fit", "table.csv", "-o", "a.png"), 2, ".json");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.png"), 2, ".binary");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--metric", "picture"), 2, "picture");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_found),
+                                       cmocka_unit_test(the_table_is_printed), cmocka_unit_test(complaints)};
+    return cmocka_run_group_tests(tests, table_begin, work_end);
+}

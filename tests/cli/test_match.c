@@ -1,0 +1,188 @@
+/* `weft match`: what it prints and writes, and how it ends. */
+#include "run.h"
+
+#include <math.h>
+
+#include <jansson.h>
+
+#include "weft/weft.h"
+
+static json_t *printed(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
+    json_error_t error;
+    json_t *json = json_loads(ran.out, JSON_REJECT_DUPLICATES, &error);
+    if (!json) fail_msg("%s: %.200s", error.text, ran.out);
+    ran_free(&ran);
+    return json;
+}
+
+static double number(const json_t *json, const char *key) {
+    const json_t *value = json_object_get(json, key);
+    if (!json_is_number(value)) fail_msg("\"%s\" is no number", key);
+    return json_number_value(value);
+}
+
+static double value_of(const json_t *json, const char *side, const char *name) {
+    return number(json_object_get(json_object_get(json, side), "values"), name);
+}
+
+static double error_of(const json_t *json, const char *side) {
+    return number(json_object_get(json, side), "error");
+}
+
+static void a_lobe_is_itself(void **state) {
+    (void)state;
+    json_t *json = printed(LIST("match", "charlie-neubelt:alpha=0.37,color=0.9,0.4,0.2", "charlie-neubelt",
+                                "--json", "--metric", "log"));
+    assert_string_equal(json_string_value(json_object_get(json, "metric")), "log");
+    assert_true(fabs(value_of(json, "matched", "alpha") - 0.37) < 1e-3);
+    assert_true(error_of(json, "matched") < 1e-6);
+    json_decref(json);
+}
+
+static void a_match_is_closer(void **state) {
+    (void)state;
+    json_t *json = printed(LIST("match", "khronos:sheen_roughness=0.4", "three", "--json", "-o", "m.json"));
+    assert_true(fabs(value_of(json, "copied", "sheen_roughness") - 0.4) < 1e-6);
+    assert_true(error_of(json, "matched") < 0.5 * error_of(json, "copied"));
+    assert_true(json_array_size(json_object_get(json, "parts")) == 3);
+    /* the material that was written is the match */
+    WeftMaterial material;
+    WeftError error;
+    if (weft_material_read("m.json", &material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    for (int k = 0; weft_material_input_name(k); k++)
+        if (strcmp(weft_material_input_name(k), "sheen_roughness") == 0)
+            assert_true(fabs((double)material.inputs[k].value[0] -
+                             value_of(json, "matched", "sheen_roughness")) < 1e-5);
+    json_decref(json);
+}
+
+static void pictures_are_written(void **state) {
+    (void)state;
+    Ran ran = RUN("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "-o", "m.png");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    assert_non_null(strstr(ran.out, "cosine"));
+    assert_non_null(strstr(ran.out, "matched"));
+    WeftImage image;
+    assert_int_equal(weft_image_read("m.png", &image, NULL, NULL), WEFT_OK);
+    assert_true(image.width > 900 && image.height > 600);
+    weft_image_free(&image);
+    ran_free(&ran);
+    json_t *json =
+        printed(LIST("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "--json"));
+    assert_true(fabs(value_of(json, "matched", "density") - 2.0) < 1e-6);
+    json_decref(json);
+}
+
+/* The sheen of a file, for another engine: only its factors change. */
+static void an_asset_is_rewritten(void **state) {
+    (void)state;
+    json_t *json = printed(
+        LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
+    const json_t *cloth = json_array_get(json, 0);
+    assert_true(json_is_true(json_object_get(cloth, "changed")));
+    assert_true(number(cloth, "matched") < number(cloth, "copied"));
+    WeftScene *scenes[2];
+    WeftMaterial materials[2];
+    for (int k = 0; k < 2; k++) {
+        WeftError error;
+        if (weft_scene_load(k ? "out.gltf" : "scene.gltf", &scenes[k], NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_int_equal(weft_scene_material(scenes[k], 0, &materials[k], NULL), WEFT_OK);
+    }
+    const json_t *factors = json_object_get(cloth, "factors");
+    for (int n = 0; weft_material_input_name(n); n++) {
+        const json_t *now = json_object_get(factors, weft_material_input_name(n));
+        for (int c = 0; c < 3; c++) {
+            double expected = now && (size_t)c < json_array_size(now)
+                                  ? json_number_value(json_array_get(now, (size_t)c))
+                                  : (double)materials[0].inputs[n].value[c];
+            assert_true(fabs((double)materials[1].inputs[n].value[c] - expected) < 2e-6);
+        }
+    }
+    assert_true(json_object_size(factors) >= 2);
+    assert_int_equal(weft_scene_info(scenes[0]).triangle_count, weft_scene_info(scenes[1]).triangle_count);
+    for (int k = 0; k < 2; k++) weft_scene_free(scenes[k]);
+    json_decref(json);
+    /* and to specular and back */
+    json = printed(LIST("match", "scene.gltf", "--workflow", "specular", "-o", "specular.glb", "--json"));
+    assert_true(json_is_true(json_object_get(json_array_get(json, 0), "converted")));
+    assert_true(number(json_array_get(json, 0), "loss") < 0.01);
+    json_decref(json);
+    json = printed(LIST("match", "specular.glb", "--workflow", "metallic", "-o", "metallic.glb", "--json"));
+    json_decref(json);
+}
+
+static WeftImage drawn(const char *scene, const char *profile) {
+    Ran ran = RUN("render", scene, "--profile", profile, "--width", "160", "--height", "120", "--spp", "16",
+                  "-o", "drawn.exr");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftImage image;
+    assert_int_equal(weft_image_read("drawn.exr", &image, NULL, NULL), WEFT_OK);
+    return image;
+}
+
+static double flip(const WeftImage *image, const WeftImage *reference) {
+    WeftDiff found;
+    const WeftDiffDesc desc = {
+        .image = image, .reference = reference, .metric = WEFT_METRIC_FLIP, .exposed = 1};
+    assert_int_equal(weft_diff(&desc, &found, NULL, NULL), WEFT_OK);
+    return found.value;
+}
+
+/* The chair: drawn by the other engine it is closer to what it was than with its own numbers. */
+static void the_chair_looks_as_it_did(void **state) {
+    (void)state;
+    const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth",
+                                                                  "filament-sheen"};
+    char chair[512];
+    if (!folder || !*folder) folder = WEFT_SOURCE_DIR "/../shared/data";
+    snprintf(chair, sizeof chair, "%s/gltf/SheenChair/SheenChair.gltf", folder);
+    if (access(chair, R_OK) != 0) {
+        print_message("skipped: no SheenChair at hand\n");
+        skip();
+    }
+    WeftImage original = drawn(chair, "khronos");
+    for (int k = 0; k < (getenv("WEFT_TEST_LONG") ? 3 : 1); k++) {
+        Ran ran = RUN("match", chair, "--from", "khronos", "--to", engines[k], "-o", "chair.glb");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        ran_free(&ran);
+        WeftImage copied = drawn(chair, engines[k]), matched = drawn("chair.glb", engines[k]);
+        double before = flip(&copied, &original), after = flip(&matched, &original);
+        print_message("%s: flip %.4f copied, %.4f matched\n", engines[k], before, after);
+        assert_true(after < before);
+        weft_image_free(&copied);
+        weft_image_free(&matched);
+    }
+    weft_image_free(&original);
+}
+
+static void complaints(void **state) {
+    (void)state;
+    assert_complaint(NULL, LIST("match", "ggx"), 2, "FROM and TO");
+    assert_complaint(NULL, LIST("match", "ggx", "velours"), 2, "velours");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "--metric", "l2"), 2, "l2");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "fuzz"), 2, "fuzz");
+    assert_complaint(NULL, LIST("match", "ggx", "three", "--hold", "fuzz"), 2, "fuzz");
+    assert_complaint(NULL, LIST("match", "ggx", "fibre-walk"), 2, "mean");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.json"), 2, "no material");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.txt"), 2, ".png");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three"), 2, "-o");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "two", "-o", "a.glb"), 2, "two");
+    assert_complaint(NULL, LIST("match", "not-there.gltf", "--to", "three", "-o", "a.glb"), 3, "not-there");
+    assert_complaint(NULL,
+                     LIST("match", "scene.gltf", "--to", "three", "--workflow", "metallic", "-o", "a.glb"), 2,
+                     "--workflow");
+    assert_complaint(NULL, LIST("match", "not-there.binary", "ggx"), 3, "not-there");
+    assert_int_equal(access("a.glb", F_OK), -1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lobe_is_itself),          cmocka_unit_test(a_match_is_closer),
+        cmocka_unit_test(pictures_are_written),      cmocka_unit_test(an_asset_is_rewritten),
+        cmocka_unit_test(the_chair_looks_as_it_did), cmocka_unit_test(complaints)};
+    return cmocka_run_group_tests(tests, scene_begin, work_end);
+}
