@@ -25,6 +25,7 @@
 extern "C" {
 #endif
 
+/* The language, and what is around the functions. */
 typedef enum WeftExportTarget {
     WEFT_EXPORT_GLSL = 0,  /* functions for GLSL 3.30 core and later */
     WEFT_EXPORT_ESSL,      /* for GLSL ES 3.00: OpenGL ES 3, WebGL 2 */
@@ -58,14 +59,15 @@ typedef struct WeftExportDesc {
     const char *profile;          /* the id of an engine profile, or of a workflow */
     const WeftMaterial *material; /* its numbers; what it has at 0 may not be in the text */
     const char *name;             /* of the material, in names of the text; NULL: "material" */
-    WeftExportTarget target;
-    WeftExportLut lut;
-    int albedo;         /* not 0: of a lobe ID_albedo too, which reads a table */
+    WeftExportTarget target;      /* what is written */
+    WeftExportLut lut;            /* what tables are written as */
+    int albedo;                   /* not 0: of a lobe ID_albedo too, which reads a table */
     int fold_pi;        /* not 0: f comes multiplied by pi, for lights whose unit has the 1/pi inside */
     const char *prefix; /* of every name, a C identifier of at most 24 characters; NULL: "weft_" */
     const char *call;   /* what made the text, for its first lines; may be NULL */
 } WeftExportDesc;
 
+/* The most tables of a text, and the longest name, its end among the characters. */
 enum { WEFT_EXPORT_TABLES_MAX = 8, WEFT_EXPORT_NAME = 96 };
 
 /* A table that the text reads: F32, one channel, to be uploaded as it is, without filtering or mipmaps. */
@@ -75,11 +77,12 @@ typedef struct WeftExportTable {
     float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
 } WeftExportTable;
 
+/* A text, and what it reads. */
 typedef struct WeftExport {
-    char *text; /* owned; ends with a zero byte that size does not count */
-    size_t size;
+    char *text;  /* owned; ends with a zero byte that size does not count */
+    size_t size; /* bytes */
     WeftExportTable tables[WEFT_EXPORT_TABLES_MAX]; /* that are not in the text itself */
-    int table_count;
+    int table_count;                                /* of these */
 } WeftExport;
 
 /* Makes a text. Fails with WEFT_MESSAGE_EXPORT_LOBE (a lobe that is a random walk), _CHECK_NAME (no such

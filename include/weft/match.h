@@ -30,6 +30,7 @@
 extern "C" {
 #endif
 
+/* The metrics, as above. */
 typedef enum WeftApart {
     WEFT_APART_COSINE = 0,
     WEFT_APART_LOG,
