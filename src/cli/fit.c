@@ -199,8 +199,8 @@ const Verb verb_fit = {
     .options = fit_options,
     .notes = "DATA is a measured BRDF in MERL's format (.binary), or a table of lines\n"
              "\"theta_o, phi_o, theta_i, phi_i, r, g, b\": degrees from the normal and from the\n"
-             "tangent, f in 1/sr. Lines that start with # are passed over; one line of names may\n"
-             "stand above. A negative number was not measured.\n\n"
+             "tangent, f in 1/sr. Lines that start with # are passed over; one line of names\n"
+             "may stand above. A negative number was not measured.\n\n"
              "Every lobe of the catalogue that is no diffuse term is fitted, over a diffuse\n"
              "base: all parameters, the colours of both. The baseline is ggx over lambert.\n"
              "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"

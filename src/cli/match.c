@@ -248,15 +248,16 @@ const Verb verb_match = {
     .operands_least = 0,
     .operands_most = 2,
     .options = match_options,
-    .notes = "FROM and TO are " SUBJECT_FORM ": a lobe, an engine profile, a preset, a material\n"
-             "file, a material of a scene (chair.glb:fabric); FROM may be a measured BRDF\n"
-             "(.binary). The numbers of FROM are first copied to TO, then searched for what\n"
-             "comes closest; both errors are printed.\n\n"
+    .notes = "FROM and TO are " SUBJECT_FORM ": a lobe, an engine profile, a\n"
+             "preset, a material file, a material of a scene (chair.glb:fabric); FROM may be a\n"
+             "measured BRDF (.binary). The numbers of FROM are first copied to TO, then\n"
+             "searched for what comes closest; both errors are printed.\n\n"
              "Metrics, over pairs of directions, of x = f cos\n"
              "  cosine   sum of |x_to - x_from| over sum of x_from, as a sphere shows them\n"
              "  log      the same of ln(1 + x / mean of x_from)\n"
              "  picture  mean difference of display values, 0 .. 1, of a lit sphere\n\n"
-             "docs/match.md has the formulas, and what is free in TO; docs/rosetta.md the table.\n\n"
+             "docs/match.md has the formulas, and what is free in TO; docs/rosetta.md the\n"
+             "tables of all pairs.\n\n"
              "Examples\n"
              "  weft match charlie-neubelt:alpha=0.3 fibre -o velvet.png\n"
              "  weft match khronos:sheen_roughness=0.4 three\n"

@@ -28,7 +28,7 @@ typedef struct Search {
     void *user;
     int grid;     /* points of it, 0: none */
     int descents; /* rough ones, from so many of the best, and from the caller's start */
-    int most;     /* evaluations of a rough descent; of a careful one half of that, up to six times */
+    int most;     /* evaluations of a rough descent; careful: half of that, six times at most */
 } Search;
 
 /* x comes as the start and leaves as the best that was found; returns its error. *evaluations (may be NULL)
