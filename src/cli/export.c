@@ -6,173 +6,51 @@
 #include <string.h>
 
 #include "command.h"
-#include "given_lobe.h"
 #include "json.h"
 #include "layout.h"
-#include "names.h"
 #include "output.h"
 #include "report.h"
+#include "subject.h"
 #include "table_file.h"
 #include "verbs.h"
-
-/* What is exported, and where its parts are kept. */
-typedef struct Subject {
-    WeftLobe lobe, right;
-    WeftMaterial material;
-    char name[96]; /* of the material */
-} Subject;
 
 typedef struct Export {
     const Options *options;
     WeftExportDesc desc;
-    Subject subject;
+    Subject subject, right;
     WeftExport made;
     bool quiet;
 } Export;
 
-static void say_warning(void *user, WeftMessage message, const char *text) {
-    (void)message;
-    if (!*(bool *)user) report(0, "warning: %s", text);
-}
-
-static bool ends_in(const char *text, const char *end) {
-    size_t size = strlen(text), most = strlen(end);
-    return size > most && strcmp(text + size - most, end) == 0;
-}
-
-/* The material of that number, under its name or that of its file. */
-static WeftResult take_material(Export *self, WeftScene *scene, int index, const char *path,
-                                WeftError *error) {
+/* A profile or workflow by its name alone keeps the numbers that the export gives it: any value may come. */
+static int read_subject(Export *self, const char *typed) {
     Subject *subject = &self->subject;
-    const char *own = weft_scene_material_name(scene, index), *slash = strrchr(path, '/');
-    const char *file = slash ? slash + 1 : path;
-    WeftResult result = weft_scene_material(scene, index, &subject->material, error);
-    if (own && *own && (ends_in(path, ".gltf") || ends_in(path, ".glb")))
-        snprintf(subject->name, sizeof subject->name, "%s", own);
-    else
-        snprintf(subject->name, sizeof subject->name, "%.*s", (int)strcspn(file, "."), file);
-    bool textures = false;
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++) textures |= subject->material.inputs[k].texture != 0;
-    if (textures && !self->quiet)
-        report(0, "warning: %.200s: has textures, which stay with the engine: the text has their factors",
-               path);
-    self->desc.material = &subject->material;
-    self->desc.name = subject->name;
-    return result;
-}
-
-/* Material "NAME" or index of a scene, the first of all where it is NULL; -1: there is none. */
-static int find_material(const WeftScene *scene, const char *name) {
-    int count = weft_scene_info(scene).material_count;
-    char *end;
-    for (int k = 0; k < count && name; k++)
-        if (strcmp(weft_scene_material_name(scene, k), name) == 0) return k;
-    long index = name && *name ? strtol(name, &end, 10) : 0;
-    if (name && (!*name || *end)) return -1;
-    return index >= 0 && index < count ? (int)index : -1;
-}
-
-/* FILE.gltf or FILE.gltf:MATERIAL. */
-static int read_asset(Export *self, const char *text, const WeftLog *log) {
-    char path[1024];
-    const char *suffix = strstr(text, ".gltf:"), *name = NULL;
-    size_t size = strlen(text);
-    if (!suffix) suffix = strstr(text, ".glb:");
-    if (suffix) {
-        const char *colon = strchr(suffix, ':');
-        size = (size_t)(colon - text);
-        name = colon + 1;
+    int result = subject_parse(typed, subject);
+    if (result != 0) return result;
+    bool choice = subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_WORKFLOW;
+    if (subject->kind == SUBJECT_MEASURED)
+        return report(WEFT_USAGE, "%.200s: is a measurement: `weft fit` makes a material of it", typed);
+    if (subject->kind == SUBJECT_LOBE) {
+        self->desc.lobe = &subject->lobe;
+    } else if (choice && !subject->given && strcmp(subject->name, "none") != 0) {
+        self->desc.profile = subject->name;
+    } else {
+        self->desc.material = &subject->material;
+        self->desc.name = subject->name;
     }
-    if (size >= sizeof path) return report(WEFT_USAGE, "%.80s...: is too long", text);
-    snprintf(path, sizeof path, "%.*s", (int)size, text);
-    WeftScene *scene;
-    WeftError error;
-    if (weft_scene_load(path, &scene, log, &error) != WEFT_OK) return report_error(&error);
-    int index = find_material(scene, name), result = 0;
-    if (index < 0)
-        result = report(WEFT_USAGE, "%.200s: %s: %.80s", path, weft_message_text(WEFT_MESSAGE_MATERIAL_NAME),
-                        name ? name : "it has none");
-    else if (take_material(self, scene, index, path, &error) != WEFT_OK)
-        result = report_error(&error);
-    weft_scene_free(scene);
-    return result;
-}
-
-/* FILE.json, or "preset:NAME". */
-static int read_material(Export *self, const char *path, const WeftLog *log) {
-    WeftScene *scene;
-    WeftError error;
-    const char *preset = strncmp(path, "preset:", 7) == 0 ? path + 7 : path;
-    WeftResult result = weft_scene_load("builtin:spheres", &scene, log, &error);
-    if (result != WEFT_OK) return report_error(&error);
-    result = weft_scene_dress(scene, "*", path, log, &error);
-    if (result == WEFT_OK) result = take_material(self, scene, 0, preset, &error);
-    weft_scene_free(scene);
-    return result == WEFT_OK ? 0 : report_error(&error);
-}
-
-static bool is_preset(const char *name) {
-    for (int k = 0; weft_preset_name(k); k++)
-        if (strcmp(weft_preset_name(k), name) == 0) return true;
-    return false;
-}
-
-static bool is_alias(const char *name) {
-    for (int k = 0; weft_alias_name(k); k++)
-        if (strcmp(weft_alias_name(k), name) == 0) return true;
-    return false;
-}
-
-static int unknown(const char *text) {
-    static const char *const kinds_of[] = {"lobe", "profile", "workflow"};
-    char hint[96];
-    Nearest nearest = {.typed = text};
-    for (int k = 0; k < 3; k++)
-        for (int n = 0; kind_of(kinds_of[k])->name(n); n++)
-            nearest_offer(&nearest, kind_of(kinds_of[k])->name(n));
-    for (int k = 0; weft_preset_name(k); k++) nearest_offer(&nearest, weft_preset_name(k));
-    return report(
-        WEFT_USAGE,
-        "%.200s: is neither a lobe, a profile, a workflow, a preset nor a .json, .gltf or .glb file%s", text,
-        nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; see weft models");
-}
-
-static int read_subject(Export *self, const char *text, const WeftLog *log) {
-    bool file = ends_in(text, ".json") || strncmp(text, "preset:", 7) == 0;
-    bool asset =
-        ends_in(text, ".gltf") || ends_in(text, ".glb") || strstr(text, ".gltf:") || strstr(text, ".glb:");
-    bool lobe = weft_lobe_find(text) >= 0;
-    if (!lobe && option_given(self->options, "-p"))
-        return report(WEFT_USAGE, "-p: is for a lobe, and %.80s is none", text);
-    if (asset) return read_asset(self, text, log);
-    if (file) return read_material(self, text, log);
-    if (lobe) {
-        self->desc.lobe = &self->subject.lobe;
-        return given_lobe(self->options, text, false, &self->subject.lobe);
-    }
-    if ((kind_find(kind_of("profile"), text) > 0 || kind_find(kind_of("workflow"), text) >= 0) &&
-        !is_alias(text)) {
-        self->desc.profile = text;
-        return 0;
-    }
-    if (!is_preset(text)) return unknown(text);
-    char preset[128];
-    snprintf(preset, sizeof preset, "preset:%.100s", text);
-    return read_material(self, preset, log);
+    return 0;
 }
 
 /* The lobe of the right half. */
-static int read_right(Export *self, const char *text) {
-    WeftError error;
+static int read_right(Export *self, const char *typed) {
     if (self->desc.target != WEFT_EXPORT_SHADERTOY)
         return report(WEFT_USAGE, "%.200s: is one operand too many: two lobes are for --target shadertoy",
-                      text);
-    if (!self->desc.lobe)
-        return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", text);
-    if (kind_named(kind_of("lobe"), text) < 0) return WEFT_USAGE;
-    if (weft_lobe_create(text, &self->subject.right, &error) != WEFT_OK) return report_error(&error);
-    self->desc.right = &self->subject.right;
-    return 0;
+                      typed);
+    int result = self->desc.lobe ? subject_parse(typed, &self->right) : WEFT_USAGE;
+    if (!self->desc.lobe || (result == 0 && self->right.kind != SUBJECT_LOBE))
+        return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", typed);
+    self->desc.right = &self->right.lobe;
+    return result;
 }
 
 static int export_read(const Options *options, Export *self) {
@@ -180,7 +58,6 @@ static int export_read(const Options *options, Export *self) {
     const char *targets[WEFT_EXPORT_TARGETS + 1] = {NULL}, *luts[WEFT_EXPORT_LUTS + 1] = {NULL};
     int target, lut = 0, pi;
     *self = (Export){.options = options, .quiet = option_given(options, "--quiet")};
-    const WeftLog log = {say_warning, &self->quiet};
     for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target(k);
     for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut(k);
     if (!option_text(options, "--target"))
@@ -194,7 +71,7 @@ static int export_read(const Options *options, Export *self) {
     self->desc.albedo = option_given(options, "--albedo");
     self->desc.fold_pi = pi;
     self->desc.prefix = option_text(options, "--prefix");
-    int result = read_subject(self, options->operands[0], &log);
+    int result = read_subject(self, options->operands[0]);
     if (result == 0 && self->desc.albedo && !self->desc.lobe)
         result = report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
     if (result == 0 && options->operand_count > 1) result = read_right(self, options->operands[1]);
@@ -308,9 +185,8 @@ static const Option export_options[] = {
                 "unit has the 1/pi inside"),
     OPTION_SWITCH("--albedo", "of a lobe its directional albedo E too, from a table"),
     OPTION_TEXT("--prefix", "NAME", "weft_", "what every name begins with; another one where two texts meet"),
-    OPTION_PARAMS(", as its default"),
     OPTION_HEADING("Reports"),
-    OPTION_SWITCH("--quiet", "no warnings and no summary"),
+    OPTION_SWITCH("--quiet", "no summary"),
     OPTION_SWITCH("--json", "the files written as JSON on standard output"),
     OPTION_END,
 };
@@ -324,11 +200,12 @@ const Verb verb_export = {
     .options = export_options,
     .lists = lists,
     .notes = "SUBJECT is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
-             "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]. A\n"
+             "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]; all\n"
+             "with settings behind it, " SUBJECT_FORM ". A\n"
              "second lobe stands on the right half of a Shadertoy. docs/export.md explains the\n"
              "functions, pi, and how engines take them.\n\n"
              "Examples\n"
-             "  weft export charlie-neubelt --target hlsl -o charlie.ush\n"
+             "  weft export charlie-neubelt:alpha=0.3 --target hlsl -o charlie.ush\n"
              "  weft export ltc-fibre --target glsl --lut dds -o fuzz.glsl\n"
              "  weft export velvet --target c -o velvet.h\n"
              "  weft export chair.gltf:fabric --target essl --light-pi folded -o chair.glsl\n"

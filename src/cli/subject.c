@@ -7,6 +7,10 @@
 #include "names.h"
 #include "report.h"
 
+/* The kinds of names that are taken, in the order in which they are tried. */
+static const char *const taken[] = {"lobe", "profile", "workflow", "preset"};
+enum { KINDS = sizeof taken / sizeof *taken };
+
 /* What was typed, taken apart: kind, name and settings, each NULL where there is none. */
 typedef struct Parts {
     char text[1024];
@@ -25,11 +29,10 @@ static int take_apart(const char *typed, Parts *parts) {
     if (strlen(typed) >= sizeof parts->text) return report(WEFT_USAGE, "%.60s...: is too long a name", typed);
     snprintf(parts->text, sizeof parts->text, "%s", typed);
     parts->name = parts->text;
-    static const char *const prefixes[] = {"lobe", "profile", "preset"};
-    for (size_t k = 0; k < sizeof prefixes / sizeof *prefixes; k++) {
-        size_t n = strlen(prefixes[k]);
-        if (strncmp(typed, prefixes[k], n) != 0 || typed[n] != ':') continue;
-        parts->kind = kind_of(prefixes[k]);
+    for (size_t k = 0; k < KINDS; k++) {
+        size_t n = strlen(taken[k]);
+        if (strncmp(typed, taken[k], n) != 0 || typed[n] != ':') continue;
+        parts->kind = kind_of(taken[k]);
         parts->name = parts->text + n + 1;
     }
     char *equals = strchr(parts->name, '='), *colon = NULL;
@@ -84,13 +87,13 @@ static int of_lobe(Subject *subject, const char *id) {
     return weft_lobe_create(id, &subject->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-static int of_profile(Subject *subject, const char *id) {
+/* A choice, "profile" or "workflow", on a grey cloth. */
+static int of_choice(Subject *subject, const char *choice, const char *id) {
     static const char *const cloth[][2] = {
         {"base_color", "0.2"}, {"sheen_color", "1"}, {"sheen_roughness", "0.5"}, {"roughness", "1"}};
     WeftError error;
-    subject->kind = SUBJECT_PROFILE;
     weft_material_default(&subject->material);
-    WeftResult result = weft_material_set(&subject->material, "profile", id, NULL, &error);
+    WeftResult result = weft_material_set(&subject->material, choice, id, NULL, &error);
     for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
         result = weft_material_set(&subject->material, cloth[k][0], cloth[k][1], NULL, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
@@ -124,6 +127,17 @@ static int material_index(const WeftScene *scene, const char *path, const char *
     return -1;
 }
 
+/* Without its textures, under its own name where it has one. */
+static void take_material(Subject *subject, const char *name, const char *path) {
+    bool textured = false;
+    for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
+        textured |= subject->material.inputs[k].texture != 0;
+        subject->material.inputs[k].texture = 0;
+    }
+    if (textured) report(0, "warning: %.200s: its textures are left out: only its numbers count here", path);
+    if (*name) snprintf(subject->name, sizeof subject->name, "%s", name);
+}
+
 static int of_scene(Subject *subject, const char *path, const char *wanted) {
     WeftError error;
     WeftScene *scene;
@@ -132,7 +146,7 @@ static int of_scene(Subject *subject, const char *path, const char *wanted) {
     int index = material_index(scene, path, wanted), result = index < 0 ? WEFT_USAGE : 0;
     if (result == 0 && weft_scene_material(scene, index, &subject->material, &error) != WEFT_OK)
         result = report_error(&error);
-    for (int k = 0; result == 0 && k < WEFT_INPUTS_MAX; k++) subject->material.inputs[k].texture = 0;
+    if (result == 0) take_material(subject, weft_scene_material_name(scene, index), path);
     weft_scene_free(scene);
     return result;
 }
@@ -151,10 +165,9 @@ static char *scene_end(char *text) {
 static int not_known(const char *name) {
     char hint[96];
     Nearest nearest = {.typed = name};
-    static const char *const ids[] = {"lobe", "profile", "preset"};
-    for (size_t k = 0; k < sizeof ids / sizeof *ids; k++)
-        for (int n = 0; kind_of(ids[k])->name(n); n++) nearest_offer(&nearest, kind_of(ids[k])->name(n));
-    return report(WEFT_USAGE, "%.200s: is not a lobe, a profile, a preset or a file%s", name,
+    for (size_t k = 0; k < KINDS; k++)
+        for (int n = 0; kind_of(taken[k])->name(n); n++) nearest_offer(&nearest, kind_of(taken[k])->name(n));
+    return report(WEFT_USAGE, "%.200s: is not a lobe, a profile, a workflow, a preset or a file%s", name,
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }
 
@@ -162,17 +175,19 @@ static int of_kind(Subject *subject, const Kind *kind, const char *name) {
     char path[160];
     if (kind_named(kind, name) < 0) return WEFT_USAGE;
     if (kind == kind_of("lobe")) return of_lobe(subject, name);
-    if (kind == kind_of("profile")) return of_profile(subject, name);
+    if (kind != kind_of("preset")) {
+        subject->kind = kind == kind_of("profile") ? SUBJECT_PROFILE : SUBJECT_WORKFLOW;
+        return of_choice(subject, kind->id, name);
+    }
     snprintf(path, sizeof path, "preset:%.120s", name);
     return of_material(subject, path);
 }
 
 static int of_name(Subject *subject, const Parts *parts) {
-    static const char *const ids[] = {"lobe", "profile", "preset"};
     if (parts->kind) return of_kind(subject, parts->kind, parts->name);
-    for (size_t k = 0; k < sizeof ids / sizeof *ids; k++)
-        if (kind_find(kind_of(ids[k]), parts->name) >= 0)
-            return of_kind(subject, kind_of(ids[k]), parts->name);
+    for (size_t k = 0; k < KINDS; k++)
+        if (kind_find(kind_of(taken[k]), parts->name) >= 0)
+            return of_kind(subject, kind_of(taken[k]), parts->name);
     char *end = scene_end(parts->name);
     if (end) {
         const char *wanted = *end ? end + 1 : NULL;
@@ -182,8 +197,18 @@ static int of_name(Subject *subject, const Parts *parts) {
     if (ends_with(parts->name, ".json")) return of_material(subject, parts->name);
     if (!ends_with(parts->name, ".binary")) return not_known(parts->name);
     subject->kind = SUBJECT_MEASURED;
+    snprintf(subject->path, sizeof subject->path, "%s", parts->name);
     return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)
                            : 0;
+}
+
+/* The last part of a path, up to its suffix; of an id, all of it. */
+static void name_after(Subject *subject, const char *path) {
+    const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path, *point = strchr(file, '.');
+    size_t length = point && point > file ? (size_t)(point - file) : strlen(file);
+    if (length >= sizeof subject->name) length = sizeof subject->name - 1;
+    memcpy(subject->name, file, length);
+    subject->name[length] = '\0';
 }
 
 int subject_parse(const char *typed, Subject *out) {
@@ -191,8 +216,9 @@ int subject_parse(const char *typed, Subject *out) {
     memset(out, 0, sizeof *out);
     int result = take_apart(typed, &parts);
     if (result != 0) return result;
+    out->given = parts.settings != NULL;
     snprintf(out->words, sizeof out->words, "%s", typed);
-    snprintf(out->name, sizeof out->name, "%s", parts.name);
+    name_after(out, parts.name);
     result = of_name(out, &parts);
     return result == 0 && parts.settings ? set_all(out, parts.settings) : result;
 }
@@ -204,7 +230,7 @@ int subject_prepare(Subject *subject) {
     WeftResult result = subject->kind == SUBJECT_LOBE
                             ? weft_reflection_of_lobe(&subject->lobe, &subject->reflection, &error)
                         : subject->kind == SUBJECT_MEASURED
-                            ? weft_reflection_read(subject->words, &subject->reflection, &error)
+                            ? weft_reflection_read(subject->path, &subject->reflection, &error)
                             : weft_reflection_create(&subject->material, &subject->reflection, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }

@@ -57,8 +57,8 @@ static void all_subjects_are_found(void **state) {
 
 static void options_are_heeded(void **state) {
     (void)state;
-    finish(done(LIST("export", "charlie-neubelt", "-p", "alpha=0.5", "--target", "glsl", "--prefix", "fuzz_",
-                     "-o", "a.glsl")));
+    finish(done(LIST("export", "charlie-neubelt:alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o",
+                     "a.glsl")));
     assert_has("a.glsl", "m.alpha = 0.5;");
     assert_has("a.glsl", "vec3 fuzz_charlie_neubelt_eval(FuzzCharlieNeubelt m");
     assert_has("a.glsl", "EXPLICIT");
@@ -190,8 +190,8 @@ static void nonsense_is_refused(void **state) {
         {LIST("export", "preset:velvt", "--target", "c", "-o", "x"), 2, "is not a preset"},
         {LIST("export", "fibre-walk", "--target", "c", "-o", "x"), 2, "is a random walk"},
         {LIST("export", "fibre-walk", "--target", "glsl", "-o", "x"), 2, "is a random walk"},
-        {LIST("export", "ggx", "-p", "beta=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
-        {LIST("export", "khronos", "-p", "alpha=1", "--target", "c", "-o", "x"), 2, "-p"},
+        {LIST("export", "ggx:beta=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
+        {LIST("export", "khronos:alpha=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
         {LIST("export", "khronos", "--albedo", "--target", "c", "-o", "x"), 2, "--albedo"},
         {LIST("export", "ggx", "silk", "--target", "c", "-o", "x"), 2, "shadertoy"},
         {LIST("export", "khronos", "silk", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
