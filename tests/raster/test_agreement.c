@@ -182,12 +182,9 @@ static void on_spheres(void **state) {
     find_inside(scene, "0");
     weft_scene_free(scene);
     bool good = true;
-    enum { WHOLE = 3 }; /* choices of which every run takes all; of the others, some where it is not long */
+    int step = test_short() ? 11 : test_long() ? 1 : 3; /* raster/parity and raster/families take all */
     for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
-        good &= choice_agrees(choices[k].choice, choices[k].name,
-                              test_short()               ? 11
-                              : k < WHOLE || test_long() ? 1
-                                                         : 3);
+        good &= choice_agrees(choices[k].choice, choices[k].name, step);
     assert_true(good);
 }
 
@@ -210,7 +207,7 @@ static void on_a_textured_cloth(void **state) {
     find_inside(scene, NULL);
     weft_scene_free(scene);
     bool good = true;
-    for (size_t k = 0; k < sizeof dozen / sizeof dozen[0]; k += test_short() ? 6 : 1) {
+    for (size_t k = 0; k < sizeof dozen / sizeof dozen[0]; k += test_short() ? 6 : test_long() ? 1 : 3) {
         char words[96];
         scene = scene_of(path);
         choose(scene, dozen[k][0], dozen[k][1]);
