@@ -73,7 +73,7 @@ enum { WEFT_EXPORT_TABLES_MAX = 8, WEFT_EXPORT_NAME = 96 };
 /* A table that the text reads: F32, one channel, to be uploaded as it is, without filtering or mipmaps. */
 typedef struct WeftExportTable {
     char name[WEFT_EXPORT_NAME]; /* of the sampler, texture or array in the text */
-    WeftImage texels;
+    WeftImage texels;            /* owned */
     float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
 } WeftExportTable;
 

@@ -20,6 +20,7 @@
 extern "C" {
 #endif
 
+/* A measurement: directions and f. It does not change, so any number of threads may read it. */
 typedef struct WeftData WeftData;
 
 /* Reads a measurement: ".binary" in MERL's format, of which every bin whose numbers are right for a grid of
@@ -50,16 +51,18 @@ WEFT_API int weft_data_count(const WeftData *data, int *all);
 
 /* One candidate, fitted. */
 typedef struct WeftFitted {
-    WeftLobe lobe;
-    float base[3]; /* colour of the base */
-    double error;
-    long long evaluations;
+    WeftLobe lobe;         /* with the parameters and colours that were found */
+    float base[3];         /* colour of the base */
+    double error;          /* by the metric that was chosen */
+    long long evaluations; /* of the error, that it took */
 } WeftFitted;
 
+/* As many candidates as a ranking has room for. */
 enum { WEFT_FITTED_MOST = 64 };
 
+/* The ranking. */
 typedef struct WeftFit {
-    int count;
+    int count;                           /* of fitted, <= WEFT_FITTED_MOST */
     WeftFitted fitted[WEFT_FITTED_MOST]; /* the best first */
     WeftFitted baseline;                 /* ggx over lambert, f90 = 1: what engines have for everything */
     double base_alone;                   /* the error of the base without a lobe */
@@ -67,13 +70,13 @@ typedef struct WeftFit {
 
 /* Zero-initialise for the defaults. */
 typedef struct WeftFitDesc {
-    WeftApart metric; /* LOG where `chosen` is 0; PICTURE is refused */
-    int chosen;
-    const char *base; /* a diffuse lobe, with its default parameters; NULL: lambert */
-    const char *only; /* one candidate instead of all; NULL: all */
-    int threads;      /* 0: one a processor; no influence on the result */
-    WeftProgress progress;
-    void *user;
+    WeftApart metric;      /* LOG where `chosen` is 0; PICTURE is refused */
+    int chosen;            /* not 0: metric was chosen */
+    const char *base;      /* a diffuse lobe, with its default parameters; NULL: lambert */
+    const char *only;      /* one candidate instead of all; NULL: all */
+    int threads;           /* 0: one a processor; no influence on the result */
+    WeftProgress progress; /* may be NULL */
+    void *user;            /* handed to progress */
 } WeftFitDesc;
 
 /* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,

@@ -79,26 +79,29 @@ WEFT_API int weft_match_is_free(const WeftMaterial *material, int input);
 /* Many matches at once, on `threads` threads (0: one a processor). progress (may be NULL) can stop it:
  * WEFT_INTERRUPTED. Each says in `result` how it went; fails with the first that did not. */
 typedef struct WeftMatchJob {
-    const WeftReflection *from;
-    int is_lobe;           /* lobe is what is matched, else material */
-    unsigned hold;         /* of the lobe */
-    const int *held;       /* of the material; may be NULL */
-    WeftLobe lobe;         /* where to begin, then the match */
-    WeftMaterial material; /* likewise */
-    WeftMatch found;
-    WeftResult result;
+    const WeftReflection *from; /* borrowed */
+    int is_lobe;                /* lobe is what is matched, else material */
+    unsigned hold;              /* of the lobe */
+    const int *held;            /* of the material; may be NULL */
+    WeftLobe lobe;              /* where to begin, then the match */
+    WeftMaterial material;      /* likewise */
+    WeftMatch found;            /* the errors of copy and match */
+    WeftResult result;          /* how it went */
 } WeftMatchJob;
+
+/* Does jobs[0 .. count) on so many threads (0: one a processor); user is handed to progress, which may be
+ * NULL. */
 WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
                                     WeftProgress progress, void *user, WeftError *error);
 
 /* What became of one material of an asset. Numbers are those of its factors: with textures, `matched` is
  * made for what texel and factor are on average, and the factor scaled as that was. */
 typedef struct WeftAssetMatch {
-    char name[64];
-    int changed; /* 0: it has no sheen, or is unlit, and stays as it is */
-    int clipped; /* not 0: a factor would have passed 1, where glTF ends */
-    WeftMatch found;
-    WeftMaterial copied, matched;
+    char name[64];                /* of the material, cut where it is long */
+    int changed;                  /* 0: it has no sheen, or is unlit, and stays as it is */
+    int clipped;                  /* not 0: a factor would have passed 1, where glTF ends */
+    WeftMatch found;              /* the errors of copy and match */
+    WeftMaterial copied, matched; /* under profile `to`: with the numbers as they were, and as they are now */
 } WeftAssetMatch;
 
 /* Writes the glTF file at `path` again for another engine, as `out`: the factors base_color, roughness,

@@ -21,7 +21,7 @@ static void take(const void *data, size_t size) {
     float f[3];
     if (merl_read_memory(data, size, "fuzz", &merl, &error) == WEFT_OK)
         for (int k = 0; k < 64; k++) {
-            float z = (float)(k + 1) / 64.0f, r = (float)sqrt(fmax(1.0 - (double)z * (double)z, 0.0));
+            float z = (float)(k + 1) / 64.0f, r = (float)(sqrt)((fmax)(1.0 - (double)z * (double)z, 0.0));
             Dir o = {.x = r, .y = 0.0f, .z = z}, i = {.x = 0.0f, .y = r, .z = z};
             merl_at(&merl, o, i, f);
             for (int c = 0; c < 3; c++) demand(isfinite(f[c]) && f[c] >= 0.0f);
