@@ -2,7 +2,6 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "audit_sheet.h"
 #include "bake.h"
@@ -10,6 +9,7 @@
 #include "json.h"
 #include "layout.h"
 #include "output.h"
+#include "path.h"
 #include "report.h"
 
 typedef struct Audit {
@@ -30,15 +30,10 @@ static const char *lobe_id(const Audit *audit) { return weft_lobe_info(audit->lo
 
 /* Reading. */
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 static int outputs_check(const Options *options) {
     int cursor = 0, result = 0;
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
-        if (suffix_is(path, ".png") || suffix_is(path, ".exr") || suffix_is(path, ".npy"))
+        if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy"))
             result = output_probe(path);
         else
             result = report(WEFT_USAGE, "%s: the errors of an audit are a .png, .exr or .npy", path);
@@ -234,7 +229,7 @@ static int files_write(const Audit *audit) {
     int cursor = 0, result = 0;
     for (const char *path; result == 0 && (path = option_next(audit->options, "-o", &cursor));) {
         WeftResult one = WEFT_OK;
-        if (suffix_is(path, ".png")) {
+        if (path_ends(path, ".png")) {
             if (!sheet.pixels) one = audit_sheet(&desc, &sheet, &error);
             if (one == WEFT_OK) one = weft_image_write(path, &sheet, &error);
         } else {

@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "json.h"
 #include "layout.h"
 #include "output.h"
+#include "path.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -32,15 +32,10 @@ static bool failed(const Diff *diff) {
 
 /* Reading. */
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 static int output_check(Diff *diff) {
     const char *path = diff->output = option_text(diff->options, "-o");
     if (!path) return 0;
-    if (suffix_is(path, ".png") || suffix_is(path, ".exr") || suffix_is(path, ".npy"))
+    if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy"))
         return output_probe(path);
     return report(WEFT_USAGE, "%s: how pictures differ is a .png, .exr or .npy", path);
 }
@@ -177,7 +172,7 @@ static WeftResult heat_write(const Diff *diff, WeftError *error) {
 static WeftResult map_write(const Diff *diff, WeftError *error) {
     const WeftImageWriting how = {.data = 1, .single = 1};
     if (!diff->output) return WEFT_OK;
-    if (suffix_is(diff->output, ".png")) return heat_write(diff, error);
+    if (path_ends(diff->output, ".png")) return heat_write(diff, error);
     return weft_image_write_as(diff->output, &diff->map, &how, error);
 }
 

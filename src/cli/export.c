@@ -158,7 +158,7 @@ static int export_run(const Options *options) {
     Export self;
     WeftError error;
     int result = export_read(options, &self);
-    if (result == 0) result = output_probe(option_text(options, "-o"));
+    if (result == 0) result = output_probe_apart(options, option_text(options, "-o"));
     if (result != 0) return result;
     if (weft_export(&self.desc, &self.made, &error) != WEFT_OK) return report_error(&error);
     result = files_write(&self);

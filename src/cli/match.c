@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "json.h"
 #include "layout.h"
 #include "output.h"
+#include "path.h"
 #include "report.h"
 #include "verbs.h"
 
@@ -156,11 +156,6 @@ static void json_write(const Match *match, double errors[PARTS][2]) {
     json_close(&json, '}');
 }
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 /* The match as a material file: worn by a built-in scene, which can write it. */
 static int material_write(const WeftMaterial *material, const char *path) {
     WeftError error;
@@ -175,16 +170,16 @@ static int material_write(const WeftMaterial *material, const char *path) {
 static int output_check(const Match *match) {
     const char *path = option_text(match->options, "-o");
     if (!path) return 0;
-    if (suffix_is(path, ".json") && match->to.kind == SUBJECT_LOBE)
+    if (path_ends(path, ".json") && match->to.kind == SUBJECT_LOBE)
         return report(WEFT_USAGE, "%s: a lobe is no material; .png writes pictures", path);
-    if (suffix_is(path, ".json") || suffix_is(path, ".png")) return output_probe(path);
+    if (path_ends(path, ".json") || path_ends(path, ".png")) return output_probe_apart(match->options, path);
     return report(WEFT_USAGE, "%s: a match is written as .png (pictures) or .json (a material)", path);
 }
 
 static int output_write(const Match *match) {
     const char *path = option_text(match->options, "-o");
     if (!path) return 0;
-    return suffix_is(path, ".png") ? match_sheet_write(match, path)
+    return path_ends(path, ".png") ? match_sheet_write(match, path)
                                    : material_write(&match->to.material, path);
 }
 
@@ -204,18 +199,55 @@ static int pair_run(Match *match) {
     return 0;
 }
 
+/* What a run is for, how many operands that has, and which options go with it. */
+typedef struct Mode {
+    const char *option; /* that asks for it; NULL: none does */
+    int operands;
+    const char *needs;
+    const char *with[5]; /* beside --json and --metric */
+} Mode;
+
+static const Mode modes[] = {{"--table", 0, "takes no names", {NULL}},
+                             {"--maps", 0, "takes no names", {NULL}},
+                             {"--to", 1, "needs one asset, a .gltf or .glb", {"--from", "-o", NULL}},
+                             {"--workflow", 1, "needs one asset, a .gltf or .glb", {"-o", NULL}},
+                             {NULL, 2, "match needs two names, FROM and TO", {"--hold", "-o", NULL}}};
+enum { MODES = sizeof modes / sizeof *modes };
+
+static bool goes_with(const Mode *mode, const char *option) {
+    bool good = mode->option && strcmp(mode->option, option) == 0;
+    for (int k = 0; mode->with[k]; k++) good |= strcmp(mode->with[k], option) == 0;
+    return good;
+}
+
+/* Which of the modes is asked for; -1 after one line where what was typed does not go together. */
+static int mode_of(const Options *options) {
+    static const char *const all[] = {"--table", "--maps", "--to", "--workflow", "--from", "--hold", "-o"};
+    int mode = 0;
+    while (modes[mode].option && !option_given(options, modes[mode].option)) mode++;
+    const char *name = modes[mode].option ? modes[mode].option : "";
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (option_given(options, all[k]) && !goes_with(&modes[mode], all[k])) {
+            report(WEFT_USAGE, "%s: does not go with %s", all[k], *name ? name : "FROM and TO");
+            return -1;
+        }
+    if (options->operand_count == modes[mode].operands) return mode;
+    report(WEFT_USAGE, "%s%s%s; see weft match --help", name, *name ? ": " : "", modes[mode].needs);
+    return -1;
+}
+
 static int match_run(const Options *options) {
     static const char *const metrics[] = {"cosine", "log", "picture", NULL};
     Match match = {.options = options};
     int metric = 0;
     if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
     match.metric = (WeftApart)metric;
+    int mode = mode_of(options);
+    if (mode < 0) return WEFT_USAGE;
     if (option_given(options, "--table")) return match_table(options, match.metric);
     if (option_given(options, "--maps")) return match_maps(options, match.metric);
     if (option_given(options, "--to") || option_given(options, "--workflow"))
         return match_asset(options, match.metric);
-    if (options->operand_count != 2)
-        return report(WEFT_USAGE, "two names are needed, FROM and TO; see weft match --help");
     int result = pair_run(&match);
     match_free(&match);
     return result;

@@ -7,6 +7,7 @@
 #include "match.h"
 #include "names.h"
 #include "output.h"
+#include "path.h"
 #include "report.h"
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
@@ -16,10 +17,10 @@ static void on_warning(void *user, WeftMessage message, const char *text) {
 
 static int needs(const Options *options, const char **out) {
     *out = option_text(options, "-o");
-    if (options->operand_count != 1)
-        return report(WEFT_USAGE, "one asset is needed, a .gltf or .glb; see weft match --help");
     if (!*out) return report(WEFT_USAGE, "%.200s: -o says where it goes", options->operands[0]);
-    return output_probe(*out);
+    if (!path_ends(*out, ".gltf") && !path_ends(*out, ".glb"))
+        return report(WEFT_USAGE, "%.200s: an asset is written as .gltf or .glb", *out);
+    return output_probe_apart(options, *out);
 }
 
 static void values_text(const float *v, bool color, char text[48]) {
@@ -35,7 +36,7 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftApart metri
     for (int k = 0; k < count; k++) {
         const WeftAssetMatch *match = &matches[k];
         printf("%s%s\n", match->name[0] ? match->name : "(no name)",
-               match->changed ? "" : ": has no sheen and stays");
+               match->changed ? "" : ": has no sheen, or is unlit, and stays");
         if (!match->changed) continue;
         printf("  %-18s %-22.4f %.4f\n", weft_apart_name(metric), match->found.copied, match->found.matched);
         for (int n = 0; weft_material_input_info(n, &info); n++) {
@@ -55,17 +56,19 @@ static bool has_changed(const WeftAssetMatch *match, int input) {
     return false;
 }
 
-static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metric) {
+static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metric, const char *out) {
     Json json = {.stream = stdout};
     WeftInputInfo info;
-    json_open(&json, NULL, '[');
+    json_open(&json, NULL, '{');
+    json_text(&json, "metric", weft_apart_name(metric));
+    json_text(&json, "output", out);
+    json_open(&json, "materials", '[');
     for (int k = 0; k < count; k++) {
         const WeftAssetMatch *match = &matches[k];
         json_open(&json, NULL, '{');
         json_text(&json, "material", match->name);
         json_bool(&json, "changed", match->changed != 0);
         json_bool(&json, "clipped", match->clipped != 0);
-        json_text(&json, "metric", weft_apart_name(metric));
         json_number(&json, "copied", match->found.copied);
         json_number(&json, "matched", match->found.matched);
         json_open(&json, "factors", '{');
@@ -77,6 +80,7 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metri
         json_close(&json, '}');
     }
     json_close(&json, ']');
+    json_close(&json, '}');
 }
 
 static int to_engine(const Options *options, const char *out, WeftApart metric) {
@@ -93,16 +97,21 @@ static int to_engine(const Options *options, const char *out, WeftApart metric) 
         weft_match_asset(options->operands[0], out, from, to, metric, matches, ROOM, &count, &log, &error);
     if (count > ROOM) count = ROOM;
     if (result == WEFT_OK && option_given(options, "--json"))
-        asset_json(matches, count, metric);
+        asset_json(matches, count, metric, out);
     else if (result == WEFT_OK)
         asset_text(matches, count, metric);
     free(matches);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-static void losses_write(const WeftScene *scene, const float *losses, int count, bool as_json) {
+static void losses_write(const WeftScene *scene, const float *losses, int count, bool as_json,
+                         const char *out) {
     Json json = {.stream = stdout};
-    if (as_json) json_open(&json, NULL, '[');
+    if (as_json) {
+        json_open(&json, NULL, '{');
+        json_text(&json, "output", out);
+        json_open(&json, "materials", '[');
+    }
     for (int k = 0; k < count; k++) {
         const char *name = weft_scene_material_name(scene, k);
         if (as_json) {
@@ -118,7 +127,9 @@ static void losses_write(const WeftScene *scene, const float *losses, int count,
             printf("%s: converted, off by %.4f at most\n", name[0] ? name : "(no name)", (double)losses[k]);
         }
     }
-    if (as_json) json_close(&json, ']');
+    if (!as_json) return;
+    json_close(&json, ']');
+    json_close(&json, '}');
 }
 
 /* weft_scene_convert, saved: metallic to specular and back. */
@@ -136,7 +147,7 @@ static int to_workflow(const Options *options, const char *out) {
     }
     result = weft_scene_convert(scene, option_text(options, "--workflow"), losses, &error);
     if (result == WEFT_OK) result = weft_scene_save(scene, out, &error);
-    if (result == WEFT_OK) losses_write(scene, losses, count, option_given(options, "--json"));
+    if (result == WEFT_OK) losses_write(scene, losses, count, option_given(options, "--json"), out);
     free(losses);
     weft_scene_free(scene);
     return result == WEFT_OK ? 0 : report_error(&error);
@@ -146,7 +157,5 @@ int match_asset(const Options *options, WeftApart metric) {
     const char *out;
     int result = needs(options, &out);
     if (result != 0) return result;
-    if (option_given(options, "--to") && option_given(options, "--workflow"))
-        return report(WEFT_USAGE, "--to and --workflow are two things to do");
     return option_given(options, "--to") ? to_engine(options, out, metric) : to_workflow(options, out);
 }

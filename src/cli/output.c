@@ -90,3 +90,29 @@ int output_probe(const char *path) {
     if (result == 0) output_drop(&output);
     return result;
 }
+
+static bool same_file(const struct stat *there, const char *name) {
+    struct stat status;
+    return stat(name, &status) == 0 && status.st_dev == there->st_dev && status.st_ino == there->st_ino;
+}
+
+/* An operand is a file by its whole name or up to one of its colons: "chair.glb:fabric". */
+static bool names_file(const struct stat *there, const char *operand) {
+    char *name = strdup(operand);
+    bool same = name && same_file(there, name);
+    for (char *colon = name ? strrchr(name, ':') : NULL; colon && !same; colon = strrchr(name, ':')) {
+        *colon = '\0';
+        same = same_file(there, name);
+    }
+    free(name);
+    return same;
+}
+
+int output_probe_apart(const Options *options, const char *path) {
+    struct stat there;
+    bool exists = stat(path, &there) == 0;
+    for (int k = 0; exists && k < options->operand_count; k++)
+        if (names_file(&there, options->operands[k]))
+            return report(WEFT_USAGE, "%s: is what is read: it would be lost", path);
+    return output_probe(path);
+}

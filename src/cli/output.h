@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "options.h"
+
 typedef struct Output {
     FILE *stream; /* write here */
     const char *path;
@@ -22,5 +24,9 @@ void output_drop(Output *output);
 
 /* Whether path can be written, found out by making a file there and removing it. Returns as output_begin. */
 int output_probe(const char *path);
+
+/* The same of a path that must not be one of the files among the operands, with or without what stands behind
+ * a colon there: what is read is not written over. */
+int output_probe_apart(const Options *options, const char *path);
 
 #endif

@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "layout.h"
 #include "names.h"
 #include "output.h"
+#include "path.h"
 #include "plot_numbers.h"
 #include "report.h"
 #include "subject.h"
@@ -76,11 +76,6 @@ static int size_read(Plot *plot) {
     return 0;
 }
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 static int output_read(Plot *plot) {
     const bool json = option_given(plot->options, "--json"), csv = option_given(plot->options, "--csv");
     plot->output = option_text(plot->options, "-o");
@@ -90,7 +85,7 @@ static int output_read(Plot *plot) {
     if (!plot->output && !json && !csv)
         return report(WEFT_USAGE, "plot: needs -o FILE%s", plot->report ? ".html" : ", --json or --csv");
     if (!plot->output) return 0;
-    if (plot->report && !suffix_is(plot->output, ".html"))
+    if (plot->report && !path_ends(plot->output, ".html"))
         return report(WEFT_USAGE, "%.300s: a report is an .html", plot->output);
     if (!plot->report && !weft_plot_suffix_known(plot->output))
         return report(WEFT_USAGE, "%.300s: a plot is a .png, .svg or .pdf", plot->output);

@@ -2,22 +2,17 @@
 
 #include <stdbool.h>
 #include <string.h>
-#include <strings.h>
 
 #include "output.h"
+#include "path.h"
 #include "report.h"
 #include "weft/material.h"
 #include "weft/save.h"
 
-static bool ends(const char *path, const char *suffix) {
-    size_t length = strlen(path), size = strlen(suffix);
-    return length > size && strcasecmp(path + length - size, suffix) == 0;
-}
-
 int save_check(const Options *options) {
     int cursor = 0, result = 0;
     for (const char *path; !result && (path = option_next(options, "--save", &cursor));) {
-        if (!ends(path, ".glb") && !ends(path, ".gltf") && !ends(path, ".json"))
+        if (!path_ends(path, ".glb") && !path_ends(path, ".gltf") && !path_ends(path, ".json"))
             return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf or .json file", path);
         result = output_probe(path);
     }
@@ -48,7 +43,7 @@ WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *e
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));)
-        result = ends(path, ".json") ? weft_scene_save_material(scene, find_cloth(scene), path, error)
-                                     : weft_scene_save(scene, path, error);
+        result = path_ends(path, ".json") ? weft_scene_save_material(scene, find_cloth(scene), path, error)
+                                          : weft_scene_save(scene, path, error);
     return result;
 }

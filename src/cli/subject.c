@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "names.h"
+#include "path.h"
 #include "report.h"
 
 /* The kinds of names that are taken, in the order in which they are tried. */
@@ -17,11 +18,6 @@ typedef struct Parts {
     const Kind *kind;
     char *name, *settings;
 } Parts;
-
-static bool ends_with(const char *text, const char *end) {
-    size_t n = strlen(text), m = strlen(end);
-    return n > m && strcmp(text + n - m, end) == 0;
-}
 
 /* A colon begins settings where a '=' follows it; a kind or a file's material where none does. */
 static int take_apart(const char *typed, Parts *parts) {
@@ -156,7 +152,7 @@ static char *scene_end(char *text) {
     for (char *end = text + strcspn(text, ":");; end += 1 + strcspn(end + 1, ":")) {
         char after = *end;
         *end = '\0';
-        bool scene = ends_with(text, ".gltf") || ends_with(text, ".glb");
+        bool scene = path_ends(text, ".gltf") || path_ends(text, ".glb");
         *end = after;
         if (scene || !after) return scene ? end : NULL;
     }
@@ -194,8 +190,8 @@ static int of_name(Subject *subject, const Parts *parts) {
         *end = '\0';
         return of_scene(subject, parts->name, wanted);
     }
-    if (ends_with(parts->name, ".json")) return of_material(subject, parts->name);
-    if (!ends_with(parts->name, ".binary")) return not_known(parts->name);
+    if (path_ends(parts->name, ".json")) return of_material(subject, parts->name);
+    if (!path_ends(parts->name, ".binary")) return not_known(parts->name);
     subject->kind = SUBJECT_MEASURED;
     snprintf(subject->path, sizeof subject->path, "%s", parts->name);
     return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)

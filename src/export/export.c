@@ -30,7 +30,7 @@ static bool is_prefix(const char *prefix) {
     size_t size = strlen(prefix);
     bool good = size <= 24 && !(size && is_digit(prefix[0]));
     for (size_t k = 0; k < size; k++) good &= is_name(prefix[k]);
-    return good;
+    return good && strncmp(prefix, "gl_", 3) != 0 && !strstr(prefix, "__"); /* GLSL keeps those for itself */
 }
 
 static WeftResult check_lobe(const WeftLobe *lobe, WeftError *error) {

@@ -5,17 +5,12 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/fail.h"
+#include "base/path.h"
 #include "gltf/container.h"
 #include "gltf/saving.h"
 #include "weft/version.h"
-
-static bool ends(const char *path, const char *suffix) {
-    size_t length = strlen(path), size = strlen(suffix);
-    return length > size && strcasecmp(path + length - size, suffix) == 0;
-}
 
 static void root_save(Saving *saving) {
     json_t *info = json_object();
@@ -68,8 +63,8 @@ static void file_write(Saving *saving) {
 }
 
 WeftResult weft_scene_save(const WeftScene *scene, const char *path, WeftError *error) {
-    bool packed = ends(path, ".glb");
-    if (!packed && !ends(path, ".gltf"))
+    bool packed = path_ends(path, ".glb");
+    if (!packed && !path_ends(path, ".gltf"))
         return fail(error, WEFT_MESSAGE_SCENE_KIND, path, "write a .glb or a .gltf");
     Saving saving = {.scene = scene, .path = path, .packed = packed, .error = error, .root = json_object()};
     if (!saving.root) saving_fail(&saving, WEFT_MESSAGE_MEMORY, path, NULL);

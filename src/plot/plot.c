@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "plot/making.h"
 #include "plot/page.h"
 #include "plot/vector.h"
@@ -215,13 +215,8 @@ WeftResult plot_write_bytes(const char *path, const Vector *bytes, WeftError *er
     return fail(error, WEFT_MESSAGE_FILE_WRITE, path, NULL);
 }
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 int weft_plot_suffix_known(const char *path) {
-    return suffix_is(path, ".png") || suffix_is(path, ".svg") || suffix_is(path, ".pdf");
+    return path_ends(path, ".png") || path_ends(path, ".svg") || path_ends(path, ".pdf");
 }
 
 WeftResult weft_plot_write(const WeftPlotDesc *desc, const char *path, WeftError *error) {
@@ -231,14 +226,14 @@ WeftResult weft_plot_write(const WeftPlotDesc *desc, const char *path, WeftError
     WeftResult result = weft_plot_data(desc, &data, error);
     if (result != WEFT_OK) return result;
     Page page = page_of(desc, &data, error);
-    if (suffix_is(path, ".png")) {
+    if (path_ends(path, ".png")) {
         WeftImage image = {0};
         result = page_image(&page, &image);
         if (result == WEFT_OK) result = weft_image_write(path, &image, error);
         weft_image_free(&image);
     } else {
         Vector bytes = {0};
-        result = vector_page(&page, suffix_is(path, ".pdf"), &bytes);
+        result = vector_page(&page, path_ends(path, ".pdf"), &bytes);
         if (result == WEFT_OK) result = plot_write_bytes(path, &bytes, error);
         free(bytes.text);
     }

@@ -80,7 +80,7 @@ static void an_asset_is_rewritten(void **state) {
     (void)state;
     json_t *json = printed(
         LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
-    const json_t *cloth = json_array_get(json, 0);
+    const json_t *cloth = json_array_get(json_object_get(json, "materials"), 0);
     assert_true(json_is_true(json_object_get(cloth, "changed")));
     assert_true(number(cloth, "matched") < number(cloth, "copied"));
     WeftScene *scenes[2];
@@ -107,8 +107,9 @@ static void an_asset_is_rewritten(void **state) {
     json_decref(json);
     /* and to specular and back */
     json = printed(LIST("match", "scene.gltf", "--workflow", "specular", "-o", "specular.glb", "--json"));
-    assert_true(json_is_true(json_object_get(json_array_get(json, 0), "converted")));
-    assert_true(number(json_array_get(json, 0), "loss") < 0.01);
+    assert_true(
+        json_is_true(json_object_get(json_array_get(json_object_get(json, "materials"), 0), "converted")));
+    assert_true(number(json_array_get(json_object_get(json, "materials"), 0), "loss") < 0.01);
     json_decref(json);
     json = printed(LIST("match", "specular.glb", "--workflow", "metallic", "-o", "metallic.glb", "--json"));
     json_decref(json);
@@ -162,6 +163,15 @@ static void the_chair_looks_as_it_did(void **state) {
 static void complaints(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("match", "ggx"), 2, "FROM and TO");
+    assert_complaint(NULL, LIST("match", "--table", "ggx"), 2, "takes no names");
+    assert_complaint(NULL, LIST("match", "--maps", "--table"), 2, "does not go with");
+    assert_complaint(NULL, LIST("match", "--maps", "-o", "a.png"), 2, "does not go with");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "--from", "three"), 2, "does not go with");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "--hold", "x", "-o", "a.glb"), 2,
+                     "--hold");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "a.json"), 2, ".gltf or .glb");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "scene.gltf"), 2,
+                     "would be lost");
     assert_complaint(NULL, LIST("match", "ggx", "velours"), 2, "velours");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--metric", "l2"), 2, "l2");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "fuzz"), 2, "fuzz");

@@ -1,0 +1,15 @@
+/* path.h - names of files */
+#ifndef WEFT_CLI_PATH_H
+#define WEFT_CLI_PATH_H
+
+#include <stdbool.h>
+#include <string.h>
+#include <strings.h>
+
+/* Whether a path ends in that suffix, in any case, and has more before it. */
+static inline bool path_ends(const char *path, const char *suffix) {
+    size_t length = strlen(path), size = strlen(suffix);
+    return length > size && strcasecmp(path + length - size, suffix) == 0;
+}
+
+#endif
