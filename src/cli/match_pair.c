@@ -6,11 +6,9 @@
 #include "match.h"
 #include "report.h"
 
-static bool has_inputs(const Subject *subject) {
-    return subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_MATERIAL;
+bool match_has_parts(const Match *match) {
+    return subject_is_material(&match->from) && subject_is_material(&match->to);
 }
-
-bool match_has_parts(const Match *match) { return has_inputs(&match->from) && has_inputs(&match->to); }
 
 /* A parameter by name; where the first ones, which are widths, have two names, the number all the same. */
 static int param_like(const WeftLobeInfo *from, const WeftLobeInfo *to, int param) {

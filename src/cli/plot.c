@@ -115,11 +115,11 @@ static int subjects_read(Plot *plot) {
         if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && subject->kind != SUBJECT_LOBE)
             return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes are sampled by themselves",
                           subject->words);
-        bool whole = subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_MATERIAL;
-        plot->subjects[k] = (WeftPlotSubject){.reflection = subject->reflection,
-                                              .lobe = subject->kind == SUBJECT_LOBE ? &subject->lobe : NULL,
-                                              .material = whole ? &subject->material : NULL,
-                                              .label = label_of(subject)};
+        plot->subjects[k] =
+            (WeftPlotSubject){.reflection = subject->reflection,
+                              .lobe = subject->kind == SUBJECT_LOBE ? &subject->lobe : NULL,
+                              .material = subject_is_material(subject) ? &subject->material : NULL,
+                              .label = label_of(subject)};
     }
     plot->desc.subjects = plot->subjects;
     return 0;

@@ -236,6 +236,10 @@ int subject_read(const char *typed, Subject *out) {
     return result == 0 ? subject_prepare(out) : result;
 }
 
+bool subject_is_material(const Subject *subject) {
+    return subject->kind != SUBJECT_LOBE && subject->kind != SUBJECT_MEASURED;
+}
+
 void subject_free(Subject *subject) {
     weft_reflection_free(subject->reflection);
     subject->reflection = NULL;

@@ -50,6 +50,9 @@ int subject_parse(const char *typed, Subject *out);
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */
 int subject_prepare(Subject *subject);
 
+/* Whether it has a material: a profile and a workflow have one too. */
+bool subject_is_material(const Subject *subject);
+
 void subject_free(Subject *subject);
 
 #endif
