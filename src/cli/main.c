@@ -84,7 +84,7 @@ static int dispatch(int count, char **arguments) {
     if (count < 2) return report(WEFT_USAGE, "a verb is needed; see weft --help");
     const char *word = arguments[1];
     if (strcmp(word, "help") == 0) return help_run(count - 2, arguments + 2);
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return help_run(0, NULL);
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return help_run(0, arguments + count);
     if (strcmp(word, "--version") == 0 || strcmp(word, "version") == 0) {
         printf("weft %s\n", weft_version());
         return 0;
