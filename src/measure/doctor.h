@@ -15,10 +15,10 @@ typedef struct Repair {
         REPAIR_NUMBERS, /* it becomes an array of `count` numbers */
         REPAIR_REMOVE,  /* it goes away */
         REPAIR_DECLARE, /* extensionsUsed gets the name that `extension` is */
-        REPAIR_ALPHA    /* a texture's channel moves to alpha, in a picture of its own */
+        REPAIR_ALPHA    /* a channel of texture number `texture` moves to alpha, in a picture of its own */
     } act;
     double numbers[4];
-    int count, channel;
+    int count, texture, channel;
     char extension[64];
 } Repair;
 

@@ -162,7 +162,8 @@ void check_channel(WeftDoctor *doctor, const Cloth *cloth) {
         colors = file_image(doctor, json_object_get(cloth->sheen, "sheenColorTexture"));
     float spread = pixels->high[channel] - pixels->low[channel];
     if (spread > 4.0f / 255.0f && file_image(doctor, info) != colors) {
-        const Repair repair = {.act = REPAIR_ALPHA, .channel = channel};
+        const Repair repair = {
+            .act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
         doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL, place, doctor_engines(),
                      (double)pixels->mean[channel], &repair,
                      "sheenRoughnessTexture is read from alpha, which is 1 everywhere; what was painted "
