@@ -210,6 +210,7 @@ void weft_doctor_free(WeftDoctor *doctor) {
     free(doctor->items);
     free(doctor->repairs);
     free(doctor->pixels);
+    free(doctor->energies);
     free(doctor);
 }
 

@@ -29,6 +29,8 @@ typedef struct Pixels {
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
 
+typedef struct Energy Energy; /* of doctor_energy.c */
+
 struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
@@ -38,8 +40,10 @@ struct WeftDoctor {
     WeftFinding *items;
     Repair *repairs;
     int count, room;
-    Pixels *pixels; /* of the scene's images */
-    bool failed;    /* memory gave out */
+    Pixels *pixels;   /* of the scene's images */
+    Energy *energies; /* of the materials whose light was measured */
+    int energy_count, energy_room;
+    bool failed; /* memory gave out */
 };
 
 /* Where something is. */
