@@ -32,7 +32,7 @@ int weft_finding_fixable(int kind) { return is_kind(kind) ? catalogue[kind].fixa
 
 const char *weft_severity_name(WeftSeverity severity) {
     static const char *const names[] = {"note", "warning", "error"};
-    return names[severity];
+    return (unsigned)severity < sizeof names / sizeof *names ? names[severity] : NULL;
 }
 
 /* The list in the file that things of a kind are in. */

@@ -288,6 +288,10 @@ static void every_finding_has_a_case(void **state) {
     }
     assert_null(weft_finding_name(-1));
     assert_null(weft_finding_name(WEFT_FINDING_COUNT));
+    assert_string_equal(weft_severity_name(WEFT_SEVERITY_NOTE), "note");
+    assert_string_equal(weft_severity_name(WEFT_SEVERITY_ERROR), "error");
+    assert_null(weft_severity_name((WeftSeverity)(WEFT_SEVERITY_ERROR + 1)));
+    assert_null(weft_severity_name((WeftSeverity)-1));
 }
 
 static char folder[] = "/tmp/weft-doctor-XXXXXX";
