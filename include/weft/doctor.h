@@ -85,7 +85,7 @@ WEFT_API const char *weft_finding_help(int kind);
 WEFT_API WeftSeverity weft_finding_severity(int kind);
 WEFT_API int weft_finding_fixable(int kind);
 
-/* "note", "warning" or "error". */
+/* "note", "warning" or "error"; NULL out of range. */
 WEFT_API const char *weft_severity_name(WeftSeverity severity);
 
 /* What it is found in. */

@@ -18,7 +18,7 @@ typedef struct Visit {
     const Options *options;
     const char *path, *output; /* output: NULL: nothing is to be fixed */
     WeftDoctor *doctor;
-    bool quiet;
+    bool no_notes;
     int counts[3], fixable,
         left; /* left: errors and warnings that are there, or are there still after --fix */
 } Visit;
@@ -40,7 +40,7 @@ static const char *of_name(WeftFindingOf of) {
 }
 
 static bool is_told(const Visit *visit, const WeftFinding *finding) {
-    return !visit->quiet || finding->severity != WEFT_SEVERITY_NOTE;
+    return !visit->no_notes || finding->severity != WEFT_SEVERITY_NOTE;
 }
 
 static void count_all(Visit *visit) {
@@ -245,7 +245,7 @@ static int visit_make(Visit *visit) {
 static int doctor_run(const Options *options) {
     Visit visit = {.options = options,
                    .output = option_text(options, "-o"),
-                   .quiet = option_given(options, "-q"),
+                   .no_notes = option_given(options, "--no-notes"),
                    .path = options->operand_count ? options->operands[0] : NULL};
     if (option_given(options, "--list")) {
         if (visit.path) return report(WEFT_USAGE, "--list: takes no asset");
@@ -263,7 +263,7 @@ static const Option doctor_options[] = {
     OPTION_HEADING("Options"),
     OPTION_SWITCH("--fix", "write the asset with what can be fixed fixed, and nothing else changed"),
     OPTION_TEXT("-o", "FILE", NULL, "where --fix writes: a .gltf or a .glb; it may be ASSET itself"),
-    OPTION_SWITCH("-q", "no notes: errors and warnings alone"),
+    OPTION_SWITCH("--no-notes", "errors and warnings alone"),
     OPTION_SWITCH("--json", "findings as JSON on standard output"),
     OPTION_SWITCH("--list", "print the findings that there are, and end"),
     OPTION_END,
@@ -285,6 +285,6 @@ const Verb verb_doctor = {
              "Examples\n"
              "  weft doctor chair.gltf\n"
              "  weft doctor chair.gltf --fix -o mended.glb\n"
-             "  weft doctor chair.gltf -q --json\n",
+             "  weft doctor chair.gltf --no-notes --json\n",
     .run = doctor_run,
 };

@@ -32,7 +32,7 @@ int weft_finding_fixable(int kind) { return is_kind(kind) ? catalogue[kind].fixa
 
 const char *weft_severity_name(WeftSeverity severity) {
     static const char *const names[] = {"note", "warning", "error"};
-    return names[severity];
+    return (unsigned)severity < sizeof names / sizeof *names ? names[severity] : NULL;
 }
 
 /* The list in the file that things of a kind are in. */
@@ -144,24 +144,35 @@ static void examine(WeftDoctor *doctor) {
     for (int m = 0; m < (int)doctor->asset.mesh_count; m++) check_mesh(doctor, m);
 }
 
+/* A finding on its way to its place. */
+typedef struct Found {
+    WeftFinding item;
+    Repair repair;
+    int at;
+} Found;
+
 /* Asset, materials, meshes, images; each in the order of the file, and the gravest of a thing first. */
-static int order(const WeftFinding *a, const WeftFinding *b) {
+static int order(const void *left, const void *right) {
+    const Found *x = left, *y = right;
+    const WeftFinding *a = &x->item, *b = &y->item;
     if (a->of != b->of) return (int)a->of - (int)b->of;
     if (a->index != b->index) return a->index - b->index;
     if (a->severity != b->severity) return (int)b->severity - (int)a->severity;
-    return (int)a->kind - (int)b->kind;
+    if (a->kind != b->kind) return (int)a->kind - (int)b->kind;
+    return x->at - y->at; /* as they were found */
 }
 
 static void sort(WeftDoctor *doctor) {
-    for (int k = 1; k < doctor->count; k++) /* nearly in order already */
-        for (int i = k; i > 0 && order(&doctor->items[i], &doctor->items[i - 1]) < 0; i--) {
-            WeftFinding item = doctor->items[i];
-            Repair repair = doctor->repairs[i];
-            doctor->items[i] = doctor->items[i - 1];
-            doctor->repairs[i] = doctor->repairs[i - 1];
-            doctor->items[i - 1] = item;
-            doctor->repairs[i - 1] = repair;
-        }
+    Found *found = alloc_array((size_t)doctor->count, sizeof *found);
+    doctor->failed |= !found;
+    if (!found) return;
+    for (int k = 0; k < doctor->count; k++) found[k] = (Found){doctor->items[k], doctor->repairs[k], k};
+    qsort(found, (size_t)doctor->count, sizeof *found, order);
+    for (int k = 0; k < doctor->count; k++) {
+        doctor->items[k] = found[k].item;
+        doctor->repairs[k] = found[k].repair;
+    }
+    free(found);
 }
 
 static WeftResult open_any(const char *path, const void *data, size_t size, WeftDoctor **out,
@@ -182,9 +193,9 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
         doctor->pixels = alloc_array((size_t)doctor->scene->image_count, sizeof *doctor->pixels);
     if (doctor->asset.result == WEFT_OK && !doctor->pixels) doctor->failed = true;
     if (doctor->asset.result == WEFT_OK && !doctor->failed) examine(doctor);
+    if (doctor->asset.result == WEFT_OK && !doctor->failed) sort(doctor);
     if (doctor->failed) asset_fail(&doctor->asset, WEFT_MESSAGE_MEMORY, NULL);
     if (doctor->asset.result == WEFT_OK) {
-        sort(doctor);
         *out = doctor;
         return WEFT_OK;
     }
@@ -210,6 +221,7 @@ void weft_doctor_free(WeftDoctor *doctor) {
     free(doctor->items);
     free(doctor->repairs);
     free(doctor->pixels);
+    free(doctor->energies);
     free(doctor);
 }
 

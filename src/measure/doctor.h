@@ -15,10 +15,10 @@ typedef struct Repair {
         REPAIR_NUMBERS, /* it becomes an array of `count` numbers */
         REPAIR_REMOVE,  /* it goes away */
         REPAIR_DECLARE, /* extensionsUsed gets the name that `extension` is */
-        REPAIR_ALPHA    /* a texture's channel moves to alpha, in a picture of its own */
+        REPAIR_ALPHA    /* a channel of texture number `texture` moves to alpha, in a picture of its own */
     } act;
     double numbers[4];
-    int count, channel;
+    int count, texture, channel;
     char extension[64];
 } Repair;
 
@@ -29,6 +29,8 @@ typedef struct Pixels {
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
 
+typedef struct Energy Energy; /* of doctor_energy.c */
+
 struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
@@ -38,8 +40,10 @@ struct WeftDoctor {
     WeftFinding *items;
     Repair *repairs;
     int count, room;
-    Pixels *pixels; /* of the scene's images */
-    bool failed;    /* memory gave out */
+    Pixels *pixels;   /* of the scene's images */
+    Energy *energies; /* of the materials whose light was measured */
+    int energy_count, energy_room;
+    bool failed; /* memory gave out */
 };
 
 /* Where something is. */

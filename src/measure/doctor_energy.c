@@ -6,6 +6,7 @@
  * quadrature. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "measure/doctor.h"
@@ -26,6 +27,20 @@ typedef struct Answer {
     float with[COSINES], without[COSINES];
     float light_with[COSINES], light_without[COSINES];
 } Answer;
+
+/* What a material is to a reflection: its numbers, without its textures. */
+typedef struct Key {
+    float values[WEFT_INPUTS_MAX][3];
+    int choices[WEFT_CHOICES_MAX];
+} Key;
+
+/* What was measured of a material: it holds for all that have the same numbers. */
+struct Energy {
+    Key key;
+    Answer answers[READERS];
+    float at_60[READERS]; /* E of the white sheen alone, at 60 degrees */
+    float least; /* the roughness from which no engine gains, as least_roughness has it; < 0: not asked */
+};
 
 static int input_of(const char *name) {
     int k = 0;
@@ -96,29 +111,35 @@ static float gain(const Answer *answer, int *where) {
     return most;
 }
 
-static bool gains_anywhere(const WeftDoctor *doctor, const Cloth *cloth, float roughness,
-                           const Answer answers[READERS]) {
-    bool gains = false;
+/* Whether an engine gains at a roughness in hundredths. */
+static bool gains_at(const WeftDoctor *doctor, const Cloth *cloth, int hundredths, int reader,
+                     const Answer *known) {
+    Answer answer = ask(doctor, cloth, (float)hundredths / 100.0f, reader, known);
     int where;
-    for (int r = 0; r < READERS && !gains; r++) {
-        Answer answer = ask(doctor, cloth, roughness, r, &answers[r]);
-        gains = gain(&answer, &where) > 0.0f;
-    }
-    return gains;
+    return gain(&answer, &where) > 0.0f;
 }
 
-/* The least roughness, in hundredths, from which no engine gains; 0 where even 1 does. */
+/* The least roughness, in hundredths, from which no engine gains; 0 where even 1 does. An engine gains less
+ * the rougher a sheen is, so that each is halved only above where those before it end. */
 static float least_roughness(const WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
-    int low = (int)(cloth->roughness * 100.0f), high = 100;
-    if (gains_anywhere(doctor, cloth, 1.0f, answers)) return 0.0f;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (gains_anywhere(doctor, cloth, (float)middle / 100.0f, answers))
-            low = middle;
-        else
-            high = middle;
+    const int start = (int)(cloth->roughness * 100.0f);
+    int least = start, where;
+    for (int r = 0; r < READERS; r++) {
+        int low = least, high = 100;
+        bool gains = least == start ? gain(&answers[r], &where) > 0.0f
+                                    : gains_at(doctor, cloth, least, r, &answers[r]);
+        if (!gains) continue;
+        if (gains_at(doctor, cloth, high, r, &answers[r])) return 0.0f;
+        while (high - low > 1) {
+            int middle = (low + high) / 2;
+            if (gains_at(doctor, cloth, middle, r, &answers[r]))
+                low = middle;
+            else
+                high = middle;
+        }
+        least = high;
     }
-    return (float)high / 100.0f;
+    return (float)least / 100.0f;
 }
 
 /* E of the white sheen by itself under a profile: the slot's lobe, to 1e-4, times what the profile puts on
@@ -150,11 +171,13 @@ static const char *engine_names(unsigned engines, char text[128]) {
 
 static double degrees(float cosine) { return 57.2957795 * acos((double)cosine); }
 
-static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
-                      const Answer answers[READERS], int where) {
+static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst, Energy *energy,
+                      int where) {
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
-    float least = least_roughness(doctor, cloth, answers);
+    const Answer *answers = energy->answers;
+    if (energy->least < 0.0f) energy->least = least_roughness(doctor, cloth, answers);
+    float least = energy->least;
     bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
     float alone = sheen_albedo(doctor_readers[worst], cloth->roughness, cosines[where]);
@@ -180,7 +203,8 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
         doctor_advise(doctor, "darken sheenColorFactor: no roughness helps a sheen this bright on this base");
 }
 
-static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
+static void check_gain(WeftDoctor *doctor, const Cloth *cloth, Energy *energy) {
+    const Answer *answers = energy->answers;
     unsigned engines = 0;
     int worst = -1, where = 0;
     float most = 0.0f;
@@ -193,11 +217,11 @@ static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Answer answ
         worst = r;
         where = at;
     }
-    if (worst >= 0) tell_gain(doctor, cloth, engines, worst, answers, where);
+    if (worst >= 0) tell_gain(doctor, cloth, engines, worst, energy, where);
 }
 
 /* Where the cloth is less than half as bright as it would be without a sheen. */
-static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
+static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *answers) {
     unsigned engines = 0;
     float least = 0.5f;
     int worst = -1, where = 0;
@@ -227,12 +251,11 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer answ
 }
 
 /* The same sheen by itself, at 60 degrees. */
-static void check_differ(WeftDoctor *doctor, const Cloth *cloth) {
-    const float cosine = 0.5f, limit = 1.5f;
-    float e[READERS], low = INFINITY, high = 0.0f;
+static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const float e[READERS]) {
+    const float limit = 1.5f;
+    float low = INFINITY, high = 0.0f;
     int lowest = 0, highest = 0;
     for (int r = 0; r < READERS; r++) {
-        e[r] = sheen_albedo(doctor_readers[r], cloth->roughness, cosine);
         if (e[r] < low) low = e[lowest = r];
         if (e[r] > high) high = e[highest = r];
     }
@@ -250,11 +273,59 @@ static void check_differ(WeftDoctor *doctor, const Cloth *cloth) {
         doctor_readers[highest], doctor_readers[lowest]);
 }
 
+static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, Key *key) {
+    WeftMaterial material;
+    if (!numbers_of(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material))
+        return false;
+    memset(key, 0, sizeof *key);
+    for (int k = 0; k < WEFT_INPUTS_MAX; k++)
+        memcpy(key->values[k], material.inputs[k].value, sizeof key->values[k]);
+    memcpy(key->choices, material.choices, sizeof key->choices);
+    return true;
+}
+
+/* What is known of a material with these numbers; NULL: nothing yet. */
+static Energy *energy_find(const WeftDoctor *doctor, const Key *key) {
+    for (int k = 0; k < doctor->energy_count; k++)
+        if (memcmp((const char *)&doctor->energies[k].key, (const char *)key, sizeof *key) == 0)
+            return &doctor->energies[k];
+    return NULL;
+}
+
+/* Room for one more, in the list; NULL where memory is short. */
+static Energy *energy_add(WeftDoctor *doctor) {
+    if (doctor->energy_count == doctor->energy_room) {
+        size_t room = doctor->energy_room ? 2 * (size_t)doctor->energy_room : 8;
+        Energy *energies = realloc_array(doctor->energies, room, sizeof *energies);
+        doctor->failed |= !energies;
+        if (!energies) return NULL;
+        doctor->energies = energies;
+        doctor->energy_room = (int)room;
+    }
+    return &doctor->energies[doctor->energy_count++];
+}
+
+/* Measured once for all that have the same numbers: some sixty quadratures of the whole material. */
+static Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
+    Key key;
+    if (!key_of(doctor, cloth, &key)) return NULL;
+    Energy *energy = energy_find(doctor, &key);
+    if (energy) return energy;
+    energy = energy_add(doctor);
+    if (!energy) return NULL;
+    *energy = (Energy){.key = key, .least = -1.0f};
+    for (int r = 0; r < READERS; r++) {
+        energy->answers[r] = ask(doctor, cloth, cloth->roughness, r, NULL);
+        energy->at_60[r] = sheen_albedo(doctor_readers[r], cloth->roughness, 0.5f);
+    }
+    return energy;
+}
+
 void check_energy(WeftDoctor *doctor, const Cloth *cloth) {
-    Answer answers[READERS];
     if (!cloth_shows(cloth) || doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
-    for (int r = 0; r < READERS; r++) answers[r] = ask(doctor, cloth, cloth->roughness, r, NULL);
-    check_gain(doctor, cloth, answers);
-    check_dark(doctor, cloth, answers);
-    check_differ(doctor, cloth);
+    Energy *energy = energy_of(doctor, cloth);
+    if (!energy) return;
+    check_gain(doctor, cloth, energy);
+    check_dark(doctor, cloth, energy->answers);
+    check_differ(doctor, cloth, energy->at_60);
 }

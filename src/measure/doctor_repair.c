@@ -79,22 +79,50 @@ static WeftResult encode(const WeftImage *image, const char *name, char **bytes,
     return result;
 }
 
-/* The textureInfo at a place gets a texture of its own, sampled as before. */
-static WeftResult move_to_alpha(const WeftDoctor *doctor, Rewrite *rewrite, json_t *info, int channel,
+/* Whether two repairs need the same picture, sampled alike. */
+static bool same_move(const WeftDoctor *doctor, const Repair *a, const Repair *b) {
+    if (a->act != REPAIR_ALPHA || b->act != REPAIR_ALPHA || a->channel != b->channel) return false;
+    const TextureSource *x = &doctor->asset.textures[a->texture], *y = &doctor->asset.textures[b->texture];
+    return x->image == y->image && x->sampler == y->sampler;
+}
+
+/* The texture that an earlier finding of the same picture was given, so that materials share it still; -1:
+ * there is none. */
+static int moved_before(const WeftDoctor *doctor, const Rewrite *rewrite, int finding) {
+    for (int k = 0; k < finding; k++) {
+        char key[64] = "";
+        if (!same_move(doctor, &doctor->repairs[k], &doctor->repairs[finding])) continue;
+        json_t *object = holder(rewrite->root, doctor->items[k].place, key);
+        return (int)json_integer_value(json_object_get(json_object_get(object, key), "index"));
+    }
+    return -1;
+}
+
+/* A texture of its own for a repair, sampled as before; its index goes to made. */
+static WeftResult alpha_texture(const WeftDoctor *doctor, Rewrite *rewrite, const Repair *repair, int *made,
                                 WeftError *error) {
     const char *name = doctor->asset.name;
-    int like = doctor_texture(doctor, info), texture = doctor->asset.textures[like].scene_texture, made = -1;
+    int texture = doctor->asset.textures[repair->texture].scene_texture;
     WeftImage image = {0};
     char *bytes = NULL;
     size_t size = 0;
-    WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image], channel,
-                                    name, &image, error);
+    WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image],
+                                    repair->channel, name, &image, error);
     if (result == WEFT_OK) result = encode(&image, name, &bytes, &size, error);
-    if (result == WEFT_OK) made = rewrite_texture(rewrite, bytes, size, like, error);
-    if (result == WEFT_OK && made < 0) result = WEFT_RESOURCES;
-    if (result == WEFT_OK) json_object_set_new(info, "index", json_integer(made));
+    if (result == WEFT_OK) *made = rewrite_texture(rewrite, bytes, size, repair->texture, error);
+    if (result == WEFT_OK && *made < 0) result = WEFT_RESOURCES;
     weft_image_free(&image);
     free(bytes);
+    return result;
+}
+
+static WeftResult move_to_alpha(const WeftDoctor *doctor, Rewrite *rewrite, json_t *info, int finding,
+                                WeftError *error) {
+    int texture = moved_before(doctor, rewrite, finding);
+    WeftResult result = WEFT_OK;
+    if (texture < 0) result = alpha_texture(doctor, rewrite, &doctor->repairs[finding], &texture, error);
+    if (result == WEFT_OK && json_object_set_new(info, "index", json_integer(texture)) != 0)
+        result = fail(error, WEFT_MESSAGE_MEMORY, doctor->asset.name, NULL);
     return result;
 }
 
@@ -111,8 +139,7 @@ WeftResult doctor_repair(const WeftDoctor *doctor, Rewrite *rewrite, int finding
         failed = json_object_set_new(object, key, numbers(repair, json_object_get(object, key)));
         break;
     case REPAIR_REMOVE: failed = json_object_del(object, key); break;
-    case REPAIR_ALPHA:
-        return move_to_alpha(doctor, rewrite, json_object_get(object, key), repair->channel, error);
+    case REPAIR_ALPHA: return move_to_alpha(doctor, rewrite, json_object_get(object, key), finding, error);
     case REPAIR_NONE:
     case REPAIR_DECLARE: break;
     }

@@ -41,14 +41,24 @@ static int file_image(const WeftDoctor *doctor, json_t *info) {
     return texture < 0 ? -1 : doctor->asset.textures[texture].image;
 }
 
-/* The first use of an image in a space; NULL: none. */
-static const char *first_use(const WeftDoctor *doctor, int image, Space space) {
-    for (int m = 0; m < (int)doctor->asset.material_count; m++)
-        for (int k = 0; k < USES; k++)
-            if (uses[k].space == space &&
-                file_image(doctor, doctor_part(doctor_item(doctor, "materials", m), uses[k].path)) == image)
-                return doctor_key(uses[k].path);
-    return NULL;
+/* How an image is used first in either space; NULL: not at all. */
+typedef struct FirstUse {
+    const char *color, *data;
+} FirstUse;
+
+/* Those of all images of the file; owned, NULL where memory is short. */
+static FirstUse *first_uses(const WeftDoctor *doctor) {
+    FirstUse *first = alloc_array(doctor->asset.image_count, sizeof *first);
+    for (int m = 0; first && m < (int)doctor->asset.material_count; m++) {
+        json_t *material = doctor_item(doctor, "materials", m);
+        for (int k = 0; k < USES; k++) {
+            int image = file_image(doctor, doctor_part(material, uses[k].path));
+            if (image < 0) continue;
+            const char **use = uses[k].space == SPACE_COLOR ? &first[image].color : &first[image].data;
+            if (!*use) *use = doctor_key(uses[k].path);
+        }
+    }
+    return first;
 }
 
 /* The encoded bytes of an image of the file; owned: to be freed. */
@@ -92,29 +102,32 @@ static const char *png_linear(Span png) {
     return NULL;
 }
 
-void check_spaces(WeftDoctor *doctor) {
-    for (int k = 0; k < (int)doctor->asset.image_count; k++) {
-        const char *color = first_use(doctor, k, SPACE_COLOR), *data = first_use(doctor, k, SPACE_DATA);
-        const Place place = {WEFT_OF_IMAGE, k, NULL};
-        if (color && data) {
-            doctor_found(doctor, WEFT_FINDING_TEXTURE_TWO_SPACES, place, 0, (double)NAN, NULL,
-                         "it is used as %s, which is decoded from sRGB, and as %s, which is not: one of the "
-                         "two is wrong "
-                         "in every engine",
-                         color, data);
-            doctor_advise(doctor, "give each use an image of its own");
-        }
-        if (!color) continue;
-        unsigned char *owned;
-        const char *how = png_linear(image_bytes(doctor, k, &owned));
-        free(owned);
-        if (!how) continue;
-        doctor_found(doctor, WEFT_FINDING_TEXTURE_SAYS_LINEAR, place, doctor_engines(), (double)NAN, NULL,
-                     "it is used as %s and has %s; glTF ignores that and decodes sRGB, so that colours "
-                     "become too dark",
-                     color, how);
-        doctor_advise(doctor, "export the image in sRGB, without the chunk");
+static void check_space(WeftDoctor *doctor, int image, FirstUse use) {
+    const Place place = {WEFT_OF_IMAGE, image, NULL};
+    if (use.color && use.data) {
+        doctor_found(doctor, WEFT_FINDING_TEXTURE_TWO_SPACES, place, 0, (double)NAN, NULL,
+                     "it is used as %s, which is decoded from sRGB, and as %s, which is not: one of the "
+                     "two is wrong in every engine",
+                     use.color, use.data);
+        doctor_advise(doctor, "give each use an image of its own");
     }
+    if (!use.color) return;
+    unsigned char *owned;
+    const char *how = png_linear(image_bytes(doctor, image, &owned));
+    free(owned);
+    if (!how) return;
+    doctor_found(doctor, WEFT_FINDING_TEXTURE_SAYS_LINEAR, place, doctor_engines(), (double)NAN, NULL,
+                 "it is used as %s and has %s; glTF ignores that and decodes sRGB, so that colours "
+                 "become too dark",
+                 use.color, how);
+    doctor_advise(doctor, "export the image in sRGB, without the chunk");
+}
+
+void check_spaces(WeftDoctor *doctor) {
+    FirstUse *first = first_uses(doctor);
+    doctor->failed |= !first;
+    for (int k = 0; first && k < (int)doctor->asset.image_count; k++) check_space(doctor, k, first[k]);
+    free(first);
 }
 
 void check_black(WeftDoctor *doctor, const Cloth *cloth) {
@@ -162,7 +175,8 @@ void check_channel(WeftDoctor *doctor, const Cloth *cloth) {
         colors = file_image(doctor, json_object_get(cloth->sheen, "sheenColorTexture"));
     float spread = pixels->high[channel] - pixels->low[channel];
     if (spread > 4.0f / 255.0f && file_image(doctor, info) != colors) {
-        const Repair repair = {.act = REPAIR_ALPHA, .channel = channel};
+        const Repair repair = {
+            .act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
         doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL, place, doctor_engines(),
                      (double)pixels->mean[channel], &repair,
                      "sheenRoughnessTexture is read from alpha, which is 1 everywhere; what was painted "

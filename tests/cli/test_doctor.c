@@ -77,7 +77,7 @@ static void tells_what_is_wrong(void **state) {
     json_decref(report);
 }
 
-/* A scene of weft's own, which has notes at the most, and none of them with -q. */
+/* A scene of weft's own, which has notes at the most, and none of them with --no-notes. */
 static void says_so_when_all_is_well(void **state) {
     (void)state;
     WeftScene *scene;
@@ -85,7 +85,7 @@ static void says_so_when_all_is_well(void **state) {
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     assert_int_equal(weft_scene_save(scene, "cloth.glb", &error), WEFT_OK);
     weft_scene_free(scene);
-    json_t *report = report_of(LIST("doctor", "cloth.glb", "--json", "-q"), 0);
+    json_t *report = report_of(LIST("doctor", "cloth.glb", "--json", "--no-notes"), 0);
     assert_int_equal(whole(report, "left"), 0);
     assert_true(whole(report, "notes") > 0);
     assert_int_equal(json_array_size(json_object_get(report, "findings")), 0);

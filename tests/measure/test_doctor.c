@@ -6,6 +6,7 @@
 
 #include "gltf/reading.h"
 #include "image/codec.h"
+#include "measure/doctor.h"
 #include "shading/choice.h"
 #include "weft/doctor.h"
 #include "weft/save.h"
@@ -287,6 +288,10 @@ static void every_finding_has_a_case(void **state) {
     }
     assert_null(weft_finding_name(-1));
     assert_null(weft_finding_name(WEFT_FINDING_COUNT));
+    assert_string_equal(weft_severity_name(WEFT_SEVERITY_NOTE), "note");
+    assert_string_equal(weft_severity_name(WEFT_SEVERITY_ERROR), "error");
+    assert_null(weft_severity_name((WeftSeverity)(WEFT_SEVERITY_ERROR + 1)));
+    assert_null(weft_severity_name((WeftSeverity)-1));
 }
 
 static char folder[] = "/tmp/weft-doctor-XXXXXX";
@@ -393,6 +398,85 @@ static void roughness_moves_to_alpha(void **state) {
     free(text);
 }
 
+/* Materials that shared a picture share the one that takes its place; of another sampler they have another.
+ */
+static void shared_roughness_stays_shared(void **state) {
+    (void)state;
+    static const int expected[] = {3, 3, 3, 4};
+#define ROUGH(texture)                                                                                       \
+    "{" CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"                      \
+    "'sheenRoughnessTexture':{'index':" #texture "},'sheenRoughnessFactor':1}}}"
+    char *text = json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'images':[{'uri':'%s'}],"
+                      "'samplers':[{'wrapS':33071}],"
+                      "'textures':[{'source':0},{'source':0},{'source':0,'sampler':0}],"
+                      "'materials':[" ROUGH(0) "," ROUGH(0) "," ROUGH(1) "," ROUGH(2) "]}",
+                      picture_uri(GREY));
+#undef ROUGH
+    WeftDoctor *doctor = examine(text);
+    WeftError error;
+    assert_int_equal(weft_doctor_count(doctor), 4);
+    assert_int_equal(weft_doctor_fix(doctor, "shared.gltf", &error), WEFT_OK);
+    json_t *now = load("shared.gltf"), *material;
+    size_t k;
+    assert_int_equal(json_array_size(json_object_get(now, "images")), 3);
+    assert_int_equal(json_array_size(json_object_get(now, "textures")), 5);
+    json_array_foreach(json_object_get(now, "materials"), k, material) {
+        json_t *info = doctor_part(material, "extensions/KHR_materials_sheen/sheenRoughnessTexture/index");
+        assert_int_equal(json_integer_value(info), expected[k]);
+    }
+    json_decref(now);
+    weft_doctor_free(doctor);
+    free(text);
+}
+
+/* Findings that differ in nothing but where they are. */
+static void assert_same_words(const WeftFinding *a, const WeftFinding *b) {
+    assert_int_equal(a->kind, b->kind);
+    assert_int_equal(a->engines, b->engines);
+    assert_string_equal(a->words, b->words);
+    assert_string_equal(a->fix, b->fix);
+}
+
+/* What is known of a material holds for its like, and for no other: not for one whose highlight alone
+ * differs, nor for one of another sheen or another base. */
+static void like_materials_are_measured_once(void **state) {
+    (void)state;
+    static const char *const kinds[] = {
+        "0.8,0.8,0.8,1],'roughnessFactor':1", "0.8,0.8,0.8,1],'roughnessFactor':0.3",
+        "0.8,0.8,0.8,1],'roughnessFactor':1", "0.7,0.7,0.7,1],'roughnessFactor':1"};
+    static const double roughness[] = {0.45, 0.45, 0.35, 0.45};
+    enum { KINDS = 4 };
+    WeftDoctor *alone[KINDS];
+    char members[KINDS][400], all[4000] = "";
+    for (int round = 0; round < 2; round++)
+        for (int k = 0; k < KINDS; k++) {
+            snprintf(members[k], sizeof members[k],
+                     "'pbrMetallicRoughness':{'baseColorFactor':[%s,'metallicFactor':0},'extensions':"
+                     "{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenRoughnessFactor':%g}}",
+                     kinds[k], roughness[k]);
+            snprintf(all + strlen(all), sizeof all - strlen(all), "%s{%s}", all[0] ? "," : "", members[k]);
+        }
+    for (int k = 0; k < KINDS; k++) {
+        char *text =
+            json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'materials':[{%s}]}", members[k]);
+        alone[k] = examine(text);
+        assert_int_equal(weft_doctor_count(alone[k]), 1);
+        for (int other = 0; other < k; other++)
+            assert_string_not_equal(weft_doctor_finding(alone[k], 0)->words,
+                                    weft_doctor_finding(alone[other], 0)->words);
+        free(text);
+    }
+    char *text = json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'materials':[%s]}", all);
+    WeftDoctor *together = examine(text);
+    assert_int_equal(weft_doctor_count(together), 2 * KINDS);
+    assert_int_equal(together->energy_count, KINDS);
+    for (int k = 0; k < 2 * KINDS; k++)
+        assert_same_words(weft_doctor_finding(together, k), weft_doctor_finding(alone[k % KINDS], 0));
+    for (int k = 0; k < KINDS; k++) weft_doctor_free(alone[k]);
+    weft_doctor_free(together);
+    free(text);
+}
+
 /* The gain is what weft_reflection_albedo says of the same material, and the roughness that is advised has
  * none. */
 static void gain_is_measured(void **state) {
@@ -488,10 +572,16 @@ static void broken_files_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_finds_its_own),        cmocka_unit_test(every_finding_has_a_case),
-        cmocka_unit_test(what_is_fixed_stays_fixed), cmocka_unit_test(roughness_moves_to_alpha),
-        cmocka_unit_test(gain_is_measured),          cmocka_unit_test(built_in_scenes_have_no_errors),
-        cmocka_unit_test(shared_files_are_examined), cmocka_unit_test(broken_files_are_refused),
+        cmocka_unit_test(each_finds_its_own),
+        cmocka_unit_test(every_finding_has_a_case),
+        cmocka_unit_test(what_is_fixed_stays_fixed),
+        cmocka_unit_test(roughness_moves_to_alpha),
+        cmocka_unit_test(shared_roughness_stays_shared),
+        cmocka_unit_test(like_materials_are_measured_once),
+        cmocka_unit_test(gain_is_measured),
+        cmocka_unit_test(built_in_scenes_have_no_errors),
+        cmocka_unit_test(shared_files_are_examined),
+        cmocka_unit_test(broken_files_are_refused),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
