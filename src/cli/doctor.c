@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "json.h"
 #include "layout.h"
 #include "output.h"
+#include "path.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -210,17 +210,12 @@ static int list_json(void) {
     return 0;
 }
 
-static bool ends(const char *path, const char *suffix) {
-    size_t length = strlen(path), size = strlen(suffix);
-    return length > size && strcasecmp(path + length - size, suffix) == 0;
-}
-
 static int output_check(const Visit *visit) {
     bool fix = option_given(visit->options, "--fix");
     if (fix && !visit->output) return report(WEFT_USAGE, "--fix: needs a file to write: -o FILE");
     if (!fix && visit->output) return report(WEFT_USAGE, "-o: goes with --fix alone");
     if (!visit->output) return 0;
-    if (!ends(visit->output, ".gltf") && !ends(visit->output, ".glb"))
+    if (!path_ends(visit->output, ".gltf") && !path_ends(visit->output, ".glb"))
         return report(WEFT_USAGE, "-o: \"%.200s\" is not a .gltf or .glb file", visit->output);
     return output_probe(visit->output);
 }

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/fail.h"
+#include "base/path.h"
 #include "gltf/bundle.h"
 #include "gltf/container.h"
 #include "gltf/patch.h"
@@ -85,11 +85,6 @@ int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, We
     return texture;
 }
 
-static bool ends(const char *path, const char *suffix) {
-    size_t length = strlen(path), size = strlen(suffix);
-    return length > size && strcasecmp(path + length - size, suffix) == 0;
-}
-
 /* Whether bytes of the asset, from memory, may be called buffer 0 of a GLB. */
 static bool takes_bytes(const Saving *saving) {
     const json_t *buffers = json_object_get(saving->root, "buffers"), *first = json_array_get(buffers, 0);
@@ -153,8 +148,8 @@ static void document_write(Saving *saving, const Asset *asset) {
 
 WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *error) {
     const Asset *asset = rewrite->asset;
-    bool packed = ends(path, ".glb");
-    if (!packed && !ends(path, ".gltf"))
+    bool packed = path_ends(path, ".glb");
+    if (!packed && !path_ends(path, ".gltf"))
         return fail(error, WEFT_MESSAGE_SCENE_KIND, path, "write a .glb or a .gltf");
     Saving saving = {.path = path, .packed = packed, .error = error, .root = json_deep_copy(rewrite->root)};
     if (!saving.root) saving_fail(&saving, WEFT_MESSAGE_MEMORY, path, NULL);
