@@ -40,6 +40,7 @@ struct Energy {
     Answer answers[READERS];
     float at_60[READERS]; /* E of the white sheen alone, at 60 degrees */
     float least; /* the roughness from which no engine gains, as least_roughness has it; < 0: not asked */
+    float alone; /* E of the white sheen alone in the engine that gains most, where it does; set with least */
 };
 
 static int input_of(const char *name) {
@@ -176,11 +177,13 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
-    if (energy->least < 0.0f) energy->least = least_roughness(doctor, cloth, answers);
+    if (energy->least < 0.0f) {
+        energy->least = least_roughness(doctor, cloth, answers);
+        energy->alone = sheen_albedo(doctor_readers[worst], cloth->roughness, cosines[where]);
+    }
     float least = energy->least;
     bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
-    float alone = sheen_albedo(doctor_readers[worst], cloth->roughness, cosines[where]);
     doctor_found(doctor, WEFT_FINDING_SHEEN_GAINS, (Place){WEFT_OF_MATERIAL, cloth->index, path}, engines,
                  (double)answers[worst].with[where], mends ? &repair : NULL,
                  "at sheen roughness %.2g%s the material returns %.3g times the light it receives, seen at "
@@ -188,7 +191,7 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
                  "(without the sheen %.3g; its white sheen alone returns %.3g): rims glow",
                  (double)cloth->roughness, given ? "" : " (it is left out, and then is 0)",
                  (double)answers[worst].with[where], degrees(cosines[where]), doctor_readers[worst],
-                 (double)answers[worst].without[where], (double)alone);
+                 (double)answers[worst].without[where], (double)energy->alone);
     if (mends)
         doctor_advise(
             doctor,
