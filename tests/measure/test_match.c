@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -300,11 +301,87 @@ static void a_sphere_is_a_picture(void **state) {
     weft_reflection_free(of);
 }
 
+static void text_write(const char *path, const char *text) {
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+}
+
+/* A picture of two greys, alpha 1: the same in any number of channels. */
+static void picture_write(const char *path, int channels) {
+    WeftImage image;
+    WeftError error;
+    if (weft_image_create(4, 4, channels, WEFT_PIXEL_U8, &image, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    for (int k = 0; k < 16 * channels; k++) {
+        bool alpha = channels % 2 == 0 && k % channels == channels - 1;
+        ((uint8_t *)image.pixels)[k] = (uint8_t)(alpha ? 255 : k / channels % 2 ? 200 : 150);
+    }
+    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(&image);
+}
+
+/* A triangle whose roughness, sheen roughness (of alpha) and colour are that picture. */
+static const char textured[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
+    "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0.5,0.4,0.3,1],"
+    "\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":{\"index\":0}},"
+    "\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,0.8],\"sheenRoughnessFactor\":0.5,"
+    "\"sheenRoughnessTexture\":{\"index\":0}}}}],\"extensionsUsed\":[\"KHR_materials_sheen\"],"
+    "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"PICTURE\"}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[-1,-1,0],\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+    "\"VEC2\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+    "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+static int profile_named(const char *id) {
+    int k = 0;
+    while (weft_profile_id(k) && strcmp(weft_profile_id(k), id) != 0) k++;
+    return k;
+}
+
+/* A missing alpha is 1, and grey is red, green and blue: what a picture says does not hang on its channels.
+ */
+static void channels_change_nothing(void **state) {
+    (void)state;
+    WeftAssetMatch found[4];
+    char folder[] = "match-XXXXXX", picture[64], asset[64], out[64], text[sizeof textured + 16];
+    assert_non_null(mkdtemp(folder));
+    snprintf(picture, sizeof picture, "%s/p.png", folder);
+    snprintf(asset, sizeof asset, "%s/a.gltf", folder);
+    snprintf(out, sizeof out, "%s/b.gltf", folder);
+    snprintf(text, sizeof text, "%s", textured);
+    memcpy(strstr(text, "PICTURE"), "./p.png", 7);
+    text_write(asset, text);
+    for (int k = 0; k < 4; k++) {
+        WeftError error;
+        int count;
+        picture_write(picture, k + 1);
+        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"), WEFT_APART_COSINE,
+                             &found[k], 1, &count, NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_true(count == 1 && found[k].changed);
+        for (int n = 0; n < WEFT_INPUTS_MAX; n++)
+            for (int c = 0; c < 3; c++)
+                assert_true(fabsf(found[k].matched.inputs[n].value[c] -
+                                  found[0].matched.inputs[n].value[c]) <= 1e-6f);
+        assert_true(fabs(found[k].found.matched - found[0].found.matched) <= 1e-9);
+    }
+    unlink(picture);
+    unlink(asset);
+    unlink(out);
+    rmdir(folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_is_half),           cmocka_unit_test(the_sum_is_the_integral),
         cmocka_unit_test(itself_stays),           cmocka_unit_test(lobes_come_back),
         cmocka_unit_test(what_is_held_stays),     cmocka_unit_test(never_worse_than_the_copy),
-        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(a_sphere_is_a_picture)};
+        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(a_sphere_is_a_picture),
+        cmocka_unit_test(channels_change_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
