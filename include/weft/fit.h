@@ -80,7 +80,7 @@ typedef struct WeftFitDesc {
 } WeftFitDesc;
 
 /* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,
- * _DESC or _MEMORY; WEFT_INTERRUPTED where progress says so. */
+ * _DESC or _MEMORY; WEFT_INTERRUPTED where progress, which is asked while lobes are fitted, says so. */
 WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
 
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where

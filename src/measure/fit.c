@@ -1,7 +1,6 @@
 #include "weft/fit.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "measure/brdf_table.h"
 #include "measure/lobe_search.h"
 #include "measure/merl.h"
@@ -192,11 +190,12 @@ typedef struct Work {
     const WeftFitDesc *desc;
     Samples samples;
     WeftLobe base, lambert, ggx;
-    int lobes[WEFT_FITTED_MOST], count;
+    WeftLobe lobes[WEFT_FITTED_MOST];
+    int count;
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
+    WeftResult results[WEFT_FITTED_MOST + 1];
     bool isotropic;
-    atomic_int done;
-    atomic_bool stopped, failed;
+    Watch watch;
 } Work;
 
 static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
@@ -215,36 +214,40 @@ static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
     return true;
 }
 
-static void fit_one(void *user, int item, int thread) {
-    Work *work = user;
-    bool baseline = item == work->count;
+/* Of an item of work: the last is the baseline. */
+static WeftResult fit_item(Work *work, int item, Share *share) {
     WeftFitted *fitted = &work->fitted[item];
-    if (atomic_load(&work->stopped)) return;
-    LobeSearch search = {.samples = &work->samples, .base = &work->base, .isotropic = work->isotropic};
+    LobeSearch search = {
+        .samples = &work->samples, .base = &work->base, .isotropic = work->isotropic, .share = share};
     LobeFound found = {.error = 0.0};
-    if (baseline) {
+    if (item == work->count) {
         search.base = &work->lambert;
         search.hold = WEFT_HOLD_COLOR_2;
         found.lobe = work->ggx;
     } else {
-        WeftError error;
-        if (weft_lobe_create(weft_lobe_info(work->lobes[item])->id, &found.lobe, &error) != WEFT_OK) return;
+        found.lobe = work->lobes[item];
     }
-    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
+    WeftResult result = lobe_search_run(&search, &found);
     *fitted = (WeftFitted){.lobe = found.lobe, .error = found.error, .evaluations = found.evaluations};
     memcpy(fitted->base, found.base, sizeof fitted->base);
-    int done = atomic_fetch_add(&work->done, 1) + 1;
-    const WeftFitDesc *desc = work->desc;
-    if (thread == 0 && desc->progress && desc->progress(desc->user, (double)done / (work->count + 1)) != 0)
-        atomic_store(&work->stopped, true);
+    return result;
 }
 
-static double base_alone(Work *work) {
+static void fit_one(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    Share share = {.watch = &work->watch};
+    work->results[item] = share_tell(&share, 0.0) ? fit_item(work, item, &share) : WEFT_INTERRUPTED;
+    share_tell(&share, 1.0);
+}
+
+static WeftResult base_alone(Work *work, double *error) {
     const LobeSearch search = {.samples = &work->samples, .base = &work->base, .hold = WEFT_HOLD_COLOR};
     LobeFound found = {.lobe = work->lambert};
     memset(found.lobe.f0, 0, sizeof found.lobe.f0);
-    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
-    return found.error;
+    WeftResult result = lobe_search_run(&search, &found);
+    *error = found.error;
+    return result;
 }
 
 static int by_error(const void *a, const void *b) {
@@ -262,29 +265,33 @@ static WeftResult candidates(Work *work, WeftError *error) {
     if (result != WEFT_OK) return result;
     if (!(weft_lobe_info(work->base.lobe)->traits & WEFT_LOBE_DIFFUSE))
         return fail(error, WEFT_MESSAGE_DESC, desc->base, "is no diffuse lobe");
-    for (int k = 0; k < weft_lobe_count() && work->count < WEFT_FITTED_MOST; k++) {
-        unsigned traits = weft_lobe_info(k)->traits;
-        if (traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
-        if (only.lobe < 0 || only.lobe == k) work->lobes[work->count++] = k;
+    for (int k = 0; k < weft_lobe_count() && work->count < WEFT_FITTED_MOST && result == WEFT_OK; k++) {
+        const WeftLobeInfo *info = weft_lobe_info(k);
+        if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
+        if (only.lobe < 0 || only.lobe == k)
+            result = weft_lobe_create(info->id, &work->lobes[work->count++], error);
     }
+    if (result != WEFT_OK) return result;
     return work->count ? WEFT_OK
                        : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
 }
 
+static int params_of(const WeftLobe *lobe) { return weft_lobe_info(lobe->lobe)->param_count; }
+
 static WeftResult work_run(Work *work, WeftFit *out, WeftError *error) {
     /* those that take longest first */
     for (int k = 0; k < work->count; k++)
-        for (int j = k; j > 0 && weft_lobe_info(work->lobes[j])->param_count >
-                                     weft_lobe_info(work->lobes[j - 1])->param_count;
-             j--) {
-            int swapped = work->lobes[j];
+        for (int j = k; j > 0 && params_of(&work->lobes[j]) > params_of(&work->lobes[j - 1]); j--) {
+            WeftLobe swapped = work->lobes[j];
             work->lobes[j] = work->lobes[j - 1];
             work->lobes[j - 1] = swapped;
         }
-    parallel_for(work->desc->threads, work->count + 1, fit_one, work);
-    if (atomic_load(&work->stopped)) return WEFT_INTERRUPTED;
-    out->base_alone = base_alone(work);
-    if (atomic_load(&work->failed)) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    const WeftFitDesc *desc = work->desc;
+    if (!watch_loop(&work->watch, desc->threads, work->count + 1, fit_one, work, desc->progress, desc->user))
+        return WEFT_INTERRUPTED;
+    WeftResult result = base_alone(work, &out->base_alone);
+    for (int k = 0; k <= work->count && result == WEFT_OK; k++) result = work->results[k];
+    if (result != WEFT_OK) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
     out->baseline = work->fitted[work->count];
     out->count = work->count;
     memcpy(out->fitted, work->fitted, (size_t)work->count * sizeof *out->fitted);

@@ -206,7 +206,8 @@ static SearchAxis axis_of(double low, double high, double start) {
 static Search make_search(Walker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
     const WeftLobeInfo *info = info_of(self);
-    Search search = {.error = error_at, .user = self, .descents = 3, .most = 1000};
+    Search search = {
+        .error = error_at, .user = self, .descents = 3, .most = 1000, .share = self->search->share};
     unsigned hold = hold_turning(self);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
@@ -257,10 +258,10 @@ static void colors_of(const Walker *self, LobeFound *out) {
     }
 }
 
-bool lobe_search_run(const LobeSearch *search, LobeFound *out) {
+WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
     Walker self;
     double x[SEARCH_MOST] = {0.0};
-    if (!walker_make(&self, search, &out->lobe)) return false;
+    if (!walker_make(&self, search, &out->lobe)) return WEFT_RESOURCES;
     const Search walk = make_search(&self, x);
     out->start = error_at(&self, x, SEARCH_FULL);
     search_run(&walk, x, &out->evaluations);
@@ -268,5 +269,6 @@ bool lobe_search_run(const LobeSearch *search, LobeFound *out) {
     out->lobe = lobe_at(&self, x);
     colors_of(&self, out);
     free(self.block);
-    return true;
+    bool whole = share_tell(search->share, 0.0);
+    return whole ? WEFT_OK : WEFT_INTERRUPTED;
 }

@@ -209,6 +209,14 @@ static void what_is_held_stays(void **state) {
     WeftError error;
     assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+    /* nor is an estimate something to be met */
+    WeftReflection *noise = of_lobe(&walk);
+    WeftMaterial any = cloth(0);
+    assert_int_equal(weft_match_lobe(noise, WEFT_APART_COSINE, 0, &to, &match, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "match fibre"));
+    assert_int_equal(weft_match_material(noise, WEFT_APART_COSINE, NULL, &any, &match, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "match fibre"));
+    weft_reflection_free(noise);
     walk.lobe = -1;
     assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
@@ -282,6 +290,25 @@ static void threads_change_nothing(void **state) {
         assert_true(fabsf(jobs[0][k].lobe.params[0] - jobs[1][k].lobe.params[0]) <= 0.0f);
         assert_true(fabs(jobs[0][k].found.matched - jobs[1][k].found.matched) <= 0.0);
     }
+    weft_reflection_free(from);
+}
+
+static int count_and_stop(void *calls, double fraction) {
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    return ++*(int *)calls == 2;
+}
+
+/* In the midst of a search, not after it. */
+static void a_batch_is_stopped(void **state) {
+    (void)state;
+    WeftLobe lobe = coloured(weft_lobe_find("threads"));
+    WeftReflection *from = of_lobe(&lobe);
+    WeftMatchJob job = {.from = from, .is_lobe = 1, .lobe = lobe_named("threads")};
+    int calls = 0;
+    assert_int_equal(weft_match_many(&job, 1, WEFT_APART_COSINE, 1, count_and_stop, &calls, NULL),
+                     WEFT_INTERRUPTED);
+    assert_int_equal(calls, 2);
+    assert_int_equal(job.result, WEFT_INTERRUPTED);
     weft_reflection_free(from);
 }
 
@@ -377,11 +404,15 @@ static void channels_change_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_is_half),           cmocka_unit_test(the_sum_is_the_integral),
-        cmocka_unit_test(itself_stays),           cmocka_unit_test(lobes_come_back),
-        cmocka_unit_test(what_is_held_stays),     cmocka_unit_test(never_worse_than_the_copy),
-        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(a_sphere_is_a_picture),
-        cmocka_unit_test(channels_change_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(half_is_half),
+                                       cmocka_unit_test(the_sum_is_the_integral),
+                                       cmocka_unit_test(itself_stays),
+                                       cmocka_unit_test(lobes_come_back),
+                                       cmocka_unit_test(what_is_held_stays),
+                                       cmocka_unit_test(never_worse_than_the_copy),
+                                       cmocka_unit_test(threads_change_nothing),
+                                       cmocka_unit_test(a_sphere_is_a_picture),
+                                       cmocka_unit_test(channels_change_nothing),
+                                       cmocka_unit_test(a_batch_is_stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
