@@ -52,23 +52,49 @@ static size_t step_through(size_t count) {
     }
 }
 
-static bool is_sample(const float wo[3], const float wi[3], const float f[3]) {
-    return wo[2] >= cosine_least && wi[2] >= cosine_least && f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f &&
-           f[0] + f[1] + f[2] < 1e30f;
+static bool is_measured(const float f[3]) {
+    return f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f && f[0] + f[1] + f[2] < 1e30f;
 }
 
+/* What was passed over, and whether any of the rest is above 0. */
+typedef struct Passed {
+    int unmeasured, grazing;
+    bool any;
+} Passed;
+
 /* In an order in which any first part stands for all. */
-static bool take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
+static Passed take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
     size_t n = (size_t)self->all, step = step_through(n), at = 0;
-    bool any = false;
+    Passed passed = {.any = false};
     for (size_t k = 0; k < n; k++, at = (at + step) % n) {
-        if (!is_sample(wo[at], wi[at], f[at])) continue;
+        bool measured = is_measured(f[at]), high = wo[at][2] >= cosine_least && wi[at][2] >= cosine_least;
+        passed.unmeasured += !measured;
+        passed.grazing += measured && !high;
+        if (!measured || !high) continue;
         memcpy(self->wo[self->count], wo[at], sizeof *wo);
         memcpy(self->wi[self->count], wi[at], sizeof *wi);
         memcpy(self->f[self->count++], f[at], sizeof *f);
-        any |= f[at][0] + f[at][1] + f[at][2] > 0.0f;
+        passed.any |= f[at][0] + f[at][1] + f[at][2] > 0.0f;
     }
-    return any;
+    return passed;
+}
+
+static WeftResult check_samples(const WeftData *self, const Passed *passed, const char *name,
+                                WeftMessage message, WeftError *error) {
+    if (self->all == 0) return fail(error, message, name, "nothing in it is a sample");
+    if (self->count < SAMPLES_LEAST)
+        return fail(
+            error, message, name,
+            "of %d samples %d were not measured and %d are more than 80 degrees off the normal, which leaves "
+            "%d; %d are needed",
+            self->all, passed->unmeasured, passed->grazing, self->count, SAMPLES_LEAST);
+    if (!passed->any)
+        return fail(
+            error, message, name,
+            "nothing in it is above 0, of %d samples; %d more were not measured, and %d are more than "
+            "80 degrees off the normal",
+            self->count, passed->unmeasured, passed->grazing);
+    return WEFT_OK;
 }
 
 /* Of what came from a file of that name; or from a caller, where message is DESC. */
@@ -84,13 +110,11 @@ static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3
         self->f = alloc_array(n, sizeof *self->f);
     }
     WeftResult result = WEFT_OK;
-    if (!self || !self->wo || !self->wi || !self->f)
-        result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    else if (n == 0 || !take_samples(self, wo, wi, f))
-        result = fail(error, message, name, "nothing in it is above 0");
-    else if (self->count < SAMPLES_LEAST)
-        result = fail(error, message, name, "it has %d samples that do not graze, and %d are needed",
-                      self->count, SAMPLES_LEAST);
+    if (!self || !self->wo || !self->wi || !self->f) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    if (result == WEFT_OK) {
+        Passed passed = n ? take_samples(self, wo, wi, f) : (Passed){.any = false};
+        result = check_samples(self, &passed, name, message, error);
+    }
     if (result != WEFT_OK) {
         weft_data_free(self);
         self = NULL;
