@@ -165,12 +165,17 @@ static int lobes_check(const Fitting *fitting) {
     return 0;
 }
 
+static int interrupted(const Fitting *fitting) {
+    return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
+}
+
 static int fit_make(Fitting *fitting) {
     WeftError error;
     const char *only = option_text(fitting->options, "--lobe");
     interrupt_watch();
     WeftResult result = weft_data_read(fitting->path, &fitting->data, &error);
     if (result != WEFT_OK) return report_error(&error);
+    if (interrupt_seen()) return interrupted(fitting);
     Progress progress = progress_start_count(false, "lobes", fits_count(only));
     const WeftFitDesc desc = {.metric = fitting->metric,
                               .chosen = 1,
@@ -180,8 +185,7 @@ static int fit_make(Fitting *fitting) {
                               .user = &progress};
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
     progress_finish(&progress);
-    if (result == WEFT_INTERRUPTED)
-        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
+    if (result == WEFT_INTERRUPTED) return interrupted(fitting);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 

@@ -104,6 +104,8 @@ static double error_at(void *user, double *x, SearchCare care) {
     Walker *self = user;
     const Samples *s = self->search->samples;
     int count = care == SEARCH_FULL ? s->count : s->first;
+    /* of a million samples one evaluation takes seconds: it ends halfway */
+    if (!share_tell(self->search->share, 0.0)) return 1e30;
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
     WeftLobe lobe = lobe_at(self, x);
@@ -113,7 +115,8 @@ static double error_at(void *user, double *x, SearchCare care) {
         ask_parts(self, lobe, count);
     Blend blend = blend_of(self, count);
     double sum = 0.0;
-    for (int c = 0; c < s->channels; c++) sum += blend_solve(s, count, c, &blend, self->weights[c]);
+    for (int c = 0; c < s->channels && share_tell(self->search->share, 0.0); c++)
+        sum += blend_solve(s, count, c, &blend, self->weights[c]);
     return sum;
 }
 
