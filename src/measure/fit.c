@@ -109,11 +109,12 @@ static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3
         self->wi = alloc_array(n, sizeof *self->wi);
         self->f = alloc_array(n, sizeof *self->f);
     }
-    WeftResult result = WEFT_OK;
-    if (!self || !self->wo || !self->wi || !self->f) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    if (result == WEFT_OK) {
+    WeftResult result;
+    if (self && self->wo && self->wi && self->f) {
         Passed passed = n ? take_samples(self, wo, wi, f) : (Passed){.any = false};
         result = check_samples(self, &passed, name, message, error);
+    } else {
+        result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     }
     if (result != WEFT_OK) {
         weft_data_free(self);
