@@ -28,10 +28,10 @@ typedef struct WeftData WeftData;
  *
  *   theta_o, phi_o, theta_i, phi_i, r, g, b        degrees, from the normal and the tangent; f in 1/sr
  *
- * separated by commas, blanks or tabs, at most 1 million; empty lines and those that begin with # are passed
- * over, and so is one line of names above the numbers. Where one of r, g, b is negative, nothing was
- * measured. Fails with WEFT_MESSAGE_MEASURED, _BRDF_TABLE (which says in what line), _MEMORY and with what
- * reading a file can fail with. Release with weft_data_free. */
+ * separated by commas, semicolons, blanks or tabs, at most 1 million of them; empty lines and those that
+ * begin with # are passed over, and so are a byte-order mark and one line of names above the numbers. Where
+ * one of r, g, b is negative, nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _BRDF_TABLE (which says
+ * in what line), _MEMORY and with what reading a file can fail with. Release with weft_data_free. */
 WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
 
 /* The same from size bytes; name is the subject of errors, and its suffix says what they are. */
@@ -46,7 +46,7 @@ WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const floa
 
 WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
 
-/* How many samples count; how many there were. */
+/* How many samples count; how many there were, with those that graze or were not measured. */
 WEFT_API int weft_data_count(const WeftData *data, int *all);
 
 /* One candidate, fitted. */
@@ -80,7 +80,7 @@ typedef struct WeftFitDesc {
 } WeftFitDesc;
 
 /* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,
- * _DESC or _MEMORY; WEFT_INTERRUPTED where progress says so. */
+ * _DESC or _MEMORY; WEFT_INTERRUPTED where progress, which is asked while lobes are fitted, says so. */
 WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
 
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where

@@ -58,8 +58,8 @@ typedef struct WeftMatch {
  * are at least 0 and with WEFT_LOBE_TINTED at most 1. Choices stay. Bit k of hold (may be 0): parameter k
  * stays; WEFT_HOLD_COLOR: f0, WEFT_HOLD_COLOR_2: f90. Where `from` is
  * isotropic and the start too, parameters stay by which that would end. Of parameters that have no influence
- * the start's numbers stay. Fails with WEFT_MESSAGE_LOBE_NAME, _DESC (a lobe with WEFT_LOBE_REFERENCE) or
- * _MEMORY. */
+ * the start's numbers stay. Fails with WEFT_MESSAGE_LOBE_NAME, _DESC (a lobe with WEFT_LOBE_REFERENCE on
+ * either side: what is an estimate would be met in its noise; match fibre, which is the mean) or _MEMORY. */
 enum { WEFT_HOLD_COLOR = 1 << 8, WEFT_HOLD_COLOR_2 = 1 << 9 };
 WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold,
                                     WeftLobe *lobe, WeftMatch *out, WeftError *error);
@@ -68,16 +68,17 @@ WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric
  * sheen_roughness, roughness (0.25 at least) and specular that it reads (weft_material_reads), sheen and
  * sheen_tint where it does not read sheen_color, and specular_color in the workflow of that name; all within
  * their plausible range, or from where they begin. held (may be NULL): not 0 for an input that stays,
- * WEFT_INPUTS_MAX of them. Where both are grey, colours stay grey. Fails with WEFT_MESSAGE_PARAM_VALUE or
- * _MEMORY. */
+ * WEFT_INPUTS_MAX of them. Where both are grey, colours stay grey. Fails with WEFT_MESSAGE_PARAM_VALUE,
+ * _DESC (a lobe with WEFT_LOBE_REFERENCE on either side) or _MEMORY. */
 WEFT_API WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
                                         WeftMaterial *material, WeftMatch *out, WeftError *error);
 
 /* Whether weft_match_material may change that input of the material. */
 WEFT_API int weft_match_is_free(const WeftMaterial *material, int input);
 
-/* Many matches at once, on `threads` threads (0: one a processor). progress (may be NULL) can stop it:
- * WEFT_INTERRUPTED. Each says in `result` how it went; fails with the first that did not. */
+/* Many matches at once, on `threads` threads (0: one a processor). progress (may be NULL) can stop it,
+ * in the midst of a search: WEFT_INTERRUPTED. Each says in `result` how it went; fails with the first that
+ * did not. */
 typedef struct WeftMatchJob {
     const WeftReflection *from; /* borrowed */
     int is_lobe;                /* lobe is what is matched, else material */

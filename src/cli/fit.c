@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "json.h"
 #include "output.h"
+#include "progress.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -99,9 +100,17 @@ static bool suffix_is(const char *path, const char *suffix) {
     return length > end && strcasecmp(path + length - end, suffix) == 0;
 }
 
-static int on_progress(void *user, double fraction) {
-    (void)user, (void)fraction;
+static int on_progress(void *progress, double fraction) {
+    progress_draw(progress, fraction);
     return interrupt_seen();
+}
+
+/* How many lobes are fitted, the baseline's among them. */
+static int fits_count(const char *only) {
+    int count = 2;
+    for (int k = 0; !only && k < weft_lobe_count(); k++)
+        count += !(weft_lobe_info(k)->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE));
+    return only ? count : count - 1;
 }
 
 /* The best whose numbers a material has room for. */
@@ -141,19 +150,42 @@ static int outputs_check(Fitting *fitting) {
     return result;
 }
 
+/* Names that are no lobe are told by the library. */
+static int lobes_check(const Fitting *fitting) {
+    const char *only = option_text(fitting->options, "--lobe");
+    const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base)),
+                       *lobe = only ? weft_lobe_info(weft_lobe_find(only)) : NULL;
+    if (base && !(base->traits & WEFT_LOBE_DIFFUSE))
+        return report(WEFT_USAGE, "--base %s: is not a diffuse lobe", base->id);
+    if (lobe && lobe->traits & WEFT_LOBE_DIFFUSE)
+        return report(WEFT_USAGE, "--lobe %s: is a diffuse lobe, which is fitted as --base alone", lobe->id);
+    if (lobe && lobe->traits & WEFT_LOBE_REFERENCE)
+        return report(WEFT_USAGE, "--lobe %s: is an estimate by random walks; fit fibre, which is its mean",
+                      lobe->id);
+    return 0;
+}
+
+static int interrupted(const Fitting *fitting) {
+    return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
+}
+
 static int fit_make(Fitting *fitting) {
     WeftError error;
+    const char *only = option_text(fitting->options, "--lobe");
+    interrupt_watch();
+    WeftResult result = weft_data_read(fitting->path, &fitting->data, &error);
+    if (result != WEFT_OK) return report_error(&error);
+    if (interrupt_seen()) return interrupted(fitting);
+    Progress progress = progress_start_count(false, "lobes", fits_count(only));
     const WeftFitDesc desc = {.metric = fitting->metric,
                               .chosen = 1,
                               .base = fitting->base,
-                              .only = option_text(fitting->options, "--lobe"),
-                              .progress = on_progress};
-    WeftResult result = weft_data_read(fitting->path, &fitting->data, &error);
-    if (result != WEFT_OK) return report_error(&error);
-    interrupt_watch();
+                              .only = only,
+                              .progress = on_progress,
+                              .user = &progress};
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
-    if (result == WEFT_INTERRUPTED)
-        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", fitting->path);
+    progress_finish(&progress);
+    if (result == WEFT_INTERRUPTED) return interrupted(fitting);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -164,7 +196,8 @@ static int fit_run(const Options *options) {
     if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
     fitting.metric = (WeftApart)metric;
     fitting.base = option_text(options, "--base");
-    int result = outputs_check(&fitting);
+    int result = lobes_check(&fitting);
+    if (result == 0) result = outputs_check(&fitting);
     if (result == 0) result = fit_make(&fitting);
     if (result == 0 && fitting.material) result = material_write(&fitting);
     if (result == 0 && fitting.plot)

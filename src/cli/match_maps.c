@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "interrupt.h"
 #include "json.h"
 #include "match.h"
+#include "progress.h"
 #include "report.h"
 
 /* The sweep, a share of the plausible range of the first parameter: its ends are rims too thin for a fit. */
@@ -172,14 +174,27 @@ static int write_all(const Maps *maps, WeftApart metric, bool as_json) {
     return result;
 }
 
-int match_maps(const Options *options, WeftApart metric) {
+static int on_progress(void *progress, double fraction) {
+    progress_draw(progress, fraction);
+    return interrupt_seen();
+}
+
+static int match_all(Maps *maps, WeftApart metric) {
     WeftError error;
+    int count = maps->count * maps->count * SWEEP;
+    Progress progress = progress_start_count(false, "matches", count);
+    interrupt_watch();
+    WeftResult result = weft_match_many(maps->jobs, count, metric, 0, on_progress, &progress, &error);
+    progress_finish(&progress);
+    if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted");
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+int match_maps(const Options *options, WeftApart metric) {
     Maps *maps = calloc(1, sizeof *maps);
     if (!maps) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
     int result = prepare(maps);
-    if (result == 0 && weft_match_many(maps->jobs, maps->count * maps->count * SWEEP, metric, 0, NULL, NULL,
-                                       &error) != WEFT_OK)
-        result = report_error(&error);
+    if (result == 0) result = match_all(maps, metric);
     if (result == 0) result = write_all(maps, metric, option_given(options, "--json"));
     for (int n = 0; n < maps->count; n++)
         for (int k = 0; k < SWEEP; k++) weft_reflection_free(maps->from[n][k]);

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "interrupt.h"
 #include "json.h"
 #include "match.h"
+#include "progress.h"
 #include "report.h"
 
 enum { PROFILES_MOST = 32 };
@@ -90,15 +92,26 @@ static void json_write(const Table *table, WeftApart metric) {
     json_close(&json, '}');
 }
 
+static int on_progress(void *progress, double fraction) {
+    progress_draw(progress, fraction);
+    return interrupt_seen();
+}
+
+static int match_all(Table *table, WeftApart metric) {
+    WeftError error;
+    int count = table->count * table->count;
+    Progress progress = progress_start_count(false, "matches", count);
+    interrupt_watch();
+    WeftResult result = weft_match_many(table->jobs, count, metric, 0, on_progress, &progress, &error);
+    progress_finish(&progress);
+    if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted");
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
 int match_table(const Options *options, WeftApart metric) {
     Table table = {.count = 0};
-    WeftError error;
     int result = prepare(&table);
-    if (result == 0) {
-        WeftResult done =
-            weft_match_many(table.jobs, table.count * table.count, metric, 0, NULL, NULL, &error);
-        if (done != WEFT_OK) result = report_error(&error);
-    }
+    if (result == 0) result = match_all(&table, metric);
     if (result == 0 && option_given(options, "--json"))
         json_write(&table, metric);
     else if (result == 0)

@@ -19,17 +19,23 @@ static void direction(double theta, double phi, float w[3]) {
     w[2] = (float)sin((90.0 - theta) * radians);
 }
 
-/* How many numbers a line begins with, -1 where something else follows them. */
-static int line_numbers(const char *line, float numbers[NUMBERS]) {
+/* How many numbers a line has, of which the first seven are kept; *rest is what no number could be read of,
+ * or NULL. */
+static int line_numbers(const char *line, float numbers[NUMBERS], const char **rest) {
     int count = 0;
-    for (;;) {
+    for (*rest = NULL;;) {
         line += strspn(line, " \t\r");
-        if (count && *line == ',') line += 1 + strspn(line + 1, " \t\r");
+        if (count && (*line == ',' || *line == ';')) line += 1 + strspn(line + 1, " \t\r");
         if (!*line) return count;
         float number;
-        line = number_prefix(line, &number);
-        if (!line || !strchr(" \t\r,", *line) || count == NUMBERS) return -1;
-        numbers[count++] = number;
+        const char *after = number_prefix(line, &number);
+        if (!after || !strchr(" \t\r,;", *after)) {
+            *rest = line;
+            return count;
+        }
+        line = after;
+        if (count < NUMBERS) numbers[count] = number;
+        count++;
     }
 }
 
@@ -37,6 +43,14 @@ static int line_numbers(const char *line, float numbers[NUMBERS]) {
 static bool is_header(const char *line) {
     return strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_\"", line[strspn(line, " \t\r")]) !=
            NULL;
+}
+
+static WeftResult refuse_line(const char *rest, int count, int number, const char *name, WeftError *error) {
+    if (rest)
+        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: no number begins at \"%.20s\"", number,
+                    rest);
+    return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d has %d numbers instead of seven", number,
+                count);
 }
 
 static WeftResult take_line(BrdfTable *table, const char *line, int number, bool *header, const char *name,
@@ -49,25 +63,35 @@ static WeftResult take_line(BrdfTable *table, const char *line, int number, bool
         return WEFT_OK;
     }
     *header = true;
-    if (line_numbers(line, v) != NUMBERS)
-        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d has not seven numbers", number);
+    const char *rest;
+    int count = line_numbers(line, v, &rest);
+    if (rest || count != NUMBERS) return refuse_line(rest, count, number, name, error);
+    if (table->count == BRDF_TABLE_ROWS)
+        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "it has more than %d samples", BRDF_TABLE_ROWS);
     for (int k = 0; k < 4; k += 2)
         if (!(v[k] >= 0.0f && v[k] <= 90.0f) || !(fabsf(v[k + 1]) <= 3600.0f))
             return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: %g, %g is no direction above", number,
                         (double)v[k], (double)v[k + 1]);
-    if (v[4] < 0.0f || v[5] < 0.0f || v[6] < 0.0f) return WEFT_OK;
-    if (v[4] > 1e6f || v[5] > 1e6f || v[6] > 1e6f)
+    bool measured = v[4] >= 0.0f && v[5] >= 0.0f && v[6] >= 0.0f;
+    if (measured && (v[4] > 1e6f || v[5] > 1e6f || v[6] > 1e6f))
         return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: more than 1e6 per steradian", number);
     direction((double)v[0], (double)v[1], table->wo[table->count]);
     direction((double)v[2], (double)v[3], table->wi[table->count]);
-    memcpy(table->f[table->count++], v + 4, 3 * sizeof *v);
+    for (int c = 0; c < 3; c++) table->f[table->count][c] = measured ? v[4 + c] : -1.0f;
+    table->count++;
     return WEFT_OK;
 }
 
-static int count_lines(const char *text, size_t size) {
-    int count = 1;
-    for (size_t k = 0; k < size && count <= 2 * BRDF_TABLE_ROWS; k++) count += text[k] == '\n';
+/* Room for so many samples is enough: of each line at most one, and of all no more than a table may have. */
+static size_t room_for(const char *text, size_t size) {
+    size_t count = 1;
+    for (size_t k = 0; k < size && count < BRDF_TABLE_ROWS; k++) count += text[k] == '\n';
     return count;
+}
+
+/* Some programs begin a text with U+FEFF, in UTF-8. */
+static size_t mark_length(const char *text, size_t size) {
+    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
 static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, const char *name,
@@ -92,14 +116,12 @@ static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, co
 WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out,
                            WeftError *error) {
     *out = (BrdfTable){0};
-    int lines = count_lines(text, size);
-    if (lines > BRDF_TABLE_ROWS)
-        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "it has more than %d lines", BRDF_TABLE_ROWS);
-    out->wo = alloc_array((size_t)lines, sizeof *out->wo);
-    out->wi = alloc_array((size_t)lines, sizeof *out->wi);
-    out->f = alloc_array((size_t)lines, sizeof *out->f);
+    size_t mark = mark_length(text, size), room = room_for(text, size);
+    out->wo = alloc_array(room, sizeof *out->wo);
+    out->wi = alloc_array(room, sizeof *out->wi);
+    out->f = alloc_array(room, sizeof *out->f);
     if (!out->wo || !out->wi || !out->f) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    return take_lines(out, text, size, name, error);
+    return take_lines(out, text + mark, size - mark, name, error);
 }
 
 void brdf_table_free(BrdfTable *table) {

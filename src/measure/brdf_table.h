@@ -6,7 +6,7 @@
 
 #include "weft/result.h"
 
-/* wo, wi and f of what was measured. */
+/* wo, wi and f of each line; f is -1 in all channels where one of its numbers is negative. */
 typedef struct BrdfTable {
     int count;
     float (*wo)[3], (*wi)[3], (*f)[3];

@@ -1,7 +1,6 @@
 #include "weft/fit.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "measure/brdf_table.h"
 #include "measure/lobe_search.h"
 #include "measure/merl.h"
@@ -54,23 +52,49 @@ static size_t step_through(size_t count) {
     }
 }
 
-static bool is_sample(const float wo[3], const float wi[3], const float f[3]) {
-    return wo[2] >= cosine_least && wi[2] >= cosine_least && f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f &&
-           f[0] + f[1] + f[2] < 1e30f;
+static bool is_measured(const float f[3]) {
+    return f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f && f[0] + f[1] + f[2] < 1e30f;
 }
 
+/* What was passed over, and whether any of the rest is above 0. */
+typedef struct Passed {
+    int unmeasured, grazing;
+    bool any;
+} Passed;
+
 /* In an order in which any first part stands for all. */
-static bool take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
+static Passed take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
     size_t n = (size_t)self->all, step = step_through(n), at = 0;
-    bool any = false;
+    Passed passed = {.any = false};
     for (size_t k = 0; k < n; k++, at = (at + step) % n) {
-        if (!is_sample(wo[at], wi[at], f[at])) continue;
+        bool measured = is_measured(f[at]), high = wo[at][2] >= cosine_least && wi[at][2] >= cosine_least;
+        passed.unmeasured += !measured;
+        passed.grazing += measured && !high;
+        if (!measured || !high) continue;
         memcpy(self->wo[self->count], wo[at], sizeof *wo);
         memcpy(self->wi[self->count], wi[at], sizeof *wi);
         memcpy(self->f[self->count++], f[at], sizeof *f);
-        any |= f[at][0] + f[at][1] + f[at][2] > 0.0f;
+        passed.any |= f[at][0] + f[at][1] + f[at][2] > 0.0f;
     }
-    return any;
+    return passed;
+}
+
+static WeftResult check_samples(const WeftData *self, const Passed *passed, const char *name,
+                                WeftMessage message, WeftError *error) {
+    if (self->all == 0) return fail(error, message, name, "nothing in it is a sample");
+    if (self->count < SAMPLES_LEAST)
+        return fail(
+            error, message, name,
+            "of %d samples %d were not measured and %d are more than 80 degrees off the normal, which leaves "
+            "%d; %d are needed",
+            self->all, passed->unmeasured, passed->grazing, self->count, SAMPLES_LEAST);
+    if (!passed->any)
+        return fail(
+            error, message, name,
+            "nothing in it is above 0, of %d samples; %d more were not measured, and %d are more than "
+            "80 degrees off the normal",
+            self->count, passed->unmeasured, passed->grazing);
+    return WEFT_OK;
 }
 
 /* Of what came from a file of that name; or from a caller, where message is DESC. */
@@ -85,14 +109,13 @@ static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3
         self->wi = alloc_array(n, sizeof *self->wi);
         self->f = alloc_array(n, sizeof *self->f);
     }
-    WeftResult result = WEFT_OK;
-    if (!self || !self->wo || !self->wi || !self->f)
+    WeftResult result;
+    if (self && self->wo && self->wi && self->f) {
+        Passed passed = n ? take_samples(self, wo, wi, f) : (Passed){.any = false};
+        result = check_samples(self, &passed, name, message, error);
+    } else {
         result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    else if (n == 0 || !take_samples(self, wo, wi, f))
-        result = fail(error, message, name, "nothing in it is above 0");
-    else if (self->count < SAMPLES_LEAST)
-        result = fail(error, message, name, "it has %d samples that do not graze, and %d are needed",
-                      self->count, SAMPLES_LEAST);
+    }
     if (result != WEFT_OK) {
         weft_data_free(self);
         self = NULL;
@@ -192,11 +215,12 @@ typedef struct Work {
     const WeftFitDesc *desc;
     Samples samples;
     WeftLobe base, lambert, ggx;
-    int lobes[WEFT_FITTED_MOST], count;
+    WeftLobe lobes[WEFT_FITTED_MOST];
+    int count;
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
+    WeftResult results[WEFT_FITTED_MOST + 1];
     bool isotropic;
-    atomic_int done;
-    atomic_bool stopped, failed;
+    Watch watch;
 } Work;
 
 static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
@@ -215,36 +239,40 @@ static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
     return true;
 }
 
-static void fit_one(void *user, int item, int thread) {
-    Work *work = user;
-    bool baseline = item == work->count;
+/* Of an item of work: the last is the baseline. */
+static WeftResult fit_item(Work *work, int item, Share *share) {
     WeftFitted *fitted = &work->fitted[item];
-    if (atomic_load(&work->stopped)) return;
-    LobeSearch search = {.samples = &work->samples, .base = &work->base, .isotropic = work->isotropic};
+    LobeSearch search = {
+        .samples = &work->samples, .base = &work->base, .isotropic = work->isotropic, .share = share};
     LobeFound found = {.error = 0.0};
-    if (baseline) {
+    if (item == work->count) {
         search.base = &work->lambert;
         search.hold = WEFT_HOLD_COLOR_2;
         found.lobe = work->ggx;
     } else {
-        WeftError error;
-        if (weft_lobe_create(weft_lobe_info(work->lobes[item])->id, &found.lobe, &error) != WEFT_OK) return;
+        found.lobe = work->lobes[item];
     }
-    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
+    WeftResult result = lobe_search_run(&search, &found);
     *fitted = (WeftFitted){.lobe = found.lobe, .error = found.error, .evaluations = found.evaluations};
     memcpy(fitted->base, found.base, sizeof fitted->base);
-    int done = atomic_fetch_add(&work->done, 1) + 1;
-    const WeftFitDesc *desc = work->desc;
-    if (thread == 0 && desc->progress && desc->progress(desc->user, (double)done / (work->count + 1)) != 0)
-        atomic_store(&work->stopped, true);
+    return result;
 }
 
-static double base_alone(Work *work) {
+static void fit_one(void *user, int item, int thread) {
+    (void)thread;
+    Work *work = user;
+    Share share = {.watch = &work->watch};
+    work->results[item] = share_tell(&share, 0.0) ? fit_item(work, item, &share) : WEFT_INTERRUPTED;
+    share_tell(&share, 1.0);
+}
+
+static WeftResult base_alone(Work *work, double *error) {
     const LobeSearch search = {.samples = &work->samples, .base = &work->base, .hold = WEFT_HOLD_COLOR};
     LobeFound found = {.lobe = work->lambert};
     memset(found.lobe.f0, 0, sizeof found.lobe.f0);
-    if (!lobe_search_run(&search, &found)) atomic_store(&work->failed, true);
-    return found.error;
+    WeftResult result = lobe_search_run(&search, &found);
+    *error = found.error;
+    return result;
 }
 
 static int by_error(const void *a, const void *b) {
@@ -262,29 +290,33 @@ static WeftResult candidates(Work *work, WeftError *error) {
     if (result != WEFT_OK) return result;
     if (!(weft_lobe_info(work->base.lobe)->traits & WEFT_LOBE_DIFFUSE))
         return fail(error, WEFT_MESSAGE_DESC, desc->base, "is no diffuse lobe");
-    for (int k = 0; k < weft_lobe_count() && work->count < WEFT_FITTED_MOST; k++) {
-        unsigned traits = weft_lobe_info(k)->traits;
-        if (traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
-        if (only.lobe < 0 || only.lobe == k) work->lobes[work->count++] = k;
+    for (int k = 0; k < weft_lobe_count() && work->count < WEFT_FITTED_MOST && result == WEFT_OK; k++) {
+        const WeftLobeInfo *info = weft_lobe_info(k);
+        if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
+        if (only.lobe < 0 || only.lobe == k)
+            result = weft_lobe_create(info->id, &work->lobes[work->count++], error);
     }
+    if (result != WEFT_OK) return result;
     return work->count ? WEFT_OK
                        : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
 }
 
+static int params_of(const WeftLobe *lobe) { return weft_lobe_info(lobe->lobe)->param_count; }
+
 static WeftResult work_run(Work *work, WeftFit *out, WeftError *error) {
     /* those that take longest first */
     for (int k = 0; k < work->count; k++)
-        for (int j = k; j > 0 && weft_lobe_info(work->lobes[j])->param_count >
-                                     weft_lobe_info(work->lobes[j - 1])->param_count;
-             j--) {
-            int swapped = work->lobes[j];
+        for (int j = k; j > 0 && params_of(&work->lobes[j]) > params_of(&work->lobes[j - 1]); j--) {
+            WeftLobe swapped = work->lobes[j];
             work->lobes[j] = work->lobes[j - 1];
             work->lobes[j - 1] = swapped;
         }
-    parallel_for(work->desc->threads, work->count + 1, fit_one, work);
-    if (atomic_load(&work->stopped)) return WEFT_INTERRUPTED;
-    out->base_alone = base_alone(work);
-    if (atomic_load(&work->failed)) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    const WeftFitDesc *desc = work->desc;
+    if (!watch_loop(&work->watch, desc->threads, work->count + 1, fit_one, work, desc->progress, desc->user))
+        return WEFT_INTERRUPTED;
+    WeftResult result = base_alone(work, &out->base_alone);
+    for (int k = 0; k <= work->count && result == WEFT_OK; k++) result = work->results[k];
+    if (result != WEFT_OK) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
     out->baseline = work->fitted[work->count];
     out->count = work->count;
     memcpy(out->fitted, work->fitted, (size_t)work->count * sizeof *out->fitted);

@@ -104,6 +104,8 @@ static double error_at(void *user, double *x, SearchCare care) {
     Walker *self = user;
     const Samples *s = self->search->samples;
     int count = care == SEARCH_FULL ? s->count : s->first;
+    /* of a million samples one evaluation takes seconds: it ends halfway */
+    if (!share_tell(self->search->share, 0.0)) return 1e30;
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
     WeftLobe lobe = lobe_at(self, x);
@@ -113,7 +115,8 @@ static double error_at(void *user, double *x, SearchCare care) {
         ask_parts(self, lobe, count);
     Blend blend = blend_of(self, count);
     double sum = 0.0;
-    for (int c = 0; c < s->channels; c++) sum += blend_solve(s, count, c, &blend, self->weights[c]);
+    for (int c = 0; c < s->channels && share_tell(self->search->share, 0.0); c++)
+        sum += blend_solve(s, count, c, &blend, self->weights[c]);
     return sum;
 }
 
@@ -206,7 +209,8 @@ static SearchAxis axis_of(double low, double high, double start) {
 static Search make_search(Walker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
     const WeftLobeInfo *info = info_of(self);
-    Search search = {.error = error_at, .user = self, .descents = 3, .most = 1000};
+    Search search = {
+        .error = error_at, .user = self, .descents = 3, .most = 1000, .share = self->search->share};
     unsigned hold = hold_turning(self);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
@@ -257,10 +261,10 @@ static void colors_of(const Walker *self, LobeFound *out) {
     }
 }
 
-bool lobe_search_run(const LobeSearch *search, LobeFound *out) {
+WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
     Walker self;
     double x[SEARCH_MOST] = {0.0};
-    if (!walker_make(&self, search, &out->lobe)) return false;
+    if (!walker_make(&self, search, &out->lobe)) return WEFT_RESOURCES;
     const Search walk = make_search(&self, x);
     out->start = error_at(&self, x, SEARCH_FULL);
     search_run(&walk, x, &out->evaluations);
@@ -268,5 +272,6 @@ bool lobe_search_run(const LobeSearch *search, LobeFound *out) {
     out->lobe = lobe_at(&self, x);
     colors_of(&self, out);
     free(self.block);
-    return true;
+    bool whole = share_tell(search->share, 0.0);
+    return whole ? WEFT_OK : WEFT_INTERRUPTED;
 }

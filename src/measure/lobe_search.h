@@ -7,12 +7,14 @@
 #define WEFT_MEASURE_LOBE_SEARCH_H
 
 #include "measure/samples.h"
+#include "measure/watch.h"
 
 typedef struct LobeSearch {
     const Samples *samples;
     const WeftLobe *base; /* its white x is what a base colour scales; NULL: none */
     unsigned hold;        /* as weft_match_lobe has it */
     bool isotropic;       /* what is to be met is: then a lobe that is stays so */
+    Share *share;         /* may be NULL */
 } LobeSearch;
 
 typedef struct LobeFound {
@@ -22,7 +24,8 @@ typedef struct LobeFound {
     long long evaluations;
 } LobeFound;
 
-/* From out->lobe. False where memory is short. */
-bool lobe_search_run(const LobeSearch *search, LobeFound *out);
+/* From out->lobe. WEFT_RESOURCES where memory is short, WEFT_INTERRUPTED where the share says that it should
+ * end. */
+WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
 
 #endif

@@ -1,14 +1,19 @@
 #include "weft/match.h"
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "measure/lobe_search.h"
 #include "measure/material_search.h"
+#include "measure/reflection.h"
+
+/* The only lobe that walks is fibre-walk. */
+static WeftResult walks(const char *id, WeftError *error) {
+    return fail(error, WEFT_MESSAGE_DESC, id,
+                "is an estimate by random walks; match fibre, which is its mean");
+}
 
 static WeftResult short_of_memory(WeftError *error) {
     return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
@@ -59,15 +64,16 @@ static WeftResult lobe_apart(const Samples *samples, const WeftLobe *lobe, doubl
 }
 
 static WeftResult lobe_matched(const Samples *samples, const WeftReflection *from, unsigned hold,
-                               WeftLobe *lobe, WeftMatch *out, WeftError *error) {
+                               Share *share, WeftLobe *lobe, WeftMatch *out, WeftError *error) {
     const LobeSearch search = {
-        .samples = samples, .hold = hold, .isotropic = samples_isotropic(samples, from)};
+        .samples = samples, .hold = hold, .isotropic = samples_isotropic(samples, from), .share = share};
     LobeFound found = {.lobe = *lobe};
     double exact = 0.0;
     WeftResult result = lobe_apart(samples, lobe, &out->copied, error);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
-    if (!lobe_search_run(&search, &found)) return short_of_memory(error);
+    result = lobe_search_run(&search, &found);
+    if (result != WEFT_OK) return result == WEFT_RESOURCES ? short_of_memory(error) : result;
     out->evaluations = found.evaluations;
     result = lobe_apart(samples, &found.lobe, &exact, error);
     if (result != WEFT_OK || !(exact < out->copied)) return result;
@@ -76,82 +82,91 @@ static WeftResult lobe_matched(const Samples *samples, const WeftReflection *fro
     return WEFT_OK;
 }
 
-WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, WeftLobe *lobe,
-                           WeftMatch *out, WeftError *error) {
+static WeftResult match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, Share *share,
+                             WeftLobe *lobe, WeftMatch *out, WeftError *error) {
     Samples samples;
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     char number[16];
     *out = (WeftMatch){.copied = 0.0};
     snprintf(number, sizeof number, "%d", lobe->lobe);
     if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, number, NULL);
-    if (info->traits & WEFT_LOBE_REFERENCE)
-        return fail(error, WEFT_MESSAGE_DESC, info->id, "it is known by its mean alone");
+    if (info->traits & WEFT_LOBE_REFERENCE) return walks(info->id, error);
+    if (reflection_walks(from)) return walks(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, lobe, out, error);
+    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, share, lobe, out, error);
     samples_free(&samples);
     return result;
 }
 
-static WeftResult material_matched(const Samples *samples, const int *held, WeftMaterial *material,
-                                   WeftMatch *out, WeftError *error) {
+WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, WeftLobe *lobe,
+                           WeftMatch *out, WeftError *error) {
+    return match_lobe(from, metric, hold, NULL, lobe, out, error);
+}
+
+static WeftResult material_matched(const Samples *samples, const int *held, Share *share,
+                                   WeftMaterial *material, WeftMatch *out, WeftError *error) {
     WeftReflection *copy;
-    WeftMaterial found = *material;
-    double exact = 0.0;
+    WeftMaterial changed = *material;
+    WeftMatch found = {.copied = 0.0};
     WeftResult result = weft_reflection_create(material, &copy, error);
+    if (result == WEFT_OK && reflection_walks(copy)) result = walks(reflection_walks(copy), error);
     if (result == WEFT_OK) result = apart_of(samples, copy, WEFT_PART_ALL, &out->copied, error);
     weft_reflection_free(copy);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
-    if (!material_search_run(samples, held, &found, &exact, &out->evaluations)) return short_of_memory(error);
-    if (!(exact < out->copied)) return WEFT_OK;
-    out->matched = exact;
-    *material = found;
+    result = material_search_run(samples, held, share, &changed, &found, error);
+    out->evaluations = found.evaluations;
+    if (result != WEFT_OK || !(found.matched < out->copied)) return result;
+    out->matched = found.matched;
+    *material = changed;
     return WEFT_OK;
 }
 
-WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
-                               WeftMaterial *material, WeftMatch *out, WeftError *error) {
+static WeftResult match_material(const WeftReflection *from, WeftApart metric, const int *held, Share *share,
+                                 WeftMaterial *material, WeftMatch *out, WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
+    if (reflection_walks(from)) return walks(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = material_matched(&samples, held, material, out, error);
+    if (result == WEFT_OK) result = material_matched(&samples, held, share, material, out, error);
     samples_free(&samples);
     return result;
 }
 
+WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
+                               WeftMaterial *material, WeftMatch *out, WeftError *error) {
+    return match_material(from, metric, held, NULL, material, out, error);
+}
+
 typedef struct Batch {
     WeftMatchJob *jobs;
-    int count;
     WeftApart metric;
-    WeftProgress progress;
-    void *user;
-    atomic_int done;
-    atomic_bool stopped;
+    Watch watch;
     WeftError *errors;
 } Batch;
 
 static void job_run(void *user, int item, int thread) {
+    (void)thread;
     Batch *batch = user;
     WeftMatchJob *job = &batch->jobs[item];
-    job->result = WEFT_INTERRUPTED;
-    if (atomic_load(&batch->stopped)) return;
+    Share share = {.watch = &batch->watch};
     WeftError *error = &batch->errors[item];
+    job->result = WEFT_INTERRUPTED;
+    if (!share_tell(&share, 0.0)) return;
     job->result =
         job->is_lobe
-            ? weft_match_lobe(job->from, batch->metric, job->hold, &job->lobe, &job->found, error)
-            : weft_match_material(job->from, batch->metric, job->held, &job->material, &job->found, error);
-    int done = atomic_fetch_add(&batch->done, 1) + 1;
-    if (thread == 0 && batch->progress && batch->progress(batch->user, (double)done / batch->count) != 0)
-        atomic_store(&batch->stopped, true);
+            ? match_lobe(job->from, batch->metric, job->hold, &share, &job->lobe, &job->found, error)
+            : match_material(job->from, batch->metric, job->held, &share, &job->material, &job->found, error);
+    share_tell(&share, 1.0);
 }
 
 WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
                            WeftProgress progress, void *user, WeftError *error) {
-    Batch batch = {.jobs = jobs, .count = count, .metric = metric, .progress = progress, .user = user};
+    Batch batch = {.jobs = jobs, .metric = metric};
     batch.errors = alloc_array((size_t)count, sizeof *batch.errors);
     if (!batch.errors) return short_of_memory(error);
-    parallel_for(threads, count, job_run, &batch);
-    WeftResult result = atomic_load(&batch.stopped) ? WEFT_INTERRUPTED : WEFT_OK;
+    bool whole = watch_loop(&batch.watch, threads, count, job_run, &batch, progress, user);
+    WeftResult result = whole ? WEFT_OK : WEFT_INTERRUPTED;
     for (int k = 0; k < count && result == WEFT_OK; k++)
         if (jobs[k].result != WEFT_OK) {
             result = jobs[k].result;

@@ -29,11 +29,19 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
+/* Where a channel of red, green, blue, alpha stands in a picture of so many: one of grey has it in all three,
+ * and alpha is the last of two or four. -1: there is no alpha. */
+static int place_of(int channel, int channels) {
+    if (channel == 3) return channels & 1 ? -1 : channels - 1;
+    return channels < 3 ? 0 : channel;
+}
+
 /* The mean of a channel over a texture's pixels; those of a colour are sRGB. */
 static double texture_mean(WeftImage image, int channel, bool color) {
     double sum = 0.0;
     size_t pixels = (size_t)image.width * (size_t)image.height;
-    int at = channel < image.channels ? channel : image.channels < 3 ? 0 : image.channels - 1;
+    int at = place_of(channel, image.channels);
+    if (at < 0 || pixels == 0) return 1.0;
     for (size_t k = 0; k < pixels; k++) {
         size_t place = k * (size_t)image.channels + (size_t)at;
         double x = image.type == WEFT_PIXEL_U8    ? ((const uint8_t *)image.pixels)[place] / 255.0
@@ -41,7 +49,7 @@ static double texture_mean(WeftImage image, int channel, bool color) {
                                                   : (double)((const float *)image.pixels)[place];
         sum += color && image.type != WEFT_PIXEL_F32 ? linear_of(x) : x;
     }
-    return pixels ? sum / (double)pixels : 1.0;
+    return sum / (double)pixels;
 }
 
 /* What the textures of the factors are on average; 1 without one. */
@@ -107,7 +115,8 @@ static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor 
     }
     json_t *before = json_object_get(home, factor->name), *now = json_array();
     for (int c = 0; c < factor->numbers; c++) {
-        double kept = c == 3 && before ? json_number_value(json_array_get(before, 3)) : 1.0;
+        const json_t *alpha = json_array_get(before, 3); /* three numbers have none, and it is 1 */
+        double kept = alpha ? json_number_value(alpha) : 1.0;
         json_array_append_new(now, json_real(c < 3 ? round((double)value[c] * 1e6) / 1e6 : kept));
     }
     json_object_set_new(home, factor->name, now);

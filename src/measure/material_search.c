@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fail.h"
 #include "base/memory.h"
 #include "measure/reflection.h"
 #include "measure/search.h"
@@ -153,39 +154,49 @@ static Search make_search(Walker *self, const int *held, double *x) {
     return search;
 }
 
-static bool walker_make(Walker *self, const Samples *samples, const WeftMaterial *material) {
+static WeftResult walker_make(Walker *self, const Samples *samples, const WeftMaterial *material,
+                              WeftError *error) {
     size_t n = (size_t)samples->count;
     *self = (Walker){.samples = samples, .material = *material};
     self->block = alloc_array(15 * n, sizeof(float));
     self->table = alloc_array(1, sizeof *self->table);
-    if (!self->block || !self->table) return false;
-    if (weft_reflection_create(material, &self->reflection, NULL) != WEFT_OK) return false;
+    if (!self->block || !self->table) return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
     float *at = self->block;
     for (int c = 0; c < 3; c++, at += 4 * n)
         self->x[c] = at, self->rest[c] = at + n, self->part[0][c] = at + 2 * n, self->part[1][c] = at + 3 * n;
     self->work = at;
-    return true;
+    return weft_reflection_create(material, &self->reflection, error);
 }
 
-bool material_search_run(const Samples *samples, const int *held, WeftMaterial *material, double *error,
-                         long long *evaluations) {
+/* The error of a material with E as it is. */
+static WeftResult exact_apart(Walker *self, const WeftMaterial *material, double *apart, WeftError *error) {
+    const Samples *s = self->samples;
+    WeftReflection *exact;
+    WeftResult result = weft_reflection_create(material, &exact, error);
+    if (result != WEFT_OK) return result;
+    samples_ask(s, exact, WEFT_PART_ALL, self->x);
+    *apart = samples_apart(s, s->count, (const float *const *)self->x);
+    weft_reflection_free(exact);
+    return WEFT_OK;
+}
+
+WeftResult material_search_run(const Samples *samples, const int *held, Share *share, WeftMaterial *material,
+                               WeftMatch *found, WeftError *error) {
     Walker self;
     double x[SEARCH_MOST] = {0.0};
-    bool made = walker_make(&self, samples, material);
-    if (made) {
+    WeftResult result = walker_make(&self, samples, material, error);
+    if (result == WEFT_OK) {
         Search search = make_search(&self, held, x);
-        search_run(&search, x, evaluations);
+        search.share = share;
+        search_run(&search, x, &found->evaluations);
+        if (!share_tell(share, 0.0)) result = WEFT_INTERRUPTED;
+    }
+    if (result == WEFT_OK) {
         material_at(&self, x, material);
-        WeftReflection *exact = NULL; /* with E as it is */
-        made = weft_reflection_create(material, &exact, NULL) == WEFT_OK;
-        if (made) {
-            samples_ask(samples, exact, WEFT_PART_ALL, self.x);
-            *error = samples_apart(samples, samples->count, (const float *const *)self.x);
-        }
-        weft_reflection_free(exact);
+        result = exact_apart(&self, material, &found->matched, error);
     }
     weft_reflection_free(self.reflection);
     free(self.table);
     free(self.block);
-    return made;
+    return result;
 }

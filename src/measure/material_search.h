@@ -3,10 +3,12 @@
 #define WEFT_MEASURE_MATERIAL_SEARCH_H
 
 #include "measure/samples.h"
+#include "measure/watch.h"
 
-/* As weft_match_material, from where material is; error is that of what it leaves in material. False where
- * memory is short. */
-bool material_search_run(const Samples *samples, const int *held, WeftMaterial *material, double *error,
-                         long long *evaluations);
+/* As weft_match_material, from where material is; found->matched is the error of what it leaves in material.
+ * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where share (may be NULL) says that it
+ * should end. */
+WeftResult material_search_run(const Samples *samples, const int *held, Share *share, WeftMaterial *material,
+                               WeftMatch *found, WeftError *error);
 
 #endif

@@ -144,6 +144,18 @@ void weft_reflection_free(WeftReflection *self) {
     free(self);
 }
 
+const char *reflection_walks(const WeftReflection *self) {
+    int lobe = -1;
+    if (self->kind == REFLECTION_LOBE) lobe = self->lobe.lobe;
+    if (self->kind == REFLECTION_WHOLE) {
+        Stack stack;
+        asks_for_table(&self->whole, &stack);
+        if (stack.sheen.pick > 0.0f) lobe = stack.sheen.lobe.id;
+    }
+    const WeftLobeInfo *info = weft_lobe_info(lobe);
+    return info && info->traits & WEFT_LOBE_REFERENCE ? info->id : NULL;
+}
+
 static Dir to_frame(const Whole *self, const float w[3]) {
     Dir a = self->along;
     return dir(a.x * w[0] + a.y * w[1], a.x * w[1] - a.y * w[0], w[2]);

@@ -11,4 +11,8 @@
  * is then asked for no f, is not known. */
 void reflection_change(WeftReflection *reflection, const WeftMaterial *material, AlbedoTable *shared);
 
+/* The id of the lobe of which a reflection is an estimate (WEFT_LOBE_REFERENCE), by itself or as the sheen of
+ * a material; NULL: it is none. */
+const char *reflection_walks(const WeftReflection *reflection);
+
 #endif

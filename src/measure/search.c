@@ -18,6 +18,8 @@ typedef struct Walk {
     SearchCare care;
     Place best;
     long long evaluations;
+    nlopt_opt method; /* of the descent that is under way */
+    bool stopped;
 } Walk;
 
 static bool by_logarithm(const SearchAxis *axis) { return axis->low > 0.0 && axis->high >= 10.0 * axis->low; }
@@ -44,8 +46,17 @@ static void places_of(const Search *search, const double *x, double *at) {
     for (int k = 0; k < search->axes; k++) at[k] = place_of(&search->axis[k], x[k]);
 }
 
+/* The most evaluations that a search takes. */
+static double evaluations_most(const Search *search) {
+    return 1.0 + search->grid + (1.0 + search->descents) * search->most + 3.0 * search->most;
+}
+
+/* 1e30 for everything once it should end. */
 static double error_at(Walk *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
+    walk->stopped = walk->stopped || !share_tell(walk->search->share,
+                                                 (double)walk->evaluations / evaluations_most(walk->search));
+    if (walk->stopped) return 1e30;
     walk->evaluations++;
     double error = walk->search->error(walk->search->user, x, care);
     return error < 1e30 ? error : 1e30; /* NaN too */
@@ -59,6 +70,7 @@ static double objective(unsigned n, const double *at, double *gradient, void *us
         walk->best.error = error;
         memcpy(walk->best.at, at, n * sizeof *at);
     }
+    if (walk->stopped) nlopt_force_stop(walk->method);
     return error;
 }
 
@@ -69,6 +81,7 @@ static void descend_once(Walk *walk, const double *from, double step) {
     double at[SEARCH_MOST], least;
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
     if (!method) return;
+    walk->method = method;
     memcpy(at, from, n * sizeof *at);
     nlopt_set_min_objective(method, objective, walk);
     nlopt_set_lower_bounds1(method, 0.0);
@@ -89,7 +102,7 @@ static Place descend(Walk *walk, const Place *from, SearchCare care) {
     walk->care = care;
     walk->best = *from;
     walk->best.error = 1e30;
-    for (int round = 0; round < rounds; round++, step = fmax(0.5 * step, 0.01)) {
+    for (int round = 0; round < rounds && !walk->stopped; round++, step = fmax(0.5 * step, 0.01)) {
         double before = walk->best.error;
         Place start = walk->best;
         descend_once(walk, start.at, step);
@@ -134,7 +147,7 @@ static Place roughly(Walk *walk, const Place *start) {
     Place starts[DESCENTS_MOST], place;
     int count = 0, room = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
     int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
-    for (int k = 0; k < grid && room > 0; k++) {
+    for (int k = 0; k < grid && room > 0 && !walk->stopped; k++) {
         double x[SEARCH_MOST];
         for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, a);
         place.error = error_at(walk, place.at, SEARCH_GLANCE, x);
@@ -142,7 +155,7 @@ static Place roughly(Walk *walk, const Place *start) {
         keep(starts, &count, room, search->axes, &place);
     }
     Place best = descend(walk, start, SEARCH_ROUGH);
-    for (int k = 0; k < count && best.error > 1e-7; k++) {
+    for (int k = 0; k < count && best.error > 1e-7 && !walk->stopped; k++) {
         place = descend(walk, &starts[k], SEARCH_ROUGH);
         if (place.error < best.error) best = place;
     }

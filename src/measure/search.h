@@ -6,6 +6,8 @@
 #ifndef WEFT_MEASURE_SEARCH_H
 #define WEFT_MEASURE_SEARCH_H
 
+#include "measure/watch.h"
+
 enum { SEARCH_MOST = 16 };
 
 /* A number and its range. Where low is above 0 and high ten times that or more, steps are steps of its
@@ -29,11 +31,11 @@ typedef struct Search {
     int grid;     /* points of it, 0: none */
     int descents; /* rough ones, from so many of the best, and from the caller's start */
     int most;     /* evaluations of a rough descent; careful: half of that, six times at most */
+    Share *share; /* may be NULL; where it says that the item should end, the search does */
 } Search;
 
 /* x comes as the start and leaves as the best that was found; returns its error. *evaluations (may be NULL)
- * grows by what it
- * took. */
+ * grows by what it took. */
 double search_run(const Search *search, double *x, long long *evaluations);
 
 #endif

@@ -76,13 +76,30 @@ static void complaints(void **state) {
     assert_complaint(NULL, LIST("fit", "not-there.csv"), 3, "not-there");
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "velours"), 2, "velours");
     assert_complaint(NULL, LIST("fit", "table.csv", "--base", "ggx"), 2, "diffuse");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "lambert"), 2, "--base");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "fibre-walk"), 2, "fit fibre");
     assert_complaint(NULL, LIST("fit", "table.csv", "-o", "a.png"), 2, ".json");
     assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.png"), 2, ".binary");
     assert_complaint(NULL, LIST("fit", "table.csv", "--metric", "picture"), 2, "picture");
 }
 
+/* In the midst of the longest fit. */
+static void ctrl_c_ends_it(void **state) {
+    (void)state;
+    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("fit", "table.csv", "--lobe", "threads"));
+    sleep_seconds(0.5);
+    double asked = seconds_now();
+    kill(child, SIGINT);
+    Ran ran = program_end(child);
+    if (ran.code != 130 || !one_complaint(ran.err) || !strstr(ran.err, "interrupted") || ran.out[0])
+        fail_msg("%d: %s", ran.code, ran.err);
+    print_message("ended after %.2f s\n", seconds_now() - asked);
+    ran_free(&ran);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_found),
-                                       cmocka_unit_test(the_table_is_printed), cmocka_unit_test(complaints)};
+                                       cmocka_unit_test(the_table_is_printed),
+                                       cmocka_unit_test(ctrl_c_ends_it), cmocka_unit_test(complaints)};
     return cmocka_run_group_tests(tests, table_begin, work_end);
 }

@@ -21,7 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         for (int k = 0; k < table.count; k++)
             for (int c = 0; c < 3; c++) {
                 demand(isfinite(table.wo[k][c]) && isfinite(table.wi[k][c]));
-                demand(isfinite(table.f[k][c]) && table.f[k][c] >= 0.0f);
+                demand(isfinite(table.f[k][c]) && (table.f[k][c] >= 0.0f || (int)table.f[k][c] == -1));
                 demand(c < 2 || (table.wo[k][2] >= 0.0f && table.wi[k][2] >= 0.0f));
             }
     else

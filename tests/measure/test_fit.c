@@ -220,14 +220,17 @@ static void bad_tables_end_in_one_line(void **state) {
     table_refused("", "nothing in it");
     table_refused("# nothing\n\n", "nothing in it");
     table_refused("theta_o,phi_o,theta_i,phi_i,r,g,b\n", "nothing in it");
-    table_refused("10,0,20,0,1,1\n", "line 1 ");
-    table_refused("10,0,20,0,1,1,1\n10,0,20,0,1,1,1,1\n", "line 2 ");
-    table_refused("theta\ntheta\n", "line 2 ");
+    table_refused("10,0,20,0,1,1\n", "line 1 has 6 numbers");
+    table_refused("10,0,20,0,1,1,1\n10,0,20,0,1,1,1,1\n", "line 2 has 8 numbers");
+    table_refused("10,5;0;20;0;1;1;1\n", "line 1 has 8 numbers"); /* a comma is no decimal point */
+    table_refused("theta\ntheta\n", "line 2: no number begins at \"theta\"");
     table_refused("10,0,95,0,1,1,1\n", "line 1:");
-    table_refused("10,0,20,nan,1,1,1\n", "line 1 ");
+    table_refused("10,0,20,nan,1,1,1\n", "line 1: no number begins at \"nan,1");
     table_refused("10,0,20,0,1,1,1e9\n", "line 1:");
-    table_refused("10,0,20,0,-1,-1,-1\n10,0,30,0,-1,-1,-1\n", "nothing in it is above 0");
-    table_refused("10,0,20,0,1,1,1\n", "are needed");
+    table_refused("10,0,20,0,-1,-1,-1\n10,0,30,0,-1,-1,-1\n", "of 2 samples 2 were not measured and 0 ");
+    table_refused(
+        "10,0,20,0,1,1,1\n85,0,20,0,1,1,1\n10,0,81,0,1,1,1\n10,0,81,0,-1,1,1\n",
+        "of 4 samples 1 were not measured and 2 are more than 80 degrees off the normal, which leaves 1;");
     WeftData *data;
     WeftError error;
     assert_int_equal(weft_data_read("not-there.csv", &data, &error), WEFT_INPUT);
@@ -244,6 +247,51 @@ static void bad_tables_end_in_one_line(void **state) {
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.metric = WEFT_APART_PICTURE, .chosen = 1}, &fit, &error),
                      WEFT_USAGE);
     weft_data_free(data);
+}
+
+/* A line so often, below something else. */
+static char *lines_of(const char *first, const char *line, int count, size_t *size) {
+    size_t begin = strlen(first), length = strlen(line);
+    char *text = calloc(begin + (size_t)count * length + 1, 1);
+    assert_non_null(text);
+    memcpy(text, first, begin);
+    for (int k = 0; k < count; k++) memcpy(text + begin + (size_t)k * length, line, length);
+    *size = begin + (size_t)count * length;
+    return text;
+}
+
+/* As other programs write it; and as many samples as there may be, below comments and names. */
+static void tables_of_others_are_read(void **state) {
+    (void)state;
+    static const struct {
+        const char *first, *line;
+        int count, message, all;
+    } tables[] = {{"\xef\xbb\xbf", "10;0;20;0;1;1;1\r\n", 20, 0, 20},
+                  {"\xef\xbb\xbf"
+                   "a;b;c\n",
+                   "10 ; 0; 20 ;0\t1 1;1\n", 20, 0, 20},
+                  {"# one\n# two\n\na,b\n", "9,0,9,0,1,1,1\n", 1000000, 0, 1000000},
+                  {"", "9,0,9,0,1,1,1\n", 1000001, WEFT_MESSAGE_BRDF_TABLE, 0},
+                  {"", "9,0,9,0,0,0,0\n", 20, WEFT_MESSAGE_BRDF_TABLE, 0}};
+    for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+        size_t size;
+        char *text = lines_of(tables[k].first, tables[k].line, tables[k].count, &size);
+        WeftData *data;
+        WeftError error = {.text = ""};
+        WeftResult result = weft_data_read_memory(text, size, "a.csv", &data, &error);
+        if (tables[k].message) {
+            assert_int_equal(result, WEFT_INPUT);
+            assert_int_equal((int)error.message, tables[k].message);
+            assert_non_null(strstr(error.text, tables[k].count > 20 ? "1000000 samples" : "is above 0"));
+        } else {
+            int all;
+            if (result != WEFT_OK) fail_msg("%s", error.text);
+            assert_int_equal(weft_data_count(data, &all), tables[k].all);
+            assert_int_equal(all, tables[k].all);
+        }
+        weft_data_free(data);
+        free(text);
+    }
 }
 
 /* A table of degrees gives the fit that its directions do. */
@@ -331,6 +379,7 @@ int main(void) {
                                        cmocka_unit_test(a_material_says_it),
                                        cmocka_unit_test(bad_tables_end_in_one_line),
                                        cmocka_unit_test(a_table_is_read),
+                                       cmocka_unit_test(tables_of_others_are_read),
                                        cmocka_unit_test(fabrics_are_ranked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -208,6 +209,14 @@ static void what_is_held_stays(void **state) {
     WeftError error;
     assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+    /* nor is an estimate something to be met */
+    WeftReflection *noise = of_lobe(&walk);
+    WeftMaterial any = cloth(0);
+    assert_int_equal(weft_match_lobe(noise, WEFT_APART_COSINE, 0, &to, &match, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "match fibre"));
+    assert_int_equal(weft_match_material(noise, WEFT_APART_COSINE, NULL, &any, &match, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "match fibre"));
+    weft_reflection_free(noise);
     walk.lobe = -1;
     assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
@@ -284,6 +293,25 @@ static void threads_change_nothing(void **state) {
     weft_reflection_free(from);
 }
 
+static int count_and_stop(void *calls, double fraction) {
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    return ++*(int *)calls == 2;
+}
+
+/* In the midst of a search, not after it. */
+static void a_batch_is_stopped(void **state) {
+    (void)state;
+    WeftLobe lobe = coloured(weft_lobe_find("threads"));
+    WeftReflection *from = of_lobe(&lobe);
+    WeftMatchJob job = {.from = from, .is_lobe = 1, .lobe = lobe_named("threads")};
+    int calls = 0;
+    assert_int_equal(weft_match_many(&job, 1, WEFT_APART_COSINE, 1, count_and_stop, &calls, NULL),
+                     WEFT_INTERRUPTED);
+    assert_int_equal(calls, 2);
+    assert_int_equal(job.result, WEFT_INTERRUPTED);
+    weft_reflection_free(from);
+}
+
 static void a_sphere_is_a_picture(void **state) {
     (void)state;
     WeftLobe lobe = lobe_named("lambert");
@@ -300,11 +328,91 @@ static void a_sphere_is_a_picture(void **state) {
     weft_reflection_free(of);
 }
 
+static void text_write(const char *path, const char *text) {
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+}
+
+/* A picture of two greys, alpha 1: the same in any number of channels. */
+static void picture_write(const char *path, int channels) {
+    WeftImage image;
+    WeftError error;
+    if (weft_image_create(4, 4, channels, WEFT_PIXEL_U8, &image, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    for (int k = 0; k < 16 * channels; k++) {
+        bool alpha = channels % 2 == 0 && k % channels == channels - 1;
+        ((uint8_t *)image.pixels)[k] = (uint8_t)(alpha ? 255 : k / channels % 2 ? 200 : 150);
+    }
+    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(&image);
+}
+
+/* A triangle whose roughness, sheen roughness (of alpha) and colour are that picture. */
+static const char textured[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
+    "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0.5,0.4,0.3,1],"
+    "\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":{\"index\":0}},"
+    "\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,0.8],\"sheenRoughnessFactor\":0.5,"
+    "\"sheenRoughnessTexture\":{\"index\":0}}}}],\"extensionsUsed\":[\"KHR_materials_sheen\"],"
+    "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"PICTURE\"}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[-1,-1,0],\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+    "\"VEC2\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+    "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+static int profile_named(const char *id) {
+    int k = 0;
+    while (weft_profile_id(k) && strcmp(weft_profile_id(k), id) != 0) k++;
+    return k;
+}
+
+/* A missing alpha is 1, and grey is red, green and blue: what a picture says does not hang on its channels.
+ */
+static void channels_change_nothing(void **state) {
+    (void)state;
+    WeftAssetMatch found[4];
+    char folder[] = "match-XXXXXX", picture[64], asset[64], out[64], text[sizeof textured + 16];
+    assert_non_null(mkdtemp(folder));
+    snprintf(picture, sizeof picture, "%s/p.png", folder);
+    snprintf(asset, sizeof asset, "%s/a.gltf", folder);
+    snprintf(out, sizeof out, "%s/b.gltf", folder);
+    snprintf(text, sizeof text, "%s", textured);
+    memcpy(strstr(text, "PICTURE"), "./p.png", 7);
+    text_write(asset, text);
+    for (int k = 0; k < 4; k++) {
+        WeftError error;
+        int count;
+        picture_write(picture, k + 1);
+        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"), WEFT_APART_COSINE,
+                             &found[k], 1, &count, NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_true(count == 1 && found[k].changed);
+        for (int n = 0; n < WEFT_INPUTS_MAX; n++)
+            for (int c = 0; c < 3; c++)
+                assert_true(fabsf(found[k].matched.inputs[n].value[c] -
+                                  found[0].matched.inputs[n].value[c]) <= 1e-6f);
+        assert_true(fabs(found[k].found.matched - found[0].found.matched) <= 1e-9);
+    }
+    unlink(picture);
+    unlink(asset);
+    unlink(out);
+    rmdir(folder);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_is_half),           cmocka_unit_test(the_sum_is_the_integral),
-        cmocka_unit_test(itself_stays),           cmocka_unit_test(lobes_come_back),
-        cmocka_unit_test(what_is_held_stays),     cmocka_unit_test(never_worse_than_the_copy),
-        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(a_sphere_is_a_picture)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(half_is_half),
+                                       cmocka_unit_test(the_sum_is_the_integral),
+                                       cmocka_unit_test(itself_stays),
+                                       cmocka_unit_test(lobes_come_back),
+                                       cmocka_unit_test(what_is_held_stays),
+                                       cmocka_unit_test(never_worse_than_the_copy),
+                                       cmocka_unit_test(threads_change_nothing),
+                                       cmocka_unit_test(a_sphere_is_a_picture),
+                                       cmocka_unit_test(channels_change_nothing),
+                                       cmocka_unit_test(a_batch_is_stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,102 @@
+#include "measure/watch.h"
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <time.h>
+
+#include "base/thread.h"
+
+enum { WHOLE = 1000000 };
+static const long pause_ns = 50000000;
+
+bool share_tell(Share *share, double fraction) {
+    if (!share || !share->watch) return true;
+    long long now = (long long)(fmin(fmax(fraction, 0.0), 1.0) * WHOLE);
+    if (now > share->told) {
+        atomic_fetch_add(&share->watch->done, now - share->told);
+        share->told = now;
+    }
+    return !atomic_load(&share->watch->stopped);
+}
+
+/* The loop, on threads of its own. */
+typedef struct Run {
+    Watch *watch;
+    int threads, items;
+    void (*body)(void *, int, int);
+    void *user;
+    WeftProgress progress;
+    void *progress_user;
+    pthread_mutex_t lock;
+    pthread_cond_t ended;
+    bool over;
+} Run;
+
+static void ask(Run *run) {
+    double fraction = (double)atomic_load(&run->watch->done) / ((double)WHOLE * run->items);
+    if (run->progress(run->progress_user, fmin(fraction, 1.0)) != 0) atomic_store(&run->watch->stopped, true);
+}
+
+static void *run_loop(void *argument) {
+    Run *run = argument;
+    parallel_for(run->threads, run->items, run->body, run->user);
+    pthread_mutex_lock(&run->lock);
+    run->over = true;
+    pthread_cond_signal(&run->ended);
+    pthread_mutex_unlock(&run->lock);
+    return NULL;
+}
+
+static bool wait_for_end(Run *run) {
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += pause_ns;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_mutex_lock(&run->lock);
+    for (int code = 0; !run->over && code != ETIMEDOUT;)
+        code = pthread_cond_timedwait(&run->ended, &run->lock, &until);
+    bool over = run->over;
+    pthread_mutex_unlock(&run->lock);
+    return over;
+}
+
+static void watched(Run *run) {
+    pthread_t thread;
+    pthread_condattr_t clock;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_mutex_init(&run->lock, NULL);
+    pthread_cond_init(&run->ended, &clock);
+    if (pthread_create(&thread, NULL, run_loop, run) == 0) {
+        while (!wait_for_end(run)) ask(run);
+        pthread_join(thread, NULL);
+    } else {
+        for (int item = 0; item < run->items; item++) {
+            run->body(run->user, item, 0);
+            ask(run);
+        }
+    }
+    pthread_cond_destroy(&run->ended);
+    pthread_mutex_destroy(&run->lock);
+    pthread_condattr_destroy(&clock);
+}
+
+bool watch_loop(Watch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
+                void *user, WeftProgress progress, void *progress_user) {
+    Run run = {.watch = watch,
+               .threads = threads,
+               .items = items,
+               .body = body,
+               .user = user,
+               .progress = progress,
+               .progress_user = progress_user};
+    atomic_store(&watch->stopped, false);
+    atomic_store(&watch->done, 0);
+    if (progress)
+        watched(&run);
+    else
+        parallel_for(threads, items, body, user);
+    return !atomic_load(&watch->stopped);
+}

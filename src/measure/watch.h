@@ -1,0 +1,30 @@
+/* watch.h - a long parallel loop whose caller is told how far it is, and can stop it */
+#ifndef WEFT_MEASURE_WATCH_H
+#define WEFT_MEASURE_WATCH_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "weft/scene.h"
+
+typedef struct Watch {
+    atomic_bool stopped; /* items that have not begun do nothing, and those that have end soon */
+    atomic_llong done;   /* of each item so many millionths */
+} Watch;
+
+/* How far one item is. */
+typedef struct Share {
+    Watch *watch; /* NULL: nobody watches */
+    long long told;
+} Share;
+
+/* Says that this share of the item is done, where that is more than was said before. False where the item
+ * should end. share may be NULL. */
+bool share_tell(Share *share, double fraction);
+
+/* parallel_for, while the caller's thread asks progress (may be NULL), twenty times a second. Without a
+ * second thread it is asked between items. False where it was stopped. */
+bool watch_loop(Watch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
+                void *user, WeftProgress progress, void *progress_user);
+
+#endif
