@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "fit_sheet.h"
 #include "interrupt.h"
 #include "json.h"
 #include "output.h"
+#include "path.h"
 #include "progress.h"
 #include "report.h"
 #include "verbs.h"
@@ -95,11 +95,6 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, '}');
 }
 
-static bool suffix_is(const char *path, const char *suffix) {
-    size_t length = strlen(path), end = strlen(suffix);
-    return length > end && strcasecmp(path + length - end, suffix) == 0;
-}
-
 static int on_progress(void *progress, double fraction) {
     progress_draw(progress, fraction);
     return interrupt_seen();
@@ -139,14 +134,14 @@ static int outputs_check(Fitting *fitting) {
     int result = 0;
     fitting->material = option_text(fitting->options, "-o");
     fitting->plot = option_text(fitting->options, "--plot");
-    if (fitting->material && !suffix_is(fitting->material, ".json"))
+    if (fitting->material && !path_ends(fitting->material, ".json"))
         return report(WEFT_USAGE, "%s: a material is a .json", fitting->material);
-    if (fitting->plot && !suffix_is(fitting->plot, ".png"))
+    if (fitting->plot && !path_ends(fitting->plot, ".png"))
         return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
-    if (fitting->plot && !suffix_is(fitting->path, ".binary"))
+    if (fitting->plot && !path_ends(fitting->path, ".binary"))
         return report(WEFT_USAGE, "%s: slices are drawn of a .binary, which has no gaps", fitting->path);
-    if (fitting->material) result = output_probe(fitting->material);
-    if (result == 0 && fitting->plot) result = output_probe(fitting->plot);
+    if (fitting->material) result = output_probe_apart(fitting->options, fitting->material);
+    if (result == 0 && fitting->plot) result = output_probe_apart(fitting->options, fitting->plot);
     return result;
 }
 

@@ -80,9 +80,19 @@ static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMateri
     return 0;
 }
 
+/* A lobe that is known by random walks alone would be matched to their noise. */
+static int refuse_estimate(const Subject *subject) {
+    const WeftLobeInfo *info = subject->kind == SUBJECT_LOBE ? weft_lobe_info(subject->lobe.lobe) : NULL;
+    if (!info || !(info->traits & WEFT_LOBE_REFERENCE)) return 0;
+    return report(WEFT_USAGE, "%.200s: is an estimate by random walks: match fibre, which is its mean",
+                  subject->words);
+}
+
 int match_begin(Match *match, const char *from, const char *to) {
     int result = subject_read(from, &match->from);
     if (result == 0) result = subject_parse(to, &match->to);
+    if (result == 0) result = refuse_estimate(&match->from);
+    if (result == 0) result = refuse_estimate(&match->to);
     if (result != 0) return result;
     if (match->to.kind == SUBJECT_MEASURED)
         return report(WEFT_USAGE, "%.200s: has no parameters that could be matched", to);
