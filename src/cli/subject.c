@@ -22,9 +22,9 @@ typedef struct Parts {
 /* A colon begins settings where a '=' follows it; a kind or a file's material where none does. */
 static int take_apart(const char *typed, Parts *parts) {
     *parts = (Parts){.kind = NULL};
+    parts->name = parts->text;
     if (strlen(typed) >= sizeof parts->text) return report(WEFT_USAGE, "%.60s...: is too long a name", typed);
     snprintf(parts->text, sizeof parts->text, "%s", typed);
-    parts->name = parts->text;
     for (size_t k = 0; k < KINDS; k++) {
         size_t n = strlen(taken[k]);
         if (strncmp(typed, taken[k], n) != 0 || typed[n] != ':') continue;
