@@ -193,8 +193,7 @@ static void glsl_compiles(void **state) {
                      way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
                      exported[way][k].text, "\nout vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n");
         }
-    shell("for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { grep ERROR log | head -3; exit 1; "
-          "}; done");
+    shell("glslangValidator -S frag *.frag >log 2>&1 || { grep -B1 ERROR log | head -6; exit 1; }");
 }
 
 static void hlsl_compiles(void **state) {
