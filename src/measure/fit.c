@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "measure/brdf_table.h"
 #include "measure/lobe_search.h"
 #include "measure/merl.h"
@@ -174,16 +174,11 @@ static WeftResult data_of_merl(const Merl *merl, const char *name, WeftData **ou
     return result;
 }
 
-static bool is_merl(const char *name) {
-    size_t length = strlen(name);
-    return length > 7 && strcasecmp(name + length - 7, ".binary") == 0;
-}
-
 WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
                                  WeftError *error) {
     WeftResult result;
     *out = NULL;
-    if (is_merl(name)) {
+    if (path_ends(name, ".binary")) {
         Merl merl;
         result = merl_read_memory(data, size, name, &merl, error);
         if (result == WEFT_OK) result = data_of_merl(&merl, name, out, error);

@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "measure/halton.h"
 #include "measure/merl.h"
 #include "measure/reflection.h"
 #include "scene/material_numbers.h"
@@ -203,13 +204,6 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
             merl_at(&self->merl, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
-/* Digits of k the other way round, in [0, 1). */
-static float radical_inverse(uint32_t k) {
-    uint32_t x = 0;
-    for (int bit = 0; bit < 24; bit++) x = x << 1 | (k >> bit & 1u);
-    return (float)x * 0x1p-24f;
-}
-
 /* Directions as the lobes spread them: however narrow these are, few will do. */
 static void whole_albedo(const Whole *self, int part, const float wo[3], float albedo[3]) {
     Stack stack;
@@ -217,7 +211,7 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
     double sum[3] = {0.0};
     stack_make(&stack, &self->surface, &self->choices, self->table, o);
     for (uint32_t k = 0; k < DRAWS; k++) {
-        Dir i = stack_sample(&stack, o, ((float)k + 0.5f) / DRAWS, radical_inverse(k));
+        Dir i = stack_sample(&stack, o, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));
         if (!(i.z > 0.0f)) continue;
         StackValue value = value_of(&stack, WEFT_PART_ALL, o, i, k, 1);
         float pdf = value.pdf;
@@ -233,7 +227,7 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
 static void measured_albedo(const Merl *merl, const float wo[3], float albedo[3]) {
     double sum[3] = {0.0};
     for (uint32_t k = 0; k < 4 * DRAWS; k++) {
-        Dir i = warp_cosine(((float)k + 0.5f) / (4 * DRAWS), radical_inverse(k));
+        Dir i = warp_cosine(((float)k + 0.5f) / (4 * DRAWS), (float)halton((int)k, 2));
         float f[3];
         merl_at(merl, dir(wo[0], wo[1], wo[2]), i, f);
         for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * 3.14159265358979 / (4 * DRAWS);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "measure/halton.h"
 #include "weft/raster.h"
 
 static const double pi = 3.14159265358979323846;
@@ -30,14 +31,6 @@ bool samples_create(Samples *self, int count, WeftApart metric) {
 void samples_free(Samples *self) {
     free(self->block);
     *self = (Samples){0};
-}
-
-/* Digits of k in a base, the other way round, in [0, 1). John H. Halton, "On the Efficiency of Certain
- * Quasi-Random Sequences of Points in Evaluating Multi-Dimensional Integrals", 1960. */
-static double halton(int k, int base) {
-    double value = 0.0, digit = 1.0 / base;
-    for (; k > 0; k /= base, digit /= base) value += (k % base) * digit;
-    return value;
 }
 
 /* Half vectors of distribution ggx, each mirroring wo: narrow enough for a highlight, wide enough for all. */

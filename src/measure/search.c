@@ -6,6 +6,8 @@
 
 #include <nlopt.h>
 
+#include "measure/halton.h"
+
 enum { GRID_MOST = 1024, DESCENTS_MOST = 8 };
 
 /* A place in the unit cube, and the error there. */
@@ -111,13 +113,7 @@ static Place descend(Walk *walk, const Place *from, SearchCare care) {
     return walk->best;
 }
 
-/* Point number k of the sequence of John H. Halton, 1960: even over the cube, however many there are. */
-static double halton(int k, int axis) {
-    static const int primes[SEARCH_MOST] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
-    double value = 0.0, digit = 1.0 / primes[axis];
-    for (; k > 0; k /= primes[axis], digit /= primes[axis]) value += (k % primes[axis]) * digit;
-    return value;
-}
+static const int primes[SEARCH_MOST] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
 
 static double distance(const Place *a, const Place *b, int axes) {
     double most = 0.0;
@@ -149,7 +145,7 @@ static Place roughly(Walk *walk, const Place *start) {
     int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
     for (int k = 0; k < grid && room > 0 && !walk->stopped; k++) {
         double x[SEARCH_MOST];
-        for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, a);
+        for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, primes[a]);
         place.error = error_at(walk, place.at, SEARCH_GLANCE, x);
         places_of(search, x, place.at);
         keep(starts, &count, room, search->axes, &place);
