@@ -16,6 +16,7 @@ static const Option view_options[] = {
     OPTION_HEADING("Window"),
     OPTION_NUMBER("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
     OPTION_NUMBER("--height", "PIXELS", NULL, 240, 16384, "height of the window [as it was last time, 720]"),
+    OPTION_NUMBER("--scale", "FACTOR", NULL, 0.5, 4, "size of its panels and words [as the display asks, 1]"),
     OPTION_NUMBER(
         "--occlusion", "RAYS", "64", 0, 4096,
         "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
@@ -63,6 +64,9 @@ static const char *materials_beside(char path[4096]) {
 }
 
 static bool read_sizes(const Options *options, ViewDesc *desc) {
+    double scale = 0.0;
+    if (option_given(options, "--scale") && !option_number(options, "--scale", &scale)) return false;
+    desc->scale = (float)scale;
     return option_integer(options, "--width", &desc->width) &&
            option_integer(options, "--height", &desc->height) &&
            option_integer(options, "--frames", &desc->frames) &&

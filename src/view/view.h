@@ -25,6 +25,7 @@ typedef struct ViewDesc {
     const char *materials;  /* folder of maps to put onto the cloth; NULL: none */
     int occlusion;
     int width, height;  /* of the window; 0: as it was last time */
+    float scale;        /* of panels and words; 0: as the display asks, 1 without one */
     int frames;         /* ends after so many; 0: when it is closed */
     const char *script; /* file of actions to replay; may be NULL */
     bool unseen;        /* without a window */

@@ -129,7 +129,7 @@ static void run_frame(Viewer *v, double started) {
 }
 
 static bool start(Viewer *v, char why[512]) {
-    WindowDesc desc = {.title = "weft", .unseen = v->desc->unseen};
+    WindowDesc desc = {.title = "weft", .unseen = v->desc->unseen, .scale = v->desc->scale};
     desc.width = v->desc->width ? v->desc->width : v->settings.width;
     desc.height = v->desc->height ? v->desc->height : v->settings.height;
     v->window = window_open(&desc, why);

@@ -52,6 +52,7 @@ static void act(FILE *stream) {
         break;
     case 13:
         if (roll(6) == 0) fprintf(stream, "resize %u %u\n", 320 + roll(500), 240 + roll(400));
+        if (roll(12) == 0) fprintf(stream, "resize 0 0\n"); /* minimised */
         break;
     case 14:
         fprintf(stream, "keydown control\npress left\nrelease left\nkeyup control\ntype %.4g\nkey escape\n",

@@ -34,6 +34,27 @@ static void what_is_typed_into_a_slider_is_undone(void **state) {
     weft_image_free(&window);
 }
 
+/* A display of many small pixels: all is twice as large, in a window twice as large, and works. */
+static void panels_are_scaled(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const scales[2] = {"1", "2"};
+    static const char *const sizes[2][2] = {{"480", "360"}, {"960", "720"}};
+    double box[2][4];
+    for (int k = 0; k < 2; k++) {
+        Drive drive = drive_start("wait rest\nset Material/metallic 0.5\nwait rest\n",
+                                  LIST("view", "--windowless", "--forget", "--json", "--width", sizes[k][0],
+                                       "--height", sizes[k][1], "--scale", scales[k], CHEAP));
+        json_t *now = drive_until(&drive, "command", ".metallic=0.5");
+        const json_t *found = json_object_get(json_object_get(now, "controls"), "Material/metallic");
+        assert_non_null(found);
+        for (int c = 0; c < 4; c++) box[k][c] = json_number_value(json_array_get(found, (size_t)c));
+        json_decref(now);
+        drive_finish(&drive);
+    }
+    for (int c = 0; c < 4; c++) assert_true(fabs(box[1][c] - 2.0 * box[0][c]) < 0.05 * box[1][c] + 4.0);
+}
+
 /* ---- scenes ---- */
 
 static void a_broken_scene_leaves_the_one_before(void **state) {
@@ -347,6 +368,7 @@ static void without_a_display_it_says_what_does_without(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_typed_into_a_slider_is_undone),
+                                       cmocka_unit_test(panels_are_scaled),
                                        cmocka_unit_test(a_broken_scene_leaves_the_one_before),
                                        cmocka_unit_test(a_saved_scene_looks_the_same),
                                        cmocka_unit_test(a_full_disk_is_told_of),
