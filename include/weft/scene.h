@@ -118,6 +118,12 @@ WEFT_API WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftErro
 WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                          WeftError *error);
 
+/* Scales, at every surface, what the diffuse lobe and dust reflect of the environment's light, and what the
+ * specular, sheen and coat lobes do. Factors of 0 up, 1 of a fresh scene; others than that are an artist's
+ * wish, which no light does. */
+WEFT_API WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
+                                                     WeftError *error);
+
 /* What shines. */
 typedef enum WeftLightKind {
     WEFT_LIGHT_DIRECTIONAL = 0,

@@ -130,6 +130,8 @@ bool staging_read(const Options *options, const char *scene, Staging *staging) {
            option_number(options, "--exposure", &staging->exposure) &&
            option_number(options, "--env-rotation", &staging->env_rotation) &&
            option_number(options, "--env-strength", &staging->env_strength) &&
+           option_number(options, "--env-ambient", &staging->env_ambient) &&
+           option_number(options, "--env-reflection", &staging->env_reflection) &&
            option_choice(options, "--tonemap", curves, &staging->tonemap) &&
            dress_read(options, &staging->dress) && read_lights(options, staging);
 }
@@ -144,6 +146,9 @@ WeftResult staging_apply(const Staging *staging, int k, WeftScene *scene, const 
     if (result == WEFT_OK)
         result = weft_scene_set_environment_placement(scene, (float)staging->env_rotation,
                                                       (float)staging->env_strength, error);
+    if (result == WEFT_OK)
+        result = weft_scene_set_environment_parts(scene, (float)staging->env_ambient,
+                                                  (float)staging->env_reflection, error);
     while (result == WEFT_OK && staging->no_lights && weft_scene_info(scene).light_count > 0)
         result = weft_scene_remove_light(scene, 0, error);
     for (int j = 0; j < staging->light_count && result == WEFT_OK; j++)

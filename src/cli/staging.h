@@ -20,6 +20,10 @@ enum { STAGING_LIGHTS_MOST = 64 };
         OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6,                                           \
                       "turn the environment about the vertical"),                                            \
         OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),                     \
+        OPTION_NUMBER("--env-ambient", "FACTOR", "1", 0, 1e6,                                                \
+                      "scale what diffuse lobes and dust reflect of it"),                                    \
+        OPTION_NUMBER("--env-reflection", "FACTOR", "1", 0, 1e6,                                             \
+                      "scale what specular, sheen and coat lobes reflect of it"),                            \
         OPTION_LIST(                                                                                         \
             "--light", "LIGHT",                                                                              \
             "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "                               \
@@ -38,7 +42,7 @@ typedef struct Staging {
     const char *scene;
     Dress dress;
     const char *camera, *env; /* NULL: none was named */
-    double exposure, env_rotation, env_strength;
+    double exposure, env_rotation, env_strength, env_ambient, env_reflection;
     int tonemap; /* WeftTonemap */
     bool env_is_color;
     float env_color[3];

@@ -41,6 +41,8 @@ static WeftResult dress_scene(void *user, WeftScene *scene, Around *around, cons
     const Staging *staging = user;
     around->rotation = (float)staging->env_rotation;
     around->strength = (float)staging->env_strength;
+    around->ambient = (float)staging->env_ambient;
+    around->reflection = (float)staging->env_reflection;
     if (staging->env_is_color) {
         around->kind = AROUND_COLOR;
         memcpy(around->color, staging->env_color, sizeof around->color);

@@ -27,7 +27,8 @@ enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
 
 /* The block Environment, as the shader has it. */
 typedef struct Block {
-    float place[4], terms[IRRADIANCE_TERMS][4], rest[AMBIENT_REST_TERMS][4], lamps[2 * AMBIENT_LAMPS_MAX][4];
+    float place[4], parts[4], terms[IRRADIANCE_TERMS][4], rest[AMBIENT_REST_TERMS][4],
+        lamps[2 * AMBIENT_LAMPS_MAX][4];
 } Block;
 
 /* One level of a cube, and where it comes from. */
@@ -330,7 +331,7 @@ static WeftResult find_cube(GlEnvironment *self, const Environment *environment,
 }
 
 static void make_buffer(GlEnvironment *self) {
-    Block block = {.place = {1.0f, 0.0f, 1.0f, (float)self->parts.lamp_count}};
+    Block block = {.place = {0}}; /* and parts: environment_place */
     for (int k = 0; k < IRRADIANCE_TERMS; k++)
         memcpy(block.terms[k], self->parts.terms[k < DEGREE_3 ? k : k - DEGREE_3 + DEGREE_4],
                3 * sizeof(float));
@@ -363,7 +364,7 @@ WeftResult environment_create(const Environment *environment, const EnvironmentH
         result = make_map(&environment->image, &out->map, &local);
     if (result == WEFT_OK) {
         make_buffer(out);
-        environment_place(out, environment->rotation, environment->strength);
+        environment_place(out, environment);
         result = gl_check(&local, "an environment");
     }
     if (result == WEFT_OK) return WEFT_OK;
@@ -389,8 +390,10 @@ void environment_destroy(GlEnvironment *self) {
     *self = (GlEnvironment){0};
 }
 
-void environment_place(const GlEnvironment *self, float rotation, float strength) {
-    const float place[4] = {cosf(rotation), sinf(rotation), strength, (float)self->parts.lamp_count};
+void environment_place(const GlEnvironment *self, const Environment *e) {
+    const float lamps = (float)self->parts.lamp_count;
+    const float place[2][4] = {{cosf(e->rotation), sinf(e->rotation), e->strength, lamps},
+                               {e->ambient, e->reflection}};
     glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
 }

@@ -2,7 +2,7 @@
  *
  *   environment_text(&text);                          before it includes shading/ambient.h
  *   environment_program(program, cube, block);        once a program: its unit and its block's binding
- *   environment_place(env, rotation, strength);       when that changes; nothing is filtered again
+ *   environment_place(env, environment);              when it is turned or scaled; nothing is filtered again
  *   environment_bind(env, cube, block);               once a frame
  *
  * All calls are for the context that is current. */
@@ -37,7 +37,7 @@ typedef struct EnvironmentHow {
 } EnvironmentHow;
 
 /* Filters the cube or takes it from the user's cache, where a file is named by the hash of the pixels;
- * what cannot be read or written there is a warning (WEFT_MESSAGE_CACHE_IGNORED). Its rotation and strength
+ * what cannot be read or written there is a warning (WEFT_MESSAGE_CACHE_IGNORED). Its rotation and factors
  * are those of `environment`. Leaves framebuffer 0 bound and no program in use. Zero on failure:
  * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED. */
 WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
@@ -48,8 +48,8 @@ WeftResult environment_blur(GlEnvironment *self, const Environment *environment,
 
 void environment_destroy(GlEnvironment *environment);
 
-/* Radians about +y and a factor on all radiance. */
-void environment_place(const GlEnvironment *environment, float rotation, float strength);
+/* Takes over the rotation and the factors of `environment`. */
+void environment_place(const GlEnvironment *self, const Environment *environment);
 
 /* The lamps in the world, of an environment so rotated; how many there are. */
 int environment_lamps(const GlEnvironment *environment, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]);

@@ -87,7 +87,7 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
     self->shines = environment_shines(environment);
     if (!self->shines) return WEFT_OK;
     if (self->environment.buffer && self->turn == environment->turn) {
-        environment_place(&self->environment, environment->rotation, environment->strength);
+        environment_place(&self->environment, environment);
         return gl_check(error, "an environment");
     }
     environment_destroy(&self->environment);

@@ -13,7 +13,7 @@ WeftScene *scene_create(const char *name) {
     WeftScene *scene = alloc_array(1, sizeof *scene);
     if (!scene) return NULL;
     scene->srgb = srgb_table();
-    scene->environment.strength = 1.0f;
+    scene->environment.strength = scene->environment.ambient = scene->environment.reflection = 1.0f;
     scene->name = arena_text(&scene->arena, name);
     if (scene->name && environment_studio(&scene->environment.image, NULL) == WEFT_OK) return scene;
     weft_scene_free(scene);
@@ -146,5 +146,16 @@ WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation
         return fail(error, WEFT_MESSAGE_DESC, "environment strength", NULL);
     scene->environment.rotation = fmodf(rotation, 360.0f) * (3.14159265f / 180.0f);
     scene->environment.strength = strength;
+    return WEFT_OK;
+}
+
+WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
+                                            WeftError *error) {
+    if (!(isfinite(ambient) && ambient >= 0.0f))
+        return fail(error, WEFT_MESSAGE_DESC, "environment ambient", NULL);
+    if (!(isfinite(reflection) && reflection >= 0.0f))
+        return fail(error, WEFT_MESSAGE_DESC, "environment reflection", NULL);
+    scene->environment.ambient = ambient;
+    scene->environment.reflection = reflection;
     return WEFT_OK;
 }

@@ -66,11 +66,13 @@ typedef enum EnvironmentKind {
 /* Distant light. An image is lat-long: row 0 is +y, the middle column is -z, columns run towards +x. */
 typedef struct Environment {
     EnvironmentKind kind;
-    float color[3];  /* CONSTANT: radiance */
-    WeftImage image; /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
-    float rotation;  /* radians about +y, counter-clockwise seen from above */
-    float strength;  /* factor on the radiance */
-    unsigned turn;   /* another number for another image or colour */
+    float color[3];   /* CONSTANT: radiance */
+    WeftImage image;  /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
+    float rotation;   /* radians about +y, counter-clockwise seen from above */
+    float strength;   /* factor on the radiance */
+    float ambient;    /* on what diffuse lobes and dust reflect of it */
+    float reflection; /* on what all other lobes do */
+    unsigned turn;    /* another number for another image or colour */
 } Environment;
 
 struct WeftScene {

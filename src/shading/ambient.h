@@ -487,6 +487,7 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     bool worn = IS_WORN(m);
     Rgb keep = worn ? stack_keep(m, m.e_avg) : rgb_grey(1.0f);
     Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
+    float matte = ambient_diffuse(s), other = ambient_reflection(s);
     if (m.layer == LAYER_SEED && worn) {
         over = rgb_grey(1.0f - ambient_interface(m, o.z));
         diffuse = rgb_mul(keep, over);
@@ -495,15 +496,21 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
         AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m.diffuse.lobe);
-        if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, ambient_colored(m.diffuse, plain, a.of));
-        lit.diffuse = ambient_lit(m.diffuse, a.lamps);
-        only.diffuse = SHOWS_DIFFUSE && a.lamps > 0.0f;
+        Rgb c = rgb_scale(ambient_colored(m.diffuse, plain, a.of), matte);
+        if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, c);
+        lit.diffuse = ambient_lit(m.diffuse, a.lamps * matte);
+        only.diffuse = SHOWS_DIFFUSE && a.lamps * matte > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
         AmbientSlot a = ambient_slot(t.specular, s, v, rest, m.specular.lobe);
-        if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, ambient_colored(m.specular, plain, a.of)));
-        only.specular = SHOWS_SPECULAR && a.lamps > 0.0f;
-        if (a.lamps > 0.0f) lit.specular = ambient_lit(m.specular, a.lamps);
+        float lamps = a.lamps * other;
+        Rgb c = rgb_scale(ambient_colored(m.specular, plain, a.of), other);
+        if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
+        only.specular = SHOWS_SPECULAR && lamps > 0.0f;
+        if (lamps > 0.0f) {
+            lit.specular = ambient_lit(m.specular, lamps);
+            lit.left = m.left * lamps; /* so that stack_interface is what it was */
+        }
     }
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
@@ -516,25 +523,25 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
         /* they differ by the errors of both, which is much only where there is next to nothing */
         float known = own ? min(m.e_o.e / max(a.e, 1e-4f), 4.0f) : 1.0f;
         Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
-        if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known));
-        lit.sheen = ambient_lit(m.sheen, a.lamps);
-        only.sheen = SHOWS_SHEEN && a.lamps > 0.0f;
+        if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known * other));
+        lit.sheen = ambient_lit(m.sheen, a.lamps * other);
+        only.sheen = SHOWS_SHEEN && a.lamps * other > 0.0f;
     }
     if (HAS_COAT(m)) {
         Dir oc = stack_to_coat(m, o);
         if (oc.z > 0.0f) {
             AmbientView c = ambient_view(oc, m.coat_x, m.coat_y, m.coat_z, v.occlusion);
             AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m.coat.lobe);
-            if (SHOWS_COAT) sum = rgb_add(sum, ambient_colored(m.coat, plain, a.of));
-            lit.coat = ambient_lit(m.coat, a.lamps);
-            only.coat = SHOWS_COAT && a.lamps > 0.0f;
+            if (SHOWS_COAT) sum = rgb_add(sum, rgb_scale(ambient_colored(m.coat, plain, a.of), other));
+            lit.coat = ambient_lit(m.coat, a.lamps * other);
+            only.coat = SHOWS_COAT && a.lamps * other > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
         AmbientSlot a = ambient_slot(t.dust, s, v, rest, m.dust.lobe);
-        if (SHOWS_DUST) sum = rgb_add(sum, ambient_colored(m.dust, plain, a.of));
-        lit.dust = ambient_lit(m.dust, a.lamps);
-        only.dust = SHOWS_DUST && a.lamps > 0.0f;
+        if (SHOWS_DUST) sum = rgb_add(sum, rgb_scale(ambient_colored(m.dust, plain, a.of), matte));
+        lit.dust = ambient_lit(m.dust, a.lamps * matte);
+        only.dust = SHOWS_DUST && a.lamps * matte > 0.0f;
     }
     if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
         sum = rgb_add(sum, ambient_lamps(lit, only, o, s, v.occlusion));

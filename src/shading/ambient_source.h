@@ -9,6 +9,8 @@
  *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for
  *   ambient_rest(s, w, kappa)      what the lamps leave of L, which is smooth, weighted as radiance is
  *   ambient_held(s, k)             coefficients k of tables that are held (ambient.h)
+ *   ambient_diffuse(s)             a factor on what the diffuse lobe and dust reflect of it all, 1 in C
+ *   ambient_reflection(s)          the same of every other lobe
  *
  * ambient_rest takes kappa 0 for the weight of irradiance. Directions are unit, in the shading frame
  * (angles.h). So L = rest + lamps, and radiance and irradiance are of L. In GLSL a source is a Frame, and
@@ -47,5 +49,7 @@ FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
 FN AmbientWeights ambient_held(AmbientSource s, int k) { return s->held[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 FN float ambient_seen(AmbientSource s, int k, float occlusion) { return occlusion; }
+FN float ambient_diffuse(AmbientSource s) { return 1.0f; }
+FN float ambient_reflection(AmbientSource s) { return 1.0f; }
 
 #endif

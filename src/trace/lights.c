@@ -102,7 +102,7 @@ void lights_free(Lights *lights) {
 }
 
 static LightSample from_sky(SkyPoint p) {
-    return (LightSample){p.direction, INFINITY, p.radiance, p.pdf, false};
+    return (LightSample){p.direction, INFINITY, p.radiance, p.pdf, false, true};
 }
 
 LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v) {
@@ -115,7 +115,7 @@ LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v) {
         /* u goes on to choose the triangle; what it has left after that is u of the point */
         Choice triangle = distribution_choose(&lights->emitters.choice, group.rest);
         EmitterPoint p = emitters_sample(&lights->emitters, triangle.index, point, triangle.rest, v);
-        s = (LightSample){p.direction, p.distance, p.radiance, p.pdf, false};
+        s = (LightSample){p.direction, p.distance, p.radiance, p.pdf, false, false};
         break;
     }
     case GROUP_PUNCTUAL: s = sample_punctual(lights, point, group.rest); break;

@@ -18,6 +18,7 @@ typedef struct LightSample {
     Rgb radiance;   /* arriving */
     float pdf;      /* 1/sr; 0: no sample. For punctual lights the probability of the choice alone */
     bool punctual;  /* cannot be hit by chance: takes no part in MIS */
+    bool sky;       /* from the environment */
 } LightSample;
 
 LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v);

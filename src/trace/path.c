@@ -84,14 +84,28 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
     return b > 0.0f ? a / (a + b * (b / a)) : 1.0f;
 }
 
+/* f cos of value, as it is for the environment's light: ambient times diffuse lobe and dust, reflection times
+ * all else. What bounced below a sheen left the diffuse lobe. */
+static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir wi, Rgb f_cos) {
+    const Environment *sky = &context->scene->environment;
+    Slots others = slots_of(false, true, true, true, false);
+    Rgb rest = stack_eval_of(&p->stack, others, p->wo, wi).f_cos;
+    Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
+    return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
+}
+
+static float ratio(float a, float b) { return b > 0.0f ? a / b : 0.0f; }
+
 /* One light sample. */
 static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb throughput, Point uv,
                        uint32_t key, Rgb *sum, long long *rays) {
     LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
-    StackValue value = stack_eval(&p->stack, p->wo, to_local(p, light.wi), key);
+    Dir wi = to_local(p, light.wi);
+    StackValue value = stack_eval(&p->stack, p->wo, wi, key);
     Rgb f = value.f_cos;
+    if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, f);
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
     Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key};
     if (light.distance < INFINITY) {
@@ -154,6 +168,12 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
         ++*rays;
         if (!geometry_hit(context->geometry, ray, &hit)) {
             LightSample sky = lights_environment(context->lights, ray.direction);
+            if (context->sky_in_parts) {
+                Rgb f = f_cos_of_sky(context, &p, wi, value.f_cos);
+                throughput =
+                    (Rgb){throughput.r * ratio(f.r, value.f_cos.r), throughput.g * ratio(f.g, value.f_cos.g),
+                          throughput.b * ratio(f.b, value.f_cos.b)};
+            }
             add(&sum, throughput, sky.radiance, mis_weight(context, WEFT_SAMPLING_LOBE, pdf, sky.pdf));
             return sum;
         }

@@ -172,6 +172,10 @@ static bool any_emits(const WeftRender *render) {
     return any;
 }
 
+static bool in_parts(const Environment *e) {
+    return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
+}
+
 /* Makes what was changed, and what could not be made before. A material may be what shines, and what shadow
  * rays must ask. */
 static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
@@ -192,7 +196,8 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .max_depth = d->max_depth,
                                         .sampling = d->sampling,
                                         .roulette = !d->no_roulette,
-                                        .shadows = !d->no_shadows};
+                                        .shadows = !d->no_shadows,
+                                        .sky_in_parts = in_parts(&render->scene->environment)};
     return result;
 }
 

@@ -133,6 +133,8 @@ static void put_around(Line *line, const Around *a) {
         put(line, " --env %.9g,%.9g,%.9g", (double)a->color[0], (double)a->color[1], (double)a->color[2]);
     if (differs(a->rotation, 0.0f)) put(line, " --env-rotation %.9g", (double)a->rotation);
     if (differs(a->strength, 1.0f)) put(line, " --env-strength %.9g", (double)a->strength);
+    if (differs(a->ambient, 1.0f)) put(line, " --env-ambient %.9g", (double)a->ambient);
+    if (differs(a->reflection, 1.0f)) put(line, " --env-reflection %.9g", (double)a->reflection);
 }
 
 static void put_view(Line *line, const Viewer *v) {

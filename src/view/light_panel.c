@@ -171,10 +171,17 @@ static void draw_around(Viewer *v) {
     ui_slider("rotation", &turn, &a->rotation);
     ui_tip("About the vertical. Ctrl-drag on the picture does it, too.");
     ui_slider("strength", &strength, &a->strength);
-    ui_tip("A factor on all that comes from far away: ambient light and reflections alike, as in the path "
-           "tracer.");
+    ui_tip("A factor on all that comes from far away.");
+    ui_slider("ambient", &strength, &a->ambient);
+    ui_tip(
+        "A factor on what the diffuse lobe and dust reflect of it: 0 leaves reflections alone. In the path "
+        "tracer, too, though no light is so.");
+    ui_slider("reflections", &strength, &a->reflection);
+    ui_tip(
+        "A factor on what the specular, sheen and coat lobes reflect of it: 0 leaves ambient light alone.");
     a->rotation = remainderf(a->rotation, 360.0f);
-    a->strength = fminf(fmaxf(a->strength, 0.0f), 1e6f);
+    float *const factors[] = {&a->strength, &a->ambient, &a->reflection};
+    for (int k = 0; k < 3; k++) *factors[k] = fminf(fmaxf(*factors[k], 0.0f), 1e6f);
 }
 
 static const char *ambient_name(const void *user, int k) {

@@ -91,7 +91,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     Loaded *loaded = &self->loaded;
     const WeftLog log = {on_said, loaded};
     const ViewDesc *desc = self->desc;
-    Around around = {.strength = 1.0f};
+    Around around = around_studio();
     WeftResult result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK && self->dressed && desc->dress)

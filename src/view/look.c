@@ -45,9 +45,11 @@ static bool read_lights(Look *look, const WeftScene *scene) {
     return true;
 }
 
+Around around_studio(void) { return (Around){.strength = 1.0f, .ambient = 1.0f, .reflection = 1.0f}; }
+
 bool look_read(Look *look, const WeftScene *scene) {
     int count = weft_scene_info(scene).material_count;
-    *look = (Look){.around = {.strength = 1.0f}};
+    *look = (Look){.around = around_studio()};
     look->materials = calloc((size_t)count + 1, sizeof(void *));
     bool whole = look->materials != NULL;
     for (int k = 0; k < count && whole; k++) {
@@ -101,8 +103,9 @@ static bool same_source(const Around *a, const Around *b) {
 }
 
 static bool same_around(const Around *a, const Around *b) {
-    return same_source(a, b) && !(a->rotation < b->rotation) && !(a->rotation > b->rotation) &&
-           !(a->strength < b->strength) && !(a->strength > b->strength);
+    const float of_a[] = {a->rotation, a->strength, a->ambient, a->reflection},
+                of_b[] = {b->rotation, b->strength, b->ambient, b->reflection};
+    return same_source(a, b) && same_bytes(of_a, of_b, sizeof of_a);
 }
 
 bool look_same(const Look *a, const Look *b) {
@@ -258,7 +261,9 @@ static WeftResult apply_around(const Around *a, const Around *is, WeftScene *sce
         else
             result = weft_scene_set_environment_studio(scene, error);
     }
-    return result == WEFT_OK ? weft_scene_set_environment_placement(scene, a->rotation, a->strength, error)
+    if (result == WEFT_OK)
+        result = weft_scene_set_environment_placement(scene, a->rotation, a->strength, error);
+    return result == WEFT_OK ? weft_scene_set_environment_parts(scene, a->ambient, a->reflection, error)
                              : result;
 }
 

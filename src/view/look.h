@@ -19,8 +19,9 @@ typedef struct Around {
     AroundKind kind;
     char path[LOOK_PATH]; /* of a lat-long picture or of a cubemap */
     float color[3];
-    float rotation, strength; /* degrees; a factor */
-    unsigned again;           /* another number: the file has changed */
+    float rotation, strength;  /* degrees; a factor */
+    float ambient, reflection; /* factors on what lobes reflect of it: weft_scene_set_environment_parts */
+    unsigned again;            /* another number: the file has changed */
 } Around;
 
 typedef struct LookMaterial LookMaterial; /* shared */
@@ -36,6 +37,9 @@ typedef struct Look {
     Around around;
     Nap *naps[LOOK_NAPS]; /* NULL: none */
 } Look;
+
+/* The built-in studio, as it is. */
+Around around_studio(void);
 
 /* Of a scene as it is; the environment apart, which a scene does not tell. False where memory is short. */
 bool look_read(Look *look, const WeftScene *scene);

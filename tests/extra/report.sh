@@ -4,7 +4,7 @@
 set -eu
 program=$(realpath "$1")
 command -v chromium >/dev/null || {
-    echo "weft: chromium is not here: script/install extra" >&2
+    echo "weft: chromium is not here: script/install browser" >&2
     exit 4
 }
 mkdir -p "$2"

@@ -6,7 +6,7 @@ program=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 for tool in node npm; do
     command -v "$tool" >/dev/null || {
-        echo "weft: $tool is not here: script/install extra" >&2
+        echo "weft: $tool is not here: script/install node" >&2
         exit 4
     }
 done

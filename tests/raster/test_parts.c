@@ -95,6 +95,33 @@ static void parts_sum_up(WeftRaster *raster, const char *name) {
     weft_image_free(&all);
 }
 
+/* Each part as the environment's factors scale it: those of light that is near do not change. */
+static void parts_are_scaled(WeftScene *scene, WeftRaster *raster, const char *name) {
+    static const float factors[3][2] = {{0.0f, 0.0f}, {1.0f, 1.0f}, {0.25f, 3.0f}};
+    WeftError error;
+    for (int part = WEFT_PART_DIFFUSE; part <= WEFT_PART_DUST; part++) {
+        WeftImage image[3];
+        float factor = factors[2][part == WEFT_PART_DIFFUSE || part == WEFT_PART_DUST ? 0 : 1];
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], &error),
+                             WEFT_OK);
+            assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
+            image[k] = part_of(raster, part);
+        }
+        const float *none = image[0].pixels, *plain = image[1].pixels, *scaled = image[2].pixels;
+        for (int k = 0; k < SIDE * SIDE * 4; k++) {
+            if (k % 4 == 3) continue;
+            float due = none[k] + factor * (plain[k] - none[k]);
+            if (!(fabsf(scaled[k] - due) <= 4e-3f * (due + plain[k]) + 1e-4f))
+                fail_msg("%s: %s: pixel %d is %g, not %g", name, weft_part_name(part), k / 4,
+                         (double)scaled[k], (double)due);
+        }
+        for (int k = 0; k < 3; k++) weft_image_free(&image[k]);
+    }
+    assert_int_equal(weft_scene_set_environment_parts(scene, 1.0f, 1.0f, &error), WEFT_OK);
+    assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
+}
+
 /* A choice's values, from the first one on. */
 static void choices_sum_up(WeftScene *scene, WeftRaster *raster, const char *choice, int first, int step) {
     int index = 0;
@@ -108,6 +135,7 @@ static void choices_sum_up(WeftScene *scene, WeftRaster *raster, const char *cho
         if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
         snprintf(name, sizeof name, "%s %s", choice, value);
         parts_sum_up(raster, name);
+        parts_are_scaled(scene, raster, name);
     }
     assert_int_equal(weft_scene_set(scene, target, "auto", NULL, &error), WEFT_OK);
 }
@@ -121,6 +149,43 @@ static void catalogue_sums_up(void **state) {
     static const int few[] = {LAYER_SEED, LOBE_CHARLIE_KHRONOS}; /* a shader takes seconds to compile */
     for (int k = 0; k < (test_long() ? 5 : test_short() ? 1 : 2); k++)
         choices_sum_up(scene, raster, choices[k], test_long() ? 0 : few[k], test_long() ? 1 : 100);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+/* Of what the picture covers, not of what is behind. */
+static double mean_of(const WeftImage *image) {
+    double sum = 0.0;
+    const float *p = image->pixels;
+    for (int k = 0; k < SIDE * SIDE * 4; k++) sum += k % 4 == 3 ? 0.0 : (double)(p[k] * p[k - k % 4 + 3]);
+    return sum / (3.0 * SIDE * SIDE);
+}
+
+/* What of the sky is ambient light and what is reflections is the same in the path tracer. */
+static void the_sky_is_parted_as_it_is_traced(void **state) {
+    (void)state;
+    need_gl();
+    static const float factors[2][2] = {{1.0f, 0.0f}, {0.0f, 1.0f}};
+    WeftScene *scene = dusty_ball();
+    WeftError error;
+    for (int k = 0; k < 2; k++) assert_int_equal(weft_scene_remove_light(scene, 0, &error), WEFT_OK);
+    WeftRaster *raster = raster_of(scene);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], &error),
+                         WEFT_OK);
+        assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
+        WeftImage one = part_of(raster, WEFT_PART_ALL);
+        WeftImage true_one = test_render(scene,
+                                         (WeftRenderDesc){.width = SIDE,
+                                                          .height = SIDE,
+                                                          .camera = view.camera,
+                                                          .background = WEFT_BACKGROUND_TRANSPARENT},
+                                         64);
+        double is = mean_of(&one), due = mean_of(&true_one);
+        if (!(fabs(is / due - 1.0) < 0.03)) fail_msg("factors %d: %g, traced %g", k, is, due);
+        weft_image_free(&one);
+        weft_image_free(&true_one);
+    }
     weft_raster_free(raster);
     weft_scene_free(scene);
 }
@@ -219,7 +284,8 @@ static void crops_are_cut_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(catalogue_sums_up), cmocka_unit_test(emission_is_of_all_alone),
-        cmocka_unit_test(properties_are_as_they_are), cmocka_unit_test(crops_are_cut_out)};
+        cmocka_unit_test(catalogue_sums_up), cmocka_unit_test(the_sky_is_parted_as_it_is_traced),
+        cmocka_unit_test(emission_is_of_all_alone), cmocka_unit_test(properties_are_as_they_are),
+        cmocka_unit_test(crops_are_cut_out)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

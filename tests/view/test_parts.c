@@ -179,7 +179,7 @@ static void a_camera_is_read_as_it_is_written(void **state) {
 
 /* A look with one light that is as bright as a number. */
 static Look look_of(int number) {
-    Look look = {.light_count = 1, .around = {.strength = 1.0f}};
+    Look look = {.light_count = 1, .around = around_studio()};
     look.lights[0].color[0] = (float)number;
     return look;
 }
@@ -430,7 +430,9 @@ static void a_shell_reads_what_was_meant(void **state) {
     v->desc = &desc;
     v->orbit = cameras[1];
     v->order.view.width = 320, v->order.view.height = 200;
-    v->look.around = v->first.around = (Around){.kind = AROUND_FILE, .strength = 1.0f};
+    v->look.around = around_studio();
+    v->look.around.kind = AROUND_FILE;
+    v->first.around = v->look.around;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         snprintf(v->facts.path, sizeof v->facts.path, "%s", names[k]);
         snprintf(v->look.around.path, sizeof v->look.around.path, "%s", names[k]);

@@ -55,6 +55,23 @@ static void panels_are_scaled(void **state) {
     for (int c = 0; c < 4; c++) assert_true(fabs(box[1][c] - 2.0 * box[0][c]) < 0.05 * box[1][c] + 4.0);
 }
 
+/* Two sliders of the light from far away: the picture, and the command line that draws it. */
+static void ambient_light_and_reflections_have_a_slider_each(void **state) {
+    (void)state;
+    need_gl();
+    Drive drive =
+        drive_start("wait rest\nclick \"Panel/Light\"\nwait rest\npicture 1.png\nwait message wrote 1.png\n"
+                    "set \"Light/ambient\" 0.25\nset \"Light/reflections\" 2\nwait rest\n"
+                    "picture 2.png\nwait message wrote 2.png\nwait rest\n",
+                    LIST(UNSEEN, "builtin:spheres", "--env", "0.5", "--occlusion", "0"));
+    json_t *now = drive_until(&drive, "message", "wrote 2.png");
+    const char *command = json_string_value(json_object_get(now, "command"));
+    assert_non_null(strstr(command, " --env-ambient 0.25 --env-reflection 2 "));
+    json_decref(now);
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") > 0.02);
+}
+
 /* ---- scenes ---- */
 
 static void a_broken_scene_leaves_the_one_before(void **state) {
@@ -369,6 +386,7 @@ static void without_a_display_it_says_what_does_without(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_typed_into_a_slider_is_undone),
                                        cmocka_unit_test(panels_are_scaled),
+                                       cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
                                        cmocka_unit_test(a_broken_scene_leaves_the_one_before),
                                        cmocka_unit_test(a_saved_scene_looks_the_same),
                                        cmocka_unit_test(a_full_disk_is_told_of),

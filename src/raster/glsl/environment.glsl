@@ -10,6 +10,7 @@
 uniform highp samplerCube environment_cube;
 layout(std140) uniform Environment {
     highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lamps */
+    highp vec4 environment_parts;     /* x: factor on diffuse lobe and dust, y: on the other lobes */
     highp vec4 environment_terms[18]; /* w of the first: ambient_lamp_kappa */
     highp vec4 environment_rest[16];
     highp vec4 environment_lamps[32]; /* two each: direction, irradiance */
@@ -81,6 +82,9 @@ Rgb ambient_irradiance(Frame f, Dir w) {
 }
 
 int ambient_count(Frame f) { return int(environment_place.w); }
+
+float ambient_diffuse(Frame f) { return environment_parts.x; }
+float ambient_reflection(Frame f) { return environment_parts.y; }
 
 AmbientLight ambient_light(Frame f, int k) {
     vec3 d = environment_world(environment_lamps[2 * k].xyz);
