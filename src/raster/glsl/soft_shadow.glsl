@@ -18,6 +18,14 @@ vec2 disc_point(int k, float n, float turn) {
 /* Jorge Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014. */
 float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
 
+/* Mean over the four pixels of a quad, between which a derivative is the difference: their turns are spread
+ * evenly, so that together they look in four times as many places. To be asked of all four. */
+float quad_mean(float v) {
+    vec2 side = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
+    v += side.x * dFdx(v);
+    return v + side.y * dFdy(v);
+}
+
 /* How the depth of the plane through a point p from the light, with normal n, changes over the map. There
  * 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at distance 1; and
  * depth is linear in 1 / w. */
@@ -30,7 +38,9 @@ vec2 shadow_slope(int map, vec3 p, vec3 n) {
 
 float soft_shadow(int map, vec3 normal, float cosine) {
     vec4 at = shadow_place(map, normal, cosine, 2.5);
-    if (at.w <= 0.0 || cosine <= 0.0) return 1.0;
+    bool there = at.w > 0.0 && cosine > 0.0;
+    if (quad_mean(there ? 1.0 : 0.0) < 0.1) return 1.0;
+    at.w = max(at.w, 1e-6);
     vec2 slope = shadow_slope(map, eye.xyz + from_eye - shadow_eye[map].xyz, normal);
     float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, turn = 6.2831853 * pixel_noise();
     /* depth = 1/2 + (a + c / w) / 2 */
@@ -45,11 +55,13 @@ float soft_shadow(int map, vec3 normal, float cosine) {
             found += 1.0;
         }
     }
-    if (found < 0.5) return 1.0;
+    found = quad_mean(there ? found : 0.0);
+    inverse = quad_mean(there ? inverse : 0.0);
+    if (found < 0.1) return 1.0;
     float spread = clamp(size * (inverse / found - 1.0 / at.w), 1.0 / 2048.0, 0.1), sum = 0.0;
     for (int k = 0; k < 20; k++) {
         vec2 to = spread * disc_point(k, 20.0, turn);
         sum += texture(shadow_map, vec4(at.xy + to, layer, at.z + dot(slope, to)));
     }
-    return sum / 20.0;
+    return clamp(quad_mean(there ? sum / 20.0 : 1.0), 0.0, 1.0);
 }
