@@ -3,7 +3,7 @@
  * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table, SHOWS_... of
  * a part of the light, and PROPERTY where a property is shown in its place. */
 in highp vec3 from_eye;
-in highp vec3 vertex_normal;
+centroid in highp vec3 vertex_normal; /* where a pixel of the outline is covered, not outside of the triangle */
 #ifdef TURNS
 in highp vec4 vertex_tangent;
 #else

@@ -12,7 +12,7 @@ layout(location = 7) in highp vec4 at_lamps_0;
 layout(location = 8) in highp vec4 at_lamps_1;
 
 out highp vec3 from_eye;
-out highp vec3 vertex_normal;
+centroid out highp vec3 vertex_normal;
 out highp vec4 vertex_tangent;
 out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
