@@ -269,15 +269,31 @@ static void draw_handles(const Viewer *v) {
     }
 }
 
+/* "B  profile unreal4  (edited)": a side of A and B, and the first choice of the material by which they
+ * differ. */
+static void name_side(const Viewer *v, int side, char text[128]) {
+    bool edited = v->side == side;
+    const WeftMaterial *is = look_material(edited ? &v->look : &v->other, v->material),
+                       *beside = look_material(edited ? &v->other : &v->look, v->material);
+    int k = 0, length = snprintf(text, 128, "%c", side == 0 ? 'A' : 'B');
+    while (weft_material_choice_name(k) && is->choices[k] == beside->choices[k]) k++;
+    if (weft_material_choice_name(k))
+        length += snprintf(text + length, 128 - (size_t)length, "  %s %s", weft_material_choice_name(k),
+                           is->choices[k] < 0 ? "auto" : weft_material_choice_value(k, is->choices[k]));
+    if (edited) snprintf(text + length, 128 - (size_t)length, "  (edited)");
+}
+
 static void draw_split(const Viewer *v) {
     const UiBox *s = &v->stage;
+    char text[128];
     if (v->split == SPLIT_NONE || v->mode != MODE_LIVE) return;
     float x = s->x + floorf((v->split == SPLIT_LINE ? v->split_at : 0.5f) * s->width);
     ui_line(x, s->y, x, s->y + s->height, 0xD0FFFFFFu, 1.0f);
     if (v->split == SPLIT_LINE) ui_disc(x, s->y + 0.5f * s->height, 6.0f * ui_scale(), white);
-    tag(s->x + 8.0f, s->y + 8.0f, v->side == 0 ? "A  (edited)" : "A");
-    const char *b = v->side == 1 ? "B  (edited)" : "B";
-    tag(s->x + s->width - ui_text_width(b) - 20.0f * ui_scale(), s->y + 8.0f, b);
+    name_side(v, 0, text);
+    tag(s->x + 8.0f, s->y + 8.0f, text);
+    name_side(v, 1, text);
+    tag(s->x + s->width - ui_text_width(text) - 20.0f * ui_scale(), s->y + 8.0f, text);
 }
 
 static void draw_scale(const Viewer *v) {
