@@ -1,13 +1,14 @@
 #include "fit_sheet.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 
 #include "report.h"
 
 /* A slice: theta_h from left to right, theta_d from the bottom up, 0 .. 90 degrees; colours are x = f cos_i,
  * times what brings the data's 98th of 100 to white. */
-enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = ROWS * (2 * COLUMNS - 1) };
+enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = 2 * ROWS * COLUMNS };
 static const double azimuths[ROWS] = {90.0, 0.0};
 
 /* One of the three that are drawn: a reflection, over a base where base is not NULL. */
@@ -75,9 +76,16 @@ static float bright(const WeftImage *image) {
     return fmaxf(high, 1e-6f);
 }
 
+/* To one figure, upwards: 0.033 is 0.04. */
+static float to_figure(float x) {
+    float unit = powf(10.0f, floorf(log10f(x)));
+    return ceilf(x / unit) * unit;
+}
+
 typedef struct Slices {
     WeftImage linear[ROWS][COLUMNS], shown[ROWS][COLUMNS], apart[ROWS][COLUMNS];
-    float scale;
+    float scale;  /* what is white */
+    float differ; /* where the colours of differences end */
 } Slices;
 
 static WeftResult draw_all(Slices *all, const Drawn *drawn, WeftError *error) {
@@ -85,12 +93,15 @@ static WeftResult draw_all(Slices *all, const Drawn *drawn, WeftError *error) {
     for (int r = 0; r < ROWS && result == WEFT_OK; r++) {
         for (int c = 0; c < COLUMNS && result == WEFT_OK; c++)
             result = draw(&drawn[c], azimuths[r], &all->linear[r][c], error);
-        if (r == 0 && result == WEFT_OK) all->scale = bright(&all->linear[0][0]);
+        if (r == 0 && result == WEFT_OK) {
+            all->scale = bright(&all->linear[0][0]);
+            all->differ = to_figure(0.25f * all->scale);
+        }
         for (int c = 0; c < COLUMNS && result == WEFT_OK; c++) {
             result = weft_image_tonemap(&all->linear[r][c], WEFT_TONEMAP_NONE, -log2f(all->scale),
                                         &all->shown[r][c], error);
             if (c > 0 && result == WEFT_OK)
-                result = weft_difference_image(&all->linear[r][c], &all->linear[r][0], 0.25f * all->scale,
+                result = weft_difference_image(&all->linear[r][c], &all->linear[r][0], all->differ,
                                                &all->apart[r][c], error);
         }
     }
@@ -108,16 +119,18 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
     snprintf(names[2], sizeof names[2], "baseline ggx, error %.4f", fit->baseline.error);
     for (int r = 0; r < ROWS; r++) {
         snprintf(notes[r], sizeof notes[r], "phi_d %.0f\xc2\xb0", azimuths[r]);
+        WeftPanel *shown = panels + (ptrdiff_t)2 * r * COLUMNS, *apart = shown + COLUMNS;
         for (int c = 0; c < COLUMNS; c++)
-            panels[5 * r + c] = (WeftPanel){.image = &all->shown[r][c], .title = names[c], .note = notes[r]};
-        panels[5 * r + 3] = (WeftPanel){.image = &all->apart[r][1], .title = "fit \xe2\x88\x92 data"};
-        panels[5 * r + 4] = (WeftPanel){.image = &all->apart[r][2], .title = "baseline \xe2\x88\x92 data"};
+            shown[c] = (WeftPanel){.image = &all->shown[r][c], .title = names[c], .note = notes[r]};
+        apart[0] = (WeftPanel){.scale = all->differ,
+                               .title = "difference from the data",
+                               .note = "of f cos, the channel that differs most"};
+        apart[1] = (WeftPanel){.image = &all->apart[r][1], .title = "fit \xe2\x88\x92 data"};
+        apart[2] = (WeftPanel){.image = &all->apart[r][2], .title = "baseline \xe2\x88\x92 data"};
     }
-    snprintf(
-        caption, sizeof caption,
-        "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0; differences to \xc2\xb1%.2g",
-        path, 0.25 * (double)all->scale);
-    const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = PANELS, .columns = 5};
+    snprintf(caption, sizeof caption, "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0",
+             path);
+    const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = PANELS, .columns = COLUMNS};
     WeftResult result = weft_sheet_compose(&desc, &sheet, error);
     if (result == WEFT_OK) result = weft_image_write(output, &sheet, error);
     weft_image_free(&sheet);

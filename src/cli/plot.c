@@ -138,8 +138,8 @@ static int plot_read(Plot *plot) {
     plot->desc.title = option_text(options, "--title");
     result = views_read(plot);
     if (result == 0) result = size_read(plot);
-    if (result == 0) result = output_read(plot);
-    return result == 0 ? subjects_read(plot) : result;
+    if (result == 0) result = subjects_read(plot);
+    return result == 0 ? output_read(plot) : result;
 }
 
 static int plot_make(const Plot *plot) {

@@ -67,6 +67,44 @@ static void the_table_is_printed(void **state) {
     ran_free(&ran);
 }
 
+/* A cloth of a reddish ground and a white rim, as a file of the only size there is. */
+static void make_measured(const char *path) {
+    enum { BINS = 90 * 90 * 180 };
+    static const double units[3] = {1500.0, 1500.0 / 1.15, 1500.0 / 1.66}, ground[3] = {0.08, 0.02, 0.03};
+    static const int32_t sizes[3] = {90, 90, 180};
+    double *f = malloc(BINS * sizeof *f);
+    FILE *stream = fopen(path, "wb");
+    assert_true(f && stream);
+    assert_int_equal(fwrite(sizes, sizeof sizes, 1, stream), 1);
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < BINS; k++) {
+            double th = k / 16200 / 90.0;
+            f[k] = (ground[c] + 0.3 * pow(sin(1.5708 * th * th), 3.0)) * units[c];
+        }
+        assert_int_equal(fwrite(f, BINS * sizeof *f, 1, stream), 1);
+    }
+    assert_int_equal(fclose(stream), 0);
+    free(f);
+}
+
+/* The data, the fit and the baseline in two rows, below each the differences. */
+static void slices_are_drawn(void **state) {
+    (void)state;
+    make_measured("cloth.binary");
+    Ran ran = RUN("fit", "cloth.binary", "--lobe", "charlie-neubelt", "--plot", "slices.png");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftImage sheet;
+    WeftError error;
+    if (weft_image_read("slices.png", &sheet, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(sheet.width > 660 && sheet.height > 4 * 220 && sheet.type == WEFT_PIXEL_U8);
+    long reddish = 0;
+    const unsigned char *p = sheet.pixels;
+    for (int k = 0; k < sheet.width * sheet.height; k++, p += sheet.channels) reddish += p[0] > 2 * p[2];
+    assert_true(reddish > 5000);
+    weft_image_free(&sheet);
+}
+
 static void complaints(void **state) {
     (void)state;
     file_make("bad.csv", "1,2,3\n", 6);
@@ -98,8 +136,8 @@ static void ctrl_c_ends_it(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_found),
-                                       cmocka_unit_test(the_table_is_printed),
-                                       cmocka_unit_test(ctrl_c_ends_it), cmocka_unit_test(complaints)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lobe_is_found), cmocka_unit_test(the_table_is_printed),
+        cmocka_unit_test(slices_are_drawn), cmocka_unit_test(ctrl_c_ends_it), cmocka_unit_test(complaints)};
     return cmocka_run_group_tests(tests, table_begin, work_end);
 }
