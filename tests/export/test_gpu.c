@@ -123,7 +123,10 @@ static void run(const Exported *s, GlContext *context, const WeftExport *made, c
     text_free(&shader);
 }
 
-static void hlsl_name(const Exported *s, char name[128]) { snprintf(name, 128, "%s.frag.hlsl", s->id); }
+/* A file of a subject's: a lobe and a preset may share a name. */
+static void name_file(const Exported *s, const char *end, char name[128]) {
+    snprintf(name, 128, "%03d-%s%s", (int)(s - subjects), s->id, end);
+}
 
 /* A whole shader of HLSL around the body. */
 static void hlsl_put(const Exported *s, const WeftExport *made) {
@@ -138,7 +141,7 @@ static void hlsl_put(const Exported *s, const WeftExport *made) {
              "    float4 out0 = float4(0.0, 0.0, 0.0, 0.0), out1 = out0;\n%s"
              "    Answers r;\n    r.out0 = out0;\n    r.out1 = out1;\n    return r;\n}\n",
              body);
-    hlsl_name(s, name);
+    name_file(s, ".frag.hlsl", name);
     file_put(name, "", made->text, tail);
     free(body);
     free(tail);
@@ -166,8 +169,9 @@ static void agree(Way way) {
         const Exported *s = &subjects[k];
         const WeftExport *made = &exported[way][k];
         if (way == WAY_HLSL) {
-            char path[256];
-            snprintf(path, sizeof path, "%s/%s.cross", folder, s->id);
+            char path[256], name[128];
+            name_file(s, ".cross", name);
+            snprintf(path, sizeof path, "%s/%s", folder, name);
             char *text = file_text(path);
             if (!text) fail_msg("%s: no shader came back from SPIR-V", s->id);
             crossed_body(text, body);
@@ -187,8 +191,9 @@ static void glsl_compiles(void **state) {
     if (!has_program("glslangValidator")) skip();
     for (int k = 0; k < subject_count; k++)
         for (Way way = WAY_GLSL; way <= WAY_ESSL; way++) {
-            char name[128];
-            snprintf(name, sizeof name, "%s.%s.frag", subjects[k].id, way_names[way]);
+            char name[128], end[16];
+            snprintf(end, sizeof end, ".%s.frag", way_names[way]);
+            name_file(&subjects[k], end, name);
             file_put(name,
                      way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
                      exported[way][k].text, "\nout vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n");
