@@ -118,9 +118,10 @@ WEFT_API WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftErro
 WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
                                                          WeftError *error);
 
-/* Scales, at every surface, what the diffuse lobe and dust reflect of the environment's light, and what the
- * specular, sheen and coat lobes do. Factors of 0 up, 1 of a fresh scene; others than that are an artist's
- * wish, which no light does. */
+/* Scales what the diffuse lobe and dust reflect of the environment's light, and what the specular, sheen and
+ * coat lobes do, where it is reflected first: neither the background nor what is reflected on. Finite, >= 0,
+ * 1 of a fresh scene; others than 1 are an artist's wish, which no light does. A render or raster of the
+ * scene is told of it as of any light. Fails with WEFT_MESSAGE_DESC, and nothing is changed. */
 WEFT_API WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
                                                      WeftError *error);
 

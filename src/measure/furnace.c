@@ -15,7 +15,7 @@ static double still(const Stack *stack, Dir o, int cells, bool random) {
         for (int c = 0; c < cells; c++) {
             Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
             /* stack_eval walks by the same seed */
-            float bounces = random ? sheet_bounces(stack, o, i, 0).g : 0.0f;
+            float bounces = random ? sheet_bounces(stack, slots_all(), o, i, 0).g : 0.0f;
             sum += (double)(stack_eval(stack, o, i, 0).f_cos.g - bounces) * ring.area[c];
         }
     }
@@ -27,7 +27,7 @@ enum { LEAST = 10000 };
 /* f cos / pdf: by the cosine of what a random layer rule walks; by the stack's own samples of all. */
 static double weighed(const Stack *stack, Dir o, bool all, float u, float v, uint32_t seed) {
     Dir i = all ? stack_sample(stack, o, u, v) : warp_cosine(u, v);
-    if (!all) return (double)(sheet_bounces(stack, o, i, seed).g / warp_cosine_pdf(i));
+    if (!all) return (double)(sheet_bounces(stack, slots_all(), o, i, seed).g / warp_cosine_pdf(i));
     StackValue value = stack_eval(stack, o, i, seed);
     return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
 }

@@ -174,7 +174,8 @@ static StackValue value_of(const Stack *stack, int part, Dir o, Dir i, uint32_t 
     StackValue sum = stack_eval_of(stack, slots_of_part(part), o, i);
     bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && stack->sheen.pick > 0.0f;
     for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++)
-        sum.f_cos = rgb_add(sum.f_cos, rgb_scale(sheet_bounces(stack, o, i, first + k), 1.0f / (float)walks));
+        sum.f_cos = rgb_add(
+            sum.f_cos, rgb_scale(sheet_bounces(stack, slots_all(), o, i, first + k), 1.0f / (float)walks));
     return sum;
 }
 

@@ -183,7 +183,10 @@ static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError 
     if (result == WEFT_OK) result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     language = context_language(self->context);
-    self->programs.desc = (TextDesc){.language = language, .tables = true, .folder = self->desc.shader_dir};
+    self->programs.desc = (TextDesc){.language = language,
+                                     .tables = true,
+                                     .fine_derivatives = epoxy_has_gl_extension("GL_ARB_derivative_control"),
+                                     .folder = self->desc.shader_dir};
     result = upload(self, log, error);
     context_leave(self->context, &outer);
     return result;

@@ -176,9 +176,11 @@ static void put_surface(Text *text, const ShaderKey *key) {
     text_line(text, "    return s;\n}");
     text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
               key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
-    text_line(text, "\nfloat coverage_of(float opacity) {");
-    if (key->alpha_mode == ALPHA_MASK) text_line(text, "    if (opacity < material_more.x) discard;");
-    text_line(text, "    return %s;\n}", key->alpha_mode == ALPHA_BLEND ? "clamp(opacity, 0.0, 1.0)" : "1.0");
+    static const char *const coverage[] = {[ALPHA_OPAQUE] = "1.0",
+                                           [ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
+                                           [ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
+    text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
+    if (key->alpha_mode == ALPHA_MASK) text_define(text, "MASKED", "1");
 }
 
 static void put_lights(Text *text, const ShaderKey *key) {

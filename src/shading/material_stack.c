@@ -25,10 +25,8 @@ StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed) {
     if (o.z <= 0.0f || i.z <= 0.0f) return value; /* whatever the coat's own normal may see */
     Angles a = angles_between(o, i);
     value = stack_value(*stack, a, coat_angles(stack, o, i, a));
-    if (stack->layer == LAYER_STOCHASTIC && stack->sheen.pick > 0.0f) {
-        Rgb more = sheet_bounces(stack, o, i, seed);
-        value.f_cos = rgb_add(value.f_cos, more);
-    }
+    Rgb more = sheet_bounces(stack, slots_all(), o, i, seed);
+    value.f_cos = rgb_add(value.f_cos, more);
     return value;
 }
 

@@ -25,8 +25,8 @@ ONE_COPY Dir stack_sample(const Stack *stack, Dir o, float u, float v);
 /* The slot that u in [0, 1) picks, NULL of an empty stack; u becomes what is left of it, again in [0, 1). */
 const Slot *stack_pick(const Stack *stack, float *u);
 
-/* sheet.c: light that bounced at least once between the sheen's underside and the base, times the cosine of
- * wi. */
-ONE_COPY Rgb sheet_bounces(const Stack *stack, Dir o, Dir i, uint32_t seed);
+/* sheet.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
+ * then bounced at least once between the base and the sheen's underside, times the cosine of wi. */
+ONE_COPY Rgb sheet_bounces(const Stack *stack, Slots last, Dir o, Dir i, uint32_t seed);
 
 #endif

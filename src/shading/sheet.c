@@ -57,13 +57,14 @@ static Stack only(const Stack *stack, bool sheen) {
     return m;
 }
 
-Rgb sheet_bounces(const Stack *stack, Dir o, Dir i, uint32_t seed) {
+Rgb sheet_bounces(const Stack *stack, Slots last, Dir o, Dir i, uint32_t seed) {
+    if (stack->layer != LAYER_STOCHASTIC || !(stack->sheen.pick > 0.0f)) return rgb_grey(0.0f);
     Stack base = only(stack, false), sheen = only(stack, true);
     Rgb weight = rgb_scale(let_through(stack, o), stack->left), sum = rgb_grey(0.0f);
     Rgb out = let_through(stack, i);
     for (int bounce = 0; bounce < BOUNCES_MOST; bounce++) {
         if (!walk_on(&seed, &base, &o, &weight) || !walk_on(&seed, &sheen, &o, &weight)) break;
-        sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), stack_eval(&base, o, i, 0).f_cos));
+        sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), stack_eval_of(&base, last, o, i).f_cos));
         float survive = min(rgb_max3(weight), 1.0f);
         if (walk_random(&seed) >= survive) break;
         weight = rgb_scale(weight, 1.0f / survive);

@@ -69,6 +69,8 @@ FN Slots slots_of(bool diffuse, bool specular, bool sheen, bool coat, bool dust)
     return s;
 }
 
+FN Slots slots_all(void) { return slots_of(true, true, true, true, true); }
+
 STRUCT(StackValue) {
     Rgb f_cos; /* f times the cosine of wi */
     float pdf; /* of the mixture, 1/sr */

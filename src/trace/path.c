@@ -84,12 +84,13 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
     return b > 0.0f ? a / (a + b * (b / a)) : 1.0f;
 }
 
-/* f cos of value, as it is for the environment's light: ambient times diffuse lobe and dust, reflection times
- * all else. What bounced below a sheen left the diffuse lobe. */
-static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir wi, Rgb f_cos) {
+/* f cos, which was asked for with that seed, as it is for the environment's light: ambient times what the
+ * diffuse lobe and dust reflect first, reflection times what the others do. */
+static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir wi, uint32_t seed, Rgb f_cos) {
     const Environment *sky = &context->scene->environment;
     Slots others = slots_of(false, true, true, true, false);
-    Rgb rest = stack_eval_of(&p->stack, others, p->wo, wi).f_cos;
+    Rgb rest = rgb_add(stack_eval_of(&p->stack, others, p->wo, wi).f_cos,
+                       sheet_bounces(&p->stack, others, p->wo, wi, seed));
     Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }
@@ -105,7 +106,7 @@ static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb th
     Dir wi = to_local(p, light.wi);
     StackValue value = stack_eval(&p->stack, p->wo, wi, key);
     Rgb f = value.f_cos;
-    if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, f);
+    if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, key, f);
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
     Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key};
     if (light.distance < INFINITY) {
@@ -147,7 +148,8 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
         Dir wi = stack_sample(&p.stack, p.wo, uv.second.u, uv.second.v);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
-        StackValue value = stack_eval(&p.stack, p.wo, wi, hash32(ray.key ^ 0x68e31da4u));
+        uint32_t seed = hash32(ray.key ^ 0x68e31da4u);
+        StackValue value = stack_eval(&p.stack, p.wo, wi, seed);
         if (!(value.pdf > 0.0f)) return sum;
         float k = 1.0f / value.pdf;
         throughput = (Rgb){throughput.r * value.f_cos.r * k, throughput.g * value.f_cos.g * k,
@@ -169,7 +171,7 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
         if (!geometry_hit(context->geometry, ray, &hit)) {
             LightSample sky = lights_environment(context->lights, ray.direction);
             if (context->sky_in_parts) {
-                Rgb f = f_cos_of_sky(context, &p, wi, value.f_cos);
+                Rgb f = f_cos_of_sky(context, &p, wi, seed, value.f_cos);
                 throughput =
                     (Rgb){throughput.r * ratio(f.r, value.f_cos.r), throughput.g * ratio(f.g, value.f_cos.g),
                           throughput.b * ratio(f.b, value.f_cos.b)};

@@ -291,9 +291,9 @@ static void draw_split(const Viewer *v) {
     ui_line(x, s->y, x, s->y + s->height, 0xD0FFFFFFu, 1.0f);
     if (v->split == SPLIT_LINE) ui_disc(x, s->y + 0.5f * s->height, 6.0f * ui_scale(), white);
     name_side(v, 0, text);
-    tag(s->x + 8.0f, s->y + 8.0f, text);
+    tag(s->x + 8.0f * ui_scale(), s->y + 8.0f * ui_scale(), text);
     name_side(v, 1, text);
-    tag(s->x + s->width - ui_text_width(text) - 20.0f * ui_scale(), s->y + 8.0f, text);
+    tag(s->x + s->width - ui_text_width(text) - 20.0f * ui_scale(), s->y + 8.0f * ui_scale(), text);
 }
 
 static void draw_scale(const Viewer *v) {
@@ -303,10 +303,10 @@ static void draw_scale(const Viewer *v) {
     snprintf(text, sizeof text, "mean %.4f   relMSE %.5f   99%% within %.3f   %.0f spp",
              v->traced.difference.mean, v->traced.difference.relmse, (double)v->traced.difference.high,
              v->traced.samples);
-    tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), text);
+    tag(s->x + 8.0f * ui_scale(), s->y + s->height - 32.0f * ui_scale(), text);
     snprintf(text, sizeof text, "blue: OpenGL is darker   red, yellow: brighter   ends at %.3f",
              (double)v->traced.scale);
-    tag(s->x + 8.0f, s->y + s->height - 58.0f * ui_scale(), text);
+    tag(s->x + 8.0f * ui_scale(), s->y + s->height - 58.0f * ui_scale(), text);
 }
 
 static void draw_tags(const Viewer *v) {
@@ -318,14 +318,14 @@ static void draw_tags(const Viewer *v) {
         snprintf(text, sizeof text, "OpenGL less path traced");
     else if (v->part != WEFT_PART_ALL)
         snprintf(text, sizeof text, "%s alone", weft_part_name((int)v->part));
-    if (text[0]) tag(s->x + 8.0f, s->y + 8.0f, text);
+    if (text[0]) tag(s->x + 8.0f * ui_scale(), s->y + 8.0f * ui_scale(), text);
     if (v->mode != MODE_LIVE && v->desc->shader_dir)
-        tag(s->x + 8.0f, s->y + 34.0f * ui_scale(),
+        tag(s->x + 8.0f * ui_scale(), s->y + 34.0f * ui_scale(),
             "shader text may be edited: OpenGL then differs from what is traced");
     if (v->tool == TOOL_BRUSH)
-        tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), "brush: stroke the nap; B ends");
+        tag(s->x + 8.0f * ui_scale(), s->y + s->height - 32.0f * ui_scale(), "brush: stroke the nap; B ends");
     if (v->tool == TOOL_PROBE)
-        tag(s->x + 8.0f, s->y + s->height - 32.0f * ui_scale(), "probe: click a pixel; P ends");
+        tag(s->x + 8.0f * ui_scale(), s->y + s->height - 32.0f * ui_scale(), "probe: click a pixel; P ends");
 }
 
 static void draw_progress(const Viewer *v) {
@@ -350,6 +350,7 @@ static void draw_brush(const Viewer *v) {
 }
 
 void stage_draw(Viewer *v) {
+    static const char welcome[] = "Drop a .glb or .gltf here, or File > Open ...";
     unsigned live = v->painted.texture;
     ui_behind(true);
     if (v->mode != MODE_LIVE && v->truth_texture)
@@ -364,8 +365,8 @@ void stage_draw(Viewer *v) {
     draw_brush(v);
     if (v->loader) draw_progress(v);
     if (!v->has_scene && !v->loader && v->stage.height > 40.0f)
-        ui_label(v->stage.x + 0.5f * v->stage.width - 160.0f, v->stage.y + 0.5f * v->stage.height, white,
-                 "Drop a .glb or .gltf here, or File > Open ...");
+        ui_label(v->stage.x + 0.5f * (v->stage.width - ui_text_width(welcome)),
+                 v->stage.y + 0.5f * v->stage.height, white, welcome);
     ui_clip(NULL);
     ui_behind(false);
 }

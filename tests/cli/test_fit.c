@@ -98,10 +98,16 @@ static void slices_are_drawn(void **state) {
     WeftError error;
     if (weft_image_read("slices.png", &sheet, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_true(sheet.width > 660 && sheet.height > 4 * 220 && sheet.type == WEFT_PIXEL_U8);
-    long reddish = 0;
+    int cloth[3] = {0}, apart[3] = {0}; /* of a column: reddish grey in its slices, far from grey below */
     const unsigned char *p = sheet.pixels;
-    for (int k = 0; k < sheet.width * sheet.height; k++, p += sheet.channels) reddish += p[0] > 2 * p[2];
-    assert_true(reddish > 5000);
+    for (int k = 0; k < sheet.width * sheet.height; k++, p += sheet.channels) {
+        int column = 3 * (k % sheet.width) / sheet.width, row = 4 * (k / sheet.width) / sheet.height;
+        int high = p[0] > p[2] ? p[0] : p[2], low = p[0] > p[2] ? p[2] : p[0];
+        cloth[column] += row % 2 == 0 && p[0] > 60 && p[0] > p[2] + 10 && 2 * p[2] > p[0];
+        apart[column] += row % 2 == 1 && high > 60 && high > 2 * low;
+    }
+    for (int c = 0; c < 3; c++) assert_true(cloth[c] > 10000);
+    assert_true(apart[1] > 1000 && apart[2] > 1000); /* the data's own column has the scale alone */
     weft_image_free(&sheet);
 }
 

@@ -110,7 +110,7 @@ static void numbers_are_checked(void **state) {
         "--crop=950,0,20,5", "--crop=0.5,0,2,2",  "--crop=nan,0,2,2",  "--tonemap=filmic",
         "--sampling=all",    "--background=blue", "--background=1,2",  "--background=-1,0,0",
         "--sheen=velvet",    "--layer=glue",      "--set=roughness=1", "--set=cloth.roughness",
-        "--env-ambient=-1"};
+        "--env-ambient=-1",  "--env-reflection=x"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char name[32];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(wrong[k], "="), wrong[k]);

@@ -54,7 +54,7 @@ static bool is_ridge(const Lobe *lobe) {
 
 static void quadrature_agrees_with_other_estimators(void **state) {
     (void)state;
-    int cells = test_long() ? 2000 : 200, samples = test_long() ? 4000000 : test_short() ? 10000 : 40000;
+    int cells = test_long() ? 800 : 200, samples = test_long() ? 400000 : test_short() ? 10000 : 40000;
     double worst = 0.0;
     int turn = 0;
     for (int id = 0; id < weft_lobe_count(); id++)
@@ -196,7 +196,7 @@ static void the_table_is_close_off_its_nodes(void **state) {
         double most = id == LOBE_CHARLIE_KHRONOS                       ? 4e-3
                       : id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE ? 6e-3
                       : id == LOBE_FIBRE                               ? 3e-3 /* below alpha 0.1 */
-                      : id == LOBE_CHARLIE_NEUBELT_NORMALISED          ? 2.5e-2
+                      : id == LOBE_CHARLIE_NEUBELT_NORMALISED          ? 4e-2 /* below alpha 0.01 */
                                                                        : 2e-3;
         if (worst > most) fail_msg("%s: the table errs by %.5f", info->id, worst);
     }

@@ -88,6 +88,46 @@ static void every_choice_adds_up(void **state) {
     weft_scene_free(scene);
 }
 
+static double total(WeftScene *scene, float ambient, float reflection) {
+    WeftImage image = traced(scene, ambient, reflection, WEFT_SAMPLING_MIS);
+    const float *p = image.pixels;
+    double sum = 0.0;
+    for (int k = 0; k < SIDE * SIDE * 4; k++) sum += k % 4 == 3 ? 0.0 : (double)p[k];
+    weft_image_free(&image);
+    return sum;
+}
+
+/* A ball of a metal reflects and has no ambient light, one of lambert alone the other way round; whatever
+ * engine draws it. A coat is neither's ambient light, and dust no reflection. */
+static void each_lobe_is_on_its_side(void **state) {
+    (void)state;
+    static const struct Side {
+        const char *metallic, *specular, *sheen_color, *clearcoat, *dust;
+        bool reflects;
+    } sides[] = {{"1", "1", "0.6", "0.6", "0", true}, {"0", "0", "0", "0", "0.5", false}};
+    WeftScene *scene = dusty_ball();
+    assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
+    int index = 0;
+    while (strcmp(weft_material_choice_name(index), "layer") != 0) index++;
+    for (int s = 0; s < 2; s++) {
+        assert_int_equal(weft_scene_set(scene, "0.metallic", sides[s].metallic, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "0.specular", sides[s].specular, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "0.sheen_color", sides[s].sheen_color, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "0.clearcoat", sides[s].clearcoat, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "0.dust", sides[s].dust, NULL, NULL), WEFT_OK);
+        for (int k = 0; weft_material_choice_value(index, k); k++) {
+            const char *layer = weft_material_choice_value(index, k);
+            assert_int_equal(weft_scene_set(scene, "0.layer", layer, NULL, NULL), WEFT_OK);
+            double ambient = total(scene, 1.0f, 0.0f), reflection = total(scene, 0.0f, 1.0f);
+            double due = sides[s].reflects ? reflection : ambient, none = ambient + reflection - due;
+            if (!(due > 1.0 && none <= 1e-5 * due))
+                fail_msg("%s: ambient %g, reflection %g", layer, ambient, reflection);
+            assert_true(!(total(scene, 0.0f, 0.0f) > 0.0));
+        }
+    }
+    weft_scene_free(scene);
+}
+
 static void factors_are_checked(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
@@ -101,6 +141,7 @@ static void factors_are_checked(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_choice_adds_up),
+                                       cmocka_unit_test(each_lobe_is_on_its_side),
                                        cmocka_unit_test(factors_are_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

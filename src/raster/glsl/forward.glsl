@@ -139,4 +139,7 @@ void main() {
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif
+#ifdef MASKED
+    if (opacity < 0.5) discard; /* last: until here its neighbours may ask for what it sees */
+#endif
 }

@@ -7,15 +7,16 @@
  * sides; behind the surface's own plane it is cut off. */
 Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, Facing at, Frame f, Dir o) {
     vec3 here = eye.xyz + from_eye, normal = polygon_normals[k].xyz, c = polygon_radiance[k].rgb;
-    if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
     Polygon p;
     p.count = corners;
     for (int j = 0; j < corners; j++) {
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
+    float reaches = polygon_reaches(k, map, at); /* before any pixel is left out: it asks its neighbours */
+    if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
     Rgb sum = rgb_mul(stack_polygon(m, o, p), rgb(c.r, c.g, c.b));
-    return rgb_scale(sum, polygon_reaches(k, map, at));
+    return rgb_scale(sum, reaches);
 }
 
 /* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */

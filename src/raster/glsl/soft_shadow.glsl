@@ -18,12 +18,17 @@ vec2 disc_point(int k, float n, float turn) {
 /* Jorge Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014. */
 float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
 
-/* Mean over the four pixels of a quad, between which a derivative is the difference: their turns are spread
- * evenly, so that together they look in four times as many places. To be asked of all four. */
+/* Mean over the four pixels of a quad, between which a fine derivative is the difference: their turns are
+ * spread evenly, so that together they look in four times as many places. To be asked of all four. A coarse one
+ * may be of one pair for all four, which is no mean: then each pixel has its own. */
 float quad_mean(float v) {
+#ifdef FINE_DERIVATIVES
     vec2 side = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
-    v += side.x * dFdx(v);
-    return v + side.y * dFdy(v);
+    v += side.x * dFdxFine(v);
+    return v + side.y * dFdyFine(v);
+#else
+    return v;
+#endif
 }
 
 /* How the depth of the plane through a point p from the light, with normal n, changes over the map. There
@@ -39,7 +44,7 @@ vec2 shadow_slope(int map, vec3 p, vec3 n) {
 float soft_shadow(int map, vec3 normal, float cosine) {
     vec4 at = shadow_place(map, normal, cosine, 2.5);
     bool there = at.w > 0.0 && cosine > 0.0;
-    if (quad_mean(there ? 1.0 : 0.0) < 0.1) return 1.0;
+    if (quad_mean(there ? 1.0 : 0.0) < 0.1) return 1.0; /* of one quad all return or none */
     at.w = max(at.w, 1e-6);
     vec2 slope = shadow_slope(map, eye.xyz + from_eye - shadow_eye[map].xyz, normal);
     float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, turn = 6.2831853 * pixel_noise();
