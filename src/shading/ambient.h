@@ -485,7 +485,8 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
                                  clamp(occlusion, 0.0f, 1.0f));
     AmbientFour rest = ambient_four(s, v);
     bool worn = IS_WORN(m);
-    Rgb keep = worn ? stack_keep(m, m.e_avg) : rgb_grey(1.0f);
+    Rgb keep = rgb_grey(1.0f);
+    if (worn) keep = stack_keep(m, m.e_avg);
     Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
     if (m.layer == LAYER_SEED && worn) {

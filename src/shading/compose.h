@@ -157,7 +157,8 @@ FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     SheenE e_i = sheen_e_of(0.0f);
     if (m.layer >= LAYER_ALBEDO_MIN && HAS_SHEEN(m)) e_i = stack_albedo(m, a.i);
     bool worn = IS_WORN(m);
-    Rgb keep = worn ? stack_keep(m, e_i) : rgb_grey(1.0f);
+    Rgb keep = rgb_grey(1.0f);
+    if (worn) keep = stack_keep(m, e_i);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
     if (m.layer == LAYER_SEED && worn) {
         under = rgb_grey(1.0f - stack_interface(m, a));

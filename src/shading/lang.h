@@ -2,7 +2,13 @@
  *
  * Shading text uses float, int, bool, records and the calls below; nothing else. No vectors: a lobe sees a
  * pair of directions through Angles (angles.h), so that one text serves a pixel, a ray and an array of
- * directions. This is the only file that knows which language it is in. */
+ * directions. This is the only file that knows which language it is in.
+ *
+ * Large records travel by reference: `const T *m` and `T *m` as parameters, `m->x` and `*m` to read and
+ * write,
+ * `&x` to pass; text/reference.h says how GLSL has them. Pointers serve nothing else, and no two references
+ * of one call name the same object. `?:` chooses between numbers, never between records, which WebGL does not
+ * take. */
 #ifndef WEFT_LANG_H
 #define WEFT_LANG_H
 
@@ -125,6 +131,24 @@ FN float weft_pow(float x, float y) {
     return weft_exp2_parts(rounded, t);
 }
 
+/* The sine of x turned by so many quarters of a circle, for |x| < 2^12: x less the nearest multiple of pi /
+ * 2, in three parts, then polynomials for the sine or the cosine of what is left. Absolute error below 1e-7.
+ * Stephen L. Moshier, Cephes Mathematical Library, sinf.c, 1992. */
+FN float weft_sine(float x, uint32_t quarters) {
+    float rounded = x * 0.636619772f + WEFT_ROUND, k = rounded - WEFT_ROUND;
+    float r = ((x - k * 1.5703125f) - k * 4.83751297e-4f) - k * 7.54978995e-8f, q = r * r;
+    float s = r + r * q * (-1.66666546e-1f + q * (8.33216087e-3f - q * 1.95152959e-4f));
+    float c = 1.0f - 0.5f * q + q * q * (4.16666457e-2f + q * (-1.38873163e-3f + q * 2.44331571e-5f));
+    uint32_t n, bits;
+    memcpy(&n, &rounded, 4);
+    n += quarters;
+    float y = (n & 1u) != 0u ? c : s;
+    memcpy(&bits, &y, 4);
+    bits ^= (n & 2u) << 30;
+    memcpy(&y, &bits, 4);
+    return y;
+}
+
 /* One instruction each; the C library's versions are calls, since they let a number win over a NaN. */
 FN float weft_min(float a, float b) { return a < b ? a : b; }
 FN float weft_max(float a, float b) { return a > b ? a : b; }
@@ -143,15 +167,17 @@ FN float table_texel(Table t, int stride, int row, int column) { return t[row * 
 #define abs(x)              fabsf(x)
 #define floor(x)            floorf(x)
 #define sqrt(x)             sqrtf(x)
-#define sin(x)              sinf(x)
-#define cos(x)              cosf(x)
 #define mix(a, b, t)        weft_mix(a, b, t)
 #ifdef WEFT_LIBM /* the C library's own: for pictures, and for bench/arrays.c to compare with */
+#define sin(x)    sinf(x)
+#define cos(x)    cosf(x)
 #define log2(x)   log2f(x)
 #define exp2(x)   exp2f(x)
 #define exp(x)    expf(x)
 #define pow(x, y) powf(x, y)
 #else
+#define sin(x)    weft_sine(x, 0u)
+#define cos(x)    weft_sine(x, 1u)
 #define log2(x)   weft_log2(x)
 #define exp2(x)   weft_exp2(x)
 #define exp(x)    weft_exp(x)

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "text/catalogue.h"
 #include "text/layout.h"
+#include "text/reference.h"
 
 typedef struct TextName {
     struct TextName *next;
@@ -170,10 +171,14 @@ static void put_chunk(Text *text, const Buffer *source, const char *chunk, const
     }
     if (expanded.failed) fail_memory(text);
     check_macros(text);
-    if (!failed(text) && expanded.bytes) {
-        const char *wrong = layout_put(&expanded, &text->gap, &text->buffer);
+    Buffer plain = {0};
+    if (!failed(text) && expanded.bytes) reference_put(&expanded, &plain);
+    if (plain.failed) fail_memory(text);
+    if (!failed(text) && plain.bytes) {
+        const char *wrong = layout_put(&plain, &text->gap, &text->buffer);
         if (wrong) fail_dialect(text, wrong);
     }
+    buffer_free(&plain);
     buffer_free(&expanded);
 }
 

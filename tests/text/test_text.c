@@ -17,6 +17,7 @@
 #include "shading/lobe_tables.h"
 #include "text/catalogue.h"
 #include "text/dispatch.h"
+#include "text/items.h"
 #include "text/tables.h"
 
 static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300, TEXT_GLSL_450};
@@ -362,6 +363,114 @@ static void macros_are_expanded(void **state) {
                 "float gl;\nfloat yes;\n");
 }
 
+static void references_become_parameters_that_are_read_or_written(void **state) {
+    (void)state;
+    assert_flat("STRUCTURE\nfloat f(const Own *m, Own *out, float x) {\n    out->x = m->x * x;\n"
+                "    *out = *m;\n    return f(&out->inner, out, -x) + m->x;\n}\n",
+                "STRUCTURE\nfloat f(Own m, inout Own out, float x) {\n    out.x = m.x * x;\n"
+                "    out = m;\n    return f(out.inner, out, -x) + m.x;\n}\n");
+    /* operators of two operands stay */
+    assert_flat("bool g(float a, float b) {\n    return a * b > (a) * b - 1.0f && a * f(b) > b;\n}\n",
+                "bool g(float a, float b) {\n    return a * b > (a) * b - 1.0f && a * f(b) > b;\n}\n");
+    assert_flat("void h(\n    const Own *a,\n    Own *b\n);\n", "void h(\n    Own a,\n    inout Own b\n);\n");
+}
+
+/* The record that a name stands for in a function, among those that its text declares; size 0: none. */
+static Token record_of(const Items *items, const Item *function, Token name) {
+    Token before = {0}, record = {0};
+    const char *c = function->code;
+    bool list = false; /* "Dir a = .., b = ..": b too */
+    int depth = 0;
+    for (Token token; (token = token_solid(&c, function->end)).kind != TOKEN_NONE; before = token) {
+        depth += token_is(token, "(") - token_is(token, ")");
+        const Item *type = before.kind == TOKEN_NAME ? items_find(items, before) : NULL;
+        if (token.kind == TOKEN_NAME && type && type->kind == ITEM_RECORD) {
+            record = before;
+            list = depth == 0;
+        } else if (!(token.kind == TOKEN_NAME && list && depth == 0 && token_is(before, ","))) {
+            list = list && !token_is(token, ";");
+            continue;
+        }
+        if (token.size == name.size && memcmp(token.at, name.at, name.size) == 0) return record;
+    }
+    return (Token){0};
+}
+
+/* The record that an expression comes to: a variable's, a member's, what a function returns. */
+static Token record_at(const Items *items, const Item *function, const char *c, const char *end) {
+    Token token = token_solid(&c, end);
+    while (token_is(token, "(")) token = token_solid(&c, end);
+    const Item *called = token.kind == TOKEN_NAME ? items_find(items, token) : NULL;
+    Token record = {0};
+    if (called && called->kind == ITEM_FUNCTION) {
+        const char *head = called->code;
+        record = token_solid(&head, called->end);
+        int depth = 0;
+        do {
+            token = token_solid(&c, end);
+            depth += token_is(token, "(") - token_is(token, ")");
+        } while (depth > 0);
+    } else if (token.kind == TOKEN_NAME) {
+        record = record_of(items, function, token);
+    }
+    for (;;) {
+        const Item *type = record.size ? items_find(items, record) : NULL;
+        if (!type || type->kind != ITEM_RECORD) return (Token){0};
+        if (!token_is(token_solid(&c, end), ".")) return record;
+        record = record_of(items, type, token_solid(&c, end));
+    }
+}
+
+/* WebGL takes "?:" of numbers alone. */
+static void no_choice_is_between_records(void **state) {
+    (void)state;
+    static const char *const also[] = {
+        "Dir bad(Angles a, bool x) { return x ? a.o : a.i; }",
+        "Dir bad(Dir a, bool x) { return x ? dir(a.x, a.y, a.z) : a; }",
+        "float good(Angles a, bool x) { return x ? a.o.x : dir(1.0, a.d, 1.0).x; }"};
+    static const char *const of[] = {"shading/terms/",    "shading/layers/",   "shading/workflows/",
+                                     "shading/profiles/", "shading/compose.h", "shading/area.h",
+                                     "shading/ambient.h", "shading/frame.h",   "shading/punctual.h",
+                                     "shading/texel.h",   "shading/tone.h"};
+    for (int k = 0; k < 4; k++) {
+        int ids[LOBE_COUNT], count = gpu_lobes(ids), records = 0, choices = 0;
+        Text text;
+        text_begin(&text, &(TextDesc){.language = TEXT_PLAIN, .tables = true});
+        text_dispatch(&text, ids, count);
+        text_engine_tables(&text, NULL, 0);
+        text_provide(&text, "shading/ambient_source.h"); /* a shader's own */
+        for (const CatalogueFile *file = catalogue_files; file->name; file++) {
+            bool shading = false;
+            for (size_t n = 0; n < sizeof of / sizeof *of; n++) shading |= is_below(file->name, of[n]);
+            if (shading) text_include(&text, file->name);
+        }
+        if (k < 3) text_line(&text, "\n%s", also[k]);
+        WeftError error = {0};
+        if (text_end(&text, &error) != WEFT_OK) fail_msg("%s", error.text);
+        Items items;
+        items_cut(text.bytes, &items);
+        assert_false(items.short_of_memory);
+        for (int n = 0; n < items.count; n++) {
+            const Item *item = &items.all[n];
+            if (item->kind != ITEM_FUNCTION) continue;
+            const char *c = item->code;
+            for (Token token; (token = token_next(&c, item->end)).kind != TOKEN_NONE;) {
+                if (!token_is(token, "?")) continue;
+                choices++;
+                Token record = record_at(&items, item, c, item->end);
+                records += record.size > 0;
+                if (record.size && k == 3)
+                    fail_msg("%.*s chooses between two %.*s", (int)item->name.size, item->name.at,
+                             (int)record.size, record.at);
+            }
+        }
+        assert_int_equal(records, k < 2);
+        assert_true(choices > 30);
+        items_free(&items);
+        text_free(&text);
+    }
+}
+
 static void what_is_no_shading_text_is_refused(void **state) {
     (void)state;
     static const struct {
@@ -635,6 +744,8 @@ int main(void) {
         cmocka_unit_test(what_is_not_glsl_is_found),
         cmocka_unit_test(a_file_comes_once),
         cmocka_unit_test_setup_teardown(macros_are_expanded, make_overlay, NULL),
+        cmocka_unit_test(references_become_parameters_that_are_read_or_written),
+        cmocka_unit_test(no_choice_is_between_records),
         cmocka_unit_test(what_is_no_shading_text_is_refused),
         cmocka_unit_test(endless_text_stops),
         cmocka_unit_test(files_inside_files_have_an_end),

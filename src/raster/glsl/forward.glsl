@@ -118,7 +118,8 @@ Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) { return rgb_grey
 #endif
 
 void main() {
-    Dir wo = eye.w > 0.5 ? dir_of(-normalize(from_eye)) : dir_of(-forward.xyz);
+    Dir wo = dir_of(-forward.xyz);
+    if (eye.w > 0.5) wo = dir_of(-normalize(from_eye));
     Facing at = fragment_facing(wo);
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);

@@ -55,8 +55,12 @@ FN Dir patry_sample(Patry m, Dir o, float u, float v) {
         float z = 1.0f - 4.0f * u, r = sqrt(max(1.0f - z * z, 0.0f)), phi = 2.0f * PI * v;
         float x = o.x * l + r * cos(phi), y = o.y * l + r * sin(phi), t = sigma * (sigma * o.z * l + z);
         float n = x * x + y * y + t * t;
-        n = n > 1e-20f ? 1.0f / sqrt(n) : 0.0f;
-        i = dir_mirror(o, n > 0.0f ? dir(x * n, y * n, t * n) : o);
+        Dir h = o;
+        if (n > 1e-20f) {
+            n = 1.0f / sqrt(n);
+            h = dir(x * n, y * n, t * n);
+        }
+        i = dir_mirror(o, h);
     }
     return i;
 }

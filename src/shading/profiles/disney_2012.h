@@ -14,7 +14,8 @@
 
 FN Rgb disney_2012_tint(Rgb base) {
     float y = 0.3f * base.r + 0.6f * base.g + 0.1f * base.b;
-    return y > 0.0f ? rgb_scale(base, 1.0f / y) : rgb_grey(1.0f);
+    if (y > 0.0f) return rgb_scale(base, 1.0f / y);
+    return rgb_grey(1.0f);
 }
 
 FN Stack disney_2012_stack(Surface s, Dir o) { return disney_tinted(s, disney_2012_tint(s.base_color), o); }

@@ -21,7 +21,8 @@
 
 FN Rgb disney_tint(Rgb base) {
     float y = rgb_luminance(base);
-    return y > 0.0f ? rgb_scale(base, 1.0f / y) : rgb_grey(1.0f);
+    if (y > 0.0f) return rgb_scale(base, 1.0f / y);
+    return rgb_grey(1.0f);
 }
 
 FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
