@@ -124,6 +124,8 @@ typedef struct WeftRasterView {
     WeftPart part;      /* other than all: nothing, transparent, is behind */
     int crop[4];        /* x, y, width, height from the top left: nothing else is drawn; all 0: everything */
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
+    WeftFloor floor;    /* not under a part */
+    int hide_lights;    /* not 0: polygon lights shine, but the camera looks through them */
 } WeftRasterView;
 
 /* Draws one picture into the raster's own target. A shader that does not compile is an error only where there

@@ -26,6 +26,16 @@ typedef enum WeftBackground {
     WEFT_BACKGROUND_BLURRED      /* the environment out of focus, by about 10 degrees */
 } WeftBackground;
 
+/* A floor under the scene, a level disc through the lowest point of its box, that is seen by what it catches
+ * alone: whatever is behind it is darkened by the part of the light, in luminance, that the scene keeps from
+ * it, and may be mirrored over by the scene. It fades towards its rim, is not there from below, and neither
+ * lights nor hides anything. */
+typedef struct WeftFloor {
+    int on;           /* not 0: it is there */
+    float reflection; /* share of the scene that it mirrors, at any angle; in [0, 1] */
+    float roughness;  /* of the mirror, as a material has it, in [0, 1] */
+} WeftFloor;
+
 /* Which strategy finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
@@ -48,6 +58,8 @@ typedef struct WeftRenderDesc {
     int pixel_centre; /* not 0: every camera ray goes through the middle of its pixel, no filter */
     int no_roulette;  /* not 0: paths end only at max_depth or where nothing is hit */
     int no_shadows;   /* not 0: lights reach every point that faces them; to compare with other renderers */
+    WeftFloor floor;
+    int hide_lights; /* not 0: polygon lights shine, but the camera looks through them */
 } WeftRenderDesc;
 
 /* A picture in the making. */

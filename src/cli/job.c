@@ -128,6 +128,8 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .polygons = job->request->polygons ? job->request->polygons : -1,
                            .camera = camera,
                            .part = job->request->part,
+                           .floor = desc->floor,
+                           .hide_lights = desc->hide_lights,
                            .background = desc->background};
     memcpy(view.crop, desc->crop, sizeof view.crop);
     memcpy(view.background_color, desc->background_color, sizeof view.background_color);

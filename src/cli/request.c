@@ -150,6 +150,8 @@ bool request_read(const Options *options, Request *request) {
     request->desc.background = request->staging.background;
     memcpy(request->desc.background_color, request->staging.background_color,
            sizeof request->desc.background_color);
+    request->desc.floor = request->staging.floor;
+    request->desc.hide_lights = request->staging.hide_lights;
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
 }

@@ -123,6 +123,15 @@ static bool check_scene(const char *scene) {
     return false;
 }
 
+static bool read_floor(const Options *options, Staging *staging) {
+    double reflection = 0.0, roughness = 0.0;
+    bool good = option_number(options, "--floor-reflection", &reflection) &&
+                option_number(options, "--floor-roughness", &roughness);
+    staging->floor = (WeftFloor){option_given(options, "--floor"), (float)reflection, (float)roughness};
+    staging->hide_lights = option_given(options, "--hide-lights");
+    return good;
+}
+
 bool staging_read(const Options *options, const char *scene, Staging *staging) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
     *staging = (Staging){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
@@ -132,7 +141,7 @@ bool staging_read(const Options *options, const char *scene, Staging *staging) {
            option_number(options, "--env-strength", &staging->env_strength) &&
            option_number(options, "--env-ambient", &staging->env_ambient) &&
            option_number(options, "--env-reflection", &staging->env_reflection) &&
-           option_choice(options, "--tonemap", curves, &staging->tonemap) &&
+           option_choice(options, "--tonemap", curves, &staging->tonemap) && read_floor(options, staging) &&
            dress_read(options, &staging->dress) && read_lights(options, staging);
 }
 

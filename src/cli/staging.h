@@ -34,6 +34,10 @@ enum { STAGING_LIGHTS_MOST = 64 };
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),            \
         OPTION_TEXT("--background", "WHAT", "auto",                                                          \
                     "auto, environment, blurred, transparent or a linear r,g,b"),                            \
+        OPTION_SWITCH("--floor", "a floor that only catches the scene's shadow and mirrors it"),             \
+        OPTION_NUMBER("--floor-reflection", "SHARE", "0.1", 0, 1, "of the scene that the floor mirrors"),    \
+        OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),               \
+        OPTION_SWITCH("--hide-lights", "polygon lights shine, but the camera looks through them"),           \
                                                                                                              \
         DRESS_OPTIONS
 
@@ -48,6 +52,8 @@ typedef struct Staging {
     float env_color[3];
     WeftBackground background;
     float background_color[3];
+    WeftFloor floor;
+    bool hide_lights;
     WeftLight lights[STAGING_LIGHTS_MOST];
     int light_count;
     bool no_lights; /* not those of the file */

@@ -89,6 +89,8 @@ static int view_verb_run(const Options *options) {
     desc.camera = staging.camera;
     desc.background = staging.background;
     memcpy(desc.background_color, staging.background_color, sizeof desc.background_color);
+    desc.floor = staging.floor;
+    desc.hide_lights = staging.hide_lights;
     desc.tonemap = (WeftTonemap)staging.tonemap;
     desc.exposure = (float)staging.exposure;
     desc.shader_dir = option_text(options, "--shader-dir");

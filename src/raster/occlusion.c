@@ -49,7 +49,7 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
         float u = ((float)k + 0.5f) / (float)self->rays;
         float v = (float)k * 0.618033989f + turned(turn);
         Dir d = frame_from(frame, warp_cosine(u, v - floor(v)));
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn, false};
         seen += !geometry_occluded(self->geometry, ray);
     }
     return (float)seen / (float)self->rays;
@@ -68,7 +68,7 @@ static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, V
         float phi = (float)k * 2.39996323f + 2.0f * PI * turned(turn);
         float s = sqrt(max(1.0f - mu * mu, 0.0f));
         Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn};
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn, false};
         if (vec3_dot(ray.direction, n) <= 0.0f) continue;
         above++;
         seen += !geometry_occluded(self->geometry, ray);

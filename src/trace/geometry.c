@@ -33,9 +33,10 @@ static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
 
-/* A hit may only count when the surface is there from that side and, by a coin that is a function of ray and
- * triangle, not transparent. */
-static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint32_t key) {
+/* A hit may only count when the surface is there for that ray, from that side and, by a coin that is a
+ * function of ray and triangle, not transparent. */
+static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint32_t key, bool past_lights) {
+    if (past_lights && hit->mesh >= (uint32_t)scene_own_meshes(scene)) return false;
     const Mesh *mesh = &scene->meshes[hit->mesh];
     const Material *material = &scene->materials[mesh->material];
     if (!material->double_sided && vec3_dot(hit->facing, direction) > 0.0f) return false;
@@ -48,10 +49,11 @@ static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint
 typedef struct Query {
     struct RTCIntersectContext context; /* first: Embree hands back its address */
     const WeftScene *scene;
+    bool past_lights;
 } Query;
 
-static Query query_of(const Geometry *geometry) {
-    Query query = {.scene = geometry->scene};
+static Query query_of(const Geometry *geometry, const Ray *ray) {
+    Query query = {.scene = geometry->scene, .past_lights = ray->past_lights};
     rtcInitIntersectContext(&query.context);
     return query;
 }
@@ -61,8 +63,9 @@ static Query query_of(const Geometry *geometry) {
 static void filter(const struct RTCFilterFunctionNArguments *a) {
     const struct RTCRay *r = (const struct RTCRay *)(const void *)a->ray;
     Hit hit = from_embree((const struct RTCHit *)(const void *)a->hit, r->tfar);
-    const WeftScene *scene = ((const Query *)(const void *)a->context)->scene;
-    if (!present(scene, &hit, (Vec3){r->dir_x, r->dir_y, r->dir_z}, r->id)) a->valid[0] = 0;
+    const Query *query = (const Query *)(const void *)a->context;
+    if (!present(query->scene, &hit, (Vec3){r->dir_x, r->dir_y, r->dir_z}, r->id, query->past_lights))
+        a->valid[0] = 0;
 }
 
 /* Whether a shadow ray must ask what it has hit. */
@@ -153,9 +156,9 @@ static bool intersect(const Geometry *geometry, const Ray *ray, Query *query, Hi
 /* Nearly every nearest hit is there. For the rest every candidate is asked, since another may lie at the same
  * place. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
-    Query query = query_of(geometry);
+    Query query = query_of(geometry, &ray);
     if (!intersect(geometry, &ray, &query, hit)) return false;
-    if (present(geometry->scene, hit, ray.direction, ray.key)) return true;
+    if (present(geometry->scene, hit, ray.direction, ray.key, ray.past_lights)) return true;
     query.context.filter = filter;
     return intersect(geometry, &ray, &query, hit);
 }
@@ -182,14 +185,14 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
         if (q.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
         hits[k] = (Hit){q.ray.tfar[k], q.hit.geomID[k], q.hit.primID[k],
                         q.hit.u[k],    q.hit.v[k],      {q.hit.Ng_x[k], q.hit.Ng_y[k], q.hit.Ng_z[k]}};
-        if (!present(geometry->scene, &hits[k], rays[k].direction, rays[k].key) &&
+        if (!present(geometry->scene, &hits[k], rays[k].direction, rays[k].key, rays[k].past_lights) &&
             !geometry_hit(geometry, rays[k], &hits[k]))
             hits[k].t = -1.0f;
     }
 }
 
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
-    Query query = query_of(geometry);
+    Query query = query_of(geometry, &ray);
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);
     return r.tfar < 0.0f;

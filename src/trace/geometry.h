@@ -16,7 +16,8 @@ bool geometry_serves(const Geometry *geometry);
 typedef struct Ray {
     Vec3 origin, direction; /* unit */
     float near, far;
-    uint32_t key; /* decides, together with the triangle, whether a half-transparent surface is there */
+    uint32_t key;     /* decides, together with the triangle, whether a half-transparent surface is there */
+    bool past_lights; /* the shapes of polygon lights are not there for it */
 } Ray;
 
 typedef struct Hit {

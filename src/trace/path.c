@@ -108,7 +108,7 @@ static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb th
     Rgb f = value.f_cos;
     if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, key, f);
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
-    Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key};
+    Ray shadow = {leave(p->origin, p->geometric), light.wi, 0.0f, light.distance, key, false};
     if (light.distance < INFINITY) {
         /* from the moved start to just before the light */
         Vec3 to = vec3_sub(vec3_madd(p->origin, light.wi, light.distance), shadow.origin);

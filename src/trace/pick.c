@@ -39,7 +39,7 @@ static bool nearest(const WeftPick *self, CameraRay through, Hit *hit) {
     bool any = false;
     for (uint32_t k = 0; k < TRIES; k++) {
         Hit found;
-        Ray ray = {through.origin, through.direction, 0.0f, INFINITY, k};
+        Ray ray = {through.origin, through.direction, 0.0f, INFINITY, k, false};
         if (!geometry_hit(self->geometry, ray, &found) || (any && found.t >= hit->t)) continue;
         *hit = found;
         any = true;

@@ -10,6 +10,7 @@
 #include "scene/polygons.h"
 #include "scene/shade.h"
 #include "scene/sheen_tables.h"
+#include "trace/catcher.h"
 #include "trace/path.h"
 
 enum {
@@ -46,6 +47,8 @@ struct WeftRender {
     int tiles_across, tile_count;
     Tile *tiles;
     float *sums; /* RGBA a pixel: radiance times coverage, coverage */
+    Floor floor;
+    Caught *caught; /* one a pixel, by the floor; NULL where there is none */
     double build_seconds, render_seconds;
 };
 
@@ -71,7 +74,7 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
             return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
-    return WEFT_OK;
+    return floor_check(&d->floor, error);
 }
 
 static void set_defaults(WeftRenderDesc *d) {
@@ -143,10 +146,14 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     render->tile_count = render->tiles_across * ((render->height + TILE - 1) / TILE);
     free(render->tiles);
     free(render->sums);
+    free(render->caught);
+    size_t pixels = (size_t)render->width * (size_t)render->height;
+    render->floor = floor_of(render->scene, &d->floor);
     render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
-    render->sums = alloc_array((size_t)render->width * (size_t)render->height, 4 * sizeof(float));
+    render->sums = alloc_array(pixels, 4 * sizeof(float));
+    render->caught = render->floor.there ? alloc_array(pixels, sizeof(Caught)) : NULL;
     render->render_seconds = 0.0;
-    if (render->tiles && render->sums) return WEFT_OK;
+    if (render->tiles && render->sums && (render->caught || !render->floor.there)) return WEFT_OK;
     render->tile_count = 0;
     return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
@@ -258,6 +265,7 @@ void weft_render_free(WeftRender *render) {
     weft_image_free(&render->blurred);
     free(render->tiles);
     free(render->sums);
+    free(render->caught);
     free(render);
 }
 
@@ -277,7 +285,12 @@ static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *samp
     x = 2.0f * ((float)px + x) / (float)d->width - 1.0f;
     y = 1.0f - 2.0f * ((float)py + y) / (float)d->height;
     CameraRay r = view_ray(&render->view, x, y);
-    return (Ray){r.origin, r.direction, 0.0f, INFINITY, hash32(sampler->key ^ sampler->index)};
+    return (Ray){r.origin,
+                 r.direction,
+                 0.0f,
+                 INFINITY,
+                 hash32(sampler->key ^ sampler->index),
+                 render->desc.hide_lights != 0};
 }
 
 /* What is behind everything: colour and coverage. */
@@ -297,9 +310,21 @@ static void add_background(const WeftRender *render, Vec3 direction, float *sum)
 
 static bool finite(Rgb c) { return c.r + c.g + c.b < INFINITY && c.r + c.g + c.b > -INFINITY; }
 
-/* `count` samples of one pixel from sample `first` on. */
-static void sample_pixel(const WeftRender *render, int px, int py, int first, int count, float *sum,
+/* The floor, where a camera ray meets it before all else; false where it does not. */
+static bool add_floor(const WeftRender *render, const Ray *ray, float hit_t, Sampler *sampler, Caught *caught,
+                      float *sum, Tile *tile) {
+    float t = floor_distance(&render->floor, ray->origin, ray->direction);
+    if (t < 0.0f || (hit_t >= 0.0f && hit_t < t)) return false;
+    float behind[4] = {0};
+    add_background(render, ray->direction, behind);
+    catcher_sample(&render->context, &render->floor, ray, t, behind, sampler, caught, sum, &tile->rays);
+    return true;
+}
+
+/* `count` samples of a pixel, the index-th, from sample `first` on. */
+static void sample_pixel(const WeftRender *render, int px, int py, size_t index, int first, int count,
                          Tile *tile) {
+    float *sum = render->sums + 4 * index;
     Sampler samplers[GEOMETRY_PACKET];
     Ray rays[GEOMETRY_PACKET] = {0};
     Hit hits[GEOMETRY_PACKET];
@@ -311,6 +336,9 @@ static void sample_pixel(const WeftRender *render, int px, int py, int first, in
     geometry_hit_packet(render->geometry, count, rays, hits);
     tile->rays += count;
     for (int k = 0; k < count; k++) {
+        if (render->floor.there &&
+            add_floor(render, &rays[k], hits[k].t, &samplers[k], render->caught + index, sum, tile))
+            continue;
         if (hits[k].t < 0.0f) {
             add_background(render, rays[k].direction, sum);
             continue;
@@ -343,8 +371,8 @@ static void render_tile(void *user, int item, int thread) {
     int tx = item % render->tiles_across * TILE, ty = item / render->tiles_across * TILE;
     for (int y = ty; y < ty + TILE && y < render->height; y++)
         for (int x = tx; x < tx + TILE && x < render->width; x++) {
-            float *sum = render->sums + 4 * ((size_t)y * (size_t)render->width + (size_t)x);
-            sample_pixel(render, render->x0 + x, render->y0 + y, tile.samples, pass->samples, sum, &tile);
+            size_t index = (size_t)y * (size_t)render->width + (size_t)x;
+            sample_pixel(render, render->x0 + x, render->y0 + y, index, tile.samples, pass->samples, &tile);
         }
     tile.samples += pass->samples;
     render->tiles[item] = tile;
@@ -399,10 +427,13 @@ WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError
     WeftResult result = weft_image_create(render->width, render->height, 4, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
     float *pixel = out->pixels;
-    const float *sum = render->sums;
+    size_t index = 0;
     for (int y = 0; y < render->height; y++)
-        for (int x = 0; x < render->width; x++, pixel += 4, sum += 4) {
+        for (int x = 0; x < render->width; x++, pixel += 4, index++) {
             int samples = render->tiles[y / TILE * render->tiles_across + x / TILE].samples;
+            float sum[4];
+            memcpy(sum, render->sums + 4 * index, sizeof sum);
+            if (render->caught) catcher_resolve(&render->caught[index], sum);
             if (!samples || !(sum[3] > 0.0f)) continue;
             for (int c = 0; c < 3; c++) pixel[c] = sum[c] / sum[3]; /* straight alpha */
             pixel[3] = sum[3] / (float)samples;

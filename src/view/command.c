@@ -149,6 +149,10 @@ static void put_view(Line *line, const Viewer *v) {
             (double)v->background_color[1], (double)v->background_color[2]);
     else if (v->background != WEFT_BACKGROUND_AUTO)
         put(line, " --background %s", backs[v->background]);
+    if (v->floor.on)
+        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g", (double)v->floor.reflection,
+            (double)v->floor.roughness);
+    if (v->hide_lights) put(line, " --hide-lights");
     if (differs(v->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->exposure);
     if (v->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->tonemap]);
     if (v->mode != MODE_LIVE) {

@@ -39,6 +39,8 @@ static Order make_order(const Viewer *v) {
     order.view.height = (int)fmaxf(v->stage.height, 16.0f);
     order.view.background = v->background;
     memcpy(order.view.background_color, v->background_color, sizeof order.view.background_color);
+    order.view.floor = v->floor;
+    order.view.hide_lights = v->hide_lights;
     order.view.part = v->part;
     order.view.ambient = v->ambient;
     order.truth = v->mode != MODE_LIVE;
@@ -60,6 +62,8 @@ static void order_truth(Viewer *v, const Order *order) {
     t.desc.width = order->view.width, t.desc.height = order->view.height;
     t.desc.background = order->view.background;
     memcpy(t.desc.background_color, order->view.background_color, sizeof t.desc.background_color);
+    t.desc.floor = order->view.floor;
+    t.desc.hide_lights = order->view.hide_lights;
     snprintf(t.camera, sizeof t.camera, "%s", order->camera);
     t.tonemap = order->tonemap, t.exposure = order->exposure;
     t.background[0] = t.background[1] = 0.16f, t.background[2] = 0.17f;

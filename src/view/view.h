@@ -19,6 +19,8 @@ typedef struct ViewDesc {
     const char *camera; /* NULL: a built-in scene's first one, else auto */
     WeftBackground background;
     float background_color[3];
+    WeftFloor floor;
+    bool hide_lights;
     WeftTonemap tonemap;
     float exposure;
     const char *shader_dir; /* may be NULL */

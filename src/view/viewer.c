@@ -222,6 +222,8 @@ int view_run(const ViewDesc *desc, char why[512]) {
     v->exposure = desc->exposure;
     v->background = desc->background;
     memcpy(v->background_color, desc->background_color, sizeof v->background_color);
+    v->floor = desc->floor;
+    v->hide_lights = desc->hide_lights;
     v->split_at = 0.5f;
     v->held_light = -1;
     v->brush = (Brush){.radius = 0.05f, .strength = 0.7f};

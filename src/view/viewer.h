@@ -72,6 +72,8 @@ typedef struct Viewer {
     float split_at;
     WeftBackground background;
     float background_color[3];
+    WeftFloor floor;
+    bool hide_lights;
     WeftTonemap tonemap;
     float exposure;
     WeftPart part;

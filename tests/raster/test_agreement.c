@@ -30,7 +30,7 @@ static void find_inside(const WeftScene *scene, const char *camera_name) {
     for (int k = 0; k < PIXELS; k++) {
         float x = ((float)(k % WIDTH) + 0.5f) / WIDTH, y = ((float)(k / WIDTH) + 0.5f) / HEIGHT;
         CameraRay r = view_ray(&view, 2.0f * x - 1.0f, 1.0f - 2.0f * y);
-        there[k] = geometry_hit(geometry, (Ray){r.origin, r.direction, 0.0f, INFINITY, 0}, &hits[k]);
+        there[k] = geometry_hit(geometry, (Ray){r.origin, r.direction, 0.0f, INFINITY, 0, false}, &hits[k]);
     }
     for (int k = 0; k < PIXELS; k++) {
         int x = k % WIDTH, y = k / WIDTH;

@@ -17,7 +17,9 @@ static Geometry *build(WeftScene *scene) {
     return geometry;
 }
 
-static Ray down(float x, float z) { return (Ray){{x, 5.0f, z}, {0.0f, -1.0f, 0.0f}, 0.0f, INFINITY, 1}; }
+static Ray down(float x, float z) {
+    return (Ray){{x, 5.0f, z}, {0.0f, -1.0f, 0.0f}, 0.0f, INFINITY, 1, false};
+}
 
 /* Three floors: a single-sided one facing down at y = 2, one facing up at 1, and a two-sided one at 0. */
 static WeftScene *floors(void) {
@@ -38,7 +40,7 @@ static void backs_of_single_sided_surfaces_are_not_there(void **state) {
     assert_true(geometry_hit(geometry, down(0.1f, 0.2f), &hit));
     assert_int_equal(hit.mesh, 1);
     assert_true(fabsf(hit.t - 4.0f) < 1e-5f);
-    Ray up = {{0.1f, -5.0f, 0.2f}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, 1};
+    Ray up = {{0.1f, -5.0f, 0.2f}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, 1, false};
     assert_true(geometry_hit(geometry, up, &hit));
     assert_int_equal(hit.mesh, 2); /* the two-sided one, from behind */
     up.origin.y = 0.5f;
@@ -90,7 +92,7 @@ static void sheets_back_to_back_have_no_holes(void **state) {
     Geometry *geometry = build(scene);
     for (uint32_t k = 0; k < 2000; k++) {
         float x = 1.8f * unit_float(hash32(2 * k)) - 0.9f, z = 1.8f * unit_float(hash32(2 * k + 1)) - 0.9f;
-        Ray rays[2] = {down(x, z), {{x, -5.0f, z}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, k}};
+        Ray rays[2] = {down(x, z), {{x, -5.0f, z}, {0.0f, 1.0f, 0.0f}, 0.0f, INFINITY, k, false}};
         Hit hits[2];
         geometry_hit_packet(geometry, 2, rays, hits);
         for (uint32_t side = 0; side < 2; side++) {

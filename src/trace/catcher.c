@@ -1,0 +1,59 @@
+#include "trace/catcher.h"
+
+#include "shading/lobes/ggx.h"
+
+static float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+/* One light sample at a point of a white floor. */
+static void add_light(const PathContext *context, Vec3 point, float share, Point uv, uint32_t key,
+                      Caught *caught, long long *rays) {
+    LightSample light = lights_sample(context->lights, point, uv.u, uv.v);
+    if (!(light.pdf > 0.0f) || !(light.wi.y > 0.0f)) return;
+    float whole = luminance(light.radiance) * light.wi.y / light.pdf;
+    if (!(whole > 0.0f && whole < INFINITY)) return;
+    Ray shadow = {point, light.wi, 0.0f, light.distance * (1.0f - 1e-4f), key, false};
+    *rays += context->shadows;
+    bool hidden = context->shadows && geometry_occluded(context->geometry, shadow);
+    caught->whole += whole;
+    caught->reached += hidden ? whole * (1.0f - share) : whole;
+}
+
+/* What a mirror of that roughness shows; false where that is not the scene. */
+static bool mirrored(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
+                     Sampler *sampler, Rgb *color, long long *rays) {
+    const Ggx facets = {.alpha = max(floor->roughness * floor->roughness, 0.001f)};
+    Vec3 d = ray->direction;
+    Dir i = ggx_sample(facets, dir(-d.x, -d.z, -d.y), uv.u, uv.v); /* z is up here */
+    Ray to = {point, vec3(i.x, i.z, i.y), 0.0f, INFINITY, hash32(ray->key + 0x9e3779b9u), ray->past_lights};
+    Hit hit;
+    if (!(i.z > 0.0f)) return false;
+    ++*rays;
+    if (!geometry_hit(context->geometry, to, &hit)) return false;
+    *color = path_radiance(context, to, hit, sampler, rays);
+    return color->r + color->g + color->b < INFINITY;
+}
+
+void catcher_sample(const PathContext *context, const Floor *floor, const Ray *ray, float t,
+                    const float behind[4], Sampler *sampler, Caught *caught, float sum[4], long long *rays) {
+    Vec3 point = vec3_madd(ray->origin, ray->direction, t);
+    float share = floor_share(floor, point), r = share * floor->reflection, c = 0.0f;
+    Rgb mirror = {0};
+    TwoPoints uv = sampler_next(sampler);
+    add_light(context, point, share, uv.first, hash32(ray->key), caught, rays);
+    if (r > 0.0f && mirrored(context, floor, point, ray, uv.second, sampler, &mirror, rays)) c = r;
+    const float M[3] = {mirror.r, mirror.g, mirror.b};
+    for (int k = 0; k < 3; k++) {
+        float seen = behind[k] * (1.0f - c);
+        caught->behind[k] += seen;
+        sum[k] += seen + c * M[k];
+    }
+    caught->clear += (1.0f - behind[3]) * (1.0f - c);
+    sum[3] += 1.0f - (1.0f - behind[3]) * (1.0f - c);
+}
+
+void catcher_resolve(const Caught *caught, float sum[4]) {
+    if (!(caught->whole > 0.0f)) return;
+    float lost = 1.0f - caught->reached / caught->whole;
+    for (int k = 0; k < 3; k++) sum[k] -= caught->behind[k] * lost;
+    sum[3] += caught->clear * lost;
+}

@@ -1,0 +1,31 @@
+/* catcher.h - what the floor catches along camera rays: the light that is kept from it, and the scene
+ * mirrored
+ *
+ * With B the background behind a point of the floor, seen with coverage a, M what is mirrored at the share r
+ * of the rays that meet the scene, c = r where one does, and V the part of the light that reaches the point,
+ *
+ *   radiance = B a V (1 - c) + r M,   coverage = 1 - (1 - a) V (1 - c),   V = sum reached / sum whole
+ *
+ * over all samples of the pixel, since a mean of quotients is not the quotient of means. */
+#ifndef WEFT_TRACE_CATCHER_H
+#define WEFT_TRACE_CATCHER_H
+
+#include "scene/floor.h"
+#include "trace/path.h"
+
+/* Sums over the samples of a pixel that meet the floor. */
+typedef struct Caught {
+    float behind[3];      /* B a (1 - c) */
+    float clear;          /* (1 - a) (1 - c) */
+    float whole, reached; /* luminance of the light: were nothing in its way, and as it is */
+} Caught;
+
+/* Adds what a camera ray, `t` away from the floor, finds there; `behind` is B a and a. What is mirrored is
+ * added to `sum`, radiance and coverage, as are B a and a without V: catcher_resolve puts that right. */
+void catcher_sample(const PathContext *context, const Floor *floor, const Ray *ray, float t,
+                    const float behind[4], Sampler *sampler, Caught *caught, float sum[4], long long *rays);
+
+/* Turns sum, radiance times coverage and coverage of all samples of a pixel, into what V makes of them. */
+void catcher_resolve(const Caught *caught, float sum[4]);
+
+#endif
