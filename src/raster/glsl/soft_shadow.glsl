@@ -21,15 +21,15 @@ float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(
 /* Mean over the four pixels of a quad, between which a fine derivative is the difference: their turns are
  * spread evenly, so that together they look in four times as many places. To be asked of all four. A coarse one
  * may be of one pair for all four, which is no mean: then each pixel has its own. */
-float quad_mean(float v) {
 #ifdef FINE_DERIVATIVES
+float quad_mean(float v) {
     vec2 side = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
     v += side.x * dFdxFine(v);
     return v + side.y * dFdyFine(v);
-#else
-    return v;
-#endif
 }
+#else
+float quad_mean(float v) { return v; }
+#endif
 
 /* How the depth of the plane through a point p from the light, with normal n, changes over the map. There
  * 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at distance 1; and
