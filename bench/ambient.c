@@ -1,12 +1,15 @@
 /* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
  *
- *   bench_ambient [--lamps N] [--quick] [--only LOBE] [--tables] MAP.hdr ...
+ *   bench_ambient [--lamps N] [--quick] [--only LOBE] [--tables] [--rows] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
  * over roughness 0.1 .. 1 together, and of the default strategy the roughness with the greatest, which for a
  * sheen is where there is least of it. The reference is multiple importance sampling between the lobe's
  * sampler and the map's radiance; the strategies run as the shader has them, with means of radiance by
- * sampling. --tables holds none of them. `base` is a white dielectric, f0 0.04: lambert under ggx. */
+ * sampling. --tables holds none of them, --rows prints each roughness. Under an even white sky first, then
+ * under the maps. `base` is a white dielectric, f0 0.04: lambert under ggx; `brushed` and `disney` are metals
+ * of anisotropy 0.9 by lobe ggx and by workflow disney, `satin` lobe silk at its greatest. A sheen's E is of
+ * its own table, as in a material. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +20,13 @@
 #include "scene/scene.h"
 #include "shading/albedo.h"
 #include "shading/ambient_table.h"
+#include "shading/choice.h"
 #include "shading/material_stack.h"
 
 enum { LEVELS = 16, AZIMUTHS = 12, SIDES = 2, PIXELS = LEVELS * AZIMUTHS * SIDES, ROUGHNESSES = 10 };
 enum { LOBE_DRAWS = 2048, MAP_DRAWS = 2048, CELLS_WIDTH = 256, CELLS_HEIGHT = 128 };
 enum { SMALL_WIDTH = 128 };
-enum { BASE = LOBE_COUNT, SUBJECTS };
+enum { BASE = LOBE_COUNT, BRUSHED, DISNEY, SATIN, SUBJECTS };
 
 /* A pixel of the sphere: its frame, x towards wo for round lobes; and how much of the picture it is. */
 typedef struct Pixel {
@@ -163,32 +167,59 @@ static AmbientLight look_light(const void *user, int k) {
                           rgb(lamp->color[0], lamp->color[1], lamp->color[2])};
 }
 
-/* What is looked at. */
-static Stack subject_stack(int subject, float roughness, Dir o) {
+static const char *const own_names[SUBJECTS - BASE] = {"base", "brushed", "disney", "satin"};
+static const char *name_of(int subject) {
+    return subject >= BASE ? own_names[subject - BASE] : weft_lobe_info(subject)->id;
+}
+
+/* A white metal, or a dielectric. */
+static Stack surface_of(int subject, float roughness, Dir o) {
     Stack m;
-    if (subject == BASE) {
-        Surface s = {
-            .base_color = {0.8f, 0.8f, 0.8f}, .roughness = roughness, .specular = 1.0f, .sheen = 1.0f};
-        Choices c = choices_unmade();
-        s.specular_color = rgb_grey(1.0f);
-        s.reflectance = 0.46f; /* f0 0.04 */
-        s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
-        stack_make(&m, &s, &c, (TableRef){.kind = TABLE_NONE}, o);
-        return m;
-    }
-    m = stack_empty();
+    float metal = subject == BASE ? 0.0f : 1.0f;
+    Surface s = {.base_color = {0.8f, 0.8f, 0.8f},
+                 .metallic = metal,
+                 .roughness = roughness,
+                 .anisotropy = 0.9f * metal,
+                 .specular = 1.0f,
+                 .sheen = 1.0f - metal};
+    Choices c = choices_unmade();
+    if (subject == DISNEY) c.workflow = choice_find(CHOICE_workflow, "disney");
+    s.specular_color = rgb_grey(1.0f);
+    s.reflectance = 0.46f; /* f0 0.04 */
+    s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
+    stack_make(&m, &s, &c, (TableRef){.kind = TABLE_NONE}, o);
+    return m;
+}
+
+/* What is looked at; `albedo` may be NULL. */
+static Stack subject_stack(int subject, float roughness, Dir o, const AlbedoTable *albedo) {
+    if (subject >= BASE && subject != SATIN) return surface_of(subject, roughness, o);
+    Stack m = stack_empty();
     Rgb white = rgb_grey(1.0f);
-    m.sheen = slot_make(lobe_rough(subject, roughness), white, white, 1.0f, 1.0f);
+    Lobe lobe = lobe_rough(subject == SATIN ? LOBE_SILK : subject, roughness);
+    if (subject == SATIN) lobe.params[1] = 0.8f;
+    m.sheen = slot_make(lobe, white, white, 1.0f, 1.0f);
     m.sheen.pick = 1.0f;
+    if (albedo) {
+        m.albedo = ALBEDO_TABLE;
+        m.table = albedo_table_ref(albedo);
+        m.at = lobe.params[0];
+        m.e_o = stack_albedo(m, o);
+    }
     return m;
 }
 
 static const char *only; /* this subject alone */
 
 static bool used(int subject) {
-    if (only && strcmp(only, subject == BASE ? "base" : weft_lobe_info(subject)->id) != 0) return false;
-    return subject == BASE || (subject != LOBE_BURLEY_COAT && subject != LOBE_COOK_TORRANCE &&
+    if (only && strcmp(only, name_of(subject)) != 0) return false;
+    return subject >= BASE || (subject != LOBE_BURLEY_COAT && subject != LOBE_COOK_TORRANCE &&
                                !(weft_lobe_info(subject)->traits & TRAIT_REFERENCE));
+}
+
+static bool is_sheen(int subject) {
+    return subject < BASE && subject != LOBE_GGX && subject != LOBE_SILK &&
+           !(weft_lobe_info(subject)->traits & TRAIT_DIFFUSE);
 }
 
 typedef struct Draw2 {
@@ -268,11 +299,17 @@ static void measure(void *user, int item, int thread) {
     if (!used(subject) || r % step != step - 1) return;
     Draw2 *draws = alloc_array(LOBE_DRAWS, sizeof *draws);
     Held *held = alloc_array(1, sizeof *held);
-    Stack some = subject_stack(subject, 0.1f * (float)(r + 1), dir(0.0f, 0.0f, 1.0f));
+    AlbedoTable *albedo = is_sheen(subject) ? alloc_array(1, sizeof *albedo) : NULL;
+    float roughness = 0.1f * (float)(r + 1);
+    if (albedo) {
+        Lobe lobe = lobe_rough(subject, roughness);
+        albedo_table_fill(albedo, &lobe, lobe.params[0], lobe.params[0], 1);
+    }
+    Stack some = subject_stack(subject, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
     AmbientTables tables = tables_of(held, &some);
     for (int n = 0; n < PIXELS; n++) {
         const Pixel *p = &pixels[n];
-        Stack m = subject_stack(subject, 0.1f * (float)(r + 1), p->o);
+        Stack m = subject_stack(subject, roughness, p->o, albedo);
         int count = 0;
         for (int k = 0; k < LOBE_DRAWS; k++) {
             Dir i = stack_sample(&m, p->o, ((float)k + 0.5f) / LOBE_DRAWS, radical((uint32_t)k));
@@ -300,6 +337,7 @@ static void measure(void *user, int item, int thread) {
             }
         }
     }
+    free(albedo);
     free(held);
     free(draws);
 }
@@ -321,33 +359,52 @@ static Error error_of(int subject, int strategy, int map) {
     return error;
 }
 
-static void print_results(void) {
+static int best_of(int subject) {
+    return subject < BASE ? ambient_strategy(subject) : subject == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
+}
+
+static bool by_row; /* one line a roughness */
+
+static void print_subject(int subject, int k) {
     static const char *const names[AMBIENT_STRATEGIES] = {"irradiance", "mirror", "fitted", "sampled"};
-    for (int k = 0; k < map_count; k++) {
-        printf("\n%s, %d lamps\n%-27s", maps[k].name, maps[k].parts.lamp_count, "lobe");
-        for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %10s", names[s]);
-        printf("  default, worst at\n");
-        for (int subject = 0; subject < SUBJECTS; subject++) {
-            if (!used(subject)) continue;
-            int best = subject == BASE ? AMBIENT_FITTED : ambient_strategy(subject);
-            printf("%-27s", subject == BASE ? "base" : weft_lobe_info(subject)->id);
-            for (int s = 0; s < AMBIENT_STRATEGIES; s++)
-                printf(" %10.1f", 100.0 * error_of(subject, s, k).all);
-            Error error = error_of(subject, best, k);
-            printf("  %s, %.1f at %.1f\n", names[best], 100.0 * error.worst, error.at);
-        }
+    int best = best_of(subject);
+    printf("%-27s", name_of(subject));
+    for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %10.1f", 100.0 * error_of(subject, s, k).all);
+    Error error = error_of(subject, best, k);
+    printf("  %s, %.1f at %.1f\n", names[best], 100.0 * error.worst, error.at);
+    for (int r = 0; by_row && r < ROUGHNESSES; r++) {
+        if (!(results[subject][r][0][k][1] > 0.0)) continue;
+        printf("%27.1f", 0.1 * (r + 1));
+        for (int s = 0; s < AMBIENT_STRATEGIES; s++)
+            printf(" %10.1f", 100.0 * results[subject][r][s][k][0] / results[subject][r][s][k][1]);
+        printf("\n");
     }
 }
 
+static void print_results(void) {
+    for (int k = 0; k < map_count; k++) {
+        printf("\n%s, %d lamps\n%-27s", maps[k].name, maps[k].parts.lamp_count, "lobe");
+        printf(" irradiance     mirror     fitted    sampled  default, worst at\n");
+        for (int subject = 0; subject < SUBJECTS; subject++)
+            if (used(subject)) print_subject(subject, k);
+    }
+}
+
+/* NULL: a white sky. */
 static bool load(Map *map, const char *path) {
     WeftError error;
     WeftScene *scene = scene_create("ambient");
-    if (!scene || weft_scene_set_environment_file(scene, path, NULL, &error) != WEFT_OK) {
+    if (scene && !path) {
+        scene->environment.kind = ENVIRONMENT_IMAGE;
+        if (weft_image_create(2, 1, 3, WEFT_PIXEL_F32, &scene->environment.image, &error) != WEFT_OK)
+            return false;
+        for (int k = 0; k < 6; k++) ((float *)scene->environment.image.pixels)[k] = 1.0f;
+    } else if (!scene || weft_scene_set_environment_file(scene, path, NULL, &error) != WEFT_OK) {
         fprintf(stderr, "bench_ambient: %s\n", scene ? error.text : "out of memory");
         return false;
     }
-    const char *slash = strrchr(path, '/');
-    map->name = slash ? slash + 1 : path;
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    map->name = slash ? slash + 1 : path ? path : "a white sky";
     map->environment = scene->environment; /* stays until the end */
     if (latlong_resize(&map->environment.image, CELLS_WIDTH, CELLS_HEIGHT, &map->cells, &error) != WEFT_OK ||
         latlong_resize(&map->environment.image, SMALL_WIDTH, SMALL_WIDTH / 2, &map->small, &error) !=
@@ -363,8 +420,11 @@ int main(int argc, char **argv) {
     fits = calloc(LOBE_COUNT, sizeof *fits);
     results = calloc(SUBJECTS, sizeof *results);
     if (!maps || !fits || !results) return 4;
+    if (!load(&maps[map_count++], NULL)) return 4;
     for (int k = 1; k < argc; k++) {
-        if (strcmp(argv[k], "--quick") == 0)
+        if (strcmp(argv[k], "--rows") == 0)
+            by_row = true;
+        else if (strcmp(argv[k], "--quick") == 0)
             step = 3;
         else if (strcmp(argv[k], "--tables") == 0)
             tables_only = true;

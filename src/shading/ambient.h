@@ -64,24 +64,24 @@
 #define AMBIENT_STRATEGY(t) (t).strategy
 #endif
 
-/* Planes of a table, `rows` rows each, in groups of four: w_0 .. w_3 of the first colour; the sine of the
- * angle of the lobe's mean direction, which is above 0 on the side of wo, log2 of its kappa, its tail, 0 of a
- * Gaussian and 1 of ggx, and the sum of the first group; w_0 .. w_3 of the second colour. The last plane is
- * the sum of these. */
+/* Planes of a table, `rows` rows each, in groups of four: of the first colour w_1 .. w_3 as parts of E, and
+ * E; the sine of the angle of the lobe's mean direction, which is above 0 on the side of wo, log2 of its
+ * kappa, and its tail, 0 of a Gaussian and 1 of ggx, the fourth unused; of the second colour w_0 .. w_3. The
+ * last plane is the sum of these. Parts of E are smooth where E itself goes to 0. */
 #define AMBIENT_GROUP_FIRST  0
 #define AMBIENT_GROUP_SHAPE  1
 #define AMBIENT_GROUP_SECOND 2
 #define AMBIENT_GROUPS       3
 #define AMBIENT_PLANES       13
 
-#define AMBIENT_PLANE_E        7
+#define AMBIENT_PLANE_E        3
 #define AMBIENT_PLANE_E_SECOND 12
 
 #define AMBIENT_DEGREE 9
 #define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of a table, each of a group */
 #define AMBIENT_HELD   (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
 
-/* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From an eighth of
+/* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From a quarter of
  * the lamps' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
  * stand for. Each is the middle of a range in which one goes over into the other, AMBIENT_BLEND to both
  * sides. */
@@ -181,11 +181,11 @@ FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWe
 
 FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
     AmbientWeights w = a;
-    w.d = max(a.d, 0.0f);
     if (group == AMBIENT_GROUP_SHAPE) return w;
     w.a = max(a.a, 0.0f);
     w.b = max(a.b, 0.0f);
     w.c = max(a.c, 0.0f);
+    w.d = max(a.d, 0.0f);
     return w;
 }
 
@@ -217,16 +217,30 @@ FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientSpot at,
 }
 FN float ambient_sum(AmbientWeights w) { return w.a + w.b + w.c + w.d; }
 
-/* E of the first colour, and of the second. */
-FN float ambient_first(AmbientTable t, AmbientSource s, AmbientSpot at) {
-    if (t.lossless) return 1.0f;
-    if (t.held >= 0) return ambient_group(t, s, at, AMBIENT_GROUP_SHAPE).d;
-    return ambient_entry(t, at, AMBIENT_PLANE_E);
-}
-FN float ambient_second(AmbientTable t, AmbientSource s, AmbientSpot at) {
-    if (!t.second) return 0.0f;
-    if (t.held >= 0) return ambient_sum(ambient_group(t, s, at, AMBIENT_GROUP_SECOND));
-    return ambient_entry(t, at, AMBIENT_PLANE_E_SECOND);
+/* E of a lobe's two colours, and how each is spread over the four look-ups. */
+STRUCT(AmbientLobe) {
+    float first, second;
+    AmbientWeights of_first, of_second; /* sums are of no meaning */
+};
+
+/* `known` is E of both colours together where the caller has it, else below 0. */
+FN AmbientLobe ambient_lobe(AmbientTable t, AmbientSource s, AmbientSpot at, float known) {
+    AmbientLobe l;
+    AmbientWeights w = ambient_group(t, s, at, AMBIENT_GROUP_FIRST);
+    l.of_second = ambient_nothing();
+    if (t.second) l.of_second = ambient_group(t, s, at, AMBIENT_GROUP_SECOND);
+    l.first = t.lossless ? 1.0f : w.d;
+    l.second = ambient_sum(l.of_second);
+    l.of_first.a = max(1.0f - w.a - w.b - w.c, 0.0f);
+    l.of_first.b = w.a;
+    l.of_first.c = w.b;
+    l.of_first.d = w.c;
+    if (known >= 0.0f) {
+        float part = l.second / max(l.first + l.second, 1e-20f);
+        l.first = known * (1.0f - part);
+        l.second = known * part;
+    }
+    return l;
 }
 
 /* From wo, and from the frame of the lobe to that of the source. */
@@ -294,14 +308,16 @@ FN AmbientFour ambient_four(AmbientSource s, AmbientView v) {
     return l;
 }
 
-FN Rgb ambient_weighed(AmbientFour l, AmbientWeights w) {
-    return rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)),
-                   rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
+/* Their mean by weights, of which some are above 0 wherever the lobe reflects anything. */
+FN Rgb ambient_mean(AmbientFour l, AmbientWeights w) {
+    Rgb sum = rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)),
+                      rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
+    return rgb_scale(sum, 1.0f / max(ambient_sum(w), 1e-20f));
 }
-FN AmbientPair ambient_mixed(AmbientFour l, AmbientWeights f, AmbientWeights g) {
+FN AmbientPair ambient_mixed(AmbientFour l, AmbientLobe of) {
     AmbientPair p;
-    p.first = ambient_weighed(l, f);
-    p.second = ambient_weighed(l, g);
+    p.first = rgb_scale(ambient_mean(l, of.of_first), of.first);
+    p.second = rgb_scale(ambient_mean(l, of.of_second), of.second);
     return p;
 }
 
@@ -320,8 +336,8 @@ FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
     return p;
 }
 
-/* Of facets by ggx the part beyond 1 - mu = t is 1 / (1 + t ln 2 / kappa) where half is within kappa; this is
- * near 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
+/* Of facets by ggx the part beyond 1 - mu = t is 1 / (1 + kappa t / ln 2), half of it at ln 2 / kappa. This
+ * is within 0.036 of 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
 FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
     return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
@@ -364,34 +380,30 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float na
 /* Of one slot: what its colours are multiplied by, and the part of it that the lamps are to light. */
 STRUCT(AmbientSlot) {
     AmbientPair of;
-    float lamps, e; /* e: what the table has for E */
+    float lamps;
 };
 
-FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, AmbientFour rest, Lobe lobe) {
+/* `known`: see ambient_lobe. */
+FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, AmbientFour rest, Lobe lobe,
+                            float known) {
     AmbientSlot a;
     float p = lobe.params[0];
     AmbientSpot spot = ambient_spot(t, v.o.z, v.heading, p);
+    AmbientLobe l = ambient_lobe(t, s, spot, known);
     a.lamps = 0.0f;
-    if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE || AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
-        float first = ambient_first(t, s, spot), second = ambient_second(t, s, spot);
-        a.e = first + second;
-        if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
-            a.of = ambient_one(v, rgb_scale(ambient_irradiance(s, v.z), v.occlusion), dir(0.0f, 0.0f, 1.0f),
-                               first, second);
-        } else {
-            Dir r = dir(-v.o.x, -v.o.y, v.o.z);
-            AmbientWeights facing =
-                ambient_group(t, s, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
-            a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), exp2(facing.b)), r, first, second);
-        }
+    if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
+        a.of = ambient_one(v, rgb_scale(ambient_irradiance(s, v.z), v.occlusion), dir(0.0f, 0.0f, 1.0f),
+                           l.first, l.second);
         return a;
     }
-    AmbientWeights f = ambient_group(t, s, spot, AMBIENT_GROUP_FIRST), g = ambient_nothing();
-    if (t.second) g = ambient_group(t, s, spot, AMBIENT_GROUP_SECOND);
-    float first = ambient_sum(f), second = ambient_sum(g);
-    a.e = first + second;
+    if (AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
+        Dir r = dir(-v.o.x, -v.o.y, v.o.z);
+        AmbientWeights facing = ambient_group(t, s, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
+        a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), exp2(facing.b)), r, l.first, l.second);
+        return a;
+    }
     a.lamps = 1.0f;
-    a.of = ambient_mixed(rest, f, g);
+    a.of = ambient_mixed(rest, l);
     if (!t.focus && AMBIENT_STRATEGY(t) == AMBIENT_FITTED) return a;
     AmbientWeights shape = ambient_group(t, s, spot, AMBIENT_GROUP_SHAPE);
     float x = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
@@ -400,14 +412,14 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
     Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
     a.lamps = 1.0f - narrow;
     if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
-        a.of = ambient_drawn(s, v, lobe, narrow, a.e);
+        a.of = ambient_drawn(s, v, lobe, narrow, l.first + l.second);
         return a;
     }
-    a.of =
-        ambient_pair_mix(a.of, ambient_one(v, ambient_rest(s, out_axis, kappa), axis, first, second), close);
+    Rgb wide = ambient_rest(s, out_axis, kappa);
+    a.of = ambient_pair_mix(a.of, ambient_one(v, wide, axis, l.first, l.second), close);
     if (!t.narrow) return a;
-    Rgb l = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
-    a.of = ambient_pair_mix(a.of, ambient_one(v, l, axis, first, second), narrow);
+    Rgb sharp = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
+    a.of = ambient_pair_mix(a.of, ambient_one(v, sharp, axis, l.first, l.second), narrow);
     return a;
 }
 
@@ -496,14 +508,14 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
-        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m.diffuse.lobe);
+        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m.diffuse.lobe, -1.0f);
         Rgb c = rgb_scale(ambient_colored(m.diffuse, plain, a.of), matte);
         if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, c);
         lit.diffuse = ambient_lit(m.diffuse, a.lamps * matte);
         only.diffuse = SHOWS_DIFFUSE && a.lamps * matte > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
-        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m.specular.lobe);
+        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m.specular.lobe, -1.0f);
         float lamps = a.lamps * other;
         Rgb c = rgb_scale(ambient_colored(m.specular, plain, a.of), other);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
@@ -516,15 +528,11 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
         if (m.nap.tilt > 0.0f) along.heading = v.tx * m.nap.x + v.ty * m.nap.y;
-        bool own =
-            m.albedo == ALBEDO_TABLE && m.table.kind != TABLE_NONE; /* E of the stack is the better one */
-        AmbientTable table = t.sheen;
-        table.lossless = t.sheen.lossless || (own && !t.sheen.second);
-        AmbientSlot a = ambient_slot(table, s, along, rest, m.sheen.lobe);
-        /* they differ by the errors of both, which is much only where there is next to nothing */
-        float known = own ? min(m.e_o.e / max(a.e, 1e-4f), 4.0f) : 1.0f;
+        /* E of the stack is mixed with more care than that of the fit */
+        float known = m.albedo == ALBEDO_TABLE && m.table.kind != TABLE_NONE ? m.e_o.e : -1.0f;
+        AmbientSlot a = ambient_slot(t.sheen, s, along, rest, m.sheen.lobe, known);
         Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
-        if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), known * other));
+        if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), other));
         lit.sheen = ambient_lit(m.sheen, a.lamps * other);
         only.sheen = SHOWS_SHEEN && a.lamps * other > 0.0f;
     }
@@ -532,14 +540,14 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
         Dir oc = stack_to_coat(m, o);
         if (oc.z > 0.0f) {
             AmbientView c = ambient_view(oc, m.coat_x, m.coat_y, m.coat_z, v.occlusion);
-            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m.coat.lobe);
+            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m.coat.lobe, -1.0f);
             if (SHOWS_COAT) sum = rgb_add(sum, rgb_scale(ambient_colored(m.coat, plain, a.of), other));
             lit.coat = ambient_lit(m.coat, a.lamps * other);
             only.coat = SHOWS_COAT && a.lamps * other > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
-        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m.dust.lobe);
+        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m.dust.lobe, -1.0f);
         if (SHOWS_DUST) sum = rgb_add(sum, rgb_scale(ambient_colored(m.dust, plain, a.of), matte));
         lit.dust = ambient_lit(m.dust, a.lamps * matte);
         only.dust = SHOWS_DUST && a.lamps * matte > 0.0f;

@@ -200,14 +200,17 @@ static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, in
     }
     float r = 1.0f / sqrt(mean.x * mean.x + mean.z * mean.z);
     Dir axis = dir(mean.x * r, 0.0f, mean.z * r);
-    for (int c = 0; c < 2; c++) {
-        double w[ATOMS];
-        solve(fitter, b[c], cloud->e[c], w);
-        *entry(fit, side, c ? AMBIENT_PLANE_E_SECOND : AMBIENT_PLANE_E, row, column) = (float)cloud->e[c];
-        for (int k = 0; k < ATOMS; k++)
-            *entry(fit, side, 4 * (c ? AMBIENT_GROUP_SECOND : AMBIENT_GROUP_FIRST) + k, row, column) =
-                (float)w[k];
+    double w[ATOMS];
+    solve(fitter, b[0], cloud->e[0], w);
+    for (int k = 1; k < ATOMS; k++) {
+        double part = cloud->e[0] > 0.0 ? w[k] / cloud->e[0] : 1.0 / ATOMS;
+        *entry(fit, side, 4 * AMBIENT_GROUP_FIRST + k - 1, row, column) = (float)part;
     }
+    *entry(fit, side, AMBIENT_PLANE_E, row, column) = (float)cloud->e[0];
+    solve(fitter, b[1], cloud->e[1], w);
+    for (int k = 0; k < ATOMS; k++)
+        *entry(fit, side, 4 * AMBIENT_GROUP_SECOND + k, row, column) = (float)w[k];
+    *entry(fit, side, AMBIENT_PLANE_E_SECOND, row, column) = (float)cloud->e[1];
     fit_width(fit, cloud, axis, row, column, side);
 }
 
@@ -359,7 +362,8 @@ static void hold_planes(const AmbientFit *fit, int side, int first, int end,
     }
 }
 
-/* The shape of a lobe counts where it is to be seen, up to a hair for what fades away. */
+/* The shape of a lobe, and how it is spread, count where it is to be seen, up to a hair for what fades away.
+ */
 static void hold_side(const AmbientFit *fit, int side, AmbientWeights out[AMBIENT_SIDE]) {
     double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS];
     for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, side, column));
@@ -368,9 +372,10 @@ static void hold_side(const AmbientFit *fit, int side, AmbientWeights out[AMBIEN
         value[column] = 1.0 / ((e + FADED) * (e + FADED));
         shape[column] = fmin(e, 0.1) + 1e-9;
     }
-    hold_planes(fit, side, 0, PLANE_AXIS, value, out);
+    hold_planes(fit, side, 0, AMBIENT_PLANE_E, shape, out);
+    hold_planes(fit, side, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
     hold_planes(fit, side, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
-    hold_planes(fit, side, AMBIENT_PLANE_E, PLANES_HELD, value, out);
+    hold_planes(fit, side, 4 * AMBIENT_GROUP_SECOND, PLANES_HELD, value, out);
 }
 
 void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]) {

@@ -152,6 +152,34 @@ static void held_tables_fade_away(void **state) {
         }
 }
 
+/* A sheen that is next to nothing at the normal and much at the rim has its E under a white sky all the same,
+ * to a hundredth of itself. */
+static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
+    (void)state;
+    static const int lobes[] = {LOBE_FIBRE, LOBE_LTC_FIBRE, LOBE_PATRY, LOBE_CHARLIE_NEUBELT};
+    static AlbedoTable albedo;
+    static AmbientWeights held[AMBIENT_HELD];
+    Even even = {.radiance = 1.0f};
+    AmbientSourceCalls calls = even_calls(&even);
+    calls.held = held;
+    int at = 0;
+    for (int k = 0; k < 4 * 5; k++) {
+        if (!test_turn(&at, 1, 3)) continue;
+        Lobe lobe = lobe_rough(lobes[k % 4], 0.25f + 0.05f * (float)(k / 4));
+        AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
+        for (int n = 1; n < 40; n++) {
+            Dir o = direction_cos(0.025 * n, 0.0);
+            Stack m = tabled(lobe, o, &albedo);
+            for (t.strategy = 0; t.strategy < AMBIENT_STRATEGIES; t.strategy++) {
+                Rgb got = stack_ambient(m, o, all_tables(t), &calls, 1.0f);
+                if (!(abs(got.r - m.e_o.e) <= 0.01f * m.e_o.e + 1e-9f))
+                    fail_msg("%s, alpha %g, strategy %d, cosine %g: %g for %g", weft_lobe_info(lobe.id)->id,
+                             (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r, (double)m.e_o.e);
+            }
+        }
+    }
+}
+
 /* Where there is nothing but lamps, a broad lobe is f itself. */
 static void lamps_are_met_as_lights_are(void **state) {
     (void)state;
@@ -387,10 +415,14 @@ static void sharp_light_is_met(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(even_light_returns_albedo),     cmocka_unit_test(held_tables_return_albedo),
-        cmocka_unit_test(lamps_are_met_as_lights_are),   cmocka_unit_test(occlusion_takes_what_it_says),
-        cmocka_unit_test(layers_leave_what_they_should), cmocka_unit_test(no_light_is_lost),
-        cmocka_unit_test(held_tables_fade_away),         cmocka_unit_test(sharp_light_is_met)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(even_light_returns_albedo),
+                                       cmocka_unit_test(held_tables_return_albedo),
+                                       cmocka_unit_test(lamps_are_met_as_lights_are),
+                                       cmocka_unit_test(occlusion_takes_what_it_says),
+                                       cmocka_unit_test(layers_leave_what_they_should),
+                                       cmocka_unit_test(no_light_is_lost),
+                                       cmocka_unit_test(held_tables_fade_away),
+                                       cmocka_unit_test(sharp_light_is_met),
+                                       cmocka_unit_test(faint_sheens_keep_albedo_under_a_white_sky)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
