@@ -17,7 +17,7 @@ html_show_sphinx = False
 parts = {
     "First": ["getting-started", "cloth", "engines"],
     "Catalogue": ["lobes", "terms", "layers", "workflows", "profiles"],
-    "The program": ["cli", "view", "materials", "gltf", "images", "render", "raster", "check", "bake", "diff",
+    "The program": ["cli", "view", "materials", "chart", "gltf", "images", "render", "raster", "check", "bake", "diff",
                     "export", "plots", "match", "fit", "doctor"],
     "The library": ["library", "reference", "adding-a-lobe", "architecture"],
     "How it works": ["fibre", "dust", "ltc", "area-lights", "environment", "cost"],

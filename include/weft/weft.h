@@ -22,6 +22,7 @@
 
 #include "weft/arrays.h"
 #include "weft/bake.h"
+#include "weft/chart.h"
 #include "weft/diff.h"
 #include "weft/doctor.h"
 #include "weft/export.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chart_sheet.h"
 #include "json.h"
 #include "layout.h"
 #include "names.h"
@@ -39,6 +40,11 @@ static const WeftLobeInfo *entry_lobe(const Kind *kind, int k) {
                : NULL;
 }
 
+/* The reference material of an entry; NULL where the kind is not that of the chart. */
+static const WeftChartEntry *entry_chart(const Kind *kind, int k) {
+    return strcmp(kind->id, "chart material") == 0 ? weft_chart(k) : NULL;
+}
+
 /* The choice of an entry, or -1. */
 static int entry_choice(const Kind *kind, int k) { return strcmp(kind->id, "choice") == 0 ? k : -1; }
 
@@ -50,11 +56,34 @@ static void lobe_words(const WeftLobeInfo *info, char *line, size_t size) {
         append(line, size, k ? ", " : "; parameters: ", info->params[k].name);
 }
 
+static void append_color(char *line, size_t size, const char *key, const float color[3]) {
+    char text[64];
+    bool grey = memcmp(color, color + 1, 2 * sizeof *color) == 0;
+    if (grey)
+        snprintf(text, sizeof text, "%s %.3g", key, (double)color[0]);
+    else
+        snprintf(text, sizeof text, "%s %.3g,%.3g,%.3g", key, (double)color[0], (double)color[1],
+                 (double)color[2]);
+    append(line, size, "; ", text);
+}
+
+/* Numbers as `--set` takes them. */
+static void chart_words(const WeftChartEntry *entry, char *line, size_t size) {
+    char ior[32];
+    if (entry->kind == WEFT_CHART_METAL || entry->kind == WEFT_CHART_OPAQUE)
+        append_color(line, size, "base_color", entry->base_color);
+    if (entry->kind != WEFT_CHART_METAL) append_color(line, size, "F0", entry->f0);
+    snprintf(ior, sizeof ior, "ior %.5g", (double)entry->ior);
+    append(line, size, "; ", entry->kind == WEFT_CHART_METAL ? "metallic 1" : ior);
+}
+
 static void print_entry(const Kind *kind, int k) {
     char line[512];
     const WeftLobeInfo *lobe = entry_lobe(kind, k);
+    const WeftChartEntry *chart = entry_chart(kind, k);
     snprintf(line, sizeof line, "%s", kind->help(k));
     if (lobe) lobe_words(lobe, line, sizeof line);
+    if (chart) chart_words(chart, line, sizeof line);
     layout_entry(stdout, COLUMN, kind->name(k), line);
 }
 
@@ -140,6 +169,15 @@ static void json_values(Json *json, int choice) {
     json_close(json, ']');
 }
 
+static void json_chart(Json *json, const WeftChartEntry *entry) {
+    static const char *const names[] = {"opaque", "clear", "gem", "metal"}; /* as WeftChartKind */
+    json_text(json, "material", names[entry->kind]);
+    json_floats(json, "base_color", entry->base_color, 3);
+    json_floats(json, "f0", entry->f0, 3);
+    if (entry->kind != WEFT_CHART_METAL) json_float(json, "ior", entry->ior);
+    json_text(json, "source", entry->source);
+}
+
 static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
     const WeftLobeInfo *lobe = entry_lobe(kind, k);
     json_open(json, NULL, '{');
@@ -150,6 +188,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
     else
         json_text(json, "help", kind->help(k));
     if (entry_choice(kind, k) >= 0) json_values(json, k);
+    if (entry_chart(kind, k)) json_chart(json, entry_chart(kind, k));
     if (strcmp(kind->id, "preset") == 0) json_text(json, "text", weft_preset_text(k));
     char *page = with_kind ? page_text(kind, kind->name(k)) : NULL;
     if (page) json_text(json, "page", page);
@@ -183,6 +222,7 @@ static void print_one(const Kind *kind, int k) {
     if (page) printf("\n%s", page);
     if (entry_lobe(kind, k)) print_lobe(entry_lobe(kind, k));
     if (strcmp(kind->id, "preset") == 0) printf("\n%s", weft_preset_text(k));
+    if (entry_chart(kind, k)) layout_entry(stdout, COLUMN, "source", entry_chart(kind, k)->source);
     for (int v = 0; entry_choice(kind, k) >= 0 && weft_material_choice_value(k, v); v++)
         layout_entry(stdout, COLUMN, v ? "" : "may be auto or", weft_material_choice_value(k, v));
     free(page);
@@ -254,7 +294,11 @@ static int show_of_kind(const char *text, const char *colon, Json *json) {
 
 static int models_run(const Options *options) {
     Json stream = {.stream = stdout}, *json = option_given(options, "--json") ? &stream : NULL;
-    const char *id = options->operand_count > 0 ? options->operands[0] : NULL, *colon;
+    const char *id = options->operand_count > 0 ? options->operands[0] : NULL, *colon,
+               *out = option_text(options, "-o");
+    if (out && (!id || strcmp(id, "chart:") != 0))
+        return report(WEFT_USAGE, "-o: only the chart is drawn: weft models chart: -o OUT");
+    if (out) return chart_sheet_write(out);
     if (id && (colon = strchr(id, ':'))) return show_of_kind(id, colon, json);
     if (id) return show(id, NULL, json);
     if (json)
@@ -267,23 +311,26 @@ static int models_run(const Options *options) {
 static const Option models_options[] = {
     OPTION_HEADING("Options"),
     OPTION_SWITCH("--json", "JSON instead of text: an object of lists, or for ID a list of what has that id"),
+    OPTION_TEXT("-o", "OUT", NULL, "with chart: only: write the swatches as a picture, .png"),
     OPTION_END,
 };
 
 const Verb verb_models = {
     .name = "models",
     .operands = "[ID] [options]",
-    .help = "lists terms, lobes, layer rules, workflows, profiles, presets",
+    .help = "lists terms, lobes, layers, workflows, profiles, presets, chart",
     .operands_most = 1,
     .options = models_options,
     .notes = "Without ID everything is listed, by kind; with it, all that has that id: what\n"
              "one sees, formula and source, of a lobe its parameters, of a choice its values,\n"
-             "of a preset its material file. KIND:ID is one of them: lobe:cook-torrance,\n"
-             "d:charlie, layer:seed, profile:three; KIND: lists all of a kind. preset:NAME\n"
-             "prints a material file and nothing else.\n\n"
+             "of a preset its material file, of a reference material who measured it. KIND:ID\n"
+             "is one of them: lobe:cook-torrance, d:charlie, layer:seed, profile:three; KIND:\n"
+             "lists all of a kind. preset:NAME prints a material file and nothing else;\n"
+             "chart: with -o draws the reference materials as swatches.\n\n"
              "Examples\n"
              "  weft models\n"
              "  weft models charlie-neubelt\n"
-             "  weft models preset:velvet > my-velvet.json\n",
+             "  weft models preset:velvet > my-velvet.json\n"
+             "  weft models chart: -o chart.png\n",
     .run = models_run,
 };

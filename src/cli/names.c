@@ -67,6 +67,9 @@ static int lobe_among(int k, bool diffuse) {
 static const char *diffuse_name(int k) { return lobe_name(lobe_among(k, true)); }
 static const char *other_name(int k) { return lobe_name(lobe_among(k, false)); }
 
+static const char *chart_name(int k) { return weft_chart(k) ? weft_chart(k)->name : NULL; }
+static const char *chart_help(int k) { return weft_chart(k) ? weft_chart(k)->help : NULL; }
+
 /* The table of a lobe says more than one line. */
 static const char *no_help(int k) { return k < 0 ? NULL : ""; }
 
@@ -92,6 +95,8 @@ const Kind kinds[] = {
      weft_material_choice_help, true, NULL},
     {"preset", "a", "presets", "Presets: render --preset NAME", weft_preset_name, weft_preset_help, true,
      NULL},
+    {"chart material", "a", "chart", "Chart: reference materials, measured, with base colour and reflectance",
+     chart_name, chart_help, true, NULL},
     {"built-in scene", "a", "scenes", "Built-in scenes: render builtin:NAME", weft_builtin_name,
      weft_builtin_help, true, NULL},
     {0},

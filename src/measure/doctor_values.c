@@ -197,20 +197,31 @@ typedef struct Hearing {
     const Cloth *cloth;
 } Hearing;
 
+static bool begins(const char *words, const char *with) { return strncmp(words, with, strlen(with)) == 0; }
+
+/* Whether another check of the doctor, which looks at textures too, says the same. */
+static bool said_elsewhere(const Cloth *cloth, const char *words) {
+    double ior;
+    if (begins(words, "between")) return cloth_shows(cloth);
+    if (begins(words, "reflectance of a dielectric")) return bad_ior(cloth, &ior);
+    return begins(words, "reflectance of a metal") || begins(words, "diffuse colour");
+}
+
 /* What plausible.c says of its numbers, without the name of the material and of the message. */
 static void hear_plausible(void *user, WeftMessage message, const char *text) {
     const Hearing *to = user;
     const char *words = strstr(text, weft_message_text(message));
     words = words ? words + strlen(weft_message_text(message)) : text;
     while (*words == ':' || *words == ' ') words++;
-    bool between = strncmp(words, "between", strlen("between")) == 0;
-    double ior;
-    if (between ? cloth_shows(to->cloth) : bad_ior(to->cloth, &ior)) return; /* another check says it */
+    if (said_elsewhere(to->cloth, words)) return;
     doctor_found(to->doctor, WEFT_FINDING_IMPLAUSIBLE, (Place){WEFT_OF_MATERIAL, to->cloth->index, NULL}, 0,
                  (double)NAN, NULL, "%s", words);
-    doctor_advise(to->doctor, between
-                                  ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
-                                  : "take an ior from 1.3 to 1.7; without KHR_materials_ior it is 1.5");
+    doctor_advise(to->doctor, "%s",
+                  begins(words, "between")
+                      ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
+                  : begins(words, "coloured") ? "write a grey specularColorFactor"
+                                              : "take an ior from 1.3 to 1.7, 1.5 where KHR_materials_ior is "
+                                                "not there, and a specularFactor of 1");
     if (!to->cloth->sheen) doctor_soften(to->doctor);
 }
 

@@ -1,66 +1,151 @@
-/* plausible.c - what real materials keep to, as data for warnings: reflectances of dielectrics, no diffuse on
- * a metal, no sheen out of nothing */
+/* plausible.c - what real materials keep to, as data for warnings: reflectances and colours of the chart's
+ * dielectrics and metals, no diffuse on a metal, no sheen out of nothing */
 #include <math.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "scene/set.h"
+#include "scene/shade.h"
 #include "shading/choice.h"
-#include "shading/workflow.h"
+#include "shading/workflows/disney.h"
+#include "shading/workflows/metallic.h"
+#include "weft/chart.h"
 
-static float value(const Material *material, InputId input) { return material->inputs[input].value[0]; }
+/* F0 above this is taken for a metal's: the chart's dielectrics end at 0.172, its metals begin at 0.504. */
+#define METAL_F0 0.2f
 
-static float greatest(const Material *material, InputId input) {
-    const float *v = material->inputs[input].value;
-    return fmaxf(v[0], fmaxf(v[1], v[2]));
+/* A measure returns this where it has nothing to judge. */
+#define NOTHING NAN
+
+/* F0 of what is no metal. One of 0 is a highlight that was switched off, as workflow cloth has none. */
+static float f0_judged(float f0) { return f0 > 0.0f ? f0 : NOTHING; }
+/* `specular` and its colour may dim it below any dielectric's, as gaps between threads do, not raise it. */
+static float f0_metallic(Surface s) {
+    float whole = dielectric_f0(s), left = rgb_max3(metallic_f0(s));
+    return s.metallic < 1.0f ? f0_judged(fmaxf(left, fminf(whole, DIELECTRIC_HIGH))) : NOTHING;
+}
+static float f0_disney(Surface s) { return s.metallic < 1.0f ? f0_judged(0.08f * s.specular) : NOTHING; }
+static Rgb specular_f0(Surface s) { return rgb_scale(s.specular_color, s.specular); }
+static bool specular_is_metal(Surface s) { return rgb_max3(specular_f0(s)) > METAL_F0; }
+static float f0_specular(Surface s) {
+    return specular_is_metal(s) ? NOTHING : f0_judged(rgb_max3(specular_f0(s)));
 }
 
-/* Reflectance at normal incidence, of a dielectric and as the workflows have it. */
-static float f0_metallic(const Material *material) {
-    Surface s = {.ior = value(material, INPUT_ior), .reflectance = value(material, INPUT_reflectance)};
-    return dielectric_f0(s);
+/* How far the channels of a dielectric's F0 are apart, of the strongest of them. */
+static float spread(Rgb f0) {
+    float most = rgb_max3(f0), least = fminf(f0.r, fminf(f0.g, f0.b));
+    return most > 0.0f ? (most - least) / most : NOTHING;
 }
-static float f0_disney(const Material *material) { return 0.08f * value(material, INPUT_specular); }
-static float f0_specular(const Material *material) {
-    return value(material, INPUT_specular) * greatest(material, INPUT_specular_color);
+static float spread_metallic(Surface s) { return s.metallic < 1.0f ? spread(metallic_f0(s)) : NOTHING; }
+static float spread_disney(Surface s) {
+    Rgb tint = rgb_mix(rgb_grey(1.0f), disney_tint(s.base_color), s.specular_tint);
+    return s.metallic < 1.0f && s.specular > 0.0f ? spread(tint) : NOTHING;
+}
+static float spread_specular(Surface s) { return specular_is_metal(s) ? NOTHING : spread(specular_f0(s)); }
+
+static float metal_metallic(Surface s) { return s.metallic < 1.0f ? NOTHING : rgb_max3(s.base_color); }
+static float metal_specular(Surface s) {
+    return specular_is_metal(s) ? fminf(rgb_max3(specular_f0(s)), 1.0f) : NOTHING;
 }
 
-static float in_between(const Material *material) {
-    float m = value(material, INPUT_metallic);
-    return fminf(m, 1.0f - m);
-}
+static float albedo(Surface s) { return rgb_max3(s.base_color); }
+static float albedo_metallic(Surface s) { return s.metallic < 1.0f ? albedo(s) : NOTHING; }
+static float albedo_specular(Surface s) { return specular_is_metal(s) ? NOTHING : albedo(s); }
 
-/* The diffuse colour beside a reflectance that only metals have. */
-static float diffuse_on_metal(const Material *material) {
-    return f0_specular(material) > 0.2f ? greatest(material, INPUT_base_color) : 0.0f;
-}
+static float in_between(Surface s) { return fminf(s.metallic, 1.0f - s.metallic); }
+static float diffuse_on_metal(Surface s) { return specular_is_metal(s) ? rgb_max3(s.base_color) : NOTHING; }
 
-/* A measure that should be in low .. high, of materials of one workflow; it depends on up to three inputs.
- * Nothing is said of an input that a texture gives. */
-typedef struct Limit {
-    const char *workflow;
-    int inputs[3]; /* beyond the last: -1 */
-    float (*measure)(const Material *material);
+/* What a measure is to be. The first three are read from the chart: F0 of its dielectrics but gems, widened
+ * to the ends of the slider `reflectance`; the strongest channel of its metals, to 1; up to its brightest
+ * diffuse colour. Its dielectrics are grey, with a tenth of tolerance. */
+typedef enum Kept { KEPT_DIELECTRIC, KEPT_METAL, KEPT_ALBEDO, KEPT_GREY, KEPT_NONE } Kept;
+
+typedef struct Range {
     float low, high;
+} Range;
+
+static float strongest(const float color[3]) { return fmaxf(color[0], fmaxf(color[1], color[2])); }
+
+static Range range_of(Kept kept) {
+    Range range = {0.0f, kept == KEPT_GREY ? 0.1f : 0.0f};
+    if (kept == KEPT_DIELECTRIC) range = (Range){DIELECTRIC_LOW, DIELECTRIC_HIGH};
+    if (kept == KEPT_METAL) range = (Range){1.0f, 1.0f};
+    const WeftChartEntry *entry;
+    for (int k = 0; (entry = weft_chart(k)); k++) {
+        bool metal = entry->kind == WEFT_CHART_METAL, gem = entry->kind == WEFT_CHART_GEM;
+        if (kept == KEPT_DIELECTRIC && !metal && !gem) {
+            range.low = fminf(range.low, entry->f0[0]);
+            range.high = fmaxf(range.high, entry->f0[0]);
+        }
+        if (kept == KEPT_METAL && metal) range.low = fminf(range.low, strongest(entry->f0));
+        if (kept == KEPT_ALBEDO && entry->kind == WEFT_CHART_OPAQUE)
+            range.high = fmaxf(range.high, strongest(entry->base_color));
+    }
+    return range;
+}
+
+/* The entry of the chart that comes nearest to a measure; NULL where it is none of the chart's. */
+static const WeftChartEntry *nearest_of(Kept kept, float found, float *has) {
+    const WeftChartEntry *entry, *best = NULL;
+    for (int k = 0; kept <= KEPT_ALBEDO && (entry = weft_chart(k)); k++) {
+        bool metal = entry->kind == WEFT_CHART_METAL, opaque = entry->kind == WEFT_CHART_OPAQUE;
+        if (kept == KEPT_ALBEDO ? !opaque : metal != (kept == KEPT_METAL)) continue;
+        float its = strongest(kept == KEPT_ALBEDO ? entry->base_color : entry->f0);
+        if (best && fabsf(its - found) >= fabsf(*has - found)) continue;
+        best = entry;
+        *has = its;
+    }
+    return best;
+}
+
+enum { LIMIT_WORKFLOWS = 2, LIMIT_INPUTS = 5 };
+
+/* A measure of materials of some workflows; it depends on some inputs. Nothing is said of an input that a
+ * texture gives. */
+typedef struct Limit {
+    const char *workflows[LIMIT_WORKFLOWS]; /* beyond the last: NULL */
+    int inputs[LIMIT_INPUTS];               /* beyond the last: -1 */
+    float (*measure)(Surface s);
+    Kept kept;
     const char *what; /* the measure %g in words */
 } Limit;
 
+#define INPUTS_1(a)                                                                                          \
+    { INPUT_##a, -1, -1, -1, -1 }
+#define INPUTS_2(a, b)                                                                                       \
+    { INPUT_##a, INPUT_##b, -1, -1, -1 }
+#define INPUTS_3(a, b, c)                                                                                    \
+    { INPUT_##a, INPUT_##b, INPUT_##c, -1, -1 }
+#define INPUTS_5(a, b, c, d, e)                                                                              \
+    { INPUT_##a, INPUT_##b, INPUT_##c, INPUT_##d, INPUT_##e }
+
+static const char reflectance[] = "reflectance of a dielectric",
+                  colored[] = "coloured reflectance of a dielectric, "
+                              "whose channels differ by",
+                  metal[] = "reflectance of a metal", diffuse[] = "diffuse colour";
+
 static const Limit limits[] = {
-    {"metallic",
-     {INPUT_ior, INPUT_reflectance, -1},
+    {{"metallic"},
+     INPUTS_5(ior, reflectance, specular, specular_color, metallic),
      f0_metallic,
-     DIELECTRIC_LOW,
-     DIELECTRIC_HIGH,
-     "reflectance of a dielectric"},
-    {"disney", {INPUT_specular, -1, -1}, f0_disney, 0.0f, DIELECTRIC_HIGH, "reflectance of a dielectric"},
-    {"metallic", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "between dielectric and metal by"},
-    {"disney", {INPUT_metallic, -1, -1}, in_between, 0.0f, 0.0f, "between dielectric and metal by"},
-    {"specular",
-     {INPUT_base_color, INPUT_specular_color, INPUT_specular},
+     KEPT_DIELECTRIC,
+     reflectance},
+    {{"disney"}, INPUTS_2(specular, metallic), f0_disney, KEPT_DIELECTRIC, reflectance},
+    {{"specular", "free"}, INPUTS_2(specular, specular_color), f0_specular, KEPT_DIELECTRIC, reflectance},
+    {{"metallic"}, INPUTS_3(specular, specular_color, metallic), spread_metallic, KEPT_GREY, colored},
+    {{"disney"}, INPUTS_3(specular_tint, base_color, metallic), spread_disney, KEPT_GREY, colored},
+    {{"specular", "free"}, INPUTS_2(specular, specular_color), spread_specular, KEPT_GREY, colored},
+    {{"metallic", "disney"}, INPUTS_1(metallic), in_between, KEPT_NONE, "between dielectric and metal by"},
+    {{"metallic", "disney"}, INPUTS_2(base_color, metallic), metal_metallic, KEPT_METAL, metal},
+    {{"specular", "free"}, INPUTS_2(specular, specular_color), metal_specular, KEPT_METAL, metal},
+    {{"specular", "free"},
+     INPUTS_3(base_color, specular_color, specular),
      diffuse_on_metal,
-     0.0f,
-     0.0f,
+     KEPT_NONE,
      "diffuse colour of a metal"},
+    {{"metallic", "disney"}, INPUTS_1(base_color), albedo_metallic, KEPT_ALBEDO, diffuse},
+    {{"specular", "free"}, INPUTS_1(base_color), albedo_specular, KEPT_ALBEDO, diffuse},
+    {{"cloth"}, INPUTS_1(base_color), albedo, KEPT_ALBEDO, diffuse},
 };
 
 /* Choices that gain energy. */
@@ -76,27 +161,38 @@ static const struct {
 
 static bool concerns(const Limit *limit, int input) {
     bool named = false;
-    for (int k = 0; k < 3 && limit->inputs[k] >= 0; k++) named |= limit->inputs[k] == input;
+    for (int k = 0; k < LIMIT_INPUTS && limit->inputs[k] >= 0; k++) named |= limit->inputs[k] == input;
     return named;
 }
 
 /* Whether it speaks of this material: of its workflow, and of numbers alone. */
 static bool applies(const Limit *limit, const Material *material) {
     int workflow = material->choices[CHOICE_workflow] == CHOICE_AUTO ? 0 : material->choices[CHOICE_workflow];
-    bool textured = false;
-    for (int k = 0; k < 3 && limit->inputs[k] >= 0; k++)
+    const char *id = choice_id(CHOICE_workflow, workflow);
+    bool textured = false, meant = false;
+    for (int k = 0; k < LIMIT_INPUTS && limit->inputs[k] >= 0; k++)
         textured |= material->inputs[limit->inputs[k]].texture != 0;
-    return !textured && strcmp(choice_id(CHOICE_workflow, workflow), limit->workflow) == 0;
+    for (int k = 0; k < LIMIT_WORKFLOWS && limit->workflows[k]; k++)
+        meant |= id && strcmp(id, limit->workflows[k]) == 0;
+    return meant && !textured;
 }
 
 static void check_limit(const Limit *limit, const Material *material, const char *target,
                         const WeftLog *log) {
     if (!applies(limit, material)) return;
-    float found = limit->measure(material);
-    if (found < limit->low - 1e-6f || found > limit->high + 1e-6f)
+    float found = limit->measure(material_plain(material)), has = 0.0f;
+    Range range = range_of(limit->kept);
+    if (!(found < range.low - 1e-6f || found > range.high + 1e-6f)) return; /* nor where it is NOTHING */
+    const WeftChartEntry *nearest = nearest_of(limit->kept, found, &has);
+    if (nearest)
         warn(log, WEFT_MESSAGE_PLAUSIBLE, target,
-             limit->low < limit->high ? "%s %.3g, not in %g .. %g" : "%s %.3g, not %g", limit->what,
-             (double)found, (double)limit->low, (double)limit->high);
+             "%s %.3g, not in %.3g .. %.3g; nearest in the chart: %s, %.3g", limit->what, (double)found,
+             (double)range.low, (double)range.high, nearest->name, (double)has);
+    else if (range.low < range.high)
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s %.3g of the strongest; only metals reflect in colour",
+             limit->what, (double)found);
+    else
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s %.3g, not 0", limit->what, (double)found);
 }
 
 static void check_gains(const Material *material, int choice, const char *target, const WeftLog *log) {

@@ -110,7 +110,10 @@ static void warnings_name_what_is_hardly_real(void **state) {
         {"{}", 0},
         {"{\"roughness\":1.5}", 1},
         {"{\"roughness\":5}", 1},
-        {"{\"base_color\":[2,0,0]}", 1},
+        {"{\"base_color\":[2,0,0]}", 2}, /* clamped, and brighter than paper all the same */
+        {"{\"base_color\":0.95}", 1},
+        {"{\"workflow\":\"cloth\",\"base_color\":0.95}", 1},
+        {"{\"workflow\":\"cloth\",\"base_color\":0.8}", 0},
         {"{\"nap\":60}", 1},
         {"{\"nap\":120}", 1},
         {"{\"nap\":45,\"nap_direction\":900,\"sheen_density\":4}", 0},
@@ -124,7 +127,17 @@ static void warnings_name_what_is_hardly_real(void **state) {
         {"{\"workflow\":\"free\"}", 1},
         {"{\"workflow\":\"specular\",\"specular_color\":[0.9,0.6,0.3],\"base_color\":0}", 0},
         {"{\"workflow\":\"specular\",\"specular_color\":0.04,\"base_color\":0.5}", 0},
+        {"{\"workflow\":\"specular\",\"specular_color\":0.01}", 1},
+        {"{\"workflow\":\"specular\",\"specular_color\":[0.05,0.02,0.01]}", 1},
+        {"{\"workflow\":\"specular\",\"specular_color\":[0.1,0.04,0.02]}", 2},
+        {"{\"workflow\":\"specular\",\"specular_color\":0.4,\"base_color\":0}", 1},
+        {"{\"metallic\":1,\"base_color\":0.3}", 2}, /* both have to do with it */
+        {"{\"specular_color\":[1,0.5,0.5]}", 1},
+        {"{\"specular\":0.4}", 0}, /* gaps between threads */
         {"{\"workflow\":\"disney\",\"specular\":0.5}", 0},
+        {"{\"workflow\":\"disney\",\"specular\":0}", 0},
+        {"{\"workflow\":\"disney\",\"specular\":0.1}", 1},
+        {"{\"workflow\":\"disney\",\"base_color\":[0.5,0.1,0.1],\"specular_tint\":1}", 2},
     };
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         MaterialFile file = file_of(files[k].text, files[k].warned);
