@@ -56,6 +56,12 @@ WeftSceneInfo weft_scene_info(const WeftScene *scene) {
     return info;
 }
 
+int weft_scene_material_worn(const WeftScene *scene, int index) {
+    for (int m = 0; m < scene_own_meshes(scene); m++)
+        if (scene->meshes[m].material == index && scene->meshes[m].triangle_count) return 1;
+    return 0;
+}
+
 const char *weft_scene_material_name(const WeftScene *scene, int index) {
     return index >= 0 && index < scene_own_materials(scene) ? scene->materials[index].name : NULL;
 }

@@ -7,12 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "view/survey.h"
 #include "weft/weft.h"
 
 struct Loader {
     Window *window;
     const ViewDesc *desc;
     bool dressed;
+    float aspect;
     pthread_t thread;
     atomic_int thousandths; /* done; -1: unknown */
     atomic_bool done, stop;
@@ -67,6 +69,7 @@ void facts_free(Facts *facts) {
     free(facts->materials);
     free(facts->cameras);
     free(facts->variants);
+    free(facts->shares);
     *facts = (Facts){0};
 }
 
@@ -87,6 +90,23 @@ static int on_progress(void *user, double fraction) {
     return atomic_load(&self->stop);
 }
 
+/* That of the command line where it was given for this scene, else a built-in scene's first one, else one
+ * that frames it all. */
+static const char *first_camera(const Loader *self) {
+    bool builtin = strncmp(self->loaded.path, "builtin:", 8) == 0;
+    if (self->dressed && self->desc->camera) return self->desc->camera;
+    return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
+}
+
+/* What is seen largest of it; that nothing is known of it is no failure. */
+static void survey(Loader *self) {
+    Loaded *loaded = &self->loaded;
+    WeftPick *pick;
+    if (weft_pick_create(loaded->scene, &pick, NULL) != WEFT_OK) return;
+    loaded->facts.shares = survey_take(pick, loaded->scene, loaded->camera, self->aspect);
+    weft_pick_free(pick);
+}
+
 static WeftResult load(Loader *self, WeftError *error) {
     Loaded *loaded = &self->loaded;
     const WeftLog log = {on_said, loaded};
@@ -103,13 +123,16 @@ static WeftResult load(Loader *self, WeftError *error) {
         return WEFT_RESOURCES;
     }
     loaded->look.around = around;
+    loaded->camera = first_camera(self);
+    survey(self);
     return WEFT_OK;
 }
 
 static void *work(void *user) {
     Loader *self = user;
     WeftError error = {0};
-    if (load(self, &error) != WEFT_OK) {
+    self->loaded.result = load(self, &error);
+    if (self->loaded.result != WEFT_OK) {
         weft_scene_free(self->loaded.scene);
         self->loaded.scene = NULL;
         snprintf(self->loaded.failure, sizeof self->loaded.failure, "%s", error.text);
@@ -119,12 +142,14 @@ static void *work(void *user) {
     return NULL;
 }
 
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed) {
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed,
+                     float aspect) {
     Loader *self = calloc(1, sizeof *self);
     if (!self) return NULL;
     self->window = window;
     self->desc = desc;
     self->dressed = dressed;
+    self->aspect = aspect;
     self->loaded.again = again;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", path);
     atomic_init(&self->thousandths, -1);

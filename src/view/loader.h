@@ -14,6 +14,7 @@ typedef char FactName[FACTS_NAME];
 typedef struct Facts {
     char path[LOOK_PATH];
     FactName *materials, *cameras, *variants; /* owned */
+    float *shares; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
 
@@ -29,13 +30,17 @@ typedef struct Loaded {
     Look look;        /* owned; what it is dressed as */
     Facts facts;      /* owned */
     char path[LOOK_PATH];
+    WeftResult result;
     char failure[512];
-    char *said; /* warnings, one a line; owned, may be NULL */
-    bool again; /* it is the scene that was there, read anew */
+    char *said;         /* warnings, one a line; owned, may be NULL */
+    const char *camera; /* through which it is seen first; a constant, or the command line's */
+    bool again;         /* it is the scene that was there, read anew */
 } Loaded;
 
-/* dressed: desc.dress is called, in that thread. NULL where memory is short. */
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed);
+/* dressed: desc.dress is called, in that thread. aspect: width / height of the picture that it will be seen
+ * in. NULL where memory is short. */
+Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed,
+                     float aspect);
 
 /* The finished share, or -1 while it is not known. */
 float loader_share(Loader *loader);

@@ -97,15 +97,22 @@ static bool same_lights(const Look *a, const Look *b) {
            same_bytes(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights);
 }
 
-static bool same_source(const Around *a, const Around *b) {
+bool around_same_source(const Around *a, const Around *b) {
     return a->kind == b->kind && strcmp(a->path, b->path) == 0 && a->again == b->again &&
            same_bytes(a->color, b->color, sizeof a->color);
+}
+
+void around_take_source(Around *around, const Around *from) {
+    around->kind = from->kind;
+    around->again = from->again;
+    memcpy(around->path, from->path, sizeof around->path);
+    memcpy(around->color, from->color, sizeof around->color);
 }
 
 static bool same_around(const Around *a, const Around *b) {
     const float of_a[] = {a->rotation, a->strength, a->ambient, a->reflection},
                 of_b[] = {b->rotation, b->strength, b->ambient, b->reflection};
-    return same_source(a, b) && same_bytes(of_a, of_b, sizeof of_a);
+    return around_same_source(a, b) && same_bytes(of_a, of_b, sizeof of_a);
 }
 
 bool look_same(const Look *a, const Look *b) {
@@ -248,12 +255,11 @@ static WeftResult apply_lights(const Look *look, const Look *is, WeftScene *scen
     return result;
 }
 
-static WeftResult apply_around(const Around *a, const Around *is, WeftScene *scene, unsigned *changed,
-                               const WeftLog *log, WeftError *error) {
+WeftResult around_apply(const Around *a, const Around *is, WeftScene *scene, unsigned *changed,
+                        const WeftLog *log, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (same_around(a, is)) return WEFT_OK;
-    *changed |= WEFT_CHANGED_LIGHTS;
-    if (!same_source(a, is)) {
+    if (!around_same_source(a, is)) {
         if (a->kind == AROUND_FILE)
             result = weft_scene_set_environment_file(scene, a->path, log, error);
         else if (a->kind == AROUND_COLOR)
@@ -261,17 +267,15 @@ static WeftResult apply_around(const Around *a, const Around *is, WeftScene *sce
         else
             result = weft_scene_set_environment_studio(scene, error);
     }
-    if (result == WEFT_OK)
-        result = weft_scene_set_environment_placement(scene, a->rotation, a->strength, error);
+    if (result != WEFT_OK) return result;
+    *changed |= WEFT_CHANGED_LIGHTS;
+    result = weft_scene_set_environment_placement(scene, a->rotation, a->strength, error);
     return result == WEFT_OK ? weft_scene_set_environment_parts(scene, a->ambient, a->reflection, error)
                              : result;
 }
 
 WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
-                      const WeftLog *log, WeftError *error) {
-    *changed = 0;
+                      WeftError *error) {
     WeftResult result = apply_materials(look, is, worn, scene, changed, error);
-    if (result == WEFT_OK) result = apply_lights(look, is, scene, changed, error);
-    if (result == WEFT_OK) result = apply_around(&look->around, &is->around, scene, changed, log, error);
-    return result;
+    return result == WEFT_OK ? apply_lights(look, is, scene, changed, error) : result;
 }

@@ -41,6 +41,11 @@ typedef struct Look {
 /* The built-in studio, as it is. */
 Around around_studio(void);
 
+/* Whether both shine from the same source: the studio, one reading of a file, a colour. */
+bool around_same_source(const Around *a, const Around *b);
+/* Shines from the source of another one; how it is turned and how strong it is stays. */
+void around_take_source(Around *around, const Around *from);
+
 /* Of a scene as it is; the environment apart, which a scene does not tell. False where memory is short. */
 bool look_read(Look *look, const WeftScene *scene);
 bool look_copy(Look *copy, const Look *look);
@@ -66,9 +71,13 @@ typedef struct LookWorn {
     int count;
 } LookWorn;
 
-/* Brings a scene that is dressed as `is` to `look`; both of that scene. changed receives what changed
- * (WEFT_CHANGED_MATERIALS ...). On failure the scene is somewhere between. */
+/* Brings materials and lights of a scene that is dressed as `is` to `look`; both of that scene. changed
+ * receives, beside what it holds, what changed (WEFT_CHANGED_MATERIALS ...). On failure the scene is
+ * somewhere between. */
 WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
-                      const WeftLog *log, WeftError *error);
+                      WeftError *error);
+/* The same of the light from far away. Where its source cannot be had the scene is as it was. */
+WeftResult around_apply(const Around *around, const Around *is, WeftScene *scene, unsigned *changed,
+                        const WeftLog *log, WeftError *error);
 
 #endif

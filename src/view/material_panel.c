@@ -132,8 +132,26 @@ static void draw_input(WeftMaterial *m, int k) {
 
 /* ---- what else can be done with one ---- */
 
+/* What nothing wears says so. */
 static const char *material_name(const void *user, int k) {
-    return ((const Viewer *)user)->facts.materials[k];
+    static char text[FACTS_NAME + 16];
+    const Facts *facts = &((const Viewer *)user)->facts;
+    bool unused = facts->shares && facts->shares[k] < 0.0f;
+    snprintf(text, sizeof text, "%s%s", facts->materials[k], unused ? " (not worn)" : "");
+    return text;
+}
+static const char *material_help(const void *user, int k) {
+    static char text[160];
+    const Facts *facts = &((const Viewer *)user)->facts;
+    float share = facts->shares ? facts->shares[k] : 0.0f;
+    snprintf(text, sizeof text, "The material that is edited; a click on the picture chooses what is there.");
+    if (share < 0.0f) snprintf(text, sizeof text, "Nothing wears it now: it is there for a variant.");
+    if (share > 0.0f) {
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "\n%.1f %% of the picture, at first.",
+                 100.0 * (double)share);
+    }
+    return text;
 }
 static const char *variant_name(const void *user, int k) {
     return k ? ((const Viewer *)user)->facts.variants[k - 1] : "choose ...";
@@ -144,16 +162,18 @@ static const char *preset_help(const void *user, int k) {
 }
 
 static void draw_which(Viewer *v) {
-    const UiChoices materials = {v->look.material_count, material_name, NULL, v};
+    const UiChoices materials = {v->look.material_count, material_name, material_help, v};
     const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
     int count = 0, preset = 0, variant = v->variant + 1;
     while (weft_preset_name(count)) count++;
     const UiChoices presets = {count + 1, preset_name, preset_help, v};
     ui_choice("material", &materials, &v->material);
-    ui_tip("The material that is edited. A click on the picture chooses what is there.");
-    if (v->facts.info.variant_count && ui_choice("variant", &variants, &variant) && variant > 0) {
-        v->variant = variant - 1;
-        viewer_task(v, TASK_VARIANT, NULL, v->variant, -1);
+    if (v->facts.info.variant_count) {
+        if (ui_choice("variant", &variants, &variant) && variant > 0) {
+            v->variant = variant - 1;
+            viewer_task(v, TASK_VARIANT, NULL, v->variant, -1);
+        }
+        ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];

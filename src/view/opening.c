@@ -9,6 +9,7 @@
 
 #include "view/inputs.h"
 #include "view/paths.h"
+#include "view/survey.h"
 
 /* Another one takes its place; it may take a while to stop, which is not waited for. */
 static void let_go(Viewer *v) {
@@ -22,8 +23,10 @@ void opening_start(Viewer *v, const char *path, bool again) {
     if (v->loader) let_go(v);
     bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
     if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
-    v->loader = loader_start(v->window, v->desc, path, again, dressed);
-    if (!v->loader) viewer_say(v, true, "%.300s: out of memory", path);
+    v->loader = loader_start(v->window, v->desc, path, again, dressed, viewer_aspect(v));
+    if (v->loader) return;
+    v->opened = WEFT_RESOURCES;
+    viewer_say(v, true, "%.300s: out of memory", path);
 }
 
 /* What a picture is for, by its name: "velvet_normal.png". */
@@ -75,12 +78,8 @@ void opening_home(Viewer *v, const float eye[3], const float target[3]) {
 
 /* Where it is seen from; how large things are, until the painter knows what is in the middle. */
 static void start_seeing(Viewer *v, const Loaded *loaded) {
-    bool first = strcmp(v->dressed, loaded->path) == 0;
-    const char *camera = first ? v->desc->camera : NULL;
-    bool builtin = strncmp(loaded->path, "builtin:", 8) == 0;
-    if (!camera) camera = builtin && loaded->facts.info.camera_count ? "0" : "auto";
-    if (!orbit_at(&v->orbit, loaded->scene, camera, viewer_aspect(v))) {
-        viewer_say(v, true, "%.100s: %s", camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
+    if (!orbit_at(&v->orbit, loaded->scene, loaded->camera, viewer_aspect(v))) {
+        viewer_say(v, true, "%.100s: %s", loaded->camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
         orbit_at(&v->orbit, loaded->scene, "auto", viewer_aspect(v));
     }
     v->at_home = false;
@@ -113,14 +112,29 @@ void opening_forget(Viewer *v) {
     facts_free(&v->facts);
 }
 
-/* Those of the panels, of a scene that is another one. */
+/* Those of the panels, of a scene that is another one: the material that is seen largest. */
 static void choose_first(Viewer *v, const Look *look) {
-    v->material = v->light = 0;
+    int largest = v->facts.shares ? survey_largest(v->facts.shares, look->material_count, NULL) : -1;
+    v->material = largest > 0 ? largest : 0;
+    v->light = 0;
     v->variant = -1;
     v->has_probe = v->has_copied = false;
     v->save_path[0] = v->shot_path[0] = '\0';
-    for (int k = look->material_count - 1; k >= 0; k--) /* the first that has a sheen */
-        if (weft_material_reads(look_material(look, k), input_number("sheen_roughness"))) v->material = k;
+}
+
+/* The choice goes to what the variant has put on, and away from what nothing wears any more. */
+void opening_varied(Viewer *v, float **shares) {
+    int count = v->look.material_count;
+    const float *is = *shares, *was = v->facts.shares;
+    char *put_on = calloc((size_t)count + 1, 1);
+    for (int k = 0; k < count && put_on && was; k++) put_on[k] = (char)(was[k] < 0.0f && is[k] >= 0.0f);
+    int other = put_on ? survey_largest(is, count, put_on) : -1;
+    if (other < 0 && v->material < count && is[v->material] < 0.0f) other = survey_largest(is, count, NULL);
+    if (other >= 0) v->material = other;
+    free(put_on);
+    free(v->facts.shares);
+    v->facts.shares = *shares;
+    *shares = NULL;
 }
 
 enum { WATCH_SCENE, WATCH_LIGHT };
@@ -138,7 +152,7 @@ bool opening_watch(Viewer *v, double seconds) {
     if (v->loader || v->has_pending) return false;
     int changed = watchman_look(v->watchman, seconds);
     if (changed == WATCH_SCENE) opening_start(v, v->facts.path, true);
-    if (changed == WATCH_LIGHT) v->look.around.again = v->other.around.again = v->look.around.again + 1;
+    if (changed == WATCH_LIGHT) viewer_light_by(v, v->look.around.path);
     return changed >= 0;
 }
 
@@ -196,6 +210,7 @@ void opening_take(Viewer *v, const News *news) {
         window_title(v->window, title);
         if (first && v->desc->materials) viewer_task(v, TASK_WEAR, v->desc->materials, -1, -1);
     }
+    v->opened = news->result;
     loaded_free(&loaded);
 }
 
@@ -208,6 +223,7 @@ void opening_poll(Viewer *v) {
     if (!v->loader || !loader_done(v->loader)) return;
     loader_finish(v->loader, &loaded);
     v->loader = NULL;
+    v->opened = loaded.result;
     if (loaded.scene)
         hand_over(v, &loaded);
     else

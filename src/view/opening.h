@@ -17,6 +17,9 @@ bool opening_watch(Viewer *v, double seconds);
 /* The painter has taken a scene, or could not. */
 void opening_take(Viewer *v, const News *news);
 
+/* Materials were changed by a variant: shares, of the look's materials, are taken over. */
+void opening_varied(Viewer *v, float **shares);
+
 /* Where things are, and how large: half as far as they are looked at from. */
 void opening_home(Viewer *v, const float eye[3], const float target[3]);
 

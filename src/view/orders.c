@@ -139,11 +139,28 @@ void orders_truth(Viewer *v) {
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
 }
 
-static void take_dressed(Viewer *v, News *news) {
-    Around around = v->look.around;
+/* A step of its own. */
+static void keep_step(Viewer *v) {
     history_close(&v->history);
     history_keep(&v->history, &v->look);
     history_close(&v->history);
+}
+
+static bool lit_by(const Look *look, const char *path) {
+    return look->around.kind == AROUND_FILE && strcmp(look->around.path, path) == 0;
+}
+
+/* The same file, read again, is no step: what it was before is gone. */
+static void take_light(Viewer *v, const Around *around) {
+    if (!lit_by(&v->look, around->path)) keep_step(v);
+    if (lit_by(&v->other, around->path)) around_take_source(&v->other.around, around);
+    around_take_source(&v->look.around, around);
+    viewer_settle(v);
+}
+
+static void take_dressed(Viewer *v, News *news) {
+    Around around = v->look.around;
+    if (!look_same(&v->look, &news->look)) keep_step(v); /* a variant changes who wears what, not the look */
     look_free(&v->look);
     v->look = news->look;
     v->look.around = around;
@@ -160,7 +177,11 @@ void orders_news(Viewer *v) {
             news_free(&news);
             continue;
         }
-        if (news.look_changed) take_dressed(v, &news);
+        if (news.look_changed && news.kind == TASK_LIGHT)
+            take_light(v, &news.look.around);
+        else if (news.look_changed)
+            take_dressed(v, &news);
+        if (news.shares) opening_varied(v, &news.shares);
         if (news.kind == TASK_PROBE && !news.failed) {
             v->probe = news.probe;
             v->has_probe = news.probe.hit;

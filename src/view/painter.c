@@ -57,7 +57,7 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned num
     WeftError error = {0};
     WeftRaster *raster = NULL;
     WeftResult result = weft_raster_create(scene, &desc, &raster, &log, &error);
-    News news = {.kind = TASK_SCENE, .scene = number, .failed = result != WEFT_OK};
+    News news = {.kind = TASK_SCENE, .scene = number, .failed = result != WEFT_OK, .result = result};
     if (result == WEFT_OK) {
         study_stop(&self->study);
         truth_hold(self->truth);
@@ -70,6 +70,7 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned num
         pthread_mutex_unlock(&self->lock);
         self->is = *look;
         self->worn = (LookWorn){0};
+        self->refusal[0] = '\0';
         self->started = false;
         self->smooth_seconds = 8.0;
         self->smooth_known = false;
@@ -120,24 +121,26 @@ static void wait_a_little(Painter *self) {
     self->working = true;
 }
 
-static bool copy_order(Order *copy, const Order *order) {
-    *copy = *order;
-    bool good = look_copy(&copy->look, &order->look);
-    copy->other = (Look){0};
-    if (good && order->split != SPLIT_NONE && !look_copy(&copy->other, &order->other)) {
-        look_free(&copy->look);
-        good = false;
+bool order_copy(Order *copy, const Order *order) {
+    Look look, other = {0};
+    if (!look_copy(&look, &order->look)) return false;
+    if (order->split != SPLIT_NONE && !look_copy(&other, &order->other)) {
+        look_free(&look);
+        return false;
     }
-    return good;
+    *copy = *order;
+    copy->look = look;
+    copy->other = other;
+    return true;
 }
 
-static void free_order(Order *order) {
+void order_free(Order *order) {
     look_free(&order->look);
     look_free(&order->other);
 }
 
-/* What comes first: a scene, a task, a picture, a sheet. False where there is nothing to do. The lock is held
- * before and after. */
+/* The first of these that is due: a scene, a picture, a task, a sheet. False where there is nothing to do.
+ * The lock is held before and after. */
 static bool step(Painter *self) {
     bool ordered = self->ordered && self->raster && self->order.scene == self->scene_number;
     if (self->gift) {
@@ -150,8 +153,10 @@ static bool step(Painter *self) {
     } else if (ordered && (self->number != self->done_number || self->stale || !self->started)) {
         unsigned number = self->number;
         if (number != self->done_number) {
-            free_order(&self->done);
-            if (!copy_order(&self->done, &self->order)) return false;
+            Order copy;
+            if (!order_copy(&copy, &self->order)) return false;
+            order_free(&self->done);
+            self->done = copy;
         }
         self->done_number = number;
         self->stale = false;
@@ -225,8 +230,8 @@ void painter_stop(Painter *self) {
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);
     pthread_join(self->thread, NULL);
-    free_order(&self->order);
-    free_order(&self->done);
+    order_free(&self->order);
+    order_free(&self->done);
     weft_scene_free(self->gift);
     if (self->gift) look_free(&self->gift_look);
     for (int k = 0; k < self->news_count; k++) news_free(&self->news[k]);
@@ -252,9 +257,9 @@ void painter_give(Painter *self, WeftScene *scene, const Look *look, unsigned nu
 
 unsigned painter_order(Painter *self, const Order *order) {
     Order copy;
-    if (!copy_order(&copy, order)) return self->number;
+    if (!order_copy(&copy, order)) return self->number;
     pthread_mutex_lock(&self->lock);
-    free_order(&self->order);
+    order_free(&self->order);
     self->order = copy;
     self->ordered = true;
     unsigned number = ++self->number;
@@ -303,6 +308,7 @@ bool painter_news(Painter *self, News *news) {
 
 void news_free(News *news) {
     weft_image_free(&news->image);
+    free(news->shares);
     if (news->look_changed) look_free(&news->look);
 }
 

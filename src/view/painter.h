@@ -38,6 +38,10 @@ typedef struct Order {
     bool compare;  /* a linear copy is to be handed to the path tracer */
 } Order;
 
+/* A copy that shares the parts of its looks; false where memory is short, and then `copy` is as it was. */
+bool order_copy(Order *copy, const Order *order);
+void order_free(Order *order); /* its looks */
+
 typedef enum TaskKind {
     TASK_SHOT,     /* a picture of `view`'s size to `path` */
     TASK_SAVE,     /* the scene, or material `index`, to `path` */
@@ -46,6 +50,7 @@ typedef enum TaskKind {
     TASK_PROFILES, /* small pictures with material `index` under every profile */
     TASK_DRESS,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
     TASK_WEAR,     /* the maps of folder `path` on material `index`, -1: the cloth */
+    TASK_LIGHT,    /* `path` is a picture, or the folder of a cubemap, that lights the scene from far away */
     TASK_SCENE,    /* news alone: another scene was taken, or could not be */
     TASK_VARIANT   /* `index` of the scene's */
 } TaskKind;
@@ -74,12 +79,14 @@ typedef struct News {
     TaskKind kind;
     unsigned scene; /* that it is of */
     bool failed;
-    char text[512]; /* a line for people */
+    WeftResult result; /* TASK_SCENE */
+    char text[512];    /* a line for people */
     unsigned stamp;
     Probe probe;
     WeftImage image;   /* TASK_PROFILES: U8 RGB, owned */
     bool look_changed; /* and `look` is what the scene is dressed as now; owned */
     Look look;
+    float *shares; /* TASK_VARIANT: survey.h; owned, may be NULL */
     int index;
 } News;
 

@@ -50,15 +50,32 @@ static bool read_again(Painter *self, const Look *wanted, Look *is) {
     return true;
 }
 
-/* Brings the scene to a look. A light from a file that cannot be had leaves the one before. */
-WeftResult painting_wear(Painter *self, const Look *look, WeftError *error) {
+const char *painting_refuses(const Painter *self, const Look *look) {
+    return self->refusal[0] && around_same_source(&look->around, &self->refused) ? self->refusal : NULL;
+}
+
+/* Lights the scene from far away; where the source cannot be had, by the one before. */
+static WeftResult wear_around(Painter *self, Around *around, unsigned *changed, WeftError *error) {
+    const WeftLog log = painter_log(self);
+    WeftError refusal = {0};
+    WeftResult result = around_apply(around, &self->is.around, self->scene, changed, &log, &refusal);
+    if (result == WEFT_OK) return WEFT_OK;
+    self->refused = *around;
+    snprintf(self->refusal, sizeof self->refusal, "%s", refusal.text);
+    around_take_source(around, &self->is.around);
+    return around_apply(around, &self->is.around, self->scene, changed, &log, error);
+}
+
+WeftResult painting_wear(Painter *self, const Look *wanted, WeftError *error) {
     const WeftLog log = painter_log(self);
     unsigned changed = 0;
-    Look is;
+    Look is, parts = *wanted, *look = &parts;                               /* its parts are borrowed */
     if (look->material_count != self->is.material_count) return WEFT_INPUT; /* of another scene */
+    if (painting_refuses(self, look)) around_take_source(&look->around, &self->is.around);
     if (look_same(look, &self->is)) return WEFT_OK;
     truth_hold(self->truth);
-    WeftResult result = look_apply(look, &self->is, &self->worn, self->scene, &changed, &log, error);
+    WeftResult result = look_apply(look, &self->is, &self->worn, self->scene, &changed, error);
+    if (result == WEFT_OK) result = wear_around(self, &look->around, &changed, error);
     bool known = result == WEFT_OK ? look_copy(&is, look) : read_again(self, look, &is);
     if (changed & WEFT_CHANGED_SHAPES) {
         weft_pick_free(self->pick);
@@ -221,12 +238,12 @@ static void publish(Painter *self, const Order *order, Effort effort, unsigned n
     if (target >= 0) {
         p->texture = self->textures[target];
         p->width = order->view.width, p->height = order->view.height;
-        p->effort = effort;
         p->seconds = (float)seconds;
         p->whole_seconds = (float)self->whole_seconds;
         self->newest = target;
     }
     p->number = number;
+    p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* what cannot be drawn becomes no finer */
     memcpy(p->eye, info.camera_eye, sizeof p->eye);
     memcpy(p->target, info.camera_target, sizeof p->target);
     p->fov = info.camera_fov;
@@ -268,7 +285,8 @@ void painting_draw(Painter *self, const Order *order, unsigned number) {
         if (fair) learn(self, order, effort, now() - start);
     }
     if (!whole) return; /* another order came between */
-    if (result == WEFT_OK) error.text[0] = '\0';
+    const char *refusal = painting_refuses(self, &order->look);
+    if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
     bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
     publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
             &error);

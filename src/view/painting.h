@@ -38,7 +38,10 @@ struct Painter {
     WeftScene *scene;
     WeftRaster *raster;
     WeftPick *pick;
-    Look is; /* what the scene is dressed as */
+    Look is;        /* what the scene is dressed as */
+    Around refused; /* a light from a file that could not be had, and why; "": none */
+    char refusal[512];
+    unsigned readings; /* of files of lights, that were asked for */
     LookWorn worn;
     Order done;
     unsigned done_number;
@@ -58,8 +61,11 @@ WeftLog painter_log(Painter *painter);           /* of warnings, for painter_sai
 void painter_tell(Painter *painter, News *news); /* takes them over */
 void painter_watch(Painter *painter);            /* the files of the scene's textures, and no others */
 
-/* painting.c: brings the scene to a look, and draws an order into the next texture. */
+/* painting.c: brings the scene to a look, and draws an order into the next texture. A light from a file that
+ * cannot be had leaves the one before; painting_refuses then tells why, and the file is left alone until it
+ * has changed. */
 WeftResult painting_wear(Painter *painter, const Look *look, WeftError *error);
+const char *painting_refuses(const Painter *painter, const Look *look); /* NULL: it does not */
 void painting_draw(Painter *painter, const Order *order, unsigned number);
 
 /* tasks.c */

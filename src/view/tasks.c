@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "view/painting.h"
+#include "view/survey.h"
 #include "weft/save.h"
 
 /* The look that the panels show. */
@@ -70,9 +71,16 @@ static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftErro
         painter_watch(self);
         result = weft_raster_update(self->raster, &log, error);
     }
-    truth_release(self->truth, self->scene, ~0u); /* a variant may change shapes */
+    truth_release(self->truth, self->scene, ~0u);
     self->stale = true;
     return result;
+}
+
+/* NULL where nothing can be seen, or memory is short. */
+static float *survey(Painter *self, const Order *order) {
+    if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return NULL;
+    return survey_take(self->pick, self->scene, order->camera,
+                       (float)order->view.width / (float)order->view.height);
 }
 
 static WeftResult dress(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
@@ -102,7 +110,29 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
         }
         break;
     }
-    return dressed(self, result, news, error);
+    result = dressed(self, result, news, error);
+    if (task->kind == TASK_VARIANT && result == WEFT_OK) news->shares = survey(self, order);
+    return result;
+}
+
+/* A look names the file of a light once it has been read, not before. */
+static WeftResult light(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+    Look look;
+    if (!look_copy(&look, edited(order))) return WEFT_RESOURCES;
+    look.around.kind = AROUND_FILE;
+    snprintf(look.around.path, sizeof look.around.path, "%s", task->path);
+    look.around.again = ++self->readings;
+    WeftResult result = painting_wear(self, &look, error);
+    const char *refusal = painting_refuses(self, &look);
+    if (result == WEFT_OK && refusal) {
+        snprintf(error->text, sizeof error->text, "%s", refusal);
+        result = WEFT_INPUT;
+    }
+    snprintf(news->text, sizeof news->text, "lit by %.450s", task->path);
+    news->look_changed = result == WEFT_OK && look_copy(&news->look, &look);
+    look_free(&look);
+    self->stale = true;
+    return result;
 }
 
 WeftResult tasks_reload(Painter *self, int texture, WeftError *error) {
@@ -170,6 +200,7 @@ void tasks_do(Painter *self, const Task *task, const Order *order) {
     case TASK_SAVE: result = save(self, task, order, &news, &error); break;
     case TASK_PICK: result = pick(self, task, order, &news, &error); break;
     case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
+    case TASK_LIGHT: result = light(self, task, order, &news, &error); break;
     case TASK_SCENE: return;
     case TASK_PROFILES:
         study_start(&self->study, edited(order), task->index, &order->view, order->camera, order->tonemap,

@@ -34,7 +34,7 @@ typedef struct TruthPicture {
     char failure[256];
 } TruthPicture;
 
-/* wake is called, from any thread, when there is something to take. */
+/* window must outlive it, and is woken when there is something to take. NULL where memory is short. */
 Truth *truth_start(Window *window);
 void truth_stop(Truth *truth);
 

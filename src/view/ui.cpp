@@ -438,7 +438,7 @@ bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
             changed = k != *chosen;
             *chosen = k;
         }
-        note(name);
+        note_spoken(name);
         if (choices->help) ui_tip(choices->help(choices->user, k));
         ImGui::SameLine(0.0f, 0.0f);
         ImGui::TextUnformatted(name);

@@ -141,7 +141,6 @@ static bool start(Viewer *v, char why[512]) {
     v->watchman = watchman_start();
     v->browser = browser_create(v->settings.folder);
     if (!v->painter || !v->watchman || !v->browser) return false;
-    if (v->desc->script && !(v->replay = replay_open(v->desc->script, why))) return false;
     lay_out(v);
     opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
     return true;
@@ -176,7 +175,7 @@ static double patience(const Viewer *v, int due) {
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};
     for (int k = 0; k < 6; k++) flies |= v->input.key[keys[k]];
     if (window_hidden(v->window)) return 0.25;
-    if (due > 0 || flies) return 0.0;
+    if (due > 0 || flies || v->desc->frames) return 0.0;
     if (v->replay) return 0.005;
     return orders_finer(v) ? 0.05 : 0.25;
 }
@@ -188,22 +187,27 @@ static int run(Viewer *v, char why[512]) {
         unsigned shown = v->painted.number;
         window_wait(v->window, patience(v, due));
         double started = now();
-        if (v->replay && !replay_step(v->replay, v, why)) return 1;
+        if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
         bool any = window_take(v->window, &v->input);
         for (char *path; (path = window_dropped(v->window)); free(path)) viewer_open(v, path), any = true;
         opening_poll(v);
         any |= opening_watch(v, started);
         any |= painter_fresh(v->painter) || truth_fresh(v->truth) || v->loader || v->painted.number != shown;
         any |= orders_finer(v) && v->mode == MODE_LIVE;
+        if (!v->has_scene && v->opened != WEFT_OK) {
+            snprintf(why, 512, "%s", v->message);
+            return v->opened;
+        }
         if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
         if (any || inspection_busy(v->panel == 3 ? v->inspection : NULL)) due = 3;
-        if (window_hidden(v->window) || due <= 0) {
+        bool settled = due <= 0;
+        if (window_hidden(v->window) || (settled && !v->desc->frames)) { /* frames that are counted go on */
             v->clock = started;
             continue;
         }
-        due--;
+        if (!settled) due--;
         run_frame(v, started);
-        if (v->desc->report) report_state(v, due == 0);
+        if (v->desc->report) report_state(v, due == 0 && !settled);
         if (v->desc->frames && v->frame >= v->desc->frames) break;
     }
     return 0;
@@ -213,7 +217,7 @@ int view_run(const ViewDesc *desc, char why[512]) {
     Viewer *v = calloc(1, sizeof *v);
     if (!v) {
         snprintf(why, 512, "out of memory");
-        return 4;
+        return WEFT_RESOURCES;
     }
     v->desc = desc;
     v->settings = settings_default();
@@ -227,7 +231,9 @@ int view_run(const ViewDesc *desc, char why[512]) {
     v->split_at = 0.5f;
     v->held_light = -1;
     v->brush = (Brush){.radius = 0.05f, .strength = 0.7f};
-    int code = start(v, why) ? run(v, why) : 4;
+    int code = WEFT_INPUT;
+    if (!desc->script || (v->replay = replay_open(desc->script, why)))
+        code = start(v, why) ? run(v, why) : WEFT_RESOURCES;
     stop(v);
     free(v);
     return code;

@@ -47,6 +47,7 @@ typedef struct Viewer {
 
     /* the scene */
     bool has_scene;
+    WeftResult opened;       /* why there is none, where the first could not be had */
     char dressed[LOOK_PATH]; /* path of the scene that is dressed as the command line has it */
     char watched[LOOK_PATH]; /* light whose file is watched */
     unsigned scene, scenes;  /* number of the one that is shown; of the last one that was read */

@@ -153,7 +153,4 @@ void viewer_paste_material(Viewer *v) {
     if (v->has_copied && v->look.material_count) viewer_set_material(v, v->material, &v->copied);
 }
 
-void viewer_light_by(Viewer *v, const char *path) {
-    v->look.around.kind = AROUND_FILE;
-    snprintf(v->look.around.path, sizeof v->look.around.path, "%s", path);
-}
+void viewer_light_by(Viewer *v, const char *path) { viewer_task(v, TASK_LIGHT, path, -1, -1); }

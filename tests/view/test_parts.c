@@ -277,6 +277,38 @@ static void looks_share_and_part(void **state) {
     look_free(&b);
 }
 
+/* ---- orders ---- */
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+
+static int until_failure; /* calls of calloc; 0: none fails */
+
+void *__wrap_calloc(size_t count, size_t size) {
+    return until_failure && --until_failure == 0 ? NULL : __real_calloc(count, size);
+}
+
+static void an_order_is_copied_whole_or_not_at_all(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    Order order = {.split = SPLIT_LINE, .at = 0.25f}, copy = {.at = 0.75f};
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(look_read(&order.look, scene) && look_copy(&order.other, &order.look));
+    weft_scene_free(scene);
+    for (int k = 1; k <= 2; k++) {
+        until_failure = k;
+        assert_false(order_copy(&copy, &order));
+        assert_null(copy.look.materials);
+        assert_null(copy.other.materials);
+        assert_near(copy.at, 0.75f, 0.0f);
+    }
+    assert_true(order_copy(&copy, &order));
+    assert_true(look_same(&copy.look, &order.look) && look_same(&copy.other, &order.other));
+    order_free(&copy);
+    order_free(&order);
+}
+
 /* ---- files of others ---- */
 
 static void write_file(const char *text) {
@@ -468,6 +500,7 @@ int main(void) {
                                        cmocka_unit_test(what_was_done_is_undone),
                                        cmocka_unit_test(the_oldest_steps_are_forgotten),
                                        cmocka_unit_test(looks_share_and_part),
+                                       cmocka_unit_test(an_order_is_copied_whole_or_not_at_all),
                                        cmocka_unit_test(a_half_written_file_is_waited_for),
                                        cmocka_unit_test(kinds_of_files_are_told_by_name),
                                        cmocka_unit_test(strokes_turn_what_lies_beneath),

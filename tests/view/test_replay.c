@@ -366,10 +366,10 @@ static void a_script_that_is_wrong_ends_it(void **state) {
                                            {"drag left 0.5\n", "script:1: "}};
     for (int k = 0; k < 4; k++) {
         file_make("script", wrong[k][0], strlen(wrong[k][0]));
-        assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"), 1,
-                         wrong[k][1]);
+        assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"),
+                         WEFT_INPUT, wrong[k][1]);
     }
-    assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "absent"), 4,
+    assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "absent"), WEFT_INPUT,
                      "absent");
 }
 

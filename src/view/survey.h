@@ -1,0 +1,15 @@
+/* survey.h - how much of a picture each material has
+ */
+#ifndef WEFT_VIEW_SURVEY_H
+#define WEFT_VIEW_SURVEY_H
+
+#include "weft/pick.h"
+
+/* Shares of a picture from that camera, of width / height `aspect`, one a material: -1 where nothing wears
+ * it. Release with free; NULL where memory is short. */
+float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *camera, float aspect);
+
+/* The material with the largest share of those for which `of` is not 0 (NULL: all); -1: none is seen. */
+int survey_largest(const float *shares, int count, const char *of);
+
+#endif
