@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "raster/ground.h"
+
 /* The nearest depth as a share of the farthest: cameras come close, depths of shadow maps are to be exact. */
 static const float CAMERA_NEAR = 1e-4f, SHADOW_NEAR = 1e-2f;
 
@@ -16,9 +18,16 @@ static void reach_out(Range *range, const View *view, Vec3 p) {
     range->far = fmaxf(range->far, depth);
 }
 
-/* From the nearest to the farthest corner of the scene's box and of its lights, along the axis of the view;
- * with perspective at least that share of the way. */
-static Range depth_range(const WeftScene *scene, const View *view, float least) {
+static void reach_floor(Range *range, const View *view, const Floor *floor) {
+    for (int k = 0; k < 4 && floor->there; k++)
+        reach_out(range, view,
+                  vec3_add(floor->middle, vec3(k & 1 ? floor->radius : -floor->radius, 0.0f,
+                                               k & 2 ? floor->radius : -floor->radius)));
+}
+
+/* From the nearest to the farthest corner of the scene's box, of its lights and of the floor, along the axis
+ * of the view; with perspective at least that share of the way. */
+static Range depth_range(const WeftScene *scene, const View *view, const Floor *floor, float least) {
     Range range = {INFINITY, -INFINITY};
     for (int k = 0; k < 8; k++) {
         Vec3 corner = {k & 1 ? scene->high.x : scene->low.x, k & 2 ? scene->high.y : scene->low.y,
@@ -28,6 +37,7 @@ static Range depth_range(const WeftScene *scene, const View *view, float least) 
     for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++)
         for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
             reach_out(&range, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
+    reach_floor(&range, view, floor);
     float margin = 1e-3f * fmaxf(range.far - range.near, 1e-6f) + 1e-6f;
     range.near -= margin;
     range.far += margin;
@@ -37,13 +47,24 @@ static Range depth_range(const WeftScene *scene, const View *view, float least) 
     return range;
 }
 
+/* What a distance w along the axis becomes in clip space: a w + b, which is yet to be divided by w where
+ * there is perspective. */
+typedef struct Depth {
+    float a, b;
+} Depth;
+
+static Depth depth_of(const View *view, Range r) {
+    float span = r.far - r.near;
+    return view->orthographic ? (Depth){2.0f / span, -(r.far + r.near) / span}
+                              : (Depth){(r.far + r.near) / span, -2.0f * r.far * r.near / span};
+}
+
 /* q, from the eye, to clip space: x = q.across / |across|^2, likewise y, w the depth. */
 static void put_matrix(const View *view, Range r, float m[16]) {
     Vec3 x = vec3_scale(view->across, 1.0f / vec3_dot(view->across, view->across));
     Vec3 y = vec3_scale(view->up, 1.0f / vec3_dot(view->up, view->up)), f = view->forward;
-    float span = r.far - r.near;
-    float a = view->orthographic ? 2.0f / span : (r.far + r.near) / span;
-    float b = view->orthographic ? -(r.far + r.near) / span : -2.0f * r.far * r.near / span;
+    const Depth depth = depth_of(view, r);
+    float a = depth.a, b = depth.b;
     Vec3 w = vec3_scale(f, view->orthographic ? 0.0f : 1.0f);
     const float rows[4][4] = {{x.x, x.y, x.z, 0.0f},
                               {y.x, y.y, y.z, 0.0f},
@@ -75,30 +96,45 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
     memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);
 }
 
-static void put_shadow(const WeftScene *scene, const Shadow *shadow, int k, Picture *out) {
+static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor *floor, int k,
+                       Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
                             view->orthographic ? shadow->texel : -shadow->texel};
     const float disc[4] = {shadow->radius, sqrtf(vec3_dot(view->across, view->across)), 0.0f, 0.0f};
-    put_matrix(view, depth_range(scene, view, SHADOW_NEAR), out->shadow_clip[k]);
+    put_matrix(view, depth_range(scene, view, floor, SHADOW_NEAR), out->shadow_clip[k]);
     memcpy(out->shadow_eye[k], place, sizeof place);
     memcpy(out->shadow_disc[k], disc, sizeof disc);
 }
 
+/* A facet whose slope is alpha at most turns what it mirrors by twice as much. */
+static void put_floor(const WeftScene *scene, const View *view, const Floor *floor, Picture *out) {
+    View below = ground_view(floor, view);
+    Depth depth = depth_of(view, depth_range(scene, &below, floor, CAMERA_NEAR));
+    float across = sqrtf(vec3_dot(view->across, view->across)), up = sqrtf(vec3_dot(view->up, view->up));
+    float cone = fminf(2.0f * floor->roughness * floor->roughness, 1.0f);
+    const float place[4] = {floor->middle.x, floor->middle.y, floor->middle.z, floor->radius};
+    const float lens[4] = {depth.a, depth.b, 0.5f * cone / across, across / up};
+    memcpy(out->floor_place, place, sizeof place);
+    memcpy(out->floor_lens, lens, sizeof lens);
+    out->floor_light[1] = floor->reflection;
+}
+
 void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
-                  const Shadows *shadows, Picture *out) {
+                  const Shadows *shadows, const Floor *floor, Picture *out) {
     int lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
     *out = (Picture){0};
-    put_matrix(view, depth_range(scene, view, shadows ? CAMERA_NEAR : SHADOW_NEAR), out->to_clip);
+    put_matrix(view, depth_range(scene, view, floor, shadows ? CAMERA_NEAR : SHADOW_NEAR), out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
+    if (floor->there) put_floor(scene, view, floor, out);
     for (int k = 0; k < lights; k++) put_light(&scene->lights[k], out->lights[k]);
     for (int k = 0; polygons && k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
     for (int k = 0; shadows && k < shadows->count; k++) {
         int light = shadows->of_light[k];
-        put_shadow(scene, &shadows->all[k], k, out);
+        put_shadow(scene, &shadows->all[k], floor, k, out);
         if (light >= 0 && light < lights) out->lights[light][2][3] = (float)k;
     }
 }

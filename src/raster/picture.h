@@ -4,6 +4,7 @@
 #define WEFT_RASTER_PICTURE_H
 
 #include "raster/shadow.h"
+#include "scene/floor.h"
 #include "weft/raster.h"
 
 enum { PICTURE_LIGHTS_MOST = 64, PICTURE_POLYGONS_MOST = WEFT_RASTER_POLYGONS };
@@ -16,11 +17,13 @@ typedef struct Picture {
     float lights[PICTURE_LIGHTS_MOST][4][4];
     float polygon_corners[PICTURE_POLYGONS_MOST][LIGHT_CORNERS][4];
     float polygon_normals[PICTURE_POLYGONS_MOST][4], polygon_radiance[PICTURE_POLYGONS_MOST][4];
+    float floor_place[4], floor_light[4], floor_lens[4];
 } Picture;
 
-/* What a scene looks like through a view, lit by at most PICTURE_POLYGONS_MOST polygons. polygons may be
- * NULL; shadows is NULL of what a light sees. */
+/* What a scene looks like through a view, lit by at most PICTURE_POLYGONS_MOST polygons, over a floor.
+ * polygons may be NULL; shadows is NULL of what a light sees. Where there is a floor, floor_light[0] and [2]
+ * are left to the caller. */
 void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
-                  const Shadows *shadows, Picture *out);
+                  const Shadows *shadows, const Floor *floor, Picture *out);
 
 #endif

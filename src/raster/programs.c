@@ -17,10 +17,10 @@ typedef struct Sampler {
     int unit;
 } Sampler;
 
-static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},
-                                   {"environment_cube", UNIT_ENVIRONMENT},
-                                   {"shadow_map", UNIT_SHADOW},
-                                   {"shadow_depth", UNIT_SHADOW_DEPTH}};
+static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},   {"environment_cube", UNIT_ENVIRONMENT},
+                                   {"shadow_map", UNIT_SHADOW},    {"shadow_depth", UNIT_SHADOW_DEPTH},
+                                   {"floor_sky", UNIT_FLOOR},      {"floor_mirror", UNIT_FLOOR + 1},
+                                   {"floor_depth", UNIT_FLOOR + 2}};
 
 /* Leaves the program in use: the one that was may be the one it replaces, and be gone. */
 static void set_units(Program *self) {
@@ -93,7 +93,7 @@ typedef struct Batch {
 } Batch;
 
 static void write_text(Programs *programs, Job *job) {
-    shader_vertex_text(&programs->desc, &job->vertex);
+    shader_vertex_text(&job->program->key, &programs->desc, &job->vertex);
     shader_text(&job->program->key, &programs->desc, &programs->fits, &job->fragment);
     if (text_end(&job->vertex, &job->error) == WEFT_OK) text_end(&job->fragment, &job->error);
 }

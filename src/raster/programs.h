@@ -8,8 +8,16 @@
 #include "raster/shader.h"
 #include "scene/sheen_tables.h"
 
-/* Texture units and uniform blocks of every program: a material's maps come first. */
-enum { UNIT_TABLES = 8, UNIT_ENVIRONMENT, UNIT_BACKGROUND, UNIT_SHADOW, UNIT_SHADOW_DEPTH, UNIT_COUNT };
+/* Texture units and uniform blocks of every program: a material's maps come first, or the floor's three. */
+enum {
+    UNIT_FLOOR = 0,
+    UNIT_TABLES = 8,
+    UNIT_ENVIRONMENT,
+    UNIT_BACKGROUND,
+    UNIT_SHADOW,
+    UNIT_SHADOW_DEPTH,
+    UNIT_COUNT
+};
 enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
 
 typedef struct Program {

@@ -12,6 +12,7 @@
 #include "raster/context.h"
 #include "raster/display.h"
 #include "raster/environment.h"
+#include "raster/ground.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
 #include "raster/occlusion.h"
@@ -44,6 +45,10 @@ struct WeftRaster {
     bool look; /* once more, when what is looked for now is found */
     LightPolygons polygons;
     Shadows shadows;
+    Floor floor; /* of the last picture, there where it is seen */
+    Ground ground;
+    float sky_on_floor; /* luminance of the environment's light */
+    bool floor_shaded;
     Target target;
     Display display;
     unsigned picture; /* uniform buffer */
@@ -162,6 +167,7 @@ static void release(WeftRaster *self) {
     programs_destroy(&self->programs);
     shadows_destroy(&self->shadows);
     environment_destroy(&self->environment);
+    ground_destroy(&self->ground);
     glDeleteProgram(self->background);
     target_destroy(&self->target);
     display_destroy(&self->display);
@@ -255,7 +261,7 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
         c[3] > view->height - c[1])
         return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
                     c[3], view->width, view->height);
-    return WEFT_OK;
+    return floor_check(&view->floor, error);
 }
 
 static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
@@ -275,7 +281,9 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
 
 static void set_picture(WeftRaster *self, const View *view, const Shadows *shadows) {
     Picture picture;
-    picture_make(self->scene, view, &self->polygons, shadows, &picture);
+    picture_make(self->scene, view, &self->polygons, shadows, &self->floor, &picture);
+    picture.floor_light[0] = self->sky_on_floor;
+    picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
@@ -326,6 +334,10 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
     }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
     clear(&self->target, view, box);
+}
+
+/* What meshes are drawn with, beside what is their own. */
+static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
     self->plain = plain;
@@ -334,16 +346,21 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SHADOW_DEPTH);
 }
 
+static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
+                              WeftError *error) {
+    WeftError said = {0};
+    *program = programs_get(&self->programs, key, &said);
+    if (*program) glUseProgram((*program)->name);
+    if (!*program && error) *error = said;
+    return *program ? WEFT_OK : said.result;
+}
+
 static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, WeftError *error) {
     int k = self->scene->meshes[mesh].material;
     const GlMaterial *material = &self->materials.all[k];
-    WeftError said = {0};
-    const Program *program = programs_get(&self->programs, key, &said);
-    if (!program) {
-        if (error) *error = said;
-        return said.result;
-    }
-    glUseProgram(program->name);
+    const Program *program;
+    WeftResult result = use_program(self, key, &program, error);
+    if (result != WEFT_OK) return result;
     glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
     glActiveTexture(GL_TEXTURE0); /* where whatever is made between draws may bind what it makes */
@@ -394,6 +411,15 @@ static void add_lights(const WeftRaster *self, const WeftRasterView *view, Shade
     }
 }
 
+static ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view) {
+    ShaderKey key;
+    memset(&key, 0, sizeof key);
+    add_lights(self, view, &key);
+    key.floor = 1;
+    key.ambient = 0;
+    return key;
+}
+
 static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
     ShaderKey key = material->key;
     key.part = (int)view->part;
@@ -413,6 +439,8 @@ static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftErro
         held = programs_want(&self->programs, &key);
         if (shadows) held = held && programs_want(&self->programs, &depth);
     }
+    const ShaderKey floor = floor_key(self, view);
+    if (self->floor.there) held = held && programs_want(&self->programs, &floor);
     double start = now();
     int compiled = self->programs.compiled;
     held = held && programs_build(&self->programs, self->context);
@@ -463,6 +491,23 @@ static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *err
     return WEFT_OK;
 }
 
+/* Over what is behind it: colours are premultiplied. */
+static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    ShaderKey key = floor_key(self, view);
+    const Program *program;
+    WeftResult result = use_program(self, &key, &program, error);
+    if (result != WEFT_OK) return result;
+    ground_bind(&self->ground, UNIT_FLOOR);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    return WEFT_OK;
+}
+
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
     bool behind = shows_environment(view) && self->shines && self->environment.map;
@@ -470,8 +515,11 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
         if (k == self->queue.solid && behind)
             result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
+        if (k == self->queue.solid && view->floor.on && self->floor.there && result == WEFT_OK)
+            result = draw_floor(self, view, error);
         if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
+        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
         const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
         ShaderKey key = lit_key(self, view, material);
         if (k == self->queue.solid) {
@@ -572,11 +620,46 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     if (result == WEFT_OK) result = meshes_update(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = update_materials(self, &change, log, error);
     if (result == WEFT_OK) self->look |= change.coverage;
+    if (result == WEFT_OK) self->ground.stale |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
     if (result == WEFT_OK) result = update_occlusion(self, log, error);
     queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
+    return result;
+}
+
+/* The floor of a picture, where it is seen, and what the sky does to it. */
+static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view,
+                             WeftError *error) {
+    Floor floor = floor_of(self->scene, &view->floor);
+    bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
+    floor.there = floor.there && view->part == WEFT_PART_ALL && above;
+    if (floor.there != self->floor.there) self->shadows.drawn = false; /* which reach as far as it does */
+    self->floor = floor;
+    self->sky_on_floor = 0.0f;
+    self->floor_shaded = !view->no_shadows;
+    if (!floor.there || !self->shines || view->ambient == WEFT_AMBIENT_NONE) return WEFT_OK;
+    WeftResult result = ground_look(&self->ground, self->scene, &floor, self->desc.threads, error);
+    self->sky_on_floor = self->ground.light;
+    return result;
+}
+
+/* The scene as the floor shows it. */
+static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRasterView *view,
+                              const int box[4], WeftError *error) {
+    if (!self->floor.there || !(self->floor.reflection > 0.0f)) return WEFT_OK;
+    View below = ground_view(&self->floor, seen);
+    WeftRasterView alone = *view;
+    alone.background = WEFT_BACKGROUND_TRANSPARENT;
+    alone.floor.on = 0;
+    WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
+    if (result != WEFT_OK) return result;
+    set_picture(self, &below, &self->shadows);
+    bind_light(self, view);
+    result = draw_all(self, &below, &alone, error);
+    ground_mirrored(&self->ground);
+    set_state(self); /* what blends has changed it */
     return result;
 }
 
@@ -593,16 +676,19 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     set_state(self);
-    result = prepare(self, &view, error);
+    result = find_floor(self, &seen, &view, error);
+    if (result == WEFT_OK) result = prepare(self, &view, error);
     if (result == WEFT_OK) result = take_occlusion(self, false, error);
     if (result == WEFT_OK && !view.no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK)
         result = target_resize(&self->target, view.width, view.height, view.samples, error);
+    /* the driver's rows run from the bottom */
+    const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
+    if (result == WEFT_OK) result = draw_mirror(self, &seen, &view, box, error);
     if (result == WEFT_OK) {
         set_picture(self, &seen, &self->shadows);
-        /* the driver's rows run from the bottom */
-        const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
         begin(self, &view, box);
+        bind_light(self, &view);
         result = draw_all(self, &seen, &view, error);
         glDisable(GL_SCISSOR_TEST);
         target_resolve(&self->target, box);

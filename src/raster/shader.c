@@ -280,6 +280,12 @@ static void depth_text(const ShaderKey *key, Text *text) {
     text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;\n}");
 }
 
+static void floor_text(const ShaderKey *key, Text *text) {
+    if (key->shadowed) text_define(text, "SHADOWED", "1");
+    put_lights(text, key);
+    text_include(text, "raster/glsl/floor.glsl");
+}
+
 static const char *boolean(bool x) { return x ? "true" : "false"; }
 
 /* One slot's table, held where `held` is not below 0. */
@@ -337,10 +343,9 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
 
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text) {
     text_begin(text, desc);
-    if (key->depth) {
-        depth_text(key, text);
-        return;
-    }
+    if (key->depth) depth_text(key, text);
+    if (key->floor) floor_text(key, text);
+    if (key->depth || key->floor) return;
     const CompositionSlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     if (turns(key, &found)) text_define(text, "TURNS", "1");
@@ -357,9 +362,9 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     text_include(text, "raster/glsl/forward.glsl");
 }
 
-void shader_vertex_text(const TextDesc *desc, Text *text) {
+void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
     text_begin(text, &(TextDesc){.language = desc->language, .folder = desc->folder});
-    text_include(text, "raster/glsl/vertex.glsl");
+    text_include(text, key->floor ? "raster/glsl/floor_vertex.glsl" : "raster/glsl/vertex.glsl");
 }
 
 void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment) {

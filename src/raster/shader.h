@@ -37,6 +37,7 @@ typedef struct ShaderKey {
     Choices choices;
     ShaderInput inputs[INPUT_COUNT];
     int depth;    /* only where the surface is: for shadow maps */
+    int floor;    /* no material: the floor under the scene */
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
@@ -72,6 +73,6 @@ bool shader_holds(const ShaderKey *key, int slot);
 void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment);
 
 /* The vertex shader likewise. */
-void shader_vertex_text(const TextDesc *desc, Text *text);
+void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text);
 
 #endif

@@ -11,17 +11,8 @@ const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
 out highp vec4 fragment;
 
-#include "raster/glsl/picture.glsl"
+#include "raster/glsl/light.glsl"
 #include "shading/dust.h"
-#include "shading/frame.h"
-#include "shading/punctual.h"
-#ifdef SHADOWED
-#include "raster/glsl/soft_shadow.glsl"
-#endif
-
-Dir dir_of(vec3 v) { return dir(v.x, v.y, v.z); }
-vec3 vec_of(Rgb c) { return vec3(c.r, c.g, c.b); }
-vec3 vec_of_dir(Dir d) { return vec3(d.x, d.y, d.z); }
 
 /* The geometric normal is that of the plane through neighbouring pixels, which faces the eye. */
 Facing fragment_facing(Dir wo) {
@@ -33,39 +24,6 @@ Facing fragment_facing(Dir wo) {
     at.handedness = side * vertex_tangent.w;
     return at;
 }
-
-/* Light from one direction. */
-struct Beam {
-    Dir wi; /* in the world */
-    Rgb radiance;
-};
-
-Beam light_beam(int k, int kind) {
-    vec4 along = lights[4 * k + 1];
-    vec3 to = lights[4 * k].xyz - eye.xyz - from_eye;
-    float d2 = dot(to, to), scale = 1.0;
-    Beam beam;
-    beam.wi = dir_of(-along.xyz);
-    if (kind > 0) {
-        scale = d2 > 0.0 ? punctual_distance(d2, along.w) : 0.0;
-        beam.wi = dir_normal_or(dir_of(to), beam.wi);
-    }
-    if (kind > 1) {
-        vec4 cone = lights[4 * k + 3];
-        scale = scale * punctual_cone(-dir_dot(beam.wi, dir_of(along.xyz)), cone.x, cone.y);
-    }
-    vec3 c = lights[4 * k + 2].rgb * scale;
-    beam.radiance = rgb(c.r, c.g, c.b);
-    return beam;
-}
-
-#ifdef SHADOWED
-float light_reaches(int map, vec3 normal, float cosine) {
-    return map < 0 ? 1.0 : shadow_light(map, normal, cosine);
-}
-#else
-float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
-#endif
 
 /* From light k, which is of that kind and has that shadow map, or -1. */
 Rgb light_from(int k, int kind, int map, Stack m, Facing at, Frame f, Dir o) {
@@ -91,15 +49,6 @@ Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
 }
 
 #ifdef POLYGONS
-#ifdef SHADOWED
-float polygon_reaches(int k, int map, Facing at) {
-    if (map < 0) return 1.0;
-    vec3 n = vec_of_dir(at.geometric), to = normalize(shadow_eye[map].xyz - eye.xyz - from_eye);
-    return soft_shadow(map, n, dot(n, to));
-}
-#else
-float polygon_reaches(int k, int map, Facing at) { return 1.0; }
-#endif
 #include "raster/glsl/polygons.glsl"
 #else
 Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) { return rgb_grey(0.0); }

@@ -12,4 +12,8 @@ layout(std140) uniform Picture {
     highp vec4 polygon_corners[64]; /* eight each */
     highp vec4 polygon_normals[8];
     highp vec4 polygon_radiance[8];
+    highp vec4 floor_place; /* middle and radius */
+    highp vec4 floor_light; /* luminance of the sky's on it, share that it mirrors, 1 where it is in shadow */
+    highp vec4 floor_lens;  /* of the mirror: depth is x + y / w, of parallel rays x w + y; half width of its
+                               cone over the picture's, and how much more that is upward */
 };

@@ -13,7 +13,7 @@ Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, Facing at
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
-    float reaches = polygon_reaches(k, map, at); /* before any pixel is left out: it asks its neighbours */
+    float reaches = polygon_reaches(map, vec_of_dir(at.geometric)); /* before any pixel is left out: it asks its neighbours */
     if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
     Rgb sum = rgb_mul(stack_polygon(m, o, p), rgb(c.r, c.g, c.b));
     return rgb_scale(sum, reaches);

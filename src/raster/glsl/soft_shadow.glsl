@@ -4,30 +4,25 @@
  * distance r, at s (1 - b / r) from the line to the middle: on the map, whose half width at distance 1 is h, at
  * s (1 / b - 1 / r) / h. So the mean distance b of what is in the way says how far to look. Randima Fernando,
  * "Percentage-Closer Soft Shadows", SIGGRAPH Sketches 2005. */
+#include "raster/glsl/disc.glsl"
 #include "raster/glsl/shadow.glsl"
 
 uniform highp sampler2DArray shadow_depth;
 
-/* Point k of n on a disc, turned by an angle: Helmut Vogel, "A better way to construct the sunflower head",
- * Mathematical Biosciences 44, 1979. */
-vec2 disc_point(int k, float n, float turn) {
-    float angle = float(k) * 2.39996323 + turn;
-    return sqrt((float(k) + 0.5) / n) * vec2(cos(angle), sin(angle));
-}
-
-/* Jorge Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014. */
-float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
-
-/* Mean over the four pixels of a quad, between which a fine derivative is the difference: their turns are
- * spread evenly, so that together they look in four times as many places. To be asked of all four. A coarse one
- * may be of one pair for all four, which is no mean: then each pixel has its own. */
+/* The mean over the four pixels of a quad, between which a fine derivative is the difference; to be asked of
+ * all four. Each looks in every fourth place of one pattern. A coarse derivative may be of one pair for all
+ * four, which is no mean: then each pixel has its own places. */
 #ifdef FINE_DERIVATIVES
 float quad_mean(float v) {
     vec2 side = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
     v += side.x * dFdxFine(v);
     return v + side.y * dFdyFine(v);
 }
+const float QUAD = 4.0;
+float quad_place() { return dot(mod(floor(gl_FragCoord.xy), 2.0), vec2(1.0, 2.0)); }
 #else
+const float QUAD = 1.0;
+float quad_place() { return 0.0; }
 float quad_mean(float v) { return v; }
 #endif
 
@@ -41,18 +36,21 @@ vec2 shadow_slope(int map, vec3 p, vec3 n) {
     return m[3].z * across / through;
 }
 
+/* Quads share what they look for, which is how far the light is spread, but not what they find: a shadow that
+ * is the same for four pixels shows. All look in the same places about themselves, for grain shows too, and
+ * swims where the view moves. */
 float soft_shadow(int map, vec3 normal, float cosine) {
     vec4 at = shadow_place(map, normal, cosine, 2.5);
     bool there = at.w > 0.0 && cosine > 0.0;
     if (quad_mean(there ? 1.0 : 0.0) < 0.1) return 1.0; /* of one quad all return or none */
     at.w = max(at.w, 1e-6);
     vec2 slope = shadow_slope(map, eye.xyz + from_eye - shadow_eye[map].xyz, normal);
-    float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, turn = 6.2831853 * pixel_noise();
+    float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, place = quad_place();
     /* depth = 1/2 + (a + c / w) / 2 */
     float c = shadow_clip[map][3].z, a = 2.0 * at.z - 1.0 - c / at.w, layer = float(map);
     float inverse = 0.0, found = 0.0, look = min(size / at.w, 0.1);
-    for (int k = 0; k < 12; k++) {
-        vec2 to = look * disc_point(k, 12.0, turn);
+    for (int k = 0; k < 16; k++) {
+        vec2 to = look * disc_point(QUAD * float(k) + place, 16.0 * QUAD);
         float d = texture(shadow_depth, vec3(at.xy + to, layer)).r;
         float nearer = (2.0 * d - 1.0 - a) / c;
         if (d < at.z + dot(slope, to) && nearer * at.w > 1.002) {
@@ -62,11 +60,11 @@ float soft_shadow(int map, vec3 normal, float cosine) {
     }
     found = quad_mean(there ? found : 0.0);
     inverse = quad_mean(there ? inverse : 0.0);
-    if (found < 0.1) return 1.0;
+    if (found < 0.2) return 1.0;
     float spread = clamp(size * (inverse / found - 1.0 / at.w), 1.0 / 2048.0, 0.1), sum = 0.0;
-    for (int k = 0; k < 20; k++) {
-        vec2 to = spread * disc_point(k, 20.0, turn);
+    for (int k = 0; k < 32; k++) {
+        vec2 to = spread * disc_point(float(k), 32.0);
         sum += texture(shadow_map, vec4(at.xy + to, layer, at.z + dot(slope, to)));
     }
-    return clamp(quad_mean(there ? sum / 20.0 : 1.0), 0.0, 1.0);
+    return there ? sum / 32.0 : 1.0;
 }

@@ -1,0 +1,91 @@
+/* floor.glsl - the floor: what the scene keeps of the light from it, and the scene mirrored over that
+ *
+ * With V the part of the light, in luminance, that reaches it, and M the mirrored scene with coverage c, both
+ * times the share of the mirror, what is behind is seen times V (1 - c), and M is added: trace/catcher.h. */
+in highp vec3 from_eye;
+out highp vec4 fragment;
+
+#include "raster/glsl/disc.glsl"
+#include "raster/glsl/light.glsl"
+#include "shading/polygon.h"
+
+uniform highp sampler2D floor_sky;    /* part of the environment's light that arrives: raster/ground.h */
+uniform highp sampler2D floor_mirror; /* the scene from below, premultiplied, with smaller copies */
+uniform highp sampler2D floor_depth;  /* of that */
+
+float luminance(Rgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+
+float whole = 0.0, reached = 0.0;
+void add_light(float light, float reaches) {
+    whole += light;
+    reached += light * reaches;
+}
+
+#define ONE_LIGHT(k, kind, map)                                                                              \
+    beam = light_beam(k, kind);                                                                              \
+    add_light(luminance(beam.radiance) * max(beam.wi.y, 0.0), light_reaches(map, vec3(0.0, 1.0, 0.0), beam.wi.y));
+void add_lights() {
+    Beam beam;
+    EACH_LIGHT(ONE_LIGHT)
+}
+
+#ifdef POLYGONS
+/* Corners in the floor's frame, where z is up. */
+void add_polygon(int k, int corners, bool two_sided, int map) {
+    vec3 here = eye.xyz + from_eye, c = polygon_radiance[k].rgb;
+    Polygon p;
+    p.count = corners;
+    for (int j = 0; j < corners; j++) {
+        vec3 to = polygon_corners[8 * k + j].xyz - here;
+        p.corners[j] = dir(to.x, to.z, to.y);
+    }
+    float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0));
+    bool shines = two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0;
+    add_light(shines ? luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p) : 0.0, reaches);
+}
+#define ONE_POLYGON(k, corners, two_sided, map) add_polygon(k, corners, two_sided, map);
+void add_polygons() { EACH_POLYGON(ONE_POLYGON) }
+#else
+void add_polygons() {}
+#endif
+
+/* The texture is finer towards the middle: a point q of its disc is |q| q of the floor's. */
+float sky_reaches(vec2 p) { return texture(floor_sky, 0.5 + 0.5 * p / sqrt(max(length(p), 1e-6))).r; }
+
+/* The mean of what a rough mirror shows. A cone of half width h, from a point w away to what is w' away on the
+ * mirrored way, is h (1 - w / w') wide as the eye sees it; its middle w' is looked for first, as soft shadows
+ * do. */
+vec4 mirrored() {
+    vec4 clip = to_clip * vec4(from_eye, 1.0);
+    vec2 at = 0.5 + 0.5 * clip.xy / clip.w, aspect = vec2(1.0, floor_lens.w);
+    at.x = 1.0 - at.x; /* the other way round, as mirrors are */
+    float w = eye.w > 0.5 ? clip.w : dot(forward.xyz, from_eye);
+    float found = 0.0, sum = 0.0, half_width = min(floor_lens.z, 0.25 / max(aspect.y, 1.0));
+    for (int k = 0; k < 12; k++) {
+        float d = texture(floor_depth, at + half_width * aspect * disc_point(float(k), 12.0)).r;
+        float ndc = 2.0 * d - 1.0;
+        float far = eye.w > 0.5 ? floor_lens.y / (ndc - floor_lens.x) : (ndc - floor_lens.y) / floor_lens.x;
+        if (d < 1.0) {
+            found += 1.0;
+            sum += eye.w > 0.5 ? max(1.0 - w / far, 0.0) : max(far - w, 0.0);
+        }
+    }
+    if (found < 0.5) return vec4(0.0);
+    float spread = min(floor_lens.z * sum / found, half_width);
+    float level = max(log2(0.5 * spread * float(textureSize(floor_mirror, 0).x)), 0.0);
+    vec4 mean = vec4(0.0);
+    for (int k = 0; k < 16; k++)
+        mean += textureLod(floor_mirror, at + spread * aspect * disc_point(float(k), 16.0), level);
+    return mean / 16.0;
+}
+
+void main() {
+    vec2 p = (eye.xz + from_eye.xz - floor_place.xz) / floor_place.w;
+    float s = clamp(2.0 - 2.0 * length(p), 0.0, 1.0), share = s * s * (3.0 - 2.0 * s);
+    add_lights();
+    add_polygons();
+    add_light(floor_light.x, mix(1.0, sky_reaches(p), floor_light.z));
+    float seen = whole > 0.0 ? 1.0 - share * (1.0 - reached / whole) : 1.0;
+    vec4 mirror = floor_light.y > 0.0 ? share * floor_light.y * mirrored() : vec4(0.0);
+    fragment = vec4(mirror.rgb, 1.0 - seen * (1.0 - mirror.a));
+}

@@ -1,0 +1,52 @@
+/* light.glsl - what arrives at a fragment from lights, and how much of it is not in shadow
+ *
+ * The text before it has EACH_LIGHT, and SHADOWED where there are shadow maps. */
+#include "raster/glsl/picture.glsl"
+#include "shading/frame.h"
+#include "shading/punctual.h"
+#include "shading/rgb.h"
+#ifdef SHADOWED
+#include "raster/glsl/soft_shadow.glsl"
+#endif
+
+Dir dir_of(vec3 v) { return dir(v.x, v.y, v.z); }
+vec3 vec_of(Rgb c) { return vec3(c.r, c.g, c.b); }
+vec3 vec_of_dir(Dir d) { return vec3(d.x, d.y, d.z); }
+
+/* Light from one direction. */
+struct Beam {
+    Dir wi; /* in the world */
+    Rgb radiance;
+};
+
+Beam light_beam(int k, int kind) {
+    vec4 along = lights[4 * k + 1];
+    vec3 to = lights[4 * k].xyz - eye.xyz - from_eye;
+    float d2 = dot(to, to), scale = 1.0;
+    Beam beam;
+    beam.wi = dir_of(-along.xyz);
+    if (kind > 0) {
+        scale = d2 > 0.0 ? punctual_distance(d2, along.w) : 0.0;
+        beam.wi = dir_normal_or(dir_of(to), beam.wi);
+    }
+    if (kind > 1) {
+        vec4 cone = lights[4 * k + 3];
+        scale = scale * punctual_cone(-dir_dot(beam.wi, dir_of(along.xyz)), cone.x, cone.y);
+    }
+    vec3 c = lights[4 * k + 2].rgb * scale;
+    beam.radiance = rgb(c.r, c.g, c.b);
+    return beam;
+}
+
+#ifdef SHADOWED
+float light_reaches(int map, vec3 normal, float cosine) {
+    return map < 0 ? 1.0 : shadow_light(map, normal, cosine);
+}
+float polygon_reaches(int map, vec3 normal) {
+    if (map < 0) return 1.0;
+    return soft_shadow(map, normal, dot(normal, normalize(shadow_eye[map].xyz - eye.xyz - from_eye)));
+}
+#else
+float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
+float polygon_reaches(int map, vec3 normal) { return 1.0; }
+#endif
