@@ -82,7 +82,10 @@ typedef enum WeftResult {
     M(TEXTURES_SCALED, WARNING, "has textures of many sizes, which are scaled to one")                       \
     M(GL_CONTEXT, RESOURCES, "has no OpenGL to draw with")                                                   \
     M(GL_COMPILE, INPUT, "does not compile for the GPU")                                                     \
-    M(GL_MEMORY, RESOURCES, "does not fit the GPU")
+    M(GL_MEMORY, RESOURCES, "does not fit the GPU")                                                          \
+    M(DRAFT, INPUT, "is not a weaving draft that can be read")                                               \
+    M(DRAFT_NOTATION, USAGE, "is not a weave")                                                               \
+    M(DRAFT_COMPLETED, WARNING, "was completed")
 
 /* What a warning's result would be; warnings are only ever logged, never returned. */
 #define WEFT_WARNING WEFT_OK

@@ -43,5 +43,6 @@
 #include "weft/scene.h"
 #include "weft/sheet.h"
 #include "weft/version.h"
+#include "weft/weave.h"
 
 #endif

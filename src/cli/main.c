@@ -16,7 +16,7 @@ static const Verb *const verbs[] = {&verb_render,
 #endif
                                     &verb_models, &verb_eval,   &verb_check, &verb_plot,
                                     &verb_bake,   &verb_export, &verb_match, &verb_fit,
-                                    &verb_diff,   &verb_doctor, NULL};
+                                    &verb_diff,   &verb_doctor, &verb_weave, NULL};
 
 static const ExitCode codes[] = {{"0", "done"},
                                  {"1", "a check or a comparison did not hold"},

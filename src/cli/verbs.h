@@ -5,7 +5,7 @@
 #include "options.h"
 
 extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_plot, verb_bake, verb_export,
-    verb_diff, verb_doctor, verb_match, verb_fit;
+    verb_diff, verb_doctor, verb_match, verb_fit, verb_weave;
 #ifdef WEFT_VIEW
 extern const Verb verb_view;
 #endif

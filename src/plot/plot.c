@@ -1,8 +1,6 @@
 /* plot.c - figures from descriptors: checked, made, drawn and written */
 #include "weft/plot.h"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "plot/drawing.h"
 #include "plot/making.h"
 #include "plot/page.h"
 #include "plot/vector.h"
@@ -123,42 +122,23 @@ static void page_size(const WeftPlotDesc *desc, const WeftPlotData *data, int *w
     }
 }
 
-/* Draws on a surface that is then finished, and destroyed in any case. */
-static WeftResult draw_on(cairo_surface_t *surface, double scale, Page *page) {
-    page->cairo = cairo_create(surface);
-    cairo_scale(page->cairo, scale, scale);
-    WeftResult result = page_draw(page);
-    if (result == WEFT_OK) cairo_show_page(page->cairo);
-    if (result == WEFT_OK && cairo_status(page->cairo) != CAIRO_STATUS_SUCCESS)
-        result = fail(page->error, WEFT_MESSAGE_MEMORY, "plot", "%s",
-                      cairo_status_to_string(cairo_status(page->cairo)));
-    cairo_destroy(page->cairo);
-    cairo_surface_flush(surface);
-    return result;
+static WeftResult draw_page(cairo_t *cairo, void *user, WeftError *error) {
+    Page *page = user;
+    page->cairo = cairo;
+    page->error = error;
+    return page_draw(page);
 }
 
-static WeftResult page_image(Page *page, WeftImage *out) {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, page->width, page->height);
-    WeftResult result = draw_on(surface, 1.0, page);
-    if (result == WEFT_OK)
-        result = weft_image_create(page->width, page->height, 3, WEFT_PIXEL_U8, out, page->error);
-    if (result == WEFT_OK) {
-        const unsigned char *pixels = cairo_image_surface_get_data(surface);
-        const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
-        uint8_t *to = out->pixels;
-        for (size_t row = 0; row < (size_t)page->height; row++)
-            for (size_t column = 0; column < (size_t)page->width; column++) {
-                uint32_t word;
-                memcpy(&word, pixels + row * stride + 4 * column, 4);
-                for (int c = 0; c < 3; c++) *to++ = (uint8_t)(word >> (16 - 8 * c));
-            }
-    }
-    cairo_surface_destroy(surface);
-    return result;
+static Drawing drawing_of(Page *page) {
+    return (Drawing){.width = page->width,
+                     .height = page->height,
+                     .title = page->data->title,
+                     .draw = draw_page,
+                     .user = page};
 }
 
-static Page page_of(const WeftPlotDesc *desc, const WeftPlotData *data, WeftError *error) {
-    Page page = {.data = data, .error = error};
+static Page page_of(const WeftPlotDesc *desc, const WeftPlotData *data) {
+    Page page = {.data = data};
     page_size(desc, data, &page.width, &page.height);
     page.type = page_type(data, page.width, page.height);
     return page;
@@ -169,41 +149,17 @@ WeftResult weft_plot_image(const WeftPlotDesc *desc, WeftImage *out, WeftError *
     *out = (WeftImage){0};
     WeftResult result = weft_plot_data(desc, &data, error);
     if (result != WEFT_OK) return result;
-    Page page = page_of(desc, &data, error);
-    result = page_image(&page, out);
+    Page page = page_of(desc, &data);
+    const Drawing drawing = drawing_of(&page);
+    result = drawing_image(&drawing, out, error);
     weft_plot_data_free(&data);
     return result;
 }
 
-static cairo_status_t append(void *user, const unsigned char *bytes, unsigned count) {
-    return vector_append(user, bytes, count) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
-static WeftResult vector_page(Page *page, bool pdf, Vector *out) {
-    const double points = 0.75; /* a pixel is 1/96 inch */
-    const double width = points * page->width, height = points * page->height;
-    cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append, out, width, height)
-                                   : cairo_svg_surface_create_for_stream(append, out, width, height);
-    if (pdf) {
-        /* the day is none of what is drawn: the same figure is the same file */
-        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
-        char title[TEXT_SIZE];
-        drawable(page->data->title, title);
-        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
-    }
-    WeftResult result = draw_on(surface, points, page);
-    cairo_surface_finish(surface);
-    if (result == WEFT_OK && (out->broken || cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS))
-        result = fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-    cairo_surface_destroy(surface);
-    if (result == WEFT_OK && !pdf && !vector_settle_svg(out, page->data->title))
-        result = fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-    return result;
-}
-
 WeftResult plot_svg(const WeftPlotDesc *desc, const WeftPlotData *data, Vector *out, WeftError *error) {
-    Page page = page_of(desc, data, error);
-    return vector_page(&page, false, out);
+    Page page = page_of(desc, data);
+    const Drawing drawing = drawing_of(&page);
+    return drawing_svg(&drawing, out, error);
 }
 
 WeftResult plot_write_bytes(const char *path, const Vector *bytes, WeftError *error) {
@@ -225,18 +181,9 @@ WeftResult weft_plot_write(const WeftPlotDesc *desc, const char *path, WeftError
         return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, "figures are .png, .svg or .pdf");
     WeftResult result = weft_plot_data(desc, &data, error);
     if (result != WEFT_OK) return result;
-    Page page = page_of(desc, &data, error);
-    if (path_ends(path, ".png")) {
-        WeftImage image = {0};
-        result = page_image(&page, &image);
-        if (result == WEFT_OK) result = weft_image_write(path, &image, error);
-        weft_image_free(&image);
-    } else {
-        Vector bytes = {0};
-        result = vector_page(&page, path_ends(path, ".pdf"), &bytes);
-        if (result == WEFT_OK) result = plot_write_bytes(path, &bytes, error);
-        free(bytes.text);
-    }
+    Page page = page_of(desc, &data);
+    const Drawing drawing = drawing_of(&page);
+    result = drawing_write(&drawing, path, error);
     weft_plot_data_free(&data);
     return result;
 }

@@ -1,0 +1,75 @@
+#include "weave/ini.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+
+/* Cuts blanks off both ends of the string that ends at `end`. */
+static char *trim(char *text, char *end) {
+    while (end > text && strchr(" \t", end[-1])) end--;
+    *end = '\0';
+    return text + strspn(text, " \t");
+}
+
+/* Takes one line apart; false where memory is short. */
+static int take_line(Ini *ini, char *line, char *end, const char **section, int number) {
+    char *text = trim(line, end);
+    if (*text == '\0' || *text == ';') return 1;
+    if (*text == '[') {
+        char *close = strchr(text, ']');
+        *section = trim(text + 1, close ? close : text + strlen(text));
+        return 1;
+    }
+    if ((ini->count & (ini->count - 1)) == 0) { /* full at each power of two */
+        IniLine *grown = realloc_array(ini->lines, ini->count ? 2 * (size_t)ini->count : 1, sizeof *grown);
+        if (!grown) return 0;
+        ini->lines = grown;
+    }
+    char *equals = strchr(text, '='), *stop = text + strlen(text);
+    ini->lines[ini->count++] = (IniLine){.section = *section,
+                                         .value = equals ? trim(equals + 1, stop) : NULL,
+                                         .key = trim(text, equals ? equals : stop),
+                                         .number = number};
+    return 1;
+}
+
+WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, WeftError *error) {
+    *out = (Ini){.name = name, .text = alloc_array(size + 1, 1)};
+    if (!out->text) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    memcpy(out->text, data, size);
+    if (memchr(out->text, '\0', size))
+        return fail(error, WEFT_MESSAGE_DRAFT, name, "it has zero bytes: it is not text");
+    const char *section = "";
+    char *line = out->text + (strncmp(out->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
+    for (int number = 1; *line; number++) {
+        char *end = line + strcspn(line, "\r\n");
+        char *next = end + (*end == '\r' && end[1] == '\n') + (*end != '\0');
+        if (!take_line(out, line, end, &section, number)) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+        line = next;
+    }
+    return WEFT_OK;
+}
+
+void ini_free(Ini *ini) {
+    free(ini->text);
+    free(ini->lines);
+    *ini = (Ini){0};
+}
+
+const IniLine *ini_find(const Ini *ini, const char *section, const char *key) {
+    for (int k = ini->count - 1; k >= 0; k--)
+        if (strcasecmp(ini->lines[k].section, section) == 0 &&
+            (!key || strcasecmp(ini->lines[k].key, key) == 0))
+            return &ini->lines[k];
+    return NULL;
+}
+
+long ini_index(const IniLine *line) {
+    char *end;
+    if (line->key[0] < '0' || line->key[0] > '9') return 0;
+    const long index = strtol(line->key, &end, 10);
+    return *end ? 0 : index;
+}

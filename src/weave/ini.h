@@ -1,0 +1,37 @@
+/* ini.h - text of "[section]" and "key=value" lines, as WIF has it
+ *
+ * Lines end in LF, CR LF or CR. Blanks around names and values do not count, nor does the case of names.
+ * Lines that begin with ; are comments. There is no limit on the length of a line. */
+#ifndef WEFT_WEAVE_INI_H
+#define WEFT_WEAVE_INI_H
+
+#include <stddef.h>
+
+#include "weft/result.h"
+
+/* One "key=value". value is NULL for a line without "=". */
+typedef struct IniLine {
+    const char *section, *key, *value;
+    int number; /* of the line in the file, from 1 */
+} IniLine;
+
+typedef struct Ini {
+    const char *name; /* the subject of errors; borrowed */
+    char *text;       /* the file, cut into strings */
+    IniLine *lines;
+    int count;
+} Ini;
+
+/* Reads size bytes. Fails with WEFT_MESSAGE_DRAFT for bytes that are not text, or _MEMORY. Release with
+ * ini_free in either case. */
+WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, WeftError *error);
+void ini_free(Ini *ini);
+
+/* Returns the last line of that section and key, or of that section alone if key is NULL; NULL without one.
+ */
+const IniLine *ini_find(const Ini *ini, const char *section, const char *key);
+
+/* Returns the number that key names: 1 and above, 0 if it is none. */
+long ini_index(const IniLine *line);
+
+#endif

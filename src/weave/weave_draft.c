@@ -1,0 +1,187 @@
+#include "weave/weave_draft.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "weave/loom.h"
+
+enum { FILE_MAX = 16 << 20 }; /* bytes of a WIF */
+
+WeftResult draft_create(const char *name, long warps, long picks, WeftDraft **out, WeftError *error) {
+    *out = NULL;
+    if (warps < 1 || picks < 1) return fail(error, WEFT_MESSAGE_DRAFT, name, "it has no threads");
+    if (warps > WEFT_DRAFT_SIDE_MAX || picks > WEFT_DRAFT_SIDE_MAX || warps * picks > WEFT_DRAFT_CELLS_MAX)
+        return fail(error, WEFT_MESSAGE_DRAFT, name,
+                    "%ld x %ld threads are too many: %d a side and %d crossings are the limit", warps, picks,
+                    WEFT_DRAFT_SIDE_MAX, WEFT_DRAFT_CELLS_MAX);
+    WeftDraft *draft = alloc_array(1, sizeof *draft);
+    if (!draft) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    draft->count[WEFT_WARP] = (int)warps;
+    draft->count[WEFT_WEFT] = (int)picks;
+    draft->up = alloc_array((size_t)warps * (size_t)picks, 1);
+    for (int t = 0; t < 2; t++) draft->threads[t] = alloc_array((size_t)draft->count[t], sizeof(WeftThread));
+    if (!draft->up || !draft->threads[0] || !draft->threads[1]) {
+        weft_draft_free(draft);
+        return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    }
+    for (int t = 0; t < 2; t++)
+        for (int k = 0; k < draft->count[t]; k++)
+            draft->threads[t][k] = (WeftThread){.color = {(float)t, (float)t, (float)t},
+                                                .spacing = DRAFT_SPACING,
+                                                .thickness = DRAFT_THICKNESS};
+    *out = draft;
+    return WEFT_OK;
+}
+
+void weft_draft_free(WeftDraft *draft) {
+    if (!draft) return;
+    free(draft->up);
+    free(draft->threads[0]);
+    free(draft->threads[1]);
+    free(draft);
+}
+
+void draft_title(WeftDraft *draft, const char *text) {
+    size_t size = strlen(text), room = sizeof draft->title - 1;
+    if (size > room)
+        for (size = room; size && ((unsigned char)text[size] & 0xc0) == 0x80;) size--;
+    memcpy(draft->title, text, size);
+    draft->title[size] = '\0';
+    for (char *c = draft->title; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
+}
+
+/* Looks for the letters with which every WIF names itself, in its first line that is neither blank nor a
+ * comment. */
+static bool is_wif(const unsigned char *data, size_t size) {
+    static const char mark[] = "[wif]";
+    size_t at = size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    while (at < size) {
+        while (at < size && strchr(" \t\r\n", data[at]) && data[at]) at++;
+        if (at == size || data[at] != ';') break;
+        while (at < size && data[at] != '\n' && data[at] != '\r') at++;
+    }
+    for (size_t k = 0; k < sizeof mark - 1; k++)
+        if (at + k >= size ||
+            (data[at + k] | (data[at + k] >= 'A' && data[at + k] <= 'Z' ? 32 : 0)) != mark[k])
+            return false;
+    return true;
+}
+
+static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log, WeftError *error) {
+    FileBytes bytes;
+    WeftResult result = file_read(path, FILE_MAX, &bytes, error);
+    if (result != WEFT_OK) return result;
+    result = weft_draft_read_memory(bytes.data, bytes.size, path, out, log, error);
+    free(bytes.data);
+    return result;
+}
+
+/* Returns true if the words can only be meant as a path: they end in a suffix, or are one word with a slash.
+ */
+static bool names_file(const char *what) {
+    const char *dot = strrchr(what, '.');
+    return dot ? !strpbrk(dot, " ;/") : strchr(what, '/') && !strchr(what, ' ');
+}
+
+WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error) {
+    *out = NULL;
+    struct stat status;
+    if (!names_file(what) && stat(what, &status) != 0) return weft_draft_parse(what, out, error);
+    FileBytes start;
+    WeftResult result = file_read_start(what, 4096, &start, error);
+    if (result != WEFT_OK) return result;
+    const bool wif = is_wif(start.data, start.size);
+    free(start.data);
+    return wif ? read_wif(what, out, log, error) : draft_from_picture(what, out, log, error);
+}
+
+static int wrapped(int index, int count) {
+    const int k = index % count;
+    return k < 0 ? k + count : k;
+}
+
+int weft_draft_warp_up(const WeftDraft *draft, int warp, int pick) {
+    return draft->up[(size_t)wrapped(pick, draft->count[WEFT_WEFT]) * (size_t)draft->count[WEFT_WARP] +
+                     (size_t)wrapped(warp, draft->count[WEFT_WARP])];
+}
+
+WeftThread weft_draft_thread(const WeftDraft *draft, WeftThreads threads, int index) {
+    return draft->threads[threads][wrapped(index, draft->count[threads])];
+}
+
+/* Returns 1 where thread k of a system is on top at its crossing with thread c of the other. */
+static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
+    return threads == WEFT_WARP ? weft_draft_warp_up(draft, k, c) : !weft_draft_warp_up(draft, c, k);
+}
+
+/* Returns the longest run on top of one thread, cyclic; the whole length where it never goes below. */
+static int longest_run(const WeftDraft *draft, WeftThreads threads, int k) {
+    const int length = draft->count[!threads];
+    int longest = 0, run = 0;
+    for (int c = 0; c < 2 * length && longest < length; c++) {
+        run = on_top(draft, threads, k, c) ? run + 1 : 0;
+        if (run > longest) longest = run;
+    }
+    return longest;
+}
+
+static bool is_endless(const WeftDraft *draft, WeftThreads threads, int k) {
+    for (int c = 1; c < draft->count[!threads]; c++)
+        if (on_top(draft, threads, k, c) != on_top(draft, threads, k, 0)) return false;
+    return true;
+}
+
+WeftDraftInfo weft_draft_info(const WeftDraft *draft) {
+    WeftDraftInfo info = {.count = {draft->count[0], draft->count[1]}};
+    memcpy(info.title, draft->title, sizeof info.title);
+    Loom loom;
+    if (loom_of(draft, &loom)) info.shafts = loom.shafts, info.treadles = loom.treadles;
+    loom_free(&loom);
+    const size_t cells = (size_t)draft->count[0] * (size_t)draft->count[1];
+    size_t up = 0;
+    for (size_t k = 0; k < cells; k++) up += draft->up[k];
+    info.warp_share = (float)((double)up / (double)cells);
+    for (int t = 0; t < 2; t++)
+        for (int k = 0; k < draft->count[t]; k++) {
+            const int run = longest_run(draft, (WeftThreads)t, k);
+            if (run > info.longest_float[t]) info.longest_float[t] = run;
+            info.endless[t] += is_endless(draft, (WeftThreads)t, k);
+            info.size[t] += draft->threads[t][k].spacing;
+        }
+    return info;
+}
+
+WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error) {
+    const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
+    WeftResult result = draft_create(draft->title[0] ? draft->title : "draft", warps, picks, out, error);
+    if (result != WEFT_OK) return result;
+    memcpy((*out)->title, draft->title, sizeof draft->title);
+    memcpy((*out)->threads[WEFT_WEFT], draft->threads[WEFT_WEFT], (size_t)picks * sizeof(WeftThread));
+    for (int warp = 0; warp < warps; warp++) {
+        (*out)->threads[WEFT_WARP][warp] = draft->threads[WEFT_WARP][warps - 1 - warp];
+        for (int pick = 0; pick < picks; pick++)
+            (*out)->up[(size_t)pick * (size_t)warps + (size_t)warp] =
+                !draft->up[(size_t)pick * (size_t)warps + (size_t)(warps - 1 - warp)];
+    }
+    return WEFT_OK;
+}
+
+WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre, WeftError *error) {
+    if (!(per_metre >= 1.0f && per_metre <= 1e6f))
+        return fail(error, WEFT_MESSAGE_DESC, "sett", "%g per metre; 1 to 1e6 is possible",
+                    (double)per_metre);
+    double length = 0.0;
+    for (int k = 0; k < draft->count[threads]; k++) length += (double)draft->threads[threads][k].spacing;
+    const float scale = (float)((double)draft->count[threads] / length / (double)per_metre);
+    for (int k = 0; k < draft->count[threads]; k++) {
+        draft->threads[threads][k].spacing *= scale;
+        draft->threads[threads][k].thickness *= scale;
+    }
+    return WEFT_OK;
+}

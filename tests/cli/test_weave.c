@@ -1,0 +1,64 @@
+/* `weft weave`: what it prints and writes, and how it ends. */
+#include "run.h"
+
+#include <jansson.h>
+
+static void assert_ends(const char *const *arguments, int code, const char *said) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != code || !strstr(ran.err, said)) fail_msg("%d: %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
+static void figures_are_printed_as_json(void **state) {
+    (void)state;
+    Ran ran = run_with(NULL, LIST("weave", "satin 8/3; sett 40 20", "--json"));
+    assert_int_equal(ran.code, 0);
+    json_t *json = json_loads(ran.out, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(json);
+    assert_int_equal(json_integer_value(json_object_get(json, "shafts")), 8);
+    const json_t *warp = json_object_get(json, "warp");
+    assert_int_equal(json_integer_value(json_object_get(warp, "longest_float")), 7);
+    json_decref(json);
+    ran_free(&ran);
+}
+
+/* The words, the file they are written to, and the file turned over twice are one draft. */
+static void drafts_pass_from_form_to_form(void **state) {
+    (void)state;
+    static const char rows[] = "..##\n.##.\n##..\n#..#\n", back[] = "..##\n#..#\n##..\n.##.\n";
+    size_t size;
+    assert_ends(LIST("weave", "twill 2/2 z", "-o", "twill.wif"), 0, "");
+    assert_ends(LIST("weave", "twill.wif", "-o", "twill.txt"), 0, "");
+    char *text = file_bytes("twill.txt", &size);
+    assert_string_equal(text, rows);
+    free(text);
+    assert_ends(LIST("weave", "twill.wif", "--back", "-o", "back.txt"), 0, "");
+    text = file_bytes("back.txt", &size);
+    assert_string_equal(text, back);
+    free(text);
+    assert_ends(LIST("weave", "twill.wif", "-o", "twill.png"), 0, "");
+    assert_ends(LIST("weave", "twill.wif", "-o", "twill.svg"), 0, "");
+}
+
+static void what_cannot_be_done_ends_in_one_line(void **state) {
+    (void)state;
+    file_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n", 35);
+    assert_ends(LIST("weave", "broken.wif"), 3, "line 4");
+    assert_ends(LIST("weave", "none.wif"), 3, "none.wif: cannot be opened");
+    assert_ends(LIST("weave", "velvet"), 2, "is not a weave");
+    assert_ends(LIST("weave", "plain", "-o", "plain.jpg"), 2, ".wif, .png");
+    assert_ends(LIST("weave", "plain", "--sett", "0"), 2, "sett");
+    assert_ends(LIST("weave", "plain", "--sett", "a,b"), 2, "threads per centimetre");
+    assert_ends(LIST("weave", "twill.wif", "-o", "twill.wif"), 2, "");
+    file_make("float.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n", 50);
+    assert_ends(LIST("weave", "float.wif"), 0, "never change sides");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_are_printed_as_json),
+        cmocka_unit_test(drafts_pass_from_form_to_form),
+        cmocka_unit_test(what_cannot_be_done_ends_in_one_line),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}

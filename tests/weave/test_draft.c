@@ -1,0 +1,583 @@
+/* Weaving drafts: notation, the files of weavers with all that they leave out, pictures, and what is broken.
+ * Tables of crossings were made by hand from the notation or the file; '#' has the warp on top, the first row
+ * is the last pick. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "weft/weft.h"
+
+#define SHARED WEFT_SOURCE_DIR "/../shared/data/weave/"
+
+static WeftDraft *parsed(const char *notation) {
+    WeftDraft *draft;
+    WeftError error;
+    if (weft_draft_parse(notation, &draft, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return draft;
+}
+
+/* Rows from the last pick to the first, each as wide as the repeat. */
+static void assert_rows(const WeftDraft *draft, const char *const *rows, int count) {
+    const WeftDraftInfo info = weft_draft_info(draft);
+    assert_int_equal(info.count[WEFT_WEFT], count);
+    assert_int_equal(info.count[WEFT_WARP], strlen(rows[0]));
+    for (int pick = 0; pick < count; pick++)
+        for (int warp = 0; warp < info.count[WEFT_WARP]; warp++)
+            if (weft_draft_warp_up(draft, warp, pick) != (rows[count - 1 - pick][warp] == '#'))
+                fail_msg("warp %d, pick %d differs", warp + 1, pick + 1);
+}
+
+static void assert_notation(const char *notation, const char *const *rows, int count) {
+    WeftDraft *draft = parsed(notation);
+    assert_rows(draft, rows, count);
+    weft_draft_free(draft);
+}
+
+#define ROWS(...)                                                                                            \
+    (const char *const[]){__VA_ARGS__}, sizeof(const char *const[]){__VA_ARGS__} / sizeof(char *)
+
+static void notation_gives_the_crossings_of_textbooks(void **state) {
+    (void)state;
+    assert_notation("plain", ROWS(".#", "#."));
+    assert_notation("basket 2", ROWS("..##", "..##", "##..", "##.."));
+    assert_notation("basket 1 2", ROWS(".#", ".#", "#.", "#."));
+    assert_notation("twill 2/2 z", ROWS("..##", ".##.", "##..", "#..#"));
+    assert_notation("twill 2/2 s", ROWS(".##.", "..##", "#..#", "##.."));
+    assert_notation("twill 3/1", ROWS(".###", "###.", "##.#", "#.##"));
+    assert_notation("twill 1/2", ROWS("..#", ".#.", "#.."));
+    assert_notation("twill 2/1/1/1", ROWS(".#.##", "#.##.", ".##.#", "##.#.", "#.#.#"));
+    assert_notation("satin 5/2", ROWS("###.#", "#.###", "####.", "##.##", ".####"));
+    assert_notation("sateen 5/2", ROWS("...#.", ".#...", "....#", "..#..", "#...."));
+    assert_notation("herringbone 2/2 4", ROWS("..##..##", ".##.#..#", "##..##..", "#..#.##."));
+    assert_notation("  twill   2/2\tz ", ROWS("..##", ".##.", "##..", "#..#"));
+}
+
+/* The lines of a herringbone break at both of its turns: neighbours there are never on top together. */
+static void herringbone_breaks_at_its_turns(void **state) {
+    (void)state;
+    WeftDraft *draft = parsed("herringbone 2/2 8");
+    for (int pick = 0; pick < 4; pick++) {
+        assert_true(weft_draft_warp_up(draft, 7, pick) != weft_draft_warp_up(draft, 8, pick));
+        assert_true(weft_draft_warp_up(draft, 15, pick) != weft_draft_warp_up(draft, 16, pick));
+    }
+    weft_draft_free(draft);
+}
+
+static void notation_without_sense_is_refused_in_one_line(void **state) {
+    (void)state;
+    static const char *const bad[] = {"",
+                                      " ",
+                                      "plainer",
+                                      "plain 2",
+                                      "twill",
+                                      "twill 2",
+                                      "twill 2/",
+                                      "twill 2/2/1",
+                                      "twill 0/2",
+                                      "twill -1/2",
+                                      "twill 2/2 x",
+                                      "twill 2/2 z z",
+                                      "twill a/b",
+                                      "twill 9000/1",
+                                      "satin 4/1",
+                                      "satin 5/1",
+                                      "satin 5/4",
+                                      "satin 6/2",
+                                      "satin 6/3",
+                                      "satin 5",
+                                      "satin 8/3 z",
+                                      "sateen 10/5",
+                                      "basket",
+                                      "basket 0",
+                                      "basket 5000",
+                                      "basket 2 2 2",
+                                      "herringbone 2/2",
+                                      "herringbone 2/2 0",
+                                      "herringbone 2/2 5000",
+                                      "herringbone 8 2/2",
+                                      "plain;",
+                                      "plain; ",
+                                      "plain;;",
+                                      "plain; warp",
+                                      "plain; warp k",
+                                      "plain; warp 4",
+                                      "plain; warp 4q",
+                                      "plain; warp 0k",
+                                      "plain; warp 4#12345",
+                                      "plain; warp 4#1234567",
+                                      "plain; warp mirror",
+                                      "plain; both 9000k",
+                                      "plain; warp 4k mirror 4r",
+                                      "plain; sett",
+                                      "plain; sett 0",
+                                      "plain; sett 20 x",
+                                      "plain; sett 1 2 3",
+                                      "plain; sett 2000",
+                                      "plain; colour 4k",
+                                      "plain; both 4093k 4099w",
+                                      "twill 2/2; warp 8191k; weft 4099w"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        WeftDraft *draft = NULL;
+        WeftError error = {0};
+        if (weft_draft_parse(bad[k], &draft, &error) == WEFT_OK) fail_msg("\"%s\" was read", bad[k]);
+        assert_null(draft);
+        assert_true(error.message == WEFT_MESSAGE_DRAFT_NOTATION || error.message == WEFT_MESSAGE_DRAFT);
+        assert_true(error.text[0] && !strchr(error.text, '\n'));
+    }
+}
+
+static void stripes_repeat_with_the_weave_and_mirror(void **state) {
+    (void)state;
+    WeftDraft *draft = parsed("twill 2/2; warp 2k 3r 1w mirror; weft 5#102030");
+    const WeftDraftInfo info = weft_draft_info(draft);
+    static const char order[] = "kkrrrwrrr";     /* 2k 3r 1w and 3r on the way back */
+    assert_int_equal(info.count[WEFT_WARP], 36); /* of 4 and 9 */
+    assert_int_equal(info.count[WEFT_WEFT], 20); /* of 4 and 5 */
+    for (int k = 0; k < 36; k++) {
+        const float red = weft_draft_thread(draft, WEFT_WARP, k).color[0];
+        const char dye = order[k % 9];
+        assert_true(dye == 'k' ? red < 0.2f : dye == 'r' ? red > 0.6f && red < 0.85f : red > 0.85f);
+    }
+    assert_true(fabsf(weft_draft_thread(draft, WEFT_WEFT, 7).color[1] - 32.0f / 255.0f) < 1e-6f);
+    assert_int_equal(weft_draft_warp_up(draft, 0, 0), 1);
+    assert_int_equal(weft_draft_warp_up(draft, -4, 20), 1); /* a cloth repeats */
+    weft_draft_free(draft);
+}
+
+static void figures_of_a_satin_are_those_of_its_name(void **state) {
+    (void)state;
+    WeftDraft *draft = parsed("satin 8/3; sett 40 20");
+    const WeftDraftInfo info = weft_draft_info(draft);
+    assert_true(fabsf(info.warp_share - 0.875f) < 1e-6f);
+    assert_int_equal(info.longest_float[WEFT_WARP], 7);
+    assert_int_equal(info.longest_float[WEFT_WEFT], 1);
+    assert_int_equal(info.shafts, 8);
+    assert_int_equal(info.treadles, 8);
+    assert_true(fabsf(info.size[WEFT_WARP] - 0.002f) < 1e-7f && fabsf(info.size[WEFT_WEFT] - 0.004f) < 1e-7f);
+    assert_int_equal(info.endless[WEFT_WARP] + info.endless[WEFT_WEFT], 0);
+    weft_draft_free(draft);
+}
+
+/* What lies below in front is on top behind, and the back of the back is the front. */
+static void back_is_the_inverted_draft(void **state) {
+    (void)state;
+    WeftDraft *front = parsed("twill 3/1 z; warp 1r 7k"), *back, *again;
+    assert_int_equal(weft_draft_back(front, &back, NULL), WEFT_OK);
+    assert_int_equal(weft_draft_back(back, &again, NULL), WEFT_OK);
+    const WeftDraftInfo info = weft_draft_info(front);
+    for (int pick = 0; pick < info.count[WEFT_WEFT]; pick++)
+        for (int warp = 0; warp < info.count[WEFT_WARP]; warp++) {
+            const int mirrored = info.count[WEFT_WARP] - 1 - warp;
+            assert_int_equal(weft_draft_warp_up(back, warp, pick),
+                             !weft_draft_warp_up(front, mirrored, pick));
+            assert_int_equal(weft_draft_warp_up(again, warp, pick), weft_draft_warp_up(front, warp, pick));
+        }
+    assert_true(weft_draft_thread(back, WEFT_WARP, 7).color[0] > 0.6f); /* the red thread */
+    weft_draft_free(front);
+    weft_draft_free(back);
+    weft_draft_free(again);
+}
+
+/* WIF. */
+
+static int warnings;
+
+static void count_warning(void *user, WeftMessage message, const char *text) {
+    (void)user;
+    assert_true(message == WEFT_MESSAGE_DRAFT_COMPLETED && text[0] && !strchr(text, '\n'));
+    warnings++;
+}
+
+static const WeftLog counting = {.fn = count_warning};
+
+static WeftDraft *read_text(const char *text) {
+    WeftDraft *draft;
+    WeftError error;
+    warnings = 0;
+    if (weft_draft_read_memory(text, strlen(text), "test.wif", &draft, &counting, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    return draft;
+}
+
+static void assert_text(const char *text, int expected_warnings, const char *const *rows, int count) {
+    WeftDraft *draft = read_text(text);
+    assert_rows(draft, rows, count);
+    if (warnings != expected_warnings)
+        fail_msg("%d warnings, not %d, of\n%s", warnings, expected_warnings, text);
+    weft_draft_free(draft);
+}
+
+#define TWO_BY_TWO "[WARP]\nThreads=2\n[WEFT]\nThreads=2\n[THREADING]\n1=1\n2=2\n"
+
+static void traps_of_real_files_are_read_as_they_are_meant(void **state) {
+    (void)state;
+    /* a tie-up and treadling, the plain case */
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n", 0,
+                ROWS(".#", "#."));
+    /* a lift plan; blanks around "="; any case; comments; CR LF; a byte order mark; version 1.2 */
+    assert_text("\xef\xbb\xbf; made by hand\r\n[wif]\r\nVERSION = 1.2\r\n[Warp]\r\nthreads = 2\r\n[WEFT]\r\n "
+                "THREADS=2\r\n"
+                "[threading]\r\n1 = 1\r\n2 =2\r\n; between\r\n[LiftPlan]\r\n1= 1 ; first\r\n2= 2\r\n",
+                0, ROWS(".#", "#."));
+    /* old Macintosh lines */
+    assert_text("[WIF]\rVersion=1.1\r[THREADING]\r1=1\r2=2\r[LIFTPLAN]\r1=1\r2=2\r", 0, ROWS(".#", "#."));
+    /* a sinking shed, in all the words that mean no */
+    for (int k = 0; k < 6; k++) {
+        static const char *const no[] = {"no", "FALSE", "f", "n", "off", "0"};
+        char text[400];
+        snprintf(text, sizeof text,
+                 "[WIF]\nVersion=1.1\n[WEAVING]\nRising Shed=%s\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n",
+                 no[k]);
+        assert_text(text, 0, ROWS("#.", ".#"));
+    }
+    /* threads on several shafts, treadles pressed together, the same shaft twice */
+    assert_text("[WIF]\nVersion=1.1\n[WARP]\nThreads=3\n[WEFT]\nThreads=2\n[THREADING]\n1=1\n2=1,2\n3=3\n"
+                "[TIEUP]\n1=1,1\n2=3\n[TREADLING]\n1=1\n2=1,2\n",
+                0, ROWS("###", "##."));
+    /* more threads than threaded; an empty pick, and one that is missing; a treadle without tie-up; shaft 0
+     */
+    assert_text("[WIF]\nVersion=1.1\n[WARP]\nThreads=3\n[WEFT]\nThreads=4\n[THREADING]\n1=1\n2=0\n"
+                "[TIEUP]\n1=1\n[TREADLING]\n1=1\n2=\n3=2\n",
+                2, ROWS("...", "...", "...", "#.."));
+    /* lines beyond the threads that are declared */
+    assert_text("[WIF]\nVersion=1.1\n[WARP]\nThreads=1\n[WEFT]\nThreads=1\n[THREADING]\n1=1\n2=2\n[LIFTPLAN]"
+                "\n1=1\n2=2\n",
+                2, ROWS("#"));
+    /* both a lift plan and treadling: the lift plan is taken, and a difference is told */
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO
+                "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n",
+                0, ROWS(".#", "#."));
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO
+                "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=2\n2=1\n",
+                1, ROWS(".#", "#."));
+    /* no counts at all; private sections with lines of any kind; the last of two lines with one key */
+    assert_text("[WIF]\nVersion=1.1\n[PRIVATE SOURCE X]\nanything "
+                "goes\n=\n[THREADING]\n1=2\n1=1\n2=2\n[LIFTPLAN]\n1=1\n2=2\n",
+                0, ROWS(".#", "#."));
+}
+
+static void colours_follow_the_rules_of_each_program(void **state) {
+    (void)state;
+    /* Fiberworks' 0-999, the older form with a colour behind the index, and [WARP].Color for what has no line
+     */
+    WeftDraft *draft = read_text(
+        "[WIF]\nVersion=1.1\n[WARP]\nThreads=3\nColor=2\n[WEFT]\nThreads=2\nColor=999,999,0\n[THREADING]\n"
+        "1=1\n2=2\n3=1\n[LIFTPLAN]\n1=1\n2=2\n[COLOR PALETTE]\nRange=0,999\n[COLOR TABLE]\n"
+        "1=0,0,999\n2=999,0,0\n[WARP COLORS]\n2=1,5,5,5\n");
+    assert_int_equal(warnings, 0);
+    const float expected[][3] = {{1, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+    for (int k = 0; k < 3; k++)
+        assert_memory_equal(weft_draft_thread(draft, WEFT_WARP, k).color, expected[k], 12);
+    assert_true(weft_draft_thread(draft, WEFT_WEFT, 1).color[1] > 0.999f);
+    weft_draft_free(draft);
+    /* nothing for the third thread: it takes the colour of the second, and that is told */
+    draft = read_text("[WIF]\nVersion=1.1\n[WARP]\nThreads=3\n[WEFT]\nThreads=1\n[THREADING]\n1=1\n2=1\n3="
+                      "1\n[LIFTPLAN]\n1=1\n"
+                      "[COLOR TABLE]\n1=255,0,0\n2=0,255,0\n[WARP COLORS]\n1=1\n2=2\n");
+    assert_int_equal(warnings, 1);
+    assert_true(weft_draft_thread(draft, WEFT_WARP, 2).color[1] > 0.999f);
+    weft_draft_free(draft);
+    /* no colours at all: warp black and weft white, as drafts are printed */
+    draft = read_text("[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n");
+    assert_int_equal(warnings, 0);
+    assert_true(weft_draft_thread(draft, WEFT_WARP, 0).color[0] < 1e-6f);
+    assert_true(weft_draft_thread(draft, WEFT_WEFT, 0).color[0] > 0.999f);
+    weft_draft_free(draft);
+}
+
+static void lengths_are_metres_whatever_their_unit(void **state) {
+    (void)state;
+    static const struct {
+        const char *units;
+        float metres;
+    } cases[] = {{"centimeters", 0.01f}, {"INCHES", 0.0254f}, {"decipoints", 0.0254f / 720.0f}};
+    for (int k = 0; k < 3; k++) {
+        char text[500];
+        snprintf(text, sizeof text,
+                 "[WIF]\nVersion=1.1\n[WARP]\nThreads=2\nUnits=%s\nSpacing=2\nThickness=1\n[WEFT]\nThreads="
+                 "1\nSpacing=-3\n"
+                 "[THREADING]\n1=1\n2=1\n[LIFTPLAN]\n1=1\n[WARP SPACING]\n2=3\n[WARP THICKNESS]\n2=nan\n",
+                 cases[k].units);
+        WeftDraft *draft = read_text(text);
+        const WeftThread first = weft_draft_thread(draft, WEFT_WARP, 0),
+                         second = weft_draft_thread(draft, WEFT_WARP, 1);
+        assert_true(fabsf(first.spacing / cases[k].metres - 2.0f) < 1e-5f);
+        assert_true(fabsf(first.thickness / cases[k].metres - 1.0f) < 1e-5f);
+        assert_true(fabsf(second.spacing / cases[k].metres - 3.0f) < 1e-5f);
+        assert_true(fabsf(second.thickness / cases[k].metres - 1.0f) < 1e-5f);
+        assert_true(weft_draft_thread(draft, WEFT_WEFT, 0).spacing > 0.0f);
+        weft_draft_free(draft);
+    }
+}
+
+static void broken_files_end_in_one_line(void **state) {
+    (void)state;
+#define HEAD  "[WIF]\nVersion=1.1\n"
+#define WOVEN "[LIFTPLAN]\n1=1\n"
+    static const char *const bad[] = {
+        "",
+        "\n",
+        "no draft",
+        "[WARP]\nThreads=2\n",
+        "[WIF]",
+        HEAD,
+        HEAD "[THREADING]\n1=1\n",
+        HEAD WOVEN,
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n1=1\n",
+        HEAD "[THREADING]\n1=1\n[TREADLING]\n1=1\n",
+        HEAD "[THREADING]\n" WOVEN,
+        HEAD "[THREADING]\nx=1\n" WOVEN,
+        HEAD "[THREADING]\n0=1\n" WOVEN,
+        HEAD "[THREADING]\n-1=1\n" WOVEN,
+        HEAD "[THREADING]\n1=x\n" WOVEN,
+        HEAD "[THREADING]\n1=-1\n" WOVEN,
+        HEAD "[THREADING]\n1=1.5\n" WOVEN,
+        HEAD "[THREADING]\n1=1x\n" WOVEN,
+        HEAD "[THREADING]\n1\n" WOVEN,
+        HEAD "[THREADING]\n1=9000\n" WOVEN,
+        HEAD "[THREADING]\n9000=1\n" WOVEN,
+        HEAD "[THREADING]\n1=99999999999999999999\n" WOVEN,
+        HEAD "[THREADING]\n99999999999999999999=1\n" WOVEN,
+        HEAD "[THREADING]\n1=1\n[LIFTPLAN]\n1=a\n",
+        HEAD "[THREADING]\n1=1\n[LIFTPLAN]\n1\n",
+        HEAD "[THREADING]\n1=1\n[LIFTPLAN]\n=1\n",
+        HEAD "[THREADING]\n1=1\n[LIFTPLAN]\n9000=1\n",
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n1=9000\n[TREADLING]\n1=1\n",
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n9000=1\n[TREADLING]\n1=1\n",
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n1=1\n[TREADLING]\n1=9000\n",
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n1=1\n[TREADLING]\n1=yes\n",
+        HEAD "[THREADING]\n1=1\n[TIEUP]\n1=#\n[TREADLING]\n1=1\n",
+        HEAD "[WARP]\nThreads=9000\n[THREADING]\n1=1\n" WOVEN,
+        HEAD "[WEFT]\nThreads=9000\n[THREADING]\n1=1\n" WOVEN,
+        HEAD "[WARP]\nThreads=5000\n[WEFT]\nThreads=5000\n[THREADING]\n1=1\n" WOVEN,
+        HEAD "[WARP]\nThreads=99999999999999999999\n[THREADING]\n1=1\n" WOVEN,
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR PALETTE]\nRange=255\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR PALETTE]\nRange=0,0\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR PALETTE]\nRange=9,1\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR PALETTE]\nRange=0,inf\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR PALETTE]\nRange=nan,nan\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1=1,2\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1=1,2,3,4\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1=red\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\nx=1,2,3\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n0=1,2,3\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n70000=1,2,3\n",
+        HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1=1,2,nan\n",
+        HEAD "[THREADING\n1=1\n[LIFT\n1=1\n",
+        "[WIF]\nVersion=1.1\n[THREADING]\n1=1,,x\n" WOVEN,
+        "{\"asset\": {\"version\": \"2.0\"}}",
+    };
+    const size_t count = sizeof bad / sizeof *bad;
+    assert_true(count >= 50);
+    for (size_t k = 0; k < count; k++) {
+        WeftDraft *draft = NULL;
+        WeftError error = {0};
+        if (weft_draft_read_memory(bad[k], strlen(bad[k]), "bad.wif", &draft, NULL, &error) == WEFT_OK)
+            fail_msg("was read:\n%s", bad[k]);
+        assert_null(draft);
+        assert_int_equal(error.message, WEFT_MESSAGE_DRAFT);
+        assert_int_equal(error.result, WEFT_INPUT);
+        assert_true(error.text[0] && !strchr(error.text, '\n'));
+    }
+    WeftDraft *draft;
+    WeftError error;
+    assert_int_equal(weft_draft_read_memory("[WIF]\0\n", 7, "zero.wif", &draft, NULL, &error), WEFT_INPUT);
+}
+
+/* Files. */
+
+static char folder[] = "/tmp/weft-weave-XXXXXX";
+
+static int folder_begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int folder_end(void **state) {
+    (void)state;
+    static const char *const files[] = {"a.wif", "a.txt", "a.png", "a.svg", "a.pdf", "two.png", "three.png"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) unlink(files[k]);
+    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
+/* A draft written as a WIF and read again is the same cloth, with the same threads. */
+static void a_written_draft_reads_as_the_same(void **state) {
+    (void)state;
+    static const char *const notations[] = {"plain",
+                                            "twill 3/1/1/2 s; warp 3#0102fe 5r 2w; weft 24b 4g mirror",
+                                            "satin 8/3; sett 60 31", "herringbone 2/2 8", "basket 3 2"};
+    for (size_t k = 0; k < sizeof notations / sizeof *notations; k++) {
+        WeftDraft *draft = parsed(notations[k]), *again;
+        WeftError error;
+        assert_int_equal(weft_draft_write(draft, "a.wif", &error), WEFT_OK);
+        warnings = 0;
+        if (weft_draft_read("a.wif", &again, &counting, &error) != WEFT_OK) fail_msg("%s", error.text);
+        assert_int_equal(warnings, 0);
+        const WeftDraftInfo a = weft_draft_info(draft), b = weft_draft_info(again);
+        assert_memory_equal(a.count, b.count, sizeof a.count);
+        assert_string_equal(a.title, b.title);
+        assert_int_equal(a.shafts, b.shafts);
+        assert_int_equal(a.treadles, b.treadles);
+        for (int pick = 0; pick < a.count[WEFT_WEFT]; pick++)
+            for (int warp = 0; warp < a.count[WEFT_WARP]; warp++)
+                assert_int_equal(weft_draft_warp_up(draft, warp, pick),
+                                 weft_draft_warp_up(again, warp, pick));
+        for (int t = 0; t < 2; t++)
+            for (int i = 0; i < a.count[t]; i++) {
+                const WeftThread x = weft_draft_thread(draft, (WeftThreads)t, i),
+                                 y = weft_draft_thread(again, (WeftThreads)t, i);
+                for (int c = 0; c < 3; c++)
+                    assert_true(fabsf(x.color[c] - y.color[c]) <= 0.5f / 255.0f + 1e-6f);
+                assert_true(fabsf(x.spacing / y.spacing - 1.0f) < 1e-5f);
+                assert_true(fabsf(x.thickness / y.thickness - 1.0f) < 1e-5f);
+            }
+        weft_draft_free(draft);
+        weft_draft_free(again);
+    }
+}
+
+static void write_picture(const char *path, int third) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(3, 2, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    static const char rows[] = "#..##.";
+    for (int k = 0; k < 6; k++) memset((uint8_t *)image.pixels + 3 * k, rows[k] == '#' ? 20 : 200, 3);
+    if (third) memset(image.pixels, 90, 3);
+    assert_int_equal(weft_image_write(path, &image, NULL), WEFT_OK);
+    weft_image_free(&image);
+}
+
+static void a_picture_of_two_colours_is_a_jacquard_draft(void **state) {
+    (void)state;
+    WeftDraft *draft;
+    WeftError error;
+    write_picture("two.png", 0);
+    assert_int_equal(weft_draft_read("two.png", &draft, NULL, &error), WEFT_OK);
+    assert_rows(draft, ROWS("#..", "##."));
+    weft_draft_free(draft);
+    write_picture("three.png", 1);
+    assert_int_equal(weft_draft_read("three.png", &draft, NULL, &error), WEFT_INPUT);
+    assert_non_null(strstr(error.text, "more than two colours"));
+    assert_int_equal(weft_draft_read("missing.png", &draft, NULL, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_FILE_OPEN);
+}
+
+/* The threads in the corner of the drawing have the colours of the draft, and all forms are written. */
+static void a_draft_is_drawn_and_written_in_every_form(void **state) {
+    (void)state;
+    WeftDraft *draft = parsed("plain; warp 1#ff0000; weft 1#0000ff");
+    WeftError error;
+    static const char *const paths[] = {"a.png", "a.svg", "a.pdf", "a.txt"};
+    for (size_t k = 0; k < 4; k++) {
+        assert_true(weft_draft_suffix_known(paths[k]));
+        if (weft_draft_write(draft, paths[k], &error) != WEFT_OK) fail_msg("%s", error.text);
+    }
+    assert_int_equal(weft_draft_write(draft, "a.bmp", &error), WEFT_USAGE);
+    WeftImage image;
+    assert_int_equal(weft_image_read("a.png", &image, NULL, NULL), WEFT_OK);
+    int red = 0, blue = 0;
+    for (int k = 0; k < image.width * image.height; k++) {
+        const uint8_t *pixel = (const uint8_t *)image.pixels + (size_t)k * (size_t)image.channels;
+        red += pixel[0] == 255 && pixel[1] == 0 && pixel[2] == 0;
+        blue += pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 255;
+    }
+    /* two crossings and two cells of the strip each, less the lines between them */
+    assert_true(red > 4 * 20 * 20 && red <= 4 * 24 * 24);
+    assert_int_equal(red, blue);
+    weft_image_free(&image);
+    weft_draft_free(draft);
+    draft = parsed("basket 4096 1");
+    assert_int_equal(weft_draft_write(draft, "a.png", &error), WEFT_USAGE);
+    weft_draft_free(draft);
+}
+
+static void assert_file(const char *name, const char *const *rows, int count) {
+    char path[400];
+    WeftDraft *draft;
+    WeftError error;
+    snprintf(path, sizeof path, SHARED "%s", name);
+    if (weft_draft_read(path, &draft, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const WeftDraftInfo info = weft_draft_info(draft);
+    const int width = (int)strlen(rows[0]);
+    assert_true(info.count[WEFT_WARP] >= width && info.count[WEFT_WEFT] >= count);
+    for (int pick = 0; pick < info.count[WEFT_WEFT]; pick++)
+        for (int warp = 0; warp < info.count[WEFT_WARP]; warp++)
+            if (weft_draft_warp_up(draft, warp, pick) !=
+                (rows[count - 1 - pick % count][warp % width] == '#'))
+                fail_msg("%s: warp %d, pick %d differs", name, warp + 1, pick + 1);
+    weft_draft_free(draft);
+}
+
+/* One repeat of each, read off the tie-up with pencil and paper. */
+static void real_drafts_give_the_crossings_worked_by_hand(void **state) {
+    (void)state;
+    if (access(SHARED "2229.wif", R_OK) != 0) {
+        print_message("skipped: no drafts at hand\n");
+        skip();
+    }
+    assert_file("54235plain.wif", ROWS("#.", ".#"));
+    assert_file("2parallel.wif", ROWS(".#.", "#.#"));
+    assert_file("3parallelwarps.wif", ROWS("###", "...", "###"));
+    assert_file("2229.wif", ROWS("#...", ".###", "...#", "#...", "###.", "...#"));
+    assert_file("41753.wif", ROWS(".....#.....#", "#.....#...#.", ".#.....#.#..", "..#.....#...",
+                                  ".#.#...#....", "#...#.#.....", ".....#.....#", "....#.#...#.",
+                                  "...#...#.#..", "..#.....#...", ".#.#.....#..", "#...#.....#."));
+}
+
+/* Too large for a table by hand: its threads run straight over 28 shafts three times, so that a pick is the
+ * tie-up of its treadle. */
+static void a_large_draft_has_the_picks_of_its_tie_up(void **state) {
+    (void)state;
+    if (access(SHARED "8452.wif", R_OK) != 0) {
+        print_message("skipped: no drafts at hand\n");
+        skip();
+    }
+    static const struct {
+        int pick;
+        const char *row;
+    } picks[] = {
+        {1, "#####...#.##...........#...#"},   {2, "####....#..###..........#..."},
+        {5, "......##.#....######.....###"},   {46, "#......###...######......#.."},
+        {100, "..####...###........###...#."},
+    };
+    WeftDraft *draft;
+    assert_int_equal(weft_draft_read(SHARED "8452.wif", &draft, NULL, NULL), WEFT_OK);
+    const WeftDraftInfo info = weft_draft_info(draft);
+    assert_int_equal(info.count[WEFT_WARP], 84);
+    assert_int_equal(info.count[WEFT_WEFT], 100);
+    assert_int_equal(info.longest_float[WEFT_WEFT], 12);
+    for (size_t k = 0; k < sizeof picks / sizeof *picks; k++)
+        for (int warp = 0; warp < 84; warp++)
+            if (weft_draft_warp_up(draft, warp, picks[k].pick - 1) != (picks[k].row[warp % 28] == '#'))
+                fail_msg("warp %d, pick %d differs", warp + 1, picks[k].pick);
+    weft_draft_free(draft);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(notation_gives_the_crossings_of_textbooks),
+        cmocka_unit_test(herringbone_breaks_at_its_turns),
+        cmocka_unit_test(notation_without_sense_is_refused_in_one_line),
+        cmocka_unit_test(stripes_repeat_with_the_weave_and_mirror),
+        cmocka_unit_test(figures_of_a_satin_are_those_of_its_name),
+        cmocka_unit_test(back_is_the_inverted_draft),
+        cmocka_unit_test(traps_of_real_files_are_read_as_they_are_meant),
+        cmocka_unit_test(colours_follow_the_rules_of_each_program),
+        cmocka_unit_test(lengths_are_metres_whatever_their_unit),
+        cmocka_unit_test(broken_files_end_in_one_line),
+        cmocka_unit_test(a_written_draft_reads_as_the_same),
+        cmocka_unit_test(a_picture_of_two_colours_is_a_jacquard_draft),
+        cmocka_unit_test(a_draft_is_drawn_and_written_in_every_form),
+        cmocka_unit_test(real_drafts_give_the_crossings_worked_by_hand),
+        cmocka_unit_test(a_large_draft_has_the_picks_of_its_tie_up),
+    };
+    return cmocka_run_group_tests(tests, folder_begin, folder_end);
+}
