@@ -14,10 +14,6 @@ enum { TRIANGLES_MAX = 100000000 };
 /* How far from 1 the length of a unit vector may be that was computed in floats. */
 static const double UNIT_SLACK = 5e-7;
 
-/* No scene is larger, m: squares of coordinates must stay finite, and Embree ignores what lies beyond 1e18.
- */
-static const double COORDINATE_MAX = 1e15;
-
 /* One primitive under one node. */
 typedef struct Bake {
     Asset *asset;
@@ -101,7 +97,7 @@ static void bake_positions(Bake *bake) {
         for (int c = 0; c < 3; c++) {
             if (!isfinite(v[c]))
                 bake_fail(bake, WEFT_MESSAGE_GLTF_SCHEMA, "a position is not finite");
-            else if (fabs(v[c]) > COORDINATE_MAX)
+            else if (fabs(v[c]) > (double)SCENE_REACH)
                 bake_fail(bake, WEFT_MESSAGE_GLTF_TOO_LARGE, "a position is too far away");
             else
                 p[c] = (float)v[c];

@@ -100,7 +100,10 @@ void cameras_read(Asset *asset) {
         Field field = field_element(&list, (size_t)node->camera);
         Camera *camera = &scene->cameras[scene->camera_count];
         camera_read(&field, node, camera);
-        if (stand(&node->world, camera))
+        bool stands = stand(&node->world, camera);
+        if (!within_reach(camera->eye, SCENE_REACH))
+            field_fail(&field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");
+        if (stands)
             scene->camera_count++;
         else
             field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "its node's transform is singular");

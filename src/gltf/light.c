@@ -47,6 +47,8 @@ static void light_read(const Field *field, const Node *node, Light *light) {
     light->intensity = (float)field_number(&intensity, 1.0, 0.0, 1e30);
     light->range = (float)field_number(&range, 0.0, 0.0, 1e18);
     light->position = (Vec3){(float)world->m[0][3], (float)world->m[1][3], (float)world->m[2][3]};
+    if (light->kind != LIGHT_DIRECTIONAL && !within_reach(light->position, SCENE_REACH))
+        field_fail(field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");
     if (light->kind == LIGHT_SPOT) cone_read(field, light);
     double x = -world->m[0][2], y = -world->m[1][2], z = -world->m[2][2], size = sqrt(x * x + y * y + z * z);
     if (fabs(size - 1.0) < 5e-7)

@@ -57,33 +57,12 @@ static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     *wrong = !(degrees > 0.01f && degrees < 179.0f) ? "its field of view is not within 0.01 and 179 degrees"
              : e[0] == t[0] && e[1] == t[1] && e[2] == t[2] ? "its eye is where its target is"
                                                             : NULL;
+    if (!within_reach(vec3_load(e), SCENE_REACH) || !within_reach(vec3_load(t), SCENE_REACH))
+        *wrong = "its eye or its target is beyond 1e15 m";
     if (*wrong) return true;
     *camera = (Camera){.name = "", .yfov = degrees * (3.14159265f / 180.0f)};
     look_at(camera, vec3_load(e), vec3_load(t));
     return true;
-}
-
-WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out,
-                       WeftError *error) {
-    if (!text || strcmp(text, "auto") == 0) {
-        if (scene->low.x > scene->high.x) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
-        *out = frame_scene(scene, aspect);
-        return WEFT_OK;
-    }
-    for (int k = 0; k < scene->camera_count; k++) {
-        char index[16];
-        snprintf(index, sizeof index, "%d", k);
-        if (strcmp(scene->cameras[k].name, text) == 0 || strcmp(index, text) == 0) {
-            *out = scene->cameras[k];
-            return WEFT_OK;
-        }
-    }
-    const char *wrong;
-    if (parse_view(text, out, &wrong))
-        return wrong ? fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s", wrong) : WEFT_OK;
-    char names[NAMES_SIZE];
-    return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s; else write auto or \"eye;target;fov\"",
-                scene_names(scene, weft_scene_camera_name, names));
 }
 
 View view_of(const Camera *camera, float aspect) {
@@ -93,6 +72,44 @@ View view_of(const Camera *camera, float aspect) {
                   .across = vec3_scale(camera->right, half * aspect),
                   .up = vec3_scale(camera->up, half),
                   .orthographic = camera->orthographic};
+}
+
+/* Returns true if all rays of a picture start within reach. */
+static bool starts_within_reach(const Camera *camera, float aspect) {
+    View view = view_of(camera, aspect);
+    Vec3 beside = view.orthographic ? vec3_add(view.across, view.up) : vec3(0.0f, 0.0f, 0.0f);
+    return within_reach(vec3_add(view.eye, beside), RAY_REACH) &&
+           within_reach(vec3_sub(view.eye, beside), RAY_REACH);
+}
+
+/* The scene's camera of that name or index; NULL: it has none. */
+static const Camera *own_camera(const WeftScene *scene, const char *text) {
+    for (int k = 0; k < scene->camera_count; k++) {
+        char index[16];
+        snprintf(index, sizeof index, "%d", k);
+        if (strcmp(scene->cameras[k].name, text) == 0 || strcmp(index, text) == 0) return &scene->cameras[k];
+    }
+    return NULL;
+}
+
+WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out,
+                       WeftError *error) {
+    char names[NAMES_SIZE];
+    bool framed = !text || strcmp(text, "auto") == 0;
+    const Camera *own = framed ? NULL : own_camera(scene, text);
+    const char *wrong = NULL;
+    if (framed && scene->low.x > scene->high.x)
+        return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
+    if (framed)
+        *out = frame_scene(scene, aspect);
+    else if (own)
+        *out = *own;
+    else if (!parse_view(text, out, &wrong))
+        return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s; else write auto or \"eye;target;fov\"",
+                    scene_names(scene, weft_scene_camera_name, names));
+    if (!wrong && !starts_within_reach(out, aspect))
+        wrong = "a picture of this shape is seen from beyond 1e18 m";
+    return wrong ? fail(error, WEFT_MESSAGE_CAMERA_NAME, framed ? "auto" : text, "%s", wrong) : WEFT_OK;
 }
 
 void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov) {

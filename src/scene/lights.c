@@ -17,7 +17,8 @@ static bool all_finite(const float *v, int count) {
 }
 
 static const char *wrong_polygon(const WeftLight *l) {
-    if (!(l->size[0] > 0.0f && l->size[1] > 0.0f && all_finite(l->size, 2))) return "size";
+    if (!(l->size[0] > 0.0f && l->size[1] > 0.0f && fmaxf(l->size[0], l->size[1]) <= SCENE_REACH))
+        return "size";
     if (l->corners != 0 && (l->corners < 3 || l->corners > LIGHT_CORNERS)) return "corners";
     return isfinite(l->roll) ? NULL : "roll";
 }
@@ -25,7 +26,7 @@ static const char *wrong_polygon(const WeftLight *l) {
 static const char *wrong_light(const WeftLight *l) {
     bool beams = l->kind != WEFT_LIGHT_POINT;
     if ((unsigned)l->kind > WEFT_LIGHT_POLYGON) return "kind";
-    if (!all_finite(l->position, 3)) return "position";
+    if (!within_reach(vec3_load(l->position), SCENE_REACH)) return "position";
     if (beams && (!all_finite(l->direction, 3) || !(vec3_length(vec3_load(l->direction)) > 0.0f)))
         return "direction";
     for (int c = 0; c < 3; c++)

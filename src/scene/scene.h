@@ -14,6 +14,17 @@
 #include "scene/texture.h"
 #include "weft/scene.h"
 
+/* No coordinate of a scene is larger, m: squares of coordinates must stay finite. A ray may start further
+ * out, since a camera backs off to see a scene and a parallel one looks from beside its eye, but not beyond
+ * RAY_REACH: from 1.844e18 on Embree takes a number for no number. */
+#define SCENE_REACH 1e15f
+#define RAY_REACH   1e18f
+
+/* Returns false where a coordinate is beyond reach, or is no number. */
+static inline bool within_reach(Vec3 p, float reach) {
+    return fabsf(p.x) <= reach && fabsf(p.y) <= reach && fabsf(p.z) <= reach;
+}
+
 /* One set of triangles with one material, already in world space; front faces wind counter-clockwise. */
 typedef struct Mesh {
     const char *name; /* never NULL */

@@ -29,6 +29,13 @@ static struct RTCRay to_embree(const Ray *ray) {
                            .id = ray->key};
 }
 
+/* Returns false for a ray of which Embree would make no sense: Debian's asserts that origin and direction are
+ * numbers within RAY_REACH. Such a ray meets nothing and sees no light. */
+static bool is_sound(const Ray *ray) {
+    return within_reach(ray->origin, RAY_REACH) && within_reach(ray->direction, RAY_REACH) &&
+           ray->near <= ray->far;
+}
+
 static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
@@ -157,6 +164,7 @@ static bool intersect(const Geometry *geometry, const Ray *ray, Query *query, Hi
  * place. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
     Query query = query_of(geometry, &ray);
+    if (!is_sound(&ray)) return false;
     if (!intersect(geometry, &ray, &query, hit)) return false;
     if (present(geometry->scene, hit, ray.direction, ray.key, ray.past_lights)) return true;
     query.context.filter = filter;
@@ -170,8 +178,8 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
     struct RTCRayHit16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        valid[k] = k < count ? -1 : 0;
         const Ray *ray = &rays[k < count ? k : 0];
+        valid[k] = k < count && is_sound(ray) ? -1 : 0;
         q.ray.org_x[k] = ray->origin.x, q.ray.org_y[k] = ray->origin.y, q.ray.org_z[k] = ray->origin.z;
         q.ray.dir_x[k] = ray->direction.x, q.ray.dir_y[k] = ray->direction.y,
         q.ray.dir_z[k] = ray->direction.z;
@@ -192,6 +200,7 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
 }
 
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
+    if (!is_sound(&ray)) return true;
     Query query = query_of(geometry, &ray);
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);

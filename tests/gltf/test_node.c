@@ -110,6 +110,25 @@ static void reads_cameras(void **state) {
                    WEFT_MESSAGE_GLTF_SCHEMA, "cameras[0].orthographic.ymag");
 }
 
+/* Where they are read from a picture, Embree would stop the program. */
+static void what_stands_too_far_away_is_refused(void **state) {
+    (void)state;
+    static const char camera[] = "'cameras':[{'type':'perspective','perspective':{'yfov':1}}],"
+                                 "'nodes':[{'camera':0,'translation':[%s]}]",
+                      light[] =
+                          "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'%s'}]}},'nodes':"
+                          "[{'translation':[0,1e19,0],'extensions':{'KHR_lights_punctual':{'light':0}}}]";
+    assert_refused(read_rest(camera, "1e19,0,0"), WEFT_MESSAGE_GLTF_TOO_LARGE,
+                   "cameras[0]: its node is too far");
+    Reading *reading = read_rest(camera, "9e14,0,0");
+    assert_read(reading);
+    done(reading);
+    assert_refused(read_rest(light, "point"), WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far");
+    reading = read_rest(light, "directional"); /* which is nowhere */
+    assert_read(reading);
+    done(reading);
+}
+
 #define LIGHTS             "'extensions':{'KHR_lights_punctual':{'lights':[%s]}},'nodes':[%s]"
 #define LIGHT(index, rest) "{'extensions':{'KHR_lights_punctual':{'light':" #index "}}" rest "}"
 
@@ -150,8 +169,11 @@ static void reads_lights(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refuses_cycles),  cmocka_unit_test(walks_deep_chains),
-        cmocka_unit_test(shows_one_scene), cmocka_unit_test(reads_cameras),
+        cmocka_unit_test(refuses_cycles),
+        cmocka_unit_test(walks_deep_chains),
+        cmocka_unit_test(shows_one_scene),
+        cmocka_unit_test(reads_cameras),
+        cmocka_unit_test(what_stands_too_far_away_is_refused),
         cmocka_unit_test(reads_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -55,6 +55,32 @@ static void backs_of_single_sided_surfaces_are_not_there(void **state) {
     weft_scene_free(scene);
 }
 
+/* Embree asserts that rays are numbers within 1.8e18. */
+static void rays_out_of_reach_meet_nothing(void **state) {
+    (void)state;
+    WeftScene *scene = floors();
+    Geometry *geometry = build(scene);
+    const float wrong[] = {1.9e18f, -1e30f, (float)INFINITY, (float)NAN};
+    Ray rays[GEOMETRY_PACKET];
+    Hit hits[GEOMETRY_PACKET];
+    for (int k = 0; k < GEOMETRY_PACKET; k++) {
+        rays[k] = down(0.1f, 0.2f);
+        float *numbers[] = {&rays[k].origin.y, &rays[k].origin.x, &rays[k].direction.y, &rays[k].far};
+        if (k % 2 && (k / 2 < 6 || k / 2 == 7)) *numbers[k / 2 % 4] = wrong[k / 2 < 4 ? k / 2 : 3];
+    }
+    geometry_hit_packet(geometry, GEOMETRY_PACKET, rays, hits);
+    for (int k = 0; k < GEOMETRY_PACKET; k++) {
+        bool sound = fabsf(rays[k].origin.x) < 1e18f && fabsf(rays[k].origin.y) < 1e18f &&
+                     fabsf(rays[k].direction.y) < 1e18f && rays[k].far > 0.0f;
+        Hit hit;
+        assert_int_equal(hits[k].t >= 0.0f, sound);
+        assert_int_equal(geometry_hit(geometry, rays[k], &hit), sound);
+        assert_true(geometry_occluded(geometry, rays[k]));
+    }
+    geometry_free(geometry);
+    weft_scene_free(scene);
+}
+
 static void packets_agree_with_single_rays(void **state) {
     (void)state;
     WeftScene *scene = floors();
@@ -227,6 +253,7 @@ static void a_ball_does_not_shadow_itself(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(backs_of_single_sided_surfaces_are_not_there),
+        cmocka_unit_test(rays_out_of_reach_meet_nothing),
         cmocka_unit_test(packets_agree_with_single_rays),
         cmocka_unit_test(sheets_back_to_back_have_no_holes),
         cmocka_unit_test(transparency_is_a_fair_coin),
