@@ -14,63 +14,69 @@
 #include "base/memory.h"
 #include "base/random.h"
 
-/* Reads up to limit bytes; what lies beyond is cut off or an error. */
-static WeftResult read_limited(const char *path, size_t limit, bool cut, FileBytes *out, WeftError *error) {
-    *out = (FileBytes){0};
-    FILE *stream = fopen(path, "rb");
-    if (!stream) return fail(error, WEFT_MESSAGE_FILE_OPEN, path, "%s", strerror(errno));
-    struct stat status;
-    size_t expected = 1 << 16;
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
-        fclose(stream);
-        return fail(error, WEFT_MESSAGE_FILE_READ, path, "it is a folder");
-    }
-    if (S_ISREG(status.st_mode) && status.st_size >= 0) expected = (size_t)status.st_size + 1;
-    if (S_ISREG(status.st_mode) && !cut && expected > limit + 1) { /* known without reading */
-        fclose(stream);
-        return fail(error, WEFT_MESSAGE_FILE_LARGE, path, "the limit is %zu bytes", limit);
-    }
-    if (expected > limit) expected = limit + 1;
-
-    WeftResult result = WEFT_OK;
-    size_t size = 0, room = expected;
-    unsigned char *data = alloc_array(room + 1, 1);
-    if (!data) {
-        fclose(stream);
-        return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    }
-    for (;;) {
-        if (size == room) {
-            unsigned char *grown = realloc_array(data, room * 2 + 1, 1);
-            if (!grown) {
-                result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-                break;
-            }
-            data = grown;
-            room *= 2;
-        }
-        size_t got = fread(data + size, 1, room - size, stream);
-        size += got;
-        if (size > limit && cut) {
-            size = limit;
-            break;
-        }
-        if (size > limit) {
-            result = fail(error, WEFT_MESSAGE_FILE_LARGE, path, "the limit is %zu bytes", limit);
-            break;
-        }
-        if (got == 0) {
-            if (ferror(stream)) result = fail(error, WEFT_MESSAGE_FILE_READ, path, "%s", strerror(errno));
-            break;
-        }
-    }
-    fclose(stream);
-    if (result != WEFT_OK) {
-        free(data);
+/* Opens a plain file. A pipe would make the open wait for a writer and a device might never end, so both are
+ * refused, without waiting: the names come out of assets and caches that anybody may have written. */
+static WeftResult open_plain(const char *path, int *handle, struct stat *status, WeftError *error) {
+    *handle = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*handle < 0 || fstat(*handle, status) != 0) {
+        WeftResult result = fail(error, WEFT_MESSAGE_FILE_OPEN, path, "%s", strerror(errno));
+        if (*handle >= 0) close(*handle);
         return result;
     }
-    data[size] = 0;
+    if (S_ISREG(status->st_mode)) return WEFT_OK;
+    close(*handle);
+    return fail(error, WEFT_MESSAGE_FILE_READ, path,
+                S_ISDIR(status->st_mode) ? "it is a folder" : "it is not a plain file");
+}
+
+/* Reads until the end of a file, or one byte more than limit. The size that the file had is where it starts,
+ * no promise: those of /proc say 0. */
+static WeftResult read_handle(int handle, size_t expected, size_t limit, FileBytes *out, const char *path,
+                              WeftError *error) {
+    size_t size = 0, room = expected <= limit ? expected + 1 : limit + 1;
+    unsigned char *data = alloc_array(room + 1, 1);
+    while (data && size <= limit) {
+        if (size == room) {
+            unsigned char *grown = realloc_array(data, room * 2 + 1, 1);
+            if (!grown) free(data);
+            data = grown;
+            room *= 2;
+            continue;
+        }
+        ssize_t got = read(handle, data + size, room - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) {
+            free(data);
+            return fail(error, WEFT_MESSAGE_FILE_READ, path, "%s", strerror(errno));
+        }
+        if (got == 0) break;
+        size += (size_t)got;
+    }
+    if (!data) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     *out = (FileBytes){data, size};
+    return WEFT_OK;
+}
+
+/* Reads up to limit bytes; what lies beyond is cut off or an error. */
+static WeftResult read_limited(const char *path, size_t limit, bool cut, FileBytes *out, WeftError *error) {
+    struct stat status;
+    int handle;
+    *out = (FileBytes){0};
+    WeftResult result = open_plain(path, &handle, &status, error);
+    if (result != WEFT_OK) return result;
+    size_t expected = status.st_size > 0 ? (size_t)status.st_size : 1 << 16;
+    bool large = !cut && status.st_size > 0 && expected > limit; /* known without reading */
+    if (!large) result = read_handle(handle, expected, limit, out, path, error);
+    close(handle);
+    if (result != WEFT_OK) return result;
+    large |= !cut && out->size > limit;
+    if (large) {
+        free(out->data);
+        *out = (FileBytes){0};
+        return fail(error, WEFT_MESSAGE_FILE_LARGE, path, "the limit is %zu bytes", limit);
+    }
+    if (out->size > limit) out->size = limit;
+    out->data[out->size] = 0;
     return WEFT_OK;
 }
 

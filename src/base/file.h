@@ -12,7 +12,8 @@ typedef struct FileBytes {
     size_t size;
 } FileBytes;
 
-/* Reads all of path (a regular file or a pipe); fails where that is more than limit bytes. */
+/* Reads all of path, a plain file: a pipe or a device is refused at once, as a folder is. Fails where it has
+ * more than limit bytes. */
 WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error);
 
 /* Reads the first most bytes of path, or all where it has fewer. */
