@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "gltf/uri.h"
+#include "image/codec.h"
 
 static const size_t FILE_MAX = (size_t)4 << 30;
 
@@ -96,27 +97,11 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
         json_decref(kept);
 }
 
-/* What an image view must say of its bytes; NULL for what glTF and its extensions have no name for. */
-static const char *image_type(FileBytes bytes) {
-    static const struct {
-        const char *start, *type;
-        size_t at, size;
-    } kinds[] = {{"\x89PNG", "image/png", 0, 4},
-                 {"\xff\xd8\xff", "image/jpeg", 0, 3},
-                 {"WEBP", "image/webp", 8, 4},
-                 {"\xabKTX 20", "image/ktx2", 0, 7}};
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (bytes.size > kinds[k].at + kinds[k].size &&
-            memcmp(bytes.data + kinds[k].at, kinds[k].start, kinds[k].size) == 0)
-            return kinds[k].type;
-    return NULL;
-}
-
 static void image_pack(Saving *saving, const Asset *asset, json_t *image) {
     const char *uri = json_string_value(json_object_get(image, "uri"));
     FileBytes bytes = {0};
     if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
-    const char *type = bytes.data ? image_type(bytes) : NULL;
+    const char *type = bytes.data ? image_media_type(bytes.data, bytes.size) : NULL;
     if (type && saving->result == WEFT_OK) {
         saving_put(saving, image, "mimeType", json_string(type));
         saving_put(saving, image, "bufferView", json_integer(saving_view(saving, bytes.data, bytes.size, 0)));

@@ -20,7 +20,9 @@ static void json_read(Asset *asset, Span text) {
     }
     json_error_t error;
     asset->root = json_loadb((const char *)text.data, text.size, 0, &error);
-    if (!asset->root)
+    if (!asset->root && json_error_code(&error) == json_error_out_of_memory)
+        asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
+    else if (!asset->root)
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "line %d, column %d: %s", error.line, error.column,
                    error.text);
     else if (!json_is_object(asset->root))
@@ -84,6 +86,10 @@ static void glb_read(Asset *asset, Span data) {
 void container_read(Asset *asset, Span data) {
     if (data.size >= 4 && memcmp(data.data, "glTF", 4) == 0) {
         glb_read(asset, data);
+        return;
+    }
+    if (data.size >= 3 && memcmp(data.data, "\xef\xbb\xbf", 3) == 0) {
+        asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "it begins with a byte order mark, which glTF forbids");
         return;
     }
     size_t blank = 0;

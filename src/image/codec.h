@@ -19,6 +19,10 @@ typedef struct ImageSource {
 
 enum { IMAGE_SIDE_MAX = 65536 };
 
+/* The media type of an image by its first bytes, as glTF or one of its extensions has it; NULL: they have
+ * none. */
+const char *image_media_type(const unsigned char *data, size_t size);
+
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and more bytes of memory than are
  * believed of a file of this size: 512 MiB, more only for a file of at least a sixteenth of it, never above 2
  * GiB. So a small hostile file cannot ask for much, and a large honest one is read. */

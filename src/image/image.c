@@ -74,20 +74,69 @@ void image_repair(const ImageSource *source, WeftImage *image) {
              "%zu of %zu values were not finite; 0 now", bad, count);
 }
 
-static int starts(const ImageSource *source, const char *signature, size_t size) {
-    return source->size >= size && memcmp(source->data, signature, size) == 0;
+typedef WeftResult (*Reader)(const ImageSource *source, WeftImage *out, WeftError *error);
+
+/* A format by the bytes at a place of a file. Those without a reader are refused by name, whatever the suffix
+ * says. */
+typedef struct Format {
+    const char *name;
+    size_t at, size;
+    const char *signature;
+    Reader read;
+    const char *media_type; /* of what glTF and its extensions take */
+} Format;
+
+#define SIGNATURE(at, text) at, sizeof(text) - 1, text
+static const Format formats[] = {
+    {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png"},
+    {"JPEG", SIGNATURE(0, "\xff\xd8\xff"), image_read_jpeg, "image/jpeg"},
+    {"Radiance HDR", SIGNATURE(0, "#?"), image_read_hdr, NULL},
+    {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL},
+    {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL},
+    {"WebP", SIGNATURE(8, "WEBP"), NULL, "image/webp"},
+    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2"},
+    {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL},
+    {"DDS", SIGNATURE(0, "DDS "), NULL, NULL},
+    {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL},
+    {"BMP", SIGNATURE(0, "BM"), NULL, NULL},
+    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL},
+    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL},
+    {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL},
+    {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL},
+    {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL},
+    {"JPEG XL", SIGNATURE(4, "JXL \r\n"), NULL, NULL},
+    {"JPEG 2000", SIGNATURE(4, "jP  \r\n"), NULL, NULL},
+    {"Photoshop PSD", SIGNATURE(0, "8BPS"), NULL, NULL},
+    {"GLB", SIGNATURE(0, "glTF"), NULL, NULL},
+    {"HTML", SIGNATURE(0, "<!DOCTYPE"), NULL, NULL},
+    {"HTML", SIGNATURE(0, "<html"), NULL, NULL},
+    {"XML, perhaps SVG", SIGNATURE(0, "<?xml"), NULL, NULL},
+    {"SVG", SIGNATURE(0, "<svg"), NULL, NULL},
+    {"a Git LFS pointer", SIGNATURE(0, "version https://git-lfs"), NULL, NULL},
+};
+
+/* The format that a file says it is in; NULL: it says none, as a TGA. */
+static const Format *format_find(const unsigned char *data, size_t size) {
+    for (size_t k = 0; k < sizeof formats / sizeof *formats; k++) {
+        const Format *f = &formats[k];
+        if (size >= f->at + f->size && memcmp(data + f->at, f->signature, f->size) == 0) return f;
+    }
+    return NULL;
+}
+
+const char *image_media_type(const unsigned char *data, size_t size) {
+    const Format *format = format_find(data, size);
+    return format ? format->media_type : NULL;
 }
 
 WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
                                   const WeftLog *log, WeftError *error) {
     *out = (WeftImage){0};
     ImageSource source = {.data = data, .size = size, .name = name, .log = log};
-    if (starts(&source, "\x89PNG", 4)) return image_read_png(&source, out, error);
-    if (starts(&source, "\xff\xd8\xff", 3)) return image_read_jpeg(&source, out, error);
-    if (starts(&source, "#?", 2)) return image_read_hdr(&source, out, error);
-    if (starts(&source, "\x76\x2f\x31\x01", 4)) return image_read_exr(&source, out, error);
-    if (starts(&source, "\x93NUMPY", 6)) return image_read_npy(&source, out, error);
-    return image_read_tga(&source, out, error);
+    const Format *format = format_find(data, size);
+    if (format && !format->read)
+        return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, name, "it is %s", format->name);
+    return (format ? format->read : image_read_tga)(&source, out, error);
 }
 
 WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error) {

@@ -333,6 +333,8 @@ WeftResult material_file_read(const void *data, size_t size, const char *name, c
     json_t *root = json_loadb(text + mark, size - mark, JSON_REJECT_DUPLICATES, &where);
     if (blank == size)
         refuse(&reader, "it is empty");
+    else if (!root && json_error_code(&where) == json_error_out_of_memory)
+        reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     else if (!root)
         refuse(&reader, "line %d: %s", where.line, where.text);
     else if (!json_is_object(root))

@@ -252,6 +252,25 @@ static void test_old_file_stands(void **state) {
     weft_image_free(&bytes);
 }
 
+static void formats_that_are_not_read_are_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *bytes, *name;
+    } files[] = {{"RIFF\x20\x01\x01\x01WEBPVP8 and so on", "it is WebP"},
+                 {"\xabKTX 20\xbb\r\n\x1a\n and so on", "it is KTX 2"},
+                 {"GIF89a and so on, a screen", "it is GIF"},
+                 {"<!DOCTYPE html> not found", "it is HTML"}};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        WeftImage image;
+        WeftError error;
+        WeftResult result =
+            weft_image_read_memory(files[k].bytes, strlen(files[k].bytes), "map.png", &image, NULL, &error);
+        assert_int_equal(result, WEFT_INPUT);
+        assert_int_equal(error.message, WEFT_MESSAGE_IMAGE_FORMAT);
+        if (!strstr(error.text, files[k].name)) fail_msg("%s", error.text);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_create),          cmocka_unit_test(test_suffixes),
@@ -259,7 +278,7 @@ int main(void) {
         cmocka_unit_test(test_convert),         cmocka_unit_test(test_srgb),
         cmocka_unit_test(test_relmse),          cmocka_unit_test(test_write_refusals),
         cmocka_unit_test(test_unwritable),      cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_old_file_stands),
+        cmocka_unit_test(test_old_file_stands), cmocka_unit_test(formats_that_are_not_read_are_named),
     };
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);
 }
