@@ -72,6 +72,7 @@ typedef struct WeftBakeDesc {
     int threads;           /* 0: all */
     WeftProgress progress; /* may be NULL; a result other than 0 stops */
     void *user;            /* of progress */
+    const WeftLog *log;    /* of warnings: a damaged cache is one; may be NULL */
 } WeftBakeDesc;
 
 /* What was baked, in words and numbers. */

@@ -69,7 +69,8 @@ typedef enum WeftSeverity {
     F(NORMALS_MISSING, "normals-missing", WARNING, 0, "a mesh has no normals, and is shown faceted")         \
     F(TANGENTS_MISSING, "tangents-missing", WARNING, 0,                                                      \
       "a normal map or a stretched highlight without tangents")                                              \
-    F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")
+    F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")                     \
+    F(IMAGE_UNREAD, "image-unread", ERROR, 0, "an image cannot be read")
 
 /* What is found: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {

@@ -40,14 +40,9 @@ static int outputs_check(const Options *options) {
     return result;
 }
 
-static void on_warning(void *user, WeftMessage message, const char *text) {
-    (void)message;
-    if (!((const Audit *)user)->common.quiet) report(0, "warning: %s", text);
-}
-
 static int audit_read(const Options *options, Audit *audit) {
     WeftError error;
-    const WeftLog log = {.fn = on_warning, .user = audit};
+    const WeftLog log = bake_log(&audit->common);
     const char *lobe = option_text(options, "--lobe");
     audit->options = options;
     if (options->operand_count < 2)

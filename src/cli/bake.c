@@ -2,6 +2,7 @@
  * somebody else's */
 #include "bake.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,13 @@ typedef struct Bake {
     WeftImage table;
     double seconds;
 } Bake;
+
+static void on_warning(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    if (!((const BakeCommon *)user)->quiet) report(0, "warning: %s", text);
+}
+
+WeftLog bake_log(const BakeCommon *common) { return (WeftLog){on_warning, (void *)(uintptr_t)common}; }
 
 static const WeftBakeKind *kind_of_table(const char *id) {
     char hint[96];
@@ -138,6 +146,8 @@ static int table_make(Bake *bake) {
     Progress progress = progress_start_count(bake->common.quiet, "texels", texels);
     bake->desc.progress = bake_progress;
     bake->desc.user = &progress;
+    const WeftLog log = bake_log(&bake->common);
+    bake->desc.log = &log;
     WeftResult result = weft_bake(&bake->desc, &bake->info, &bake->table, &error);
     progress_finish(&progress);
     bake->seconds = clock_seconds() - started;

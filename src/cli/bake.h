@@ -25,6 +25,9 @@ int bake_lobe(const Options *options, const char *id, WeftLobe *lobe);
 /* A WeftProgress whose user is a Progress; it stops at an interruption. */
 int bake_progress(void *progress, double fraction);
 
+/* Warnings go to standard error, unless --quiet is given. common must outlive the log. */
+WeftLog bake_log(const BakeCommon *common);
+
 /* weft bake fibre-model */
 int fibre_model_run(const Options *options);
 

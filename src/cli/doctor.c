@@ -67,32 +67,47 @@ static WeftResult fix(Visit *visit, WeftError *error) {
 
 /* Text. */
 
-/* An earlier finding that says the very same of another thing; NULL: there is none. */
-static const WeftFinding *said_before(const Visit *visit, int index) {
-    const WeftFinding *finding = weft_doctor_finding(visit->doctor, index);
-    for (int k = 0; k < index; k++) {
+/* Returns true if a finding says the very same of another thing. */
+static bool says_the_same(const WeftFinding *a, const WeftFinding *b) {
+    return a->kind == b->kind && a->of == b->of && a->fixable == b->fixable &&
+           strcmp(a->words, b->words) == 0;
+}
+
+static bool said_before(const Visit *visit, int index) {
+    for (int k = 0; k < index; k++)
+        if (says_the_same(weft_doctor_finding(visit->doctor, k), weft_doctor_finding(visit->doctor, index)))
+            return true;
+    return false;
+}
+
+/* "A, B, C and 5 more": what else a finding is said of; empty where it is nothing. */
+static const char *others_text(const Visit *visit, int index, char *text, size_t size) {
+    enum { NAMED = 6 };
+    int others = 0;
+    text[0] = '\0';
+    for (int k = index + 1; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *other = weft_doctor_finding(visit->doctor, k);
-        if (other->kind == finding->kind && other->of == finding->of && other->fixable == finding->fixable &&
-            strcmp(other->words, finding->words) == 0)
-            return other;
+        if (!says_the_same(weft_doctor_finding(visit->doctor, index), other) || others++ >= NAMED) continue;
+        size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%.60s", used ? ", " : "", other->subject);
     }
-    return NULL;
+    size_t used = strlen(text);
+    if (others > NAMED) snprintf(text + used, size - used, " and %d more", others - NAMED);
+    return text;
 }
 
 static void finding_text(const Visit *visit, int index) {
-    const WeftFinding *finding = weft_doctor_finding(visit->doctor, index),
-                      *other = said_before(visit, index);
-    char engines[160], text[800];
+    const WeftFinding *finding = weft_doctor_finding(visit->doctor, index);
+    char engines[160], text[800], others[500];
     engines_text(finding->engines, engines, sizeof engines);
-    if (other)
-        snprintf(text, sizeof text, "%s: as of %s", weft_finding_name((int)finding->kind), other->subject);
-    else
-        snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name((int)finding->kind),
-                 engines[0] ? " in " : "", engines, finding->words);
+    snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name((int)finding->kind), engines[0] ? " in " : "",
+             engines, finding->words);
     layout_entry(stdout, COLUMN, weft_severity_name(finding->severity), text);
-    if (other) return;
     snprintf(text, sizeof text, "%s: %s", finding->fixable ? "--fix" : "fix", finding->fix);
     if (finding->fix[0]) layout_entry(stdout, COLUMN, "", text);
+    if (!others_text(visit, index, others, sizeof others)[0]) return;
+    snprintf(text, sizeof text, "the same of %s", others);
+    layout_entry(stdout, COLUMN, "", text);
 }
 
 static void counted(const char *word, int count, const char *more) {
@@ -128,7 +143,7 @@ static void text_write(const Visit *visit) {
     counted("image", info.image_count, "\n");
     for (int k = 0; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);
-        if (!is_told(visit, finding)) continue;
+        if (!is_told(visit, finding) || said_before(visit, k)) continue;
         if (!before || before->of != finding->of || before->index != finding->index) {
             printf("\n%s", of_name(finding->of));
             if (finding->of != WEFT_OF_ASSET) printf(" %s", finding->subject);

@@ -129,7 +129,8 @@ typedef struct Node {
 typedef struct Asset {
     const char *name; /* subject of messages */
     bool in_memory;   /* then files beside it are refused */
-    bool examined;    /* by who shows nothing: no extension is refused, and nobody's textures are read too */
+    bool examined;    /* by who shows nothing: no extension is refused, nobody's textures are read too, and an
+                         image that cannot be read is a warning */
     const WeftLog *log;
     WeftError *error;
     WeftResult result;     /* of the first failure */

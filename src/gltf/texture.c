@@ -152,8 +152,14 @@ static void images_decode(Jobs *jobs) {
     order_find(jobs);
     if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
-        asset->result = jobs->items[i].result;
-        if (asset->result != WEFT_OK && asset->error) *asset->error = jobs->items[i].error;
+        const Job *job = &jobs->items[i];
+        if (asset->examined && job->result == WEFT_INPUT) {
+            if (asset->log && asset->log->fn)
+                asset->log->fn(asset->log->user, job->error.message, job->error.text);
+            continue;
+        }
+        asset->result = job->result;
+        if (asset->result != WEFT_OK && asset->error) *asset->error = job->error;
     }
 }
 

@@ -118,17 +118,35 @@ void doctor_soften(WeftDoctor *doctor) {
     doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
 }
 
-/* Warnings of the reader: that of an image becomes a finding, all go on to the caller. */
+/* The image of the file that a warning is about, -1 where it names none: "ASSET: images[3]: ...", or the path
+ * of its own file. */
+static int image_named(const WeftDoctor *doctor, const char *text) {
+    const char *images = strstr(text, "images[");
+    if (images) return atoi(images + strlen("images["));
+    for (int k = 0; k < (int)doctor->asset.image_count; k++) {
+        const char *uri = json_string_value(json_object_get(doctor_item(doctor, "images", k), "uri"));
+        const char *name = uri ? strrchr(uri, '/') : NULL,
+                   *at = uri ? strstr(text, name ? name + 1 : uri) : NULL;
+        if (at && at[strlen(name ? name + 1 : uri)] == ':') return k;
+    }
+    return -1;
+}
+
+/* Warnings of the reader: those of an image become findings, all go on to the caller but of an image that was
+ * not read, since that is all there is to say. */
 static void hear(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
-    const char *images = strstr(text, "images[");
-    if (message == WEFT_MESSAGE_IMAGE_REPAIRED) {
-        int index = images ? atoi(images + strlen("images[")) : -1;
+    bool unread = message == WEFT_MESSAGE_IMAGE_FORMAT || message == WEFT_MESSAGE_IMAGE_SIZE ||
+                  message == WEFT_MESSAGE_IMAGE_DAMAGED || message == WEFT_MESSAGE_IMAGE_UNSUPPORTED;
+    if (unread || message == WEFT_MESSAGE_IMAGE_REPAIRED) {
+        int index = image_named(doctor, text);
         Place place = {index < 0 ? WEFT_OF_ASSET : WEFT_OF_IMAGE, index < 0 ? 0 : index, NULL};
-        doctor_found(doctor, WEFT_FINDING_IMAGE_REPAIRED, place, 0, (double)NAN, NULL, "%s", text);
-        doctor_advise(doctor, "write the image again: other readers may refuse it");
+        doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0,
+                     (double)NAN, NULL, "%s", text);
+        doctor_advise(doctor, unread ? "write it as PNG or JPEG; what it would show was not looked at"
+                                     : "write the image again: other readers may refuse it");
     }
-    if (doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
+    if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }
 
 static void examine(WeftDoctor *doctor) {
@@ -181,13 +199,16 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
     *out = NULL;
     if (!doctor) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     doctor->scene = alloc_array(1, sizeof *doctor->scene);
+    if (!doctor->scene) {
+        free(doctor);
+        return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    }
     if (log) doctor->log = *log;
-    if (doctor->scene) doctor->scene->srgb = srgb_table();
+    doctor->scene->srgb = srgb_table();
     doctor->own = (WeftLog){hear, doctor};
     doctor->asset =
         (Asset){.error = &doctor->error, .scene = doctor->scene, .examined = true, .log = &doctor->own};
-    if (!doctor->scene) asset_fail(&doctor->asset, WEFT_MESSAGE_MEMORY, NULL);
-    if (doctor->scene) gltf_open(&doctor->asset, path, data, size);
+    gltf_open(&doctor->asset, path, data, size);
     gltf_read_parts(&doctor->asset);
     if (doctor->asset.result == WEFT_OK)
         doctor->pixels = alloc_array((size_t)doctor->scene->image_count, sizeof *doctor->pixels);

@@ -86,6 +86,10 @@ int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 
+/* The pixel nearest to u, v, each in [0, 1): its numbers, and of a colour what they mean as linear ones. */
+void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
+void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
+
 /* The mean of a factor, clamped to 0 .. 1, times its texture: of a colour linear; of a number its channel. */
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]);

@@ -75,10 +75,31 @@ static void pixel_read(const WeftImage *image, size_t pixel, float rgba[4]) {
     rgba[3] = image->channels % 2 ? 1.0f : pixel_value(image, at + (size_t)image->channels - 1);
 }
 
-static void pixels_survey(const WeftImage *image, Pixels *out) {
+static size_t nearest_pixel(const WeftImage *image, float u, float v) {
+    return (size_t)(v * (float)image->height) * (size_t)image->width + (size_t)(u * (float)image->width);
+}
+
+void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]) {
+    float rgba[4];
+    pixel_read(image, nearest_pixel(image, u, v), rgba);
+    memcpy(rgb, rgba, 3 * sizeof *rgb);
+}
+
+/* A number of a colour, decoded from sRGB where the image holds integers. */
+static float linear_of(const SrgbTable *srgb, const WeftImage *image, float value) {
+    bool integer = image->type != WEFT_PIXEL_F32;
+    int step = integer ? (int)(value * 255.0f + 0.5f) : 0;
+    return integer ? srgb->linear[step & 255] : value;
+}
+
+void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]) {
+    doctor_texel(image, u, v, rgb);
+    for (int c = 0; c < 3; c++) rgb[c] = linear_of(&doctor->scene->srgb, image, rgb[c]);
+}
+
+static void pixels_survey(const SrgbTable *srgb, const WeftImage *image, Pixels *out) {
     size_t count = (size_t)image->width * (size_t)image->height;
     double sum[4] = {0.0}, linear[3] = {0.0};
-    const SrgbTable srgb = srgb_table();
     for (int c = 0; c < 4; c++) out->low[c] = INFINITY, out->high[c] = -INFINITY;
     for (size_t k = 0; k < count; k++) {
         float rgba[4];
@@ -87,10 +108,7 @@ static void pixels_survey(const WeftImage *image, Pixels *out) {
             out->low[c] = fminf(out->low[c], rgba[c]);
             out->high[c] = fmaxf(out->high[c], rgba[c]);
             sum[c] += (double)rgba[c];
-            if (c == 3) continue;
-            bool integer = image->type != WEFT_PIXEL_F32;
-            int step = integer ? (int)(rgba[c] * 255.0f + 0.5f) : 0;
-            linear[c] += (double)(integer ? srgb.linear[step & 255] : rgba[c]);
+            if (c < 3) linear[c] += (double)linear_of(srgb, image, rgba[c]);
         }
     }
     for (int c = 0; c < 4; c++) out->mean[c] = (float)(sum[c] / (double)count);
@@ -102,7 +120,7 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     int image = image_of(doctor, info);
     if (image < 0 || !doctor->scene->images[image].pixels) return NULL;
     Pixels *pixels = &doctor->pixels[image];
-    if (!pixels->known) pixels_survey(&doctor->scene->images[image], pixels);
+    if (!pixels->known) pixels_survey(&doctor->scene->srgb, &doctor->scene->images[image], pixels);
     return pixels;
 }
 

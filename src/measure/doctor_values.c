@@ -156,9 +156,41 @@ static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
     if (!cloth->sheen) doctor_soften(doctor);
 }
 
+/* The mean reflectance of a material where it is metal; 1 where it nowhere is. Base colour and metalness are
+ * looked up at the same places of an even grid, since a texture may have paint beside chrome, and the mean of
+ * both is neither. A texture transform or another set of coordinates would move one against the other: then
+ * the means of the whole have to do. */
+static float metal_luminance(WeftDoctor *doctor, const Cloth *cloth) {
+    enum { SIDE = 128 };
+    json_t *base_info = doctor_part(cloth->json, PBR("baseColorTexture")),
+           *metal_info = doctor_part(cloth->json, PBR("metallicRoughnessTexture"));
+    const WeftImage *base = doctor_image(doctor, base_info), *metal = doctor_image(doctor, metal_info);
+    bool moved = json_object_get(base_info, "extensions") || json_object_get(metal_info, "extensions") ||
+                 json_object_get(base_info, "texCoord") || json_object_get(metal_info, "texCoord");
+    if (!metal || moved) return luminance(cloth->base);
+    double metallic = 1.0, factors[3] = {1.0, 1.0, 1.0}, sum = 0.0;
+    int texels = 0;
+    doctor_numbers(cloth->json, PBR("metallicFactor"), &metallic, 1);
+    doctor_numbers(cloth->json, PBR("baseColorFactor"), factors, 3);
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        const float u = ((float)(k % SIDE) + 0.5f) / SIDE, v = ((float)(k / SIDE) + 0.5f) / SIDE;
+        float color[3] = {1.0f, 1.0f, 1.0f};
+        doctor_texel(metal, u, v, color);
+        if (!((double)color[2] * metallic > 0.5)) continue;
+        if (base) doctor_texel_linear(doctor, base, u, v, color);
+        for (int c = 0; c < 3; c++)
+            color[c] = (float)clamped(factors[c], 0.0, 1.0) * (base ? color[c] : 1.0f);
+        sum += (double)luminance(color);
+        texels++;
+    }
+    return texels ? (float)(sum / texels) : 1.0f;
+}
+
 /* Of a metal under a sheen that is said already. */
-static void check_metal_base(WeftDoctor *doctor, const Cloth *cloth, Place place, float y) {
-    if (y >= METAL_LOW || y < 0.0f || cloth->sheen) return;
+static void check_metal_base(WeftDoctor *doctor, const Cloth *cloth, Place place) {
+    if (cloth->sheen) return;
+    float y = metal_luminance(doctor, cloth);
+    if (y >= METAL_LOW || y < 0.0f) return;
     doctor_found(doctor, WEFT_FINDING_METAL_DARK, place, 0, (double)y, NULL,
                  "a metal (metallic %.3g) whose reflectance is %.3g; metals have %.3g and more",
                  (double)cloth->metallic, (double)y, (double)METAL_LOW);
@@ -176,7 +208,7 @@ static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
     float y = luminance(cloth->base);
     if (doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
     if (cloth->metallic > 0.5f) {
-        check_metal_base(doctor, cloth, place, y);
+        check_metal_base(doctor, cloth, place);
         return;
     }
     check_bright(doctor, cloth, place);

@@ -12,7 +12,7 @@
 #include "weft/save.h"
 
 /* Pictures of 4 x 4 pixels. */
-typedef enum Picture { COLORS, ALPHAS, BLACK, GREY, PLAIN, LINEAR, DAMAGED } Picture;
+typedef enum Picture { COLORS, ALPHAS, BLACK, GREY, PLAIN, CHROME, LINEAR, DAMAGED, KTX2 } Picture;
 
 static void paint(Picture picture, WeftImage *image) {
     WeftError error;
@@ -25,6 +25,7 @@ static void paint(Picture picture, WeftImage *image) {
             if (picture == GREY) value = 180 + 4 * k;
             if (picture == BLACK) value = 0;
             if (picture == PLAIN) value = 200;
+            if (picture == CHROME) value = k < 9 ? 230 : 0; /* the rest is paint */
             if (picture == ALPHAS && c == 3) value = 200 + 3 * k;
             p[channels * k + c] = (uint8_t)value;
         }
@@ -73,6 +74,7 @@ static const char *picture_uri(Picture picture) {
     WeftError error;
     const WeftImageWriting how = {.data = 1};
     if (picture == DAMAGED) return uri(bytes, damaged(bytes));
+    if (picture == KTX2) return uri((const unsigned char *)"\xabKTX 20\xbb\r\n\x1a\n and more", 21);
     paint(picture, &image);
     FILE *stream = open_memstream(&png, &size);
     assert_int_equal(image_write_png(stream, "picture", &image, &how, &error), WEFT_OK);
@@ -151,6 +153,7 @@ static const Case cases[] = {
      NULL, NULL, COLORS},
     {WEFT_FINDING_IMAGE_REPAIRED, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL,
      DAMAGED},
+    {WEFT_FINDING_IMAGE_UNREAD, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, KTX2},
     {WEFT_FINDING_SHEEN_BLACK,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenRoughnessFactor':0.8}}", NULL, NULL, NULL,
      COLORS},
@@ -248,6 +251,28 @@ static WeftDoctor *examine(const char *text) {
     if (weft_doctor_open_memory(text, strlen(text), "case", &doctor, NULL, &error) != WEFT_OK)
         fail_msg("%s\n%s", error.text, text);
     return doctor;
+}
+
+/* Chrome beside black paint: the mean of both is darker than metals are, but no texel of metal is. */
+static void paint_beside_chrome_is_no_dark_metal(void **state) {
+    (void)state;
+    char *chrome = strdup(picture_uri(CHROME));
+    for (int dark = 0; dark < 2; dark++) {
+        char *text =
+            json("{'asset':{'version':'2.0'}," SQUARE_DATA ",'images':[{'uri':'%s'},{'uri':'%s'}],'textures':"
+                 "[{'source':0},{'source':1}],'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
+                 "{'index':0},'metallicRoughnessTexture':{'index':1},'baseColorFactor':[%s,1]}}],"
+                 "'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
+                 SQUARE_URI, chrome, chrome, dark ? "0.5,0.5,0.5" : "1,1,1", ALL);
+        WeftDoctor *doctor = examine(text);
+        int found = 0;
+        for (int k = 0; k < weft_doctor_count(doctor); k++)
+            found += weft_doctor_finding(doctor, k)->kind == WEFT_FINDING_METAL_DARK;
+        assert_int_equal(found, dark);
+        weft_doctor_free(doctor);
+        free(text);
+    }
+    free(chrome);
 }
 
 static void whole_words(const WeftFinding *finding) {
@@ -574,6 +599,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_finds_its_own),
         cmocka_unit_test(every_finding_has_a_case),
+        cmocka_unit_test(paint_beside_chrome_is_no_dark_metal),
         cmocka_unit_test(what_is_fixed_stays_fixed),
         cmocka_unit_test(roughness_moves_to_alpha),
         cmocka_unit_test(shared_roughness_stays_shared),
