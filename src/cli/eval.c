@@ -128,8 +128,10 @@ typedef struct Lines {
 /* One line, a zero at its end. */
 static int take_line(const Lines *lines, const char *line, size_t length, Batch *batch, const Task *task) {
     double numbers[4];
+    bool marked = lines->count == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0; /* U+FEFF, from a spreadsheet */
     if (length > LINE_MOST || strlen(line) != length)
         return report(WEFT_INPUT, "%s: line %lld: is too long or not text", lines->name, lines->count);
+    if (marked) line += 3;
     const char *first = line + strspn(line, " \t\r");
     if (*first == '\0' || *first == '#') return 0;
     if (!line_numbers(line, task->count, numbers) || !task->take(batch, numbers))

@@ -1,5 +1,6 @@
 /* main.c - the weft program: finds the verb and hands over */
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -94,10 +95,12 @@ static int dispatch(int count, char **arguments) {
 }
 
 int main(int count, char **arguments) {
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
     int result = dispatch(count, arguments);
     errno = 0;
     int flushed = fflush(stdout);
-    if ((flushed != 0 || ferror(stdout)) && result == 0)
+    if ((flushed != 0 || ferror(stdout)) &&
+        (result == 0 || result == WEFT_FAILED)) /* which only stdout tells */
         result = report(WEFT_RESOURCES, "standard output: cannot be written%s%s", errno ? ": " : "",
                         errno ? strerror(errno) : "");
     return result;

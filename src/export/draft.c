@@ -50,9 +50,16 @@ AlbedoTable *draft_albedo(Draft *draft) {
 
 void draft_identifier(const char *name, char id[DRAFT_ID]) {
     int size = 0;
-    if (*name >= '0' && *name <= '9') id[size++] = '_';
-    for (; *name && size < DRAFT_ID - 1; name++)
-        id[size++] = is_name(*name) ? (char)(*name >= 'A' && *name <= 'Z' ? *name - 'A' + 'a' : *name) : '_';
+    if (is_digit(*name)) id[size++] = 'm';
+    for (; *name && size < DRAFT_ID - 1; name++) {
+        bool letter = is_name(*name) && *name != '_';
+        if (letter)
+            id[size++] = (char)(*name >= 'A' && *name <= 'Z' ? *name - 'A' + 'a' : *name);
+        else if (size && id[size - 1] != '_')
+            id[size++] = '_';
+    }
+    while (size && id[size - 1] == '_') size--;
+    if (!size) id[size++] = 'm';
     id[size] = 0;
 }
 

@@ -42,7 +42,9 @@ AlbedoTable *draft_albedo(Draft *draft);
 /* Closes the text, folds it and keeps what the roots need. */
 WeftResult draft_cut(Draft *draft, WeftError *error);
 
-/* "a-b" as an identifier. */
+/* "a-b" as an identifier, to which a prefix and endings with '_' may be joined: '_' stands neither first nor
+ * last nor twice in a row, since GLSL keeps names with "__" for itself (OpenGL Shading Language 4.60,
+ * section 3.7). */
 void draft_identifier(const char *name, char id[DRAFT_ID]);
 
 /* A lobe's functions; which: 0, or 1 for that on the right. */

@@ -156,6 +156,18 @@ static void lines_that_say_nothing_are_passed_over(void **state) {
     ran_free(&ran);
 }
 
+/* As spreadsheets write it in front of a table. */
+static void a_byte_order_mark_is_passed_over(void **state) {
+    (void)state;
+    Ran plain = run_with("10,20,30,40\n", LIST("eval", "lambert")),
+        marked = run_with("\xef\xbb\xbf"
+                          "10,20,30,40\n",
+                          LIST("eval", "lambert"));
+    assert_int_equal(marked.code, 0);
+    assert_string_equal(marked.out, plain.out);
+    ran_free(&plain), ran_free(&marked);
+}
+
 /* What comes before the bad line is answered, the line is named, nothing after it is read. */
 static void malformed_lines_are_named(void **state) {
     (void)state;
@@ -276,6 +288,7 @@ int main(void) {
         cmocka_unit_test(file_and_input_are_the_same),
         cmocka_unit_test(horizon_and_beyond_are_zero),
         cmocka_unit_test(lines_that_say_nothing_are_passed_over),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(malformed_lines_are_named),
         cmocka_unit_test(albedo_of_lambert_is_one),
         cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),

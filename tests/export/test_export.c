@@ -138,6 +138,27 @@ static void pi_gives_one_picture(void **state) {
     assert_int_equal(system(command), 0);
 }
 
+/* GLSL keeps names with "__" for itself, and any program may call a material anything. */
+static void no_name_has_two_underscores(void **state) {
+    (void)state;
+    static const char *const names[] = {"my  cloth", "__", "-rim-", "9 lives_", "\xc3\xa9t\xc3\xa9"};
+    WeftMaterial material;
+    WeftError error;
+    weft_material_default(&material);
+    for (int target = 0; target < WEFT_EXPORT_TARGETS; target++)
+        for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+            const WeftExportDesc desc = {.target = (WeftExportTarget)target,
+                                         .material = &material,
+                                         .name = names[k],
+                                         .prefix = k % 2 ? "" : NULL};
+            WeftExport made;
+            if (weft_export(&desc, &made, &error) != WEFT_OK) fail_msg("%s", error.text);
+            const char *code = strstr(made.text, "*/"), *twice = code ? strstr(code, "__") : NULL;
+            if (twice) fail_msg("%s: %.40s", names[k], twice);
+            weft_export_free(&made);
+        }
+}
+
 static void nonsense_is_refused(void **state) {
     (void)state;
     WeftLobe ggx, walk, none = {.lobe = 9999};
@@ -178,9 +199,8 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_are_clean),
-        cmocka_unit_test(nothing_is_idle),
-        cmocka_unit_test(pi_gives_one_picture),
+        cmocka_unit_test(texts_are_clean),      cmocka_unit_test(nothing_is_idle),
+        cmocka_unit_test(pi_gives_one_picture), cmocka_unit_test(no_name_has_two_underscores),
         cmocka_unit_test(nonsense_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, NULL);

@@ -1,0 +1,157 @@
+/* What a hostile or careless user hands over: one line and the right exit code, never a signal or a wait
+ * without end. */
+#include "run.h"
+
+#include <sys/stat.h>
+
+#include "weft/weft.h"
+
+#define TINY "--width=16", "--height=16", "--spp=1", "--quiet"
+
+static void cameras_out_of_reach_are_refused(void **state) {
+    (void)state;
+    assert_complaint(NULL,
+                     LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "1.9e18,1,3;0,0,0;45"), 2,
+                     "beyond 1e15 m");
+    assert_complaint(NULL,
+                     LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "0,1,3;0,0,-3e38;45"), 2,
+                     "beyond 1e15 m");
+    size_t size;
+    char *text = file_bytes("scene.gltf", &size), *at = strstr(text, "[0,0,3]"), far[4096];
+    assert_non_null(at);
+    snprintf(far, sizeof far, "%.*s[0,0,3e19]%s", (int)(at - text), text, at + strlen("[0,0,3]"));
+    file_make("far.gltf", far, strlen(far));
+    free(text);
+    assert_complaint(NULL, LIST("render", "far.gltf", TINY, "-o", "a.png"), 3,
+                     "cameras[0]: its node is too far away");
+    Ran ran = RUN("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "9e14,1,3;0,0,0;45");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
+/* The widest scene there may be, and the narrowest picture: the camera would back off beyond Embree's
+ * numbers. */
+static void a_picture_seen_from_out_of_reach_is_refused(void **state) {
+    (void)state;
+    size_t size;
+    char *text = file_bytes("scene.gltf", &size), *at = strstr(text, "{\"mesh\":0}"), wide[4096];
+    assert_non_null(at);
+    snprintf(wide, sizeof wide, "%.*s{\"mesh\":0,\"scale\":[9e14,9e14,9e14]}%s", (int)(at - text), text,
+             at + strlen("{\"mesh\":0}"));
+    file_make("wide.gltf", wide, strlen(wide));
+    free(text);
+    assert_complaint(NULL,
+                     LIST("render", "wide.gltf", "--width=1", "--height=60000", "--spp=1", "-o", "a.png"), 2,
+                     "beyond 1e18 m");
+}
+
+static void pipes_and_devices_are_refused_at_once(void **state) {
+    (void)state;
+    static const char asset[] = "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"pipe\","
+                                "\"byteLength\":36}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                                "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+                                "\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+                                "{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0}]}";
+    file_make("piped.gltf", asset, sizeof asset - 1);
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    assert_complaint(NULL, LIST("render", "piped.gltf", TINY, "-o", "a.png"), 3,
+                     "pipe: cannot be read: it is not a plain");
+    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--env", "pipe"), 3,
+                     "not a plain file");
+    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--env", "/dev/zero"), 3,
+                     "/dev/zero: cannot be read: it is not a plain file");
+    assert_complaint(NULL, LIST("doctor", "pipe"), 3, "not a plain file");
+    assert_complaint(NULL, LIST("fit", "pipe"), 3, "not a plain file");
+    assert_complaint(NULL, LIST("diff", "pipe", "pipe"), 3, "not a plain file");
+    unlink("pipe");
+}
+
+/* The program runs once to have its cache, of which every file becomes a pipe. */
+static void caches_that_are_pipes_are_passed_over(void **state) {
+    (void)state;
+    Ran ran = run_shell("export XDG_CACHE_HOME=$PWD/cache && $0 bake ltc ggx --size 4x4 -o a.npy --quiet && "
+                        "cd cache/weft && for f in *.ltc; do rm $f && mkfifo $f; done && cd ../.. && "
+                        "timeout 60 $0 bake ltc ggx --size 4x4 -o b.npy && cmp a.npy b.npy");
+    if (ran.code != 0 || !strstr(ran.err, "is not used as a cache"))
+        fail_msg("%d: %s%s", ran.code, ran.out, ran.err);
+    ran_free(&ran);
+    ran = run_shell("rm -r cache");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
+static void damaged_caches_are_told(void **state) {
+    (void)state;
+    Ran ran = run_shell("export XDG_CACHE_HOME=$PWD/cache && $0 bake ltc ggx --size 4x4 -o a.npy --quiet && "
+                        "for f in cache/weft/*.ltc; do echo x >> $f; done && "
+                        "$0 bake ltc ggx --size 4x4 -o b.npy && cmp a.npy b.npy");
+    if (ran.code != 0 || !strstr(ran.err, "warning: ") || !strstr(ran.err, "is not used as a cache"))
+        fail_msg("%d: %s%s", ran.code, ran.out, ran.err);
+    ran_free(&ran);
+    ran = run_shell("rm -r cache");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
+/* eval reads lines as they come and may wait for them; a signal ends that. */
+static void eval_that_waits_for_a_pipe_ends_by_a_signal(void **state) {
+    (void)state;
+    assert_int_equal(mkfifo("lines", 0600), 0);
+    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("eval", "ggx", "lines"));
+    sleep_seconds(0.1);
+    kill(child, SIGTERM);
+    Ran ran = program_end(child);
+    assert_int_equal(ran.code, 128 + SIGTERM);
+    ran_free(&ran);
+    unlink("lines");
+}
+
+static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state) {
+    (void)state;
+    Ran ran =
+        run_shell("mkdir limit && cd limit && cp ../scene.gltf . && ulimit -f 8 && "
+                  "$0 render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.exr; e=$?; ls; cd ..; "
+                  "rm -r limit; exit $e");
+    if (ran.code != 4 || !one_complaint(ran.err)) fail_msg("%d: %s", ran.code, ran.err);
+    assert_non_null(strstr(ran.err, "a.exr: cannot be written"));
+    assert_string_equal(ran.out, "scene.gltf\n");
+    ran_free(&ran);
+}
+
+static void a_report_that_cannot_be_written_is_told(void **state) {
+    (void)state;
+    Ran found = run_shell("$0 doctor scene.gltf > /dev/null"),
+        lost = run_shell("$0 doctor scene.gltf > /dev/full");
+    assert_int_equal(found.code, 1); /* or the test says nothing */
+    assert_int_equal(lost.code, 4);
+    assert_true(one_complaint(lost.err));
+    ran_free(&found), ran_free(&lost);
+}
+
+static void a_damaged_picture_is_no_lack_of_memory(void **state) {
+    (void)state;
+    const char *folder = getenv("WEFT_DATA");
+    char path[1024];
+    snprintf(path, sizeof path, "%s/malformed/undecodable.exr",
+             folder ? folder : WEFT_SOURCE_DIR "/../shared/data");
+    if (access(path, R_OK) != 0) {
+        print_message("%s is not there (WEFT_DATA can name another folder)\n", path);
+        skip();
+    }
+    assert_complaint(NULL, LIST("diff", path, path), 3, "undecodable.exr: is damaged");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cameras_out_of_reach_are_refused),
+        cmocka_unit_test(a_picture_seen_from_out_of_reach_is_refused),
+        cmocka_unit_test(pipes_and_devices_are_refused_at_once),
+        cmocka_unit_test(caches_that_are_pipes_are_passed_over),
+        cmocka_unit_test(damaged_caches_are_told),
+        cmocka_unit_test(eval_that_waits_for_a_pipe_ends_by_a_signal),
+        cmocka_unit_test(a_file_beyond_its_limit_is_one_line_and_leaves_nothing),
+        cmocka_unit_test(a_report_that_cannot_be_written_is_told),
+        cmocka_unit_test(a_damaged_picture_is_no_lack_of_memory),
+    };
+    return cmocka_run_group_tests(tests, scene_begin, work_end);
+}
