@@ -251,8 +251,8 @@ static void print_errors(const Lobe *lobe, float *f[7]) {
 static const struct {
     int id;
     const char *function;
-} named[] = {{LOBE_CHARLIE_NEUBELT, "charlie_neubelt_eval_n"},
-             {LOBE_CHARLIE_CONTY_KULLA, "charlie_conty_kulla_eval_n"}};
+} named[] = {{LOBE_CHARLIE_NEUBELT, "charlie_neubelt_f_n"},
+             {LOBE_CHARLIE_CONTY_KULLA, "charlie_conty_kulla_f_n"}};
 enum { NAMED_LOBES = sizeof named / sizeof named[0] };
 
 int main(int argc, char **argv) {

@@ -23,7 +23,7 @@ typedef struct Difference {
 static LtcEntries entries_of(WeftLtcLobe at) { return (LtcEntries){at.z, at.q, at.b, at.r}; }
 
 static Difference difference(LtcTarget *target, const WeftLtc *ltc, const Lobe *lobe, float cos_o, float f0) {
-    float second = lobe_second(*lobe, f0, 1.0f);
+    float second = lobe_second(lobe, f0, 1.0f);
     WeftLtcLobe at = weft_ltc_at(ltc, cos_o, lobe->params[0]);
     Ltc m = ltc_of(at.z, at.q, at.b, at.r, cos_o);
     ltc_target_look(target, cos_o);

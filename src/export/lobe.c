@@ -9,32 +9,33 @@
 #include "text/number.h"
 #include "text/tables.h"
 
-typedef struct Names {
-    const char *prefix, *record;
-} Names;
-
-#define NAMES(id, name, Record, NAME) {#name, #Record},
-static const Names names[LOBE_COUNT] = {WEFT_LOBES(NAMES)};
-
-const char *draft_lobe_record(int lobe) { return names[lobe].record; }
+const char *draft_lobe_record(int lobe) { return lobe_names(lobe)->record; }
 
 bool draft_lobe_rough(const WeftLobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     return info->param_count > 0 && !info->params[0].choices;
 }
 
-/* The names of the lobe's own f and pdf make room for those that an engine calls. */
+/* The name of the lobe's own sampler makes room for that which an engine calls. */
 static void rename_own(Text *text, const char *name) {
     char from[96], to[96];
-    snprintf(from, sizeof from, "%s_eval", name);
-    snprintf(to, sizeof to, "%s_eval_at", name);
-    text_define(text, from, to);
-    snprintf(from, sizeof from, "%s_pdf", name);
-    snprintf(to, sizeof to, "%s_pdf_at", name);
+    snprintf(from, sizeof from, "%s_sample", name);
+    snprintf(to, sizeof to, "%s_sample_seen", name);
     text_define(text, from, to);
 }
 
-static void put_default(Text *text, const WeftLobe *lobe, const Names *own) {
+/* What a lobe without a tint is asked for. */
+static void put_plain_value(Text *text, bool two) {
+    const char *share = two ? " float s;" : "";
+    text_provide(text, "shading/lobe_value.h");
+    text_line(text,
+              "\nstruct LobeValue { float f;%s float pdf; };\n"
+              "LobeValue lobe_value_of(float f, float s, float pdf) {\n    LobeValue v;\n    v.f = f;\n%s"
+              "    v.pdf = pdf;\n    return v;\n}",
+              share, two ? "    v.s = s;\n" : "");
+}
+
+static void put_default(Text *text, const WeftLobe *lobe, const LobeNames *own) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     text_line(text, "\n%s %s_default() {\n    %s m;", own->record, own->prefix, own->record);
     for (int k = 0; k < info->param_count; k++) {
@@ -51,7 +52,7 @@ static void put_default(Text *text, const WeftLobe *lobe, const Names *own) {
     text_line(text, "    return m;\n}");
 }
 
-static void put_rough(Text *text, const WeftLobe *lobe, const Names *own) {
+static void put_rough(Text *text, const WeftLobe *lobe, const LobeNames *own) {
     const WeftParamInfo *p = &weft_lobe_info(lobe->lobe)->params[0];
     char value[96] = "roughness";
     if (strcmp(p->name, "alpha") == 0)
@@ -66,51 +67,75 @@ static void put_rough(Text *text, const WeftLobe *lobe, const Names *own) {
               number(p->hard_low).text, number(p->hard_high).text);
 }
 
+/* What all below begin with: the lobe prepared for wo. */
+static void put_seen(Text *text, const LobeNames *own) {
+    const char *p = own->prefix, *r = own->record;
+    text_line(text, "    %sPrepared p;\n    %sView w;\n    %s_prepare(m, p);\n    %s_view(p, wo, w);", r, r,
+              p, p);
+}
+
+/* Whether the second colour is made, and not the user's own. */
+static bool has_second(const LobeNames *own) {
+    char file[96], function[96];
+    snprintf(file, sizeof file, "lobes/%s.h", own->prefix);
+    snprintf(function, sizeof function, "float %s_second(", own->prefix);
+    return strstr(weft_catalogue_text(file), function) != NULL;
+}
+
 /* f in a colour: a factor, a mixture of two, or what fibres of that albedo make of it. */
-static void put_eval(Text *text, const WeftLobe *lobe, const Names *own, bool folded) {
+static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, bool folded) {
     unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
     bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
     text_include(text, "shading/rgb.h");
     text_line(text,
               "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
-              "Dir wi) {",
+              "Dir wi) {\n    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
               folded ? " times pi, without the cosine," : ", 1/sr, without the cosine,",
               two      ? " color is f0, second f90 or the colour of the weft."
               : tinted ? " color is the albedo of a fibre, in [0, 1]."
                        : "",
               p, own->record, two ? "Rgb second, " : "");
-    text_line(
-        text,
-        "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Angles a = angles_between(wo, wi);");
+    put_seen(text, own);
+    text_line(text, "    LobeValue v = %s_value(p, w, angles_between(wo, wi));", p);
     if (tinted)
         text_line(
             text,
-            "    %sReady r = %s_ready(m);\n    Tint t = %s_tint(r, a);\n    float f = %s%s_eval_at(r, a);\n"
-            "    return rgb(f * tint_color(t, color.r), f * tint_color(t, color.g), "
-            "f * tint_color(t, color.b));\n}",
-            own->record, p, p, pi, p);
-    else if (two)
+            "    Rgb c = rgb(tint_color(v.tint, color.r), tint_color(v.tint, color.g), tint_color(v.tint, "
+            "color.b));\n    return rgb_scale(c, %sv.f);\n}",
+            pi);
+    else if (two && has_second(own))
         text_line(text,
                   "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
                   "                    %s_second(m, color.b, second.b));\n"
-                  "    return rgb_scale(rgb_mix(color, other, %s_share(m, a)), %s%s_eval_at(m, a));\n}",
-                  p, p, p, p, pi, p);
+                  "    return rgb_scale(rgb_mix(color, other, v.s), %sv.f);\n}",
+                  p, p, p, pi);
+    else if (two)
+        text_line(text, "    return rgb_scale(rgb_mix(color, second, v.s), %sv.f);\n}", pi);
     else
-        text_line(text, "    return rgb_scale(color, %s%s_eval_at(m, a));\n}", pi, p);
+        text_line(text, "    return rgb_scale(color, %sv.f);\n}", pi);
 }
 
-static void put_pdf(Text *text, const Names *own) {
+static void put_pdf(Text *text, const LobeNames *own) {
     text_line(text,
               "\n/* Density of %s_sample at wi, 1/sr; 0 below the horizon. */\n"
-              "float %s_pdf(%s m, Dir wo, Dir wi) {\n"
-              "    if (wo.z <= 0.0 || wi.z <= 0.0) return 0.0;\n"
-              "    return %s_pdf_at(m, angles_between(wo, wi));\n}",
-              own->prefix, own->prefix, own->record, own->prefix);
+              "float %s_pdf(%s m, Dir wo, Dir wi) {\n    if (wo.z <= 0.0 || wi.z <= 0.0) return 0.0;",
+              own->prefix, own->prefix, own->record);
+    put_seen(text, own);
+    text_line(text, "    return %s_value(p, w, angles_between(wo, wi)).pdf;\n}", own->prefix);
+}
+
+static void put_sample(Text *text, const LobeNames *own) {
+    text_line(text,
+              "\n/* A wi for u and v in [0, 1), which may lie below the horizon: that is no sample. */\n"
+              "Dir %s_sample(%s m, Dir wo, float u, float v) {",
+              own->prefix, own->record);
+    put_seen(text, own);
+    text_line(text, "    return %s_sample_seen(p, w, wo, u, v);\n}", own->prefix);
 }
 
 /* E of the white lobe, over its first parameter. */
-static void put_albedo(Draft *draft, const WeftLobe *lobe, const Names *own) {
+static void put_albedo(Draft *draft, const WeftLobe *lobe, const LobeNames *own) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     AlbedoTable *table = draft_albedo(draft);
     Lobe of;
@@ -135,10 +160,12 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const Names *own) {
 }
 
 void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
-    const Names *own = &names[lobe->lobe];
+    const LobeNames *own = lobe_names(lobe->lobe);
     Text *text = &draft->text;
     rename_own(text, own->prefix);
+    unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     text_include(text, "shading/angles.h");
+    if (!(traits & TRAIT_TINTED)) put_plain_value(text, traits & TRAIT_TWO_COLORS);
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);
     if (draft_lobe_rough(lobe)) put_rough(text, lobe, own);
@@ -149,6 +176,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     if (draft_lobe_rough(lobe)) draft_root(draft, "%s_rough", own->prefix);
     if (draft->desc->target == WEFT_EXPORT_SHADERTOY) return;
     put_pdf(text, own);
+    put_sample(text, own);
     draft_root(draft, "%s_pdf", own->prefix);
     draft_root(draft, "%s_sample", own->prefix);
     if (draft->desc->albedo) put_albedo(draft, lobe, own);

@@ -57,7 +57,7 @@ BakeTexel bake_texel(const BakePlane *plane, int x, int y) {
     const Albedo e = albedo_quadrature_error(&lobe, wo, plane->tolerance, &texel.error);
     texel.part[WEFT_TABLE_F0] = e.f0;
     texel.part[WEFT_TABLE_F90] = e.f90;
-    texel.part[WEFT_TABLE_SUM] = e.f0 + e.f90 * lobe_second(lobe, 1.0f, 1.0f);
+    texel.part[WEFT_TABLE_SUM] = e.f0 + e.f90 * lobe_second(&lobe, 1.0f, 1.0f);
     return texel;
 }
 

@@ -36,7 +36,7 @@ static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc
                     (double)desc->f90);
     bool white = !(desc->f0 + desc->f90 > 0.0f);
     ltc->f0 = white ? 1.0f : desc->f0;
-    ltc->second = lobe_second(ltc->lobe, ltc->f0, white ? 1.0f : desc->f90);
+    ltc->second = lobe_second(&ltc->lobe, ltc->f0, white ? 1.0f : desc->f90);
     ltc->norm = desc->norm ? desc->norm : 1;
     ltc->level = desc->level != 0;
     ltc->columns = desc->columns ? desc->columns : 32;

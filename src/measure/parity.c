@@ -16,7 +16,7 @@ static const char body[] =
     "    Lobe m;\n    m.id = in0.w < 2.0 ? FIRST : -1;\n" /* no constant to the compiler */
     "    for (int k = 0; k < 4; k++) {\n"
     "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
-    "    LobeValue v = lobe_at(m, angles_between(dir(in0.x, in0.y, in0.z), dir(in1.x, in1.y, in1.z)));\n"
+    "    LobeValue v = lobe_value(m, angles_between(dir(in0.x, in0.y, in0.z), dir(in1.x, in1.y, in1.z)));\n"
     "    out0 = vec4(v.f * lobe_color(v, 1.0, lobe_second(m, 1.0, 1.0)), v.pdf,\n"
     "                v.f * lobe_color(v, 0.5, lobe_second(m, 0.5, 1.0)), 0.0);\n";
 
@@ -53,9 +53,9 @@ static void compare(const Subject *subject, const Arrays *arrays, WeftPassport *
         const float *o = arrays->in[0] + 4 * k, *i = arrays->in[1] + 4 * k, *gpu = arrays->out + 4 * k;
         Lobe lobe = subject_lobe(subject, (int)(k % (size_t)subject->rows));
         LobeValue v = lobe_value(&lobe, angles_between(dir(o[0], o[1], o[2]), dir(i[0], i[1], i[2])));
-        const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(lobe, 1.0f, 1.0f))),
+        const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(&lobe, 1.0f, 1.0f))),
                                    (double)v.pdf,
-                                   (double)(v.f * lobe_color(v, 0.5f, lobe_second(lobe, 0.5f, 1.0f)))};
+                                   (double)(v.f * lobe_color(v, 0.5f, lobe_second(&lobe, 0.5f, 1.0f)))};
         for (int q = 0; q < ANSWERS; q++) {
             double error = fabs((double)gpu[q] - c[q]) / (fabs(c[q]) + least / tolerance);
             if (!(error <= tolerance))

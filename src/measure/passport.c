@@ -64,7 +64,7 @@ static void measure_albedo(void *user, int item, int thread) {
         return;
     }
     Albedo e = albedo_quadrature(&lobe, o, 1e-4);
-    work->out->albedo[row][c] = e.f0 + e.f90 * lobe_second(lobe, 1.0f, 1.0f);
+    work->out->albedo[row][c] = e.f0 + e.f90 * lobe_second(&lobe, 1.0f, 1.0f);
 }
 
 static void find_albedo(Work *work) {

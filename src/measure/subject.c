@@ -46,7 +46,7 @@ static void lobe_look(const Subject *subject, int setting, Dir o, View *view) {
     view->subject = subject;
     view->o = o;
     view->lobe = subject_lobe(subject, setting);
-    view->second = lobe_second(view->lobe, 1.0f, 1.0f);
+    view->second = lobe_second(&view->lobe, 1.0f, 1.0f);
 }
 
 enum { BLOCK = 256 };

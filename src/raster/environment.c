@@ -411,7 +411,6 @@ int environment_lamps(const GlEnvironment *self, float rotation, AmbientLamp lam
 void environment_text(Text *text) {
     text_provide(text, "shading/ambient_source.h");
     text_define(text, "AmbientSource", "Frame");
-    text_define(text, "lobe_sample_at", "lobe_sample");
     text_include(text, "raster/glsl/environment.glsl");
 }
 

@@ -358,9 +358,9 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float na
     p.second = p.first;
     for (int k = 0; k < AMBIENT_SAMPLES; k++) {
         float golden = to_float(k) * 0.618033989f + 0.25f;
-        Dir i = lobe_sample_at(lobe, v.o, (to_float(k) + 0.5f) / n, golden - floor(golden));
+        Dir i = lobe_sample(&lobe, v.o, (to_float(k) + 0.5f) / n, golden - floor(golden));
         if (i.z > 0.0f) {
-            LobeValue x = lobe_at(lobe, angles_between(v.o, i));
+            LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
             float w = x.f * i.z / max(x.pdf * n, 1e-20f), kappa = clamp(PI * n * x.pdf, 0.5f, 1e4f);
             Dir out_i = ambient_out(v, i);
             Rgb l = rgb_grey(0.0f);

@@ -60,7 +60,7 @@ FN AreaDensity area_haze(float alpha, Dir o) { return area_facets(sqrt(alpha), s
 
 /* Of a composition; distributions of cloth are broad. */
 FN AreaDensity area_composed(Lobe lobe, Dir o) {
-    float alpha = lobe.params[0];
+    float alpha = lobe.params[COOK_TORRANCE_ALPHA];
     int d = to_int(lobe.params[COOK_TORRANCE_D]);
     if (d == D_GGX_ANISO) return area_facets(alpha * lobe.params[COOK_TORRANCE_STRETCH], alpha, o);
     if (d == D_BLINN_PHONG || d == D_BECKMANN || d == D_GGX) return area_facets(alpha, alpha, o);
@@ -70,22 +70,19 @@ FN AreaDensity area_composed(Lobe lobe, Dir o) {
 
 FN AreaDensity area_ggx(Lobe lobe, Dir o) {
     Ggx m;
-    m.alpha = lobe.params[0];
-    m.anisotropy = lobe.params[1];
+    m.alpha = lobe.params[GGX_ALPHA];
+    m.anisotropy = lobe.params[GGX_ANISOTROPY];
     return area_facets(ggx_ax(m), m.alpha, o);
 }
 
 FN AreaDensity area_silk(Lobe lobe, Dir o) {
     Silk m;
-    m.alpha = lobe.params[0];
-    m.anisotropy = lobe.params[1];
+    m.alpha = lobe.params[SILK_ALPHA];
+    m.anisotropy = lobe.params[SILK_ANISOTROPY];
     return area_facets(silk_ax(m), silk_ay(m), o);
 }
 
-/* Fibres that lean are broad: fibre_sure sees to that. */
-#define AREA_FIBRE_TILT 2 /* the parameter */
-
-/* D of a lobe. */
+/* D of a lobe. Fibres that lean are broad: fibre_nap_of sees to that. */
 FN AreaDensity area_density(Lobe lobe, Dir o) {
     float alpha = lobe.params[0];
     if (lobe.id == LOBE_GGX) return area_ggx(lobe, o);
@@ -93,7 +90,7 @@ FN AreaDensity area_density(Lobe lobe, Dir o) {
     if (lobe.id == LOBE_COOK_TORRANCE) return area_composed(lobe, o);
     if (lobe.id == LOBE_BURLEY_COAT) return area_haze(alpha, o);
     if (lobe.id == LOBE_LTC_FIBRE || lobe.id == LOBE_FIBRE_TABLE) return area_fibres(alpha, o);
-    if (lobe.id == LOBE_FIBRE && lobe.params[AREA_FIBRE_TILT] < 0.03f) return area_fibres(alpha, o);
+    if (lobe.id == LOBE_FIBRE && lobe.params[FIBRE_TILT] < 0.03f) return area_fibres(alpha, o);
     return area_cosine(o);
 }
 

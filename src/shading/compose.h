@@ -21,14 +21,14 @@ FN Lobe compose_facets(Lobe lobe) {
     float ax = 0.0f, ay = 0.0f;
     if (lobe.id == LOBE_GGX) {
         Ggx g;
-        g.alpha = lobe.params[0];
-        g.anisotropy = lobe.params[1];
+        g.alpha = lobe.params[GGX_ALPHA];
+        g.anisotropy = lobe.params[GGX_ANISOTROPY];
         ax = ggx_ax(g);
         ay = g.alpha;
     } else {
         Silk k;
-        k.alpha = lobe.params[0];
-        k.anisotropy = lobe.params[1];
+        k.alpha = lobe.params[SILK_ALPHA];
+        k.anisotropy = lobe.params[SILK_ANISOTROPY];
         ax = silk_ax(k);
         ay = silk_ay(k);
     }
@@ -37,7 +37,7 @@ FN Lobe compose_facets(Lobe lobe) {
         m.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
         m.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
     }
-    m.params[COOK_TORRANCE_STRETCH] = clamp(ax / m.params[0], 0.01f, 100.0f);
+    m.params[COOK_TORRANCE_STRETCH] = clamp(ax / m.params[COOK_TORRANCE_ALPHA], 0.01f, 100.0f);
     return m;
 }
 
@@ -99,7 +99,7 @@ FN SheenE stack_albedo(Stack m, Dir w) {
 FN Stack compose_dust(Stack m, Surface s, Dir o) {
     if (s.dust <= DUST_LEAST) return m;
     Lobe lobe = lobe_rough(LOBE_LTC_FIBRE, s.dust_roughness);
-    float e_1 = dust_albedo(lobe, o.z), weight = dust_weight(s.dust, e_1, o.z), e = weight * e_1;
+    float e_1 = dust_albedo(&lobe, o.z), weight = dust_weight(s.dust, e_1, o.z), e = weight * e_1;
     Stack n = m;
     n.diffuse = slot_dimmed(m.diffuse, 1.0f - e);
     n.specular = slot_dimmed(m.specular, 1.0f - e);
@@ -169,28 +169,28 @@ FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     sum.f_cos = rgb_grey(0.0f);
     sum.pdf = 0.0f;
     if (only.diffuse && HAS_DIFFUSE(m)) {
-        LobeValue v = diffuse_at(m.diffuse.lobe, a);
+        LobeValue v = diffuse_at(&m.diffuse.lobe, a);
         sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(m.diffuse, v));
         sum.pdf = slot_pdf(m.diffuse, v);
     }
     if (only.specular && HAS_SPECULAR(m)) {
-        LobeValue v = specular_at(m.specular.lobe, a);
+        LobeValue v = specular_at(&m.specular.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(m.specular, v)));
         sum.pdf = sum.pdf + slot_pdf(m.specular, v);
     }
     if (only.sheen && HAS_SHEEN(m)) {
-        LobeValue v = sheen_at(m.sheen.lobe, a);
+        LobeValue v = sheen_at(&m.sheen.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(m.sheen, v)));
         sum.pdf = sum.pdf + slot_pdf(m.sheen, v);
     }
     if (only.dust && HAS_DUST(m)) {
-        LobeValue v = dust_value(m.dust.lobe, a);
+        LobeValue v = dust_value(&m.dust.lobe, a);
         sum.f_cos = rgb_add(sum.f_cos, slot_f(m.dust, v));
         sum.pdf = sum.pdf + slot_pdf(m.dust, v);
     }
     sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
     if (only.coat && HAS_COAT(m) && coat.o.z > 0.0f && coat.i.z > 0.0f) {
-        LobeValue v = coat_at(m.coat.lobe, coat);
+        LobeValue v = coat_at(&m.coat.lobe, coat);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(m.coat, v), coat.i.z));
         sum.pdf = sum.pdf + slot_pdf(m.coat, v);
     }

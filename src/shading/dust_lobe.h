@@ -17,12 +17,6 @@
 #include "shading/lobes/ltc_fibre.h"
 #include "shading/registry.h"
 
-FN LtcFibre dust_fibres(Lobe m) {
-    LtcFibre r;
-    r.alpha = m.params[0];
-    return r;
-}
-
 /* Slabs where dust is 1. */
 #define DUST_SLABS 8.0f
 
@@ -38,17 +32,17 @@ FN float dust_weight(float dust, float e_1, float cos_o) {
 }
 
 /* E_1. */
-FN float dust_albedo(Lobe m, float cos_o) { return ltc_fibre_at(dust_fibres(m), cos_o).f0; }
+FN float dust_albedo(const Lobe *m, float cos_o) {
+    return min(ltc_table_level(lobe_table_ltc_fibre(), cos_o, m->params[LTC_FIBRE_ALPHA]).f0, 1.0f);
+}
 
-/* As lobe_at has it. */
-FN LobeValue dust_value(Lobe m, Angles a) {
-    LtcFibre r = dust_fibres(m);
-    LobeValue v;
-    v.f = ltc_fibre_eval(r, a);
-    v.s = 0.0f;
-    v.pdf = ltc_fibre_pdf(r, a);
-    v.tint = tint_none();
-    return v;
+/* As lobe_value has it. */
+FN LobeValue dust_value(const Lobe *m, Angles a) {
+    LtcFibrePrepared p;
+    LtcFibreView w;
+    p.m.alpha = m->params[LTC_FIBRE_ALPHA];
+    ltc_fibre_view(&p, a.o, &w);
+    return ltc_fibre_value(&p, &w, a);
 }
 
 #endif

@@ -48,12 +48,16 @@ FN float flake_seen(float thickness, float lambda, float mu_mu) {
 }
 
 /* f1 of white flakes: light that met exactly one. */
-FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
-    float nu_o = dir_dot(o, t), nu_i = dir_dot(i, t);
-    float lambda = flake_sigma(s, nu_i) * o.z + flake_sigma(s, nu_o) * i.z;
+FN float flake_single_of(float s, Dir t, float thickness, float sigma_o, float sigma_i, Dir o, Dir i) {
+    float lambda = sigma_i * o.z + sigma_o * i.z;
     Dir sum = dir(o.x + i.x, o.y + i.y, o.z + i.z);
     /* nu_o + nu_i by the sum of the directions, which is exact where they are nearly opposite */
     return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) * flake_seen(thickness, lambda, o.z * i.z);
+}
+
+FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
+    return flake_single_of(s, t, thickness, flake_sigma(s, dir_dot(o, t)), flake_sigma(s, dir_dot(i, t)), o,
+                           i);
 }
 
 /* What f1 of upright fibres needs of a material: with e = log2(exp(1)) thickness, what makes up e sigma, and

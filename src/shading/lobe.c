@@ -72,7 +72,7 @@ void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], 
     Angles a = angles_between(dir(wo[0], wo[1], wo[2]), dir(wi[0], wi[1], wi[2]));
     LobeValue value = lobe_value(&inner, a);
     for (int c = 0; c < 3; c++)
-        f[c] = value.f * lobe_color(value, lobe->f0[c], lobe_second(inner, lobe->f0[c], lobe->f90[c]));
+        f[c] = value.f * lobe_color(value, lobe->f0[c], lobe_second(&inner, lobe->f0[c], lobe->f90[c]));
 }
 
 float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const float wi[3]) {
@@ -101,5 +101,5 @@ void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
     }
     Albedo albedo = albedo_quadrature(&inner, o, 2e-5);
     for (int c = 0; c < 3; c++)
-        e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe_second(inner, lobe->f0[c], lobe->f90[c]);
+        e[c] = albedo.f0 * lobe->f0[c] + albedo.f90 * lobe_second(&inner, lobe->f0[c], lobe->f90[c]);
 }

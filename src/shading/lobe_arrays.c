@@ -75,7 +75,7 @@ WeftResult weft_eval_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDi
     unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     bool two = (traits & TRAIT_TWO_COLORS) != 0;
     float second[3], value[BLOCK], share[BLOCK], red[BLOCK], green[BLOCK], blue[BLOCK];
-    for (int c = 0; c < 3; c++) second[c] = lobe_second(inner, lobe->f0[c], lobe->f90[c]);
+    for (int c = 0; c < 3; c++) second[c] = lobe_second(&inner, lobe->f0[c], lobe->f90[c]);
     Pairs p;
     for (size_t k = 0; k < n; k += p.used) {
         pairs_take(&p, k, n, wo, wi);

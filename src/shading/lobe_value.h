@@ -11,6 +11,15 @@ STRUCT(LobeValue) {
     Tint tint; /* tint_none without TRAIT_TINTED */
 };
 
+FN LobeValue lobe_value_of(float f, float s, float pdf) {
+    LobeValue v;
+    v.f = f;
+    v.s = s;
+    v.pdf = pdf;
+    v.tint = tint_none();
+    return v;
+}
+
 /* What f is multiplied by in one channel: the second colour is what lobe_second says, times any weight that
  * the first has too. Of a tinted lobe that makes the weight, and first / second the albedo of its flakes. */
 FN float lobe_color(LobeValue v, float first, float second) {

@@ -6,9 +6,9 @@
 
 #include "shading/registry.h"
 
-FN LobeValue diffuse_at(Lobe m, Angles a) { return lobe_at(m, a); }
-FN LobeValue specular_at(Lobe m, Angles a) { return lobe_at(m, a); }
-FN LobeValue sheen_at(Lobe m, Angles a) { return lobe_at(m, a); }
-FN LobeValue coat_at(Lobe m, Angles a) { return lobe_at(m, a); }
+FN LobeValue diffuse_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
+FN LobeValue specular_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
+FN LobeValue sheen_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
+FN LobeValue coat_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
 
 #endif

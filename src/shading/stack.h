@@ -112,8 +112,8 @@ FN Slot slot_make(Lobe lobe, Rgb color, Rgb second, float weight, float share) {
     Slot s;
     s.lobe = lobe;
     s.f0 = rgb_scale(color, weight);
-    s.f90 = rgb_scale(rgb(lobe_second(lobe, color.r, second.r), lobe_second(lobe, color.g, second.g),
-                          lobe_second(lobe, color.b, second.b)),
+    s.f90 = rgb_scale(rgb(lobe_second(&lobe, color.r, second.r), lobe_second(&lobe, color.g, second.g),
+                          lobe_second(&lobe, color.b, second.b)),
                       weight);
     s.sag = rgb_grey(0.0f);
     s.pick = rgb_max3(s.f0) + rgb_max3(s.f90) > 0.0f ? max(share, 1e-3f) : 0.0f;

@@ -48,7 +48,7 @@ FN Stack workflow_base(Stack m, Surface s, Rgb diffuse, Rgb f0, float f90, Dir o
     float s_o = schlick_s(o.z);
     if (rgb_max3(f0) > 0.0f || f90 > 0.0f) {
         Lobe lobe = lobe_rough(LOBE_GGX, s.roughness);
-        lobe.params[1] = s.anisotropy;
+        lobe.params[GGX_ANISOTROPY] = s.anisotropy;
         m.specular = slot_make(lobe, f0, rgb_grey(f90), m.left, m.left * mix(rgb_mean(f0), f90, s_o));
     }
     m.diffuse = slot_make(lobe_default(LOBE_LAMBERT), diffuse, diffuse, m.left,

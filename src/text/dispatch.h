@@ -11,18 +11,12 @@ void text_lobe(Text *text, int id);
 
 /* The lobes behind one signature, as registry.h has them for C, whose place this takes; call it once:
  *
- *   struct Lobe { int id; float params[8]; };
- *   const int LOBE_GGX = ...;                          as in C
- *   struct LobeValue { float f, s, pdf; Tint tint; };  lobe_value.h
- *   Lobe lobe_default(int id)                          as in C; likewise
- *   Lobe lobe_rough(int id, float roughness)
- *   Lobe lobe_fibres(Lobe m, float density, float tilt, float azimuth)
- *   LobeValue lobe_at(Lobe m, Angles a)
- *   float lobe_second(Lobe m, float f0, float f90)
- *   Dir lobe_sample(Lobe m, Dir o, float u, float v)
+ *   const int LOBE_GGX = ..., GGX_ANISOTROPY = ...;
+ *   Lobe, LobeValue                                    lobe.h
+ *   lobe_default, lobe_rough, lobe_fibres, lobe_value, lobe_sample, lobe_second
  *
- * and f, s and pdf of lobe_at alone as lobe_f, lobe_share and lobe_pdf. Of a lobe that is not among these,
- * lobe_at is 0, lobe_second is f0, and there is no sample. A surface (compose.h) asks for LOBE_LAMBERT and
+ * and f, s and pdf of lobe_value alone as lobe_f, lobe_share and lobe_pdf. Of a lobe that is not among these,
+ * lobe_value is 0, lobe_second is f0, and there is no sample. A surface (compose.h) asks for LOBE_LAMBERT and
  * LOBE_GGX even where its profile then takes others in their place; and for LOBE_LTC_FIBRE where it has dust,
  * of which nothing is seen without. */
 void text_dispatch(Text *text, const int *lobes, int lobe_count);

@@ -84,6 +84,35 @@ static void put_word(const Speller *speller, const Items *items, Token name, con
     }
 }
 
+/* Whether a function's parameter of that place is written. */
+static bool is_written(const Item *function, int place) {
+    const char *c = function->code;
+    while (c < function->end && *c != '(') c++;
+    bool written = false;
+    for (Token token; (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
+        if (token_is(token, ")")) return written && place == 0;
+        if (token_is(token, ",")) {
+            if (place-- == 0) return written;
+            written = false;
+        }
+        written |= token_is(token, "inout");
+    }
+    return false;
+}
+
+/* Whether the function has a written parameter of that name. */
+static bool is_reference(const Item *function, Token name) {
+    const char *c = function ? function->code : NULL;
+    bool written = false;
+    for (Token token; c && (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
+        if (token_is(token, "{")) return false;
+        if (token_is(token, ",")) written = false;
+        if (token_is(token, "inout")) written = true;
+        if (written && token.size == name.size && memcmp(token.at, name.at, name.size) == 0) return true;
+    }
+    return false;
+}
+
 /* Members keep their names; of a record's list that is all but the type that each line begins with. */
 static void put_code(const Speller *speller, const Items *items, const char *c, const char *end, bool record,
                      Buffer *out) {
@@ -97,7 +126,8 @@ static void put_code(const Speller *speller, const Items *items, const char *c, 
         else
             buffer_put(out, token.at, token.size);
         if (token.kind == TOKEN_BLANK) continue;
-        member = token_is(token, ".") || (record && !token_is(token, "{") && !token_is(token, ";"));
+        member = token_is(token, ".") ||
+                 (record && !token_is(token, "{") && !token_is(token, ";") && !token_is(token, "["));
     }
 }
 
@@ -116,6 +146,71 @@ static bool has_token(const char *c, const char *end, Token name) {
     return false;
 }
 
+/* "inout Name x" at c, behind the first word: a pointer. Returns where to go on. */
+static const char *put_pointer(const Speller *speller, const Items *items, const char *c, const char *end,
+                               Buffer *out) {
+    Token type = token_solid(&c, end);
+    put_word(speller, items, type, c, end, out);
+    buffer_put_text(out, " *");
+    return blank_end(c, end);
+}
+
+/* The arguments that are being put, of calls inside each other. */
+typedef struct Calls {
+    struct {
+        const Item *function;
+        int place;
+    } open[64];
+    int depth;
+} Calls;
+
+static void calls_follow(Calls *calls, const Items *items, Token before, Token token) {
+    const Item *function = before.kind == TOKEN_NAME ? items_find(items, before) : NULL;
+    if (token_is(token, "(") && ++calls->depth < 64) {
+        calls->open[calls->depth].function = function && function->kind == ITEM_FUNCTION ? function : NULL;
+        calls->open[calls->depth].place = 0;
+    }
+    if (token_is(token, ")")) calls->depth--;
+    if (token_is(token, ",") && calls->depth >= 0 && calls->depth < 64) calls->open[calls->depth].place++;
+}
+
+/* C: a function with its references as pointers. */
+static void put_c_code(const Speller *speller, const Items *items, const Item *function, const char *c,
+                       const char *end, Buffer *out) {
+    Calls calls = {0};
+    Token before = {0};
+    while (c < end) {
+        Token token = token_next(&c, end);
+        const char *next = c;
+        bool member = token_is(before, "."), follows = token_is(token_solid(&next, end), ".");
+        bool own = token.kind == TOKEN_NAME && !member && is_reference(function, token);
+        if (token_is(token, "inout")) {
+            c = put_pointer(speller, items, c, end, out);
+        } else if (token.kind == TOKEN_NAME && !member) {
+            bool argument = token_is(before, "(") || token_is(before, ",");
+            bool written = argument && calls.depth > 0 && calls.depth < 64 &&
+                           calls.open[calls.depth].function &&
+                           is_written(calls.open[calls.depth].function, calls.open[calls.depth].place);
+            bool declared = token_is(before, "*");
+            if (written && (follows || !own)) buffer_put_text(out, "&");
+            if (own && !follows && !written && !declared) buffer_put_text(out, "*");
+            put_word(speller, items, token, c, end, out);
+            if (own && follows) {
+                buffer_put_text(out, "->");
+                token = (Token){TOKEN_MARK, ".", 1};
+                c = next;
+            }
+        } else if (token.kind == TOKEN_NUMBER) {
+            put_number(speller, token, out);
+        } else {
+            buffer_put(out, token.at, token.size);
+        }
+        calls_follow(&calls, items, before, token);
+        if (token.kind != TOKEN_BLANK)
+            before = token_is(token, "inout") ? (Token){TOKEN_MARK, "*", 1} : token;
+    }
+}
+
 /* C: the function, where a parameter that it does not look at is named as such. */
 static void put_c_function(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
     const char *open = find(item->code, item->end, "("), *close = find(open, item->end, ")");
@@ -123,7 +218,7 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     buffer_put_text(out, "static inline ");
     put_code(speller, items, item->code, open + 1, false, out);
     if (blank_end(open + 1, close) == close) buffer_put_text(out, "void");
-    put_code(speller, items, open + 1, body + 1, false, out);
+    put_c_code(speller, items, item, open + 1, body + 1, out);
     for (Token last = {0}; c <= close;) {
         Token token = token_solid(&c, item->end);
         if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME &&
@@ -134,7 +229,7 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
         }
         last = token;
     }
-    put_code(speller, items, body + 1, item->end, false, out);
+    put_c_code(speller, items, item, body + 1, item->end, out);
 }
 
 static void put_record(const Speller *speller, const Items *items, const Item *item, Buffer *out) {

@@ -58,6 +58,10 @@ void text_define(Text *text, const char *name, const char *body) {
     buffer_free(&line);
 }
 
+void text_undefine(Text *text, const char *name) {
+    macro_undefine(&text->macros, (Token){TOKEN_NAME, name, strlen(name)});
+}
+
 void text_begin(Text *text, const TextDesc *desc) {
     *text = (Text){.desc = *desc, .gap = true};
     switch (desc->language) {
@@ -388,6 +392,19 @@ static bool find_file(Text *text, const char *file, Source *out) {
     return false;
 }
 
+static void put_source(Text *text, const char *file, const Source *source) {
+    Buffer stripped = {.origin = {source->path, 1}};
+    text->buffer.origin = stripped.origin;
+    layout_strip(source->bytes, source->end, text->desc.comments, &stripped);
+    text->depth++;
+    if (stripped.failed)
+        fail_memory(text);
+    else if (stripped.bytes && !failed(text))
+        put_file(text, file, &stripped);
+    text->depth--;
+    buffer_free(&stripped);
+}
+
 void text_include(Text *text, const char *file) {
     if (!include_first(text, file)) return;
     if (text->depth == INCLUDES_MAX) {
@@ -396,17 +413,14 @@ void text_include(Text *text, const char *file) {
     }
     Source source;
     if (!find_file(text, file, &source)) return;
-    Buffer stripped = {.origin = {source.path, 1}};
-    text->buffer.origin = stripped.origin;
-    layout_strip(source.bytes, source.end, text->desc.comments, &stripped);
+    put_source(text, file, &source);
     free(source.own);
-    text->depth++;
-    if (stripped.failed)
-        fail_memory(text);
-    else if (stripped.bytes && !failed(text))
-        put_file(text, file, &stripped);
-    text->depth--;
-    buffer_free(&stripped);
+}
+
+void text_source(Text *text, const char *file, const Buffer *bytes) {
+    if (bytes->failed) fail_memory(text);
+    if (failed(text) || !bytes->bytes) return;
+    put_source(text, file, &(Source){file, bytes->bytes, bytes->bytes + bytes->size, NULL});
 }
 
 int text_table(Text *text, TextTable table) {

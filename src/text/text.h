@@ -86,8 +86,12 @@ void text_include(Text *text, const char *file);
  * text has the file already. */
 bool text_provide(Text *text, const char *file);
 
-/* From here on the name stands for that body ("int", "4") in files of the catalogue. */
+/* Lines of the caller's own choice as though they were that file; a name of the catalogue, borrowed. */
+void text_source(Text *text, const char *file, const Buffer *bytes);
+
+/* From here on the name stands for that body ("int", "4") in files of the catalogue, and for itself again. */
 void text_define(Text *text, const char *name, const char *body);
+void text_undefine(Text *text, const char *name);
 
 /* One line of the caller's own, as printf makes it. Macros are not expanded in it. */
 __attribute__((format(printf, 2, 3))) void text_line(Text *text, const char *format, ...);

@@ -1,6 +1,6 @@
 #include "trace/catcher.h"
 
-#include "shading/lobes/ggx.h"
+#include "shading/terms/d_ggx.h"
 
 static float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
@@ -21,9 +21,9 @@ static void add_light(const PathContext *context, Vec3 point, float share, Point
 /* What a mirror of that roughness shows; false where that is not the scene. */
 static bool mirrored(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
                      Sampler *sampler, Rgb *color, long long *rays) {
-    const Ggx facets = {.alpha = max(floor->roughness * floor->roughness, 0.001f)};
-    Vec3 d = ray->direction;
-    Dir i = ggx_sample(facets, dir(-d.x, -d.z, -d.y), uv.u, uv.v); /* z is up here */
+    float alpha = max(floor->roughness * floor->roughness, 0.001f);
+    Dir o = dir(-ray->direction.x, -ray->direction.z, -ray->direction.y); /* z is up here */
+    Dir i = dir_mirror(o, ggx_sample_h(alpha, alpha, o, uv.u, uv.v));
     Ray to = {point, vec3(i.x, i.z, i.y), 0.0f, INFINITY, hash32(ray->key + 0x9e3779b9u), ray->past_lights};
     Hit hit;
     if (!(i.z > 0.0f)) return false;

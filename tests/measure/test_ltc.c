@@ -243,7 +243,7 @@ static void nothing_nearby_is_better(void **state) {
             if (cell % ltc->columns == ltc->columns - 1) continue; /* only z counts there */
             Lobe lobe = ltc_lobe(ltc, cell / ltc->columns);
             ltc_target_look(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
-            ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(lobe, 1.0f, 1.0f));
+            ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(&lobe, 1.0f, 1.0f));
             if (!(target.e > 1e-3)) continue;
             LtcEntries at = node(ltc, cell);
             double error = ltc_error(&target, at, 1);
@@ -276,7 +276,7 @@ static void no_other_start_finds_less(void **state) {
             if (cell % ltc->columns == ltc->columns - 1) continue;
             Lobe lobe = ltc_lobe(ltc, cell / ltc->columns);
             ltc_target_look(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
-            ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(lobe, 1.0f, 1.0f));
+            ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(&lobe, 1.0f, 1.0f));
             if (!(target.e > 1e-3)) continue;
             double error = ltc_error(&target, node(ltc, cell), 1);
             for (int n = 0; n < 8; n++) {

@@ -12,7 +12,7 @@
 #include "raster/complaint.h"
 #include "weft/lobe.h"
 
-static const char file[] = "shading/lobes/ggx.h", statement[] = "    float ax = ggx_ax(m);\n";
+static const char file[] = "shading/lobes/ggx.h", statement[] = "    GgxPrepared p;\n";
 
 /* The line on which a part of the text is, from 1 on. */
 static int line_with(const char *bytes, const char *part) {

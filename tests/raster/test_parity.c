@@ -255,7 +255,7 @@ static void answer_lobe(int which, const float *row, float *answers) {
     memcpy(lobe.params, row + 8, sizeof lobe.params);
     LobeValue v = lobe_value(&lobe, row_angles(row));
     Dir s = lobe_sample(&lobe, row_o(row), row[3], row[7]);
-    const float second = lobe_second(lobe, 0.25f, 0.75f);
+    const float second = lobe_second(&lobe, 0.25f, 0.75f);
     const float all[] = {v.f, v.s, v.pdf, second, s.x, s.y, s.z, v.f * lobe_color(v, 0.25f, second)};
     memcpy(answers, all, sizeof all);
 }
@@ -264,7 +264,7 @@ static const Subject lobes = {
     .body = ANGLES "    Lobe m;\n    m.id = in0.w < 2.0 ? FIRST : -1;\n" /* no constant to the compiler */
                    "    for (int k = 0; k < 4; k++) {\n"
                    "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
-                   "    LobeValue v = lobe_at(m, a);\n    Dir s = lobe_sample(m, o, in0.w, in1.w);\n"
+                   "    LobeValue v = lobe_value(m, a);\n    Dir s = lobe_sample(m, o, in0.w, in1.w);\n"
                    "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
                    "    out1 = vec4(s.x, s.y, s.z, v.f * lobe_color(v, 0.25, out0.w));\n",
     .inputs = 4,
@@ -306,8 +306,9 @@ static void fill_any_lobe(Random *random, int which, float *row) {
 
 static void answer_any_lobe(int which, const float *row, float *answers) {
     Angles a = row_angles(row);
-    LobeValue v = lobe_at(lobe_default((int)row[8]), a), w = lobe_at(lobe_rough((int)row[8], row[7]), a);
-    const float second = lobe_second(lobe_default((int)row[8]), 0.25f, 0.75f);
+    Lobe plain = lobe_default((int)row[8]), rough = lobe_rough(plain.id, row[7]);
+    LobeValue v = lobe_value(&plain, a), w = lobe_value(&rough, a);
+    const float second = lobe_second(&plain, 0.25f, 0.75f);
     const float all[] = {v.f, v.s, v.pdf, second, w.f, w.s, w.pdf, w.f * lobe_color(w, 0.25f, second)};
     memcpy(answers, all, sizeof all);
 }
@@ -317,7 +318,7 @@ static void lobes_are_told_apart(void **state) {
     (void)state;
     static const Subject subject = {
         .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
-                       "    LobeValue v = lobe_at(m, a), w = lobe_at(lobe_rough(m.id, in1.w), a);\n"
+                       "    LobeValue v = lobe_value(m, a), w = lobe_at(lobe_rough(m.id, in1.w), a);\n"
                        "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
                        "    out1 = vec4(w.f, w.s, w.pdf, w.f * lobe_color(w, 0.25, out0.w));\n",
         .inputs = 3,

@@ -203,7 +203,7 @@ static void facet_normals_are_visible(void **state) {
         assert_true(h.z >= 0.0f);
         assert_float_equal(dir_dot(h, h), 1.0f, 1e-5f);
         assert_true(dir_dot(o, h) > -1e-5f);
-        h = charlie_sample_h(max(alpha, 0.005f), o, u, v);
+        h = charlie_sample_h(charlie_of(max(alpha, 0.005f)), charlie_side(o), u, v);
         assert_true(h.z >= 0.0f);
         assert_float_equal(dir_dot(h, h), 1.0f, 1e-5f);
         assert_true(dir_dot(o, h) > -1e-6f);

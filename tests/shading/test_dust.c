@@ -241,7 +241,7 @@ static void amounts_are_slabs(void **state) {
             Dir o = direction_cos(0.02 + 0.196 * c, 0.0);
             Lobe slabs = lobe_rough(LOBE_FIBRE, 1.0f), one = lobe_rough(LOBE_LTC_FIBRE, 1.0f);
             lobe_set(&slabs, density, 0.25f * (float)(1 << n));
-            float e_1 = dust_albedo(one, o.z),
+            float e_1 = dust_albedo(&one, o.z),
                   e = e_1 * dust_weight(slabs.params[density] / DUST_SLABS, e_1, o.z);
             worst = fmax(worst, fabs((double)e - (double)albedo_quadrature(&slabs, o, 1e-4).f0));
         }

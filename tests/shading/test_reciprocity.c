@@ -22,8 +22,8 @@ static void reciprocal_lobes_are(void **state) {
                       w = lobe_value(&lobe, angles_between(i, o));
             float f = v.f, g = w.f;
             if (n % 2) /* in a colour */
-                f *= lobe_color(v, 0.4f, lobe_second(lobe, 0.4f, 0.9f)),
-                    g *= lobe_color(w, 0.4f, lobe_second(lobe, 0.4f, 0.9f));
+                f *= lobe_color(v, 0.4f, lobe_second(&lobe, 0.4f, 0.9f)),
+                    g *= lobe_color(w, 0.4f, lobe_second(&lobe, 0.4f, 0.9f));
             if (!close_to(f, g))
                 fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f,
                          (double)g);

@@ -369,7 +369,7 @@ static void threads_shift_their_color(void **state) {
     assert_float_equal((float)weft_share(&lobe, direction(0.7, 1.0), up), 0.0f, 0.0f);
     lobe_set(&lobe, 2, 1.0f);
     assert_float_equal((float)weft_share(&lobe, direction(0.7, 1.0), up), 1.0f, 0.0f);
-    assert_float_equal(lobe_second(lobe, 0.2f, 0.7f), 0.7f, 0.0f);
+    assert_float_equal(lobe_second(&lobe, 0.2f, 0.7f), 0.7f, 0.0f);
 }
 
 /* Flat yarn in a plain weave has no streak of its own to hide: the shares are then those of the surface. */

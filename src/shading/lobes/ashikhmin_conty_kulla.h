@@ -26,20 +26,29 @@
 
 STRUCT(AshikhminContyKulla){ASHIKHMIN_CONTY_KULLA_PARAMS(FIELD)};
 
-FN float ashikhmin_conty_kulla_eval(AshikhminContyKulla m, Angles a) {
-    return ashikhmin_d(m.alpha, a.h) * conty_kulla_v(m.alpha, max(a.o.z, 1e-5f), max(a.i.z, 1e-5f));
+STRUCT(AshikhminContyKullaPrepared) {
+    float alpha;
+    ContyKulla shadow;
+};
+FN void ashikhmin_conty_kulla_prepare(AshikhminContyKulla m, AshikhminContyKullaPrepared *p) {
+    p->alpha = m.alpha;
+    p->shadow = conty_kulla_of(m.alpha);
 }
 
-FN AshikhminNeubelt ashikhmin_conty_kulla_proposal(AshikhminContyKulla m) {
-    AshikhminNeubelt p;
-    p.alpha = m.alpha;
-    return p;
+STRUCT(AshikhminContyKullaView) { float lambda; };
+FN void ashikhmin_conty_kulla_view(const AshikhminContyKullaPrepared *p, Dir o, AshikhminContyKullaView *w) {
+    w->lambda = conty_kulla_lambda(p->shadow, max(o.z, 1e-5f));
 }
-FN float ashikhmin_conty_kulla_pdf(AshikhminContyKulla m, Angles a) {
-    return ashikhmin_neubelt_pdf(ashikhmin_conty_kulla_proposal(m), a);
+
+FN LobeValue ashikhmin_conty_kulla_value(const AshikhminContyKullaPrepared *p,
+                                         const AshikhminContyKullaView *w, Angles a) {
+    float d = ashikhmin_d(p->alpha, a.h);
+    float f = d * conty_kulla_seen(p->shadow, w->lambda, max(a.o.z, 1e-5f), max(a.i.z, 1e-5f));
+    return lobe_value_of(f, 0.0f, ashikhmin_pdf(d, a));
 }
-FN Dir ashikhmin_conty_kulla_sample(AshikhminContyKulla m, Dir o, float u, float v) {
-    return ashikhmin_neubelt_sample(ashikhmin_conty_kulla_proposal(m), o, u, v);
+FN Dir ashikhmin_conty_kulla_sample(const AshikhminContyKullaPrepared *p, const AshikhminContyKullaView *w,
+                                    Dir o, float u, float v) {
+    return ashikhmin_sample(p->alpha, o, u, v);
 }
 
 #endif

@@ -17,6 +17,7 @@
 #ifndef WEFT_ASHIKHMIN_NEUBELT_H
 #define WEFT_ASHIKHMIN_NEUBELT_H
 
+#include "shading/lobe.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/v_neubelt.h"
 
@@ -25,30 +26,36 @@
 #define ASHIKHMIN_NEUBELT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
 STRUCT(AshikhminNeubelt){ASHIKHMIN_NEUBELT_PARAMS(FIELD)};
-
-FN float ashikhmin_neubelt_eval(AshikhminNeubelt m, Angles a) {
-    return ashikhmin_d(m.alpha, a.h) * neubelt_v(a.o.z, a.i.z);
-}
+PREPARED_AS_IT_IS(ashikhmin_neubelt, AshikhminNeubelt)
+SEEN_AS_IT_IS(ashikhmin_neubelt, AshikhminNeubelt)
 
 /* Half by D cos_h with h turned to the side that wo is on, where wo . h > 0 without exception and the density
  * doubles; half uniform, which bounds the weight. */
-FN float ashikhmin_neubelt_side(Dir o, Dir h) {
-    return o.x * o.x + o.y * o.y > 1e-12f ? h.x * o.x + h.y * o.y : h.x;
+FN float ashikhmin_side(Dir o, Dir h) { return o.x * o.x + o.y * o.y > 1e-12f ? h.x * o.x + h.y * o.y : h.x; }
+
+FN float ashikhmin_pdf(float d, Angles a) {
+    float by_d = 2.0f * d * a.h.z / (4.0f * max(a.d, 1e-6f));
+    return 0.5f * (ashikhmin_side(a.o, a.h) > 0.0f ? by_d : 0.0f) + 0.5f * warp_uniform_pdf(a.i);
 }
 
-FN float ashikhmin_neubelt_pdf(AshikhminNeubelt m, Angles a) {
-    float by_d = 2.0f * ashikhmin_d(m.alpha, a.h) * a.h.z / (4.0f * max(a.d, 1e-6f));
-    return 0.5f * (ashikhmin_neubelt_side(a.o, a.h) > 0.0f ? by_d : 0.0f) + 0.5f * warp_uniform_pdf(a.i);
-}
-
-FN Dir ashikhmin_neubelt_sample(AshikhminNeubelt m, Dir o, float u, float v) {
+FN Dir ashikhmin_sample(float alpha, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
-        Dir h = ashikhmin_facet(m.alpha, 2.0f * u, v);
-        float turn = ashikhmin_neubelt_side(o, h) < 0.0f ? -1.0f : 1.0f;
+        Dir h = ashikhmin_facet(alpha, 2.0f * u, v);
+        float turn = ashikhmin_side(o, h) < 0.0f ? -1.0f : 1.0f;
         i = dir_mirror(o, dir(turn * h.x, turn * h.y, h.z));
     }
     return i;
+}
+
+FN LobeValue ashikhmin_neubelt_value(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w,
+                                     Angles a) {
+    float d = ashikhmin_d(p->m.alpha, a.h);
+    return lobe_value_of(d * neubelt_v(a.o.z, a.i.z), 0.0f, ashikhmin_pdf(d, a));
+}
+FN Dir ashikhmin_neubelt_sample(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w, Dir o,
+                                float u, float v) {
+    return ashikhmin_sample(p->m.alpha, o, u, v);
 }
 
 #endif

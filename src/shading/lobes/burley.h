@@ -16,6 +16,7 @@
 #ifndef WEFT_BURLEY_H
 #define WEFT_BURLEY_H
 
+#include "shading/lobe.h"
 #include "shading/terms/f_schlick.h"
 #include "shading/warp.h"
 
@@ -24,12 +25,21 @@
 #define BURLEY_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
 
 STRUCT(Burley){BURLEY_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(burley, Burley)
 
-FN float burley_eval(Burley m, Angles a) {
-    float fd90 = 0.5f + 2.0f * a.d * a.d * m.roughness;
-    return mix(1.0f, fd90, schlick_s(a.i.z)) * mix(1.0f, fd90, schlick_s(a.o.z)) / PI;
+STRUCT(BurleyView) { float s_o; };
+FN void burley_view(const BurleyPrepared *p, Dir o, BurleyView *w) { w->s_o = schlick_s(o.z); }
+
+FN float burley_f(float roughness, float s_o, float s_i, float d) {
+    float fd90 = 0.5f + 2.0f * d * d * roughness;
+    return mix(1.0f, fd90, s_i) * mix(1.0f, fd90, s_o) / PI;
 }
-FN float burley_pdf(Burley m, Angles a) { return warp_cosine_pdf(a.i); }
-FN Dir burley_sample(Burley m, Dir o, float u, float v) { return warp_cosine(u, v); }
+
+FN LobeValue burley_value(const BurleyPrepared *p, const BurleyView *w, Angles a) {
+    return lobe_value_of(burley_f(p->m.roughness, w->s_o, schlick_s(a.i.z), a.d), 0.0f, warp_cosine_pdf(a.i));
+}
+FN Dir burley_sample(const BurleyPrepared *p, const BurleyView *w, Dir o, float u, float v) {
+    return warp_cosine(u, v);
+}
 
 #endif

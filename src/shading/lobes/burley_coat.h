@@ -15,6 +15,7 @@
 #ifndef WEFT_BURLEY_COAT_H
 #define WEFT_BURLEY_COAT_H
 
+#include "shading/lobe.h"
 #include "shading/terms/d_gtr1.h"
 #include "shading/terms/f_schlick.h"
 #include "shading/terms/v_smith_ggx.h"
@@ -22,23 +23,20 @@
 
 #define BURLEY_COAT_PARAMS(P)                                                                                \
     P(float, alpha, 0.001f, 0.001f, 0.1f, 0.001f, 1.0f, "width of the highlight's peak")
-#define BURLEY_COAT_TRAITS TRAIT_RECIPROCAL
+#define BURLEY_COAT_TRAITS (TRAIT_RECIPROCAL | TRAIT_TWO_COLORS)
 
 STRUCT(BurleyCoat){BURLEY_COAT_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(burley_coat, BurleyCoat)
+SEEN_AS_IT_IS(burley_coat, BurleyCoat)
 
-FN float burley_coat_eval(BurleyCoat m, Angles a) {
-    return gtr1_d(m.alpha, a.h) * smith_ggx_v(0.25f, a.o, a.i);
+FN LobeValue burley_coat_value(const BurleyCoatPrepared *p, const BurleyCoatView *w, Angles a) {
+    float d = gtr1_d(p->m.alpha, a.h), half_vectors = d * a.h.z / (4.0f * max(a.d, 1e-6f));
+    return lobe_value_of(d * smith_ggx_v(0.25f, a.o, a.i), schlick_s(a.d),
+                         0.5f * half_vectors + 0.5f * warp_uniform_pdf(a.i));
 }
-FN float burley_coat_share(BurleyCoat m, Angles a) { return schlick_s(a.d); }
-FN float burley_coat_second(BurleyCoat m, float f0, float f90) { return f90; }
-
-FN float burley_coat_pdf(BurleyCoat m, Angles a) {
-    float half_vectors = gtr1_d(m.alpha, a.h) * a.h.z / (4.0f * max(a.d, 1e-6f));
-    return 0.5f * half_vectors + 0.5f * warp_uniform_pdf(a.i);
-}
-FN Dir burley_coat_sample(BurleyCoat m, Dir o, float u, float v) {
+FN Dir burley_coat_sample(const BurleyCoatPrepared *p, const BurleyCoatView *w, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
-    if (u < 0.5f) i = dir_mirror(o, gtr1_facet(m.alpha, 2.0f * u, v));
+    if (u < 0.5f) i = dir_mirror(o, gtr1_facet(p->m.alpha, 2.0f * u, v));
     return i;
 }
 

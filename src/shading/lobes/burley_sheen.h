@@ -16,6 +16,7 @@
 #ifndef WEFT_BURLEY_SHEEN_H
 #define WEFT_BURLEY_SHEEN_H
 
+#include "shading/lobe.h"
 #include "shading/terms/f_schlick.h"
 #include "shading/warp.h"
 
@@ -23,20 +24,21 @@
 #define BURLEY_SHEEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
 STRUCT(BurleySheen) { float none; };
-
-FN float burley_sheen_eval(BurleySheen m, Angles a) { return schlick_s(a.d); }
+PREPARED_AS_IT_IS(burley_sheen, BurleySheen)
+SEEN_AS_IT_IS(burley_sheen, BurleySheen)
 
 /* By q(d) = 6 (1 - d)^5 of the half angle between wo and wi, all azimuths about wo alike; what falls below
  * the horizon is mirrored up, since f peaks opposite to wo. dwi = 4 d dd dphi. */
 FN float burley_sheen_pdf_d(float d) { return 6.0f * schlick_s(d) / (8.0f * PI * max(d, 1e-6f)); }
 
-FN float burley_sheen_pdf(BurleySheen m, Angles a) {
+FN LobeValue burley_sheen_value(const BurleySheenPrepared *p, const BurleySheenView *w, Angles a) {
     float x = a.o.x + a.i.x, y = a.o.y + a.i.y, z = a.o.z - a.i.z;
     float below = 0.5f * sqrt(x * x + y * y + z * z);
-    return 0.5f * (burley_sheen_pdf_d(a.d) + burley_sheen_pdf_d(below)) + 0.5f * warp_uniform_pdf(a.i);
+    float pdf = 0.5f * (burley_sheen_pdf_d(a.d) + burley_sheen_pdf_d(below)) + 0.5f * warp_uniform_pdf(a.i);
+    return lobe_value_of(schlick_s(a.d), 0.0f, pdf);
 }
 
-FN Dir burley_sheen_sample(BurleySheen m, Dir o, float u, float v) {
+FN Dir burley_sheen_sample(const BurleySheenPrepared *p, const BurleySheenView *w, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
         float d = 1.0f - pow(max(2.0f * u, 1e-30f), 1.0f / 6.0f);

@@ -23,10 +23,15 @@
 #define BURLEY_SUBSURFACE_PARAMS(P)                                                                          \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "brightness of grazing light thrown back")             \
     P(float, subsurface, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "1 is this lobe, 0 is burley")
-#define BURLEY_SUBSURFACE_AMOUNT 1 /* where in the table */
 #define BURLEY_SUBSURFACE_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
 
 STRUCT(BurleySubsurface){BURLEY_SUBSURFACE_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(burley_subsurface, BurleySubsurface)
+
+STRUCT(BurleySubsurfaceView) { float s_o; };
+FN void burley_subsurface_view(const BurleySubsurfacePrepared *p, Dir o, BurleySubsurfaceView *w) {
+    w->s_o = schlick_s(o.z);
+}
 
 /* mix(1, fss90, s) by 1 - s multiplied out: at grazing both would be lost in the rounding of 1 - s, and what
  * is left is divided by cos_i + cos_o. */
@@ -35,16 +40,16 @@ FN float burley_subsurface_f(float fss90, float z) {
     return k + (1.0f - k) * fss90;
 }
 
-FN float burley_subsurface_eval(BurleySubsurface m, Angles a) {
-    float fss90 = a.d * a.d * m.roughness;
+FN LobeValue burley_subsurface_value(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w,
+                                     Angles a) {
+    float fss90 = a.d * a.d * p->m.roughness;
     float fss = burley_subsurface_f(fss90, a.i.z) * burley_subsurface_f(fss90, a.o.z);
     float ss = 1.25f * (fss * (1.0f / (a.i.z + a.o.z) - 0.5f) + 0.5f) / PI;
-    Burley surface;
-    surface.roughness = m.roughness;
-    return mix(burley_eval(surface, a), ss, m.subsurface);
+    float f = burley_f(p->m.roughness, w->s_o, schlick_s(a.i.z), a.d);
+    return lobe_value_of(mix(f, ss, p->m.subsurface), 0.0f, warp_mixed_pdf(0.5f, a.i));
 }
-FN float burley_subsurface_pdf(BurleySubsurface m, Angles a) { return warp_mixed_pdf(0.5f, a.i); }
-FN Dir burley_subsurface_sample(BurleySubsurface m, Dir o, float u, float v) {
+FN Dir burley_subsurface_sample(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w, Dir o,
+                                float u, float v) {
     return warp_mixed(0.5f, u, v);
 }
 

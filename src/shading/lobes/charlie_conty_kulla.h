@@ -17,6 +17,7 @@
 #ifndef WEFT_CHARLIE_CONTY_KULLA_H
 #define WEFT_CHARLIE_CONTY_KULLA_H
 
+#include "shading/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_conty_kulla.h"
 
@@ -26,12 +27,33 @@
 
 STRUCT(CharlieContyKulla){CHARLIE_CONTY_KULLA_PARAMS(FIELD)};
 
-FN float charlie_conty_kulla_eval(CharlieContyKulla m, Angles a) {
-    return charlie_d_sin2(m.alpha, a.sin2_h) * conty_kulla_v(m.alpha, a.o.z, a.i.z);
+STRUCT(CharlieContyKullaPrepared) {
+    Charlie d;
+    ContyKulla shadow;
+};
+FN void charlie_conty_kulla_prepare(CharlieContyKulla m, CharlieContyKullaPrepared *p) {
+    p->d = charlie_of(m.alpha);
+    p->shadow = conty_kulla_of(m.alpha);
 }
-FN float charlie_conty_kulla_pdf(CharlieContyKulla m, Angles a) { return charlie_pdf(m.alpha, a); }
-FN Dir charlie_conty_kulla_sample(CharlieContyKulla m, Dir o, float u, float v) {
-    return charlie_sample(m.alpha, o, u, v);
+
+STRUCT(CharlieContyKullaView) {
+    CharlieSide side;
+    float lambda;
+};
+FN void charlie_conty_kulla_view(const CharlieContyKullaPrepared *p, Dir o, CharlieContyKullaView *w) {
+    w->side = charlie_side(o);
+    w->lambda = conty_kulla_lambda(p->shadow, o.z);
+}
+
+FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w,
+                                       Angles a) {
+    float d = charlie_d_sin2(p->d, a.sin2_h);
+    return lobe_value_of(d * conty_kulla_seen(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f,
+                         charlie_pdf(d, w->side, a));
+}
+FN Dir charlie_conty_kulla_sample(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Dir o,
+                                  float u, float v) {
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

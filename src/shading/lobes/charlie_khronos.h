@@ -17,8 +17,7 @@
 #ifndef WEFT_CHARLIE_KHRONOS_H
 #define WEFT_CHARLIE_KHRONOS_H
 
-#include "shading/terms/d_charlie.h"
-#include "shading/terms/v_conty_kulla.h"
+#include "shading/lobes/charlie_conty_kulla.h"
 
 #define CHARLIE_KHRONOS_PARAMS(P)                                                                            \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
@@ -26,19 +25,28 @@
 
 STRUCT(CharlieKhronos){CHARLIE_KHRONOS_PARAMS(FIELD)};
 
-/* Not the term's own V, whose floor under cos_o cos_i the clamp makes needless. */
-FN float charlie_khronos_v(float alpha, float o, float i) {
-    float t = (1.0f - alpha) * (1.0f - alpha), l_half = conty_kulla_l(t, 0.5f);
-    float lambda = conty_kulla_lambda(t, l_half, o) + conty_kulla_lambda(t, l_half, i);
-    return min(1.0f / max((1.0f + lambda) * 4.0f * o * i, 1e-30f), 1.0f);
+STRUCT(CharlieKhronosPrepared) { CharlieContyKullaPrepared like; };
+FN void charlie_khronos_prepare(CharlieKhronos m, CharlieKhronosPrepared *p) {
+    CharlieContyKulla like;
+    like.alpha = m.alpha;
+    charlie_conty_kulla_prepare(like, &p->like);
 }
 
-FN float charlie_khronos_eval(CharlieKhronos m, Angles a) {
-    return charlie_d_sin2(m.alpha, a.sin2_h) * charlie_khronos_v(m.alpha, a.o.z, a.i.z);
+STRUCT(CharlieKhronosView) { CharlieContyKullaView like; };
+FN void charlie_khronos_view(const CharlieKhronosPrepared *p, Dir o, CharlieKhronosView *w) {
+    charlie_conty_kulla_view(&p->like, o, &w->like);
 }
-FN float charlie_khronos_pdf(CharlieKhronos m, Angles a) { return charlie_pdf(m.alpha, a); }
-FN Dir charlie_khronos_sample(CharlieKhronos m, Dir o, float u, float v) {
-    return charlie_sample(m.alpha, o, u, v);
+
+FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Angles a) {
+    float d = charlie_d_sin2(p->like.d, a.sin2_h),
+          lambda = w->like.lambda + conty_kulla_lambda(p->like.shadow, a.i.z);
+    /* not the term's own V, whose floor under cos_o cos_i the clamp makes needless */
+    float visibility = min(1.0f / max((1.0f + lambda) * 4.0f * a.o.z * a.i.z, 1e-30f), 1.0f);
+    return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->like.side, a));
+}
+FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u,
+                              float v) {
+    return charlie_sample(p->like.d, w->like.side, o, u, v);
 }
 
 #endif

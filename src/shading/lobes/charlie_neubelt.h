@@ -15,6 +15,7 @@
 #ifndef WEFT_CHARLIE_NEUBELT_H
 #define WEFT_CHARLIE_NEUBELT_H
 
+#include "shading/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_neubelt.h"
 
@@ -24,12 +25,21 @@
 
 STRUCT(CharlieNeubelt){CHARLIE_NEUBELT_PARAMS(FIELD)};
 
-FN float charlie_neubelt_eval(CharlieNeubelt m, Angles a) {
-    return charlie_d_sin2(m.alpha, a.sin2_h) * neubelt_v(a.o.z, a.i.z);
+STRUCT(CharlieNeubeltPrepared) { Charlie d; };
+FN void charlie_neubelt_prepare(CharlieNeubelt m, CharlieNeubeltPrepared *p) { p->d = charlie_of(m.alpha); }
+
+STRUCT(CharlieNeubeltView) { CharlieSide side; };
+FN void charlie_neubelt_view(const CharlieNeubeltPrepared *p, Dir o, CharlieNeubeltView *w) {
+    w->side = charlie_side(o);
 }
-FN float charlie_neubelt_pdf(CharlieNeubelt m, Angles a) { return charlie_pdf(m.alpha, a); }
-FN Dir charlie_neubelt_sample(CharlieNeubelt m, Dir o, float u, float v) {
-    return charlie_sample(m.alpha, o, u, v);
+
+FN LobeValue charlie_neubelt_value(const CharlieNeubeltPrepared *p, const CharlieNeubeltView *w, Angles a) {
+    float d = charlie_d_sin2(p->d, a.sin2_h);
+    return lobe_value_of(d * neubelt_v(a.o.z, a.i.z), 0.0f, charlie_pdf(d, w->side, a));
+}
+FN Dir charlie_neubelt_sample(const CharlieNeubeltPrepared *p, const CharlieNeubeltView *w, Dir o, float u,
+                              float v) {
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

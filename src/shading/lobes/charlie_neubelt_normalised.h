@@ -26,16 +26,34 @@
 
 STRUCT(CharlieNeubeltNormalised){CHARLIE_NEUBELT_NORMALISED_PARAMS(FIELD)};
 
-FN float charlie_neubelt_normalised_eval(CharlieNeubeltNormalised m, Angles a) {
-    TableRef e = lobe_table_charlie_neubelt();
-    float most = max(table_roots(e, a.o.z, m.alpha), table_roots(e, a.i.z, m.alpha));
-    return charlie_d_sin2(m.alpha, a.sin2_h) * neubelt_v(a.o.z, a.i.z) / max(1.0f, most);
+STRUCT(CharlieNeubeltNormalisedPrepared) {
+    Charlie d;
+    float alpha;
+};
+FN void charlie_neubelt_normalised_prepare(CharlieNeubeltNormalised m, CharlieNeubeltNormalisedPrepared *p) {
+    p->d = charlie_of(m.alpha);
+    p->alpha = m.alpha;
 }
-FN float charlie_neubelt_normalised_pdf(CharlieNeubeltNormalised m, Angles a) {
-    return charlie_pdf(m.alpha, a);
+
+STRUCT(CharlieNeubeltNormalisedView) {
+    CharlieSide side;
+    float e; /* of charlie-neubelt */
+};
+FN void charlie_neubelt_normalised_view(const CharlieNeubeltNormalisedPrepared *p, Dir o,
+                                        CharlieNeubeltNormalisedView *w) {
+    w->side = charlie_side(o);
+    w->e = table_roots(lobe_table_charlie_neubelt(), o.z, p->alpha);
 }
-FN Dir charlie_neubelt_normalised_sample(CharlieNeubeltNormalised m, Dir o, float u, float v) {
-    return charlie_sample(m.alpha, o, u, v);
+
+FN LobeValue charlie_neubelt_normalised_value(const CharlieNeubeltNormalisedPrepared *p,
+                                              const CharlieNeubeltNormalisedView *w, Angles a) {
+    float d = charlie_d_sin2(p->d, a.sin2_h);
+    float most = max(w->e, table_roots(lobe_table_charlie_neubelt(), a.i.z, p->alpha));
+    return lobe_value_of(d * neubelt_v(a.o.z, a.i.z) / max(1.0f, most), 0.0f, charlie_pdf(d, w->side, a));
+}
+FN Dir charlie_neubelt_normalised_sample(const CharlieNeubeltNormalisedPrepared *p,
+                                         const CharlieNeubeltNormalisedView *w, Dir o, float u, float v) {
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

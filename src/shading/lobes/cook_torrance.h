@@ -19,6 +19,7 @@
 #ifndef WEFT_COOK_TORRANCE_H
 #define WEFT_COOK_TORRANCE_H
 
+#include "shading/lobe.h"
 #include "shading/terms.h"
 
 #define COOK_TORRANCE_PARAMS(P)                                                                              \
@@ -30,17 +31,11 @@
     P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")          \
     P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction of those F that have one")            \
     P(float, k, 3.0f, 0.0f, 8.0f, 0.0f, 20.0f, "extinction of F = conductor")
-#define COOK_TORRANCE_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC)
+#define COOK_TORRANCE_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
 STRUCT(CookTorrance){COOK_TORRANCE_PARAMS(FIELD)};
-
-/* Where in the table they are. */
-#define COOK_TORRANCE_D       1
-#define COOK_TORRANCE_V       2
-#define COOK_TORRANCE_F       3
-#define COOK_TORRANCE_STRETCH 4
-#define COOK_TORRANCE_IOR     5
-#define COOK_TORRANCE_K       6
+PREPARED_AS_IT_IS(cook_torrance, CookTorrance)
+SEEN_AS_IT_IS(cook_torrance, CookTorrance)
 
 FN float cook_torrance_ax(CookTorrance m) { return m.alpha * m.stretch; }
 
@@ -52,26 +47,31 @@ FN float cook_torrance_shadow(CookTorrance m, Angles a) {
     return term_v(m.v, m.alpha, cook_torrance_ax(m), m.alpha, a);
 }
 
-FN float cook_torrance_eval(CookTorrance m, Angles a) {
-    return cook_torrance_spread(m, a) * cook_torrance_shadow(m, a);
-}
-
 FN float cook_torrance_share(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
 FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
 
-FN float cook_torrance_pdf(CookTorrance m, Angles a) {
+/* Its density where D is known. */
+FN float cook_torrance_drawn(CookTorrance m, float spread, Angles a) {
     float pdf;
     if (m.d == D_GGX)
         pdf = ggx_pdf_h(m.alpha, m.alpha, a);
     else if (m.d == D_GGX_ANISO)
         pdf = ggx_pdf_h(cook_torrance_ax(m), m.alpha, a);
     else
-        pdf = facet_pdf(cook_torrance_spread(m, a) * a.h.z, a);
+        pdf = facet_pdf(spread * a.h.z, a);
     return 0.5f * pdf + 0.5f * warp_uniform_pdf(a.i);
 }
 
-FN Dir cook_torrance_sample(CookTorrance m, Dir o, float u, float v) {
+FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorranceView *w, Angles a) {
+    float spread = cook_torrance_spread(p->m, a);
+    return lobe_value_of(spread * cook_torrance_shadow(p->m, a), cook_torrance_share(p->m, a),
+                         cook_torrance_drawn(p->m, spread, a));
+}
+
+FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceView *view, Dir o, float u,
+                            float v) {
     if (u >= 0.5f) return warp_uniform(2.0f * u - 1.0f, v);
+    CookTorrance m = p->m;
     float ax = cook_torrance_ax(m), w = 2.0f * u;
     if (m.d == D_GGX) return dir_mirror(o, ggx_sample_h(m.alpha, m.alpha, o, w, v));
     if (m.d == D_GGX_ANISO) return dir_mirror(o, ggx_sample_h(ax, m.alpha, o, w, v));

@@ -21,17 +21,31 @@
 #ifndef WEFT_EON_H
 #define WEFT_EON_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define EON_PARAMS(P)                                                                                        \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 the brightest towards the light")
-#define EON_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE)
+#define EON_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE | TRAIT_TWO_COLORS)
 #define EON_C1     (0.5f - 2.0f / (3.0f * PI))
 #define EON_C2     (2.0f / 3.0f - 28.0f / (15.0f * PI))
 
 STRUCT(Eon){EON_PARAMS(FIELD)};
 
 FN float eon_a(Eon m) { return 1.0f / (1.0f + EON_C1 * m.roughness); }
+
+FN float eon_second(Eon m, float f0, float f90) {
+    float avg = eon_a(m) * (1.0f + EON_C2 * m.roughness);
+    return f0 * f0 * avg / (1.0f - min(f0, 1.0f) * (1.0f - avg));
+}
+
+/* The part of s / t is drawn uniformly, since at grazing it outgrows the cosine. */
+STRUCT(EonPrepared) { float roughness, a, uniform_part; };
+FN void eon_prepare(Eon m, EonPrepared *p) {
+    p->roughness = m.roughness;
+    p->a = eon_a(m);
+    p->uniform_part = m.roughness / (1.0f + m.roughness);
+}
 
 /* C1 - G / pi: what the first bounce loses towards that cosine, over A roughness. */
 FN float eon_lost(float z) {
@@ -42,31 +56,19 @@ FN float eon_lost(float z) {
     return max(EON_C1 - g / PI, 0.0f);
 }
 
+STRUCT(EonView) { float lost_o; };
+FN void eon_view(const EonPrepared *p, Dir o, EonView *w) { w->lost_o = p->roughness * eon_lost(o.z); }
+
 /* Both parts of a white lobe, over A / pi. */
-FN float eon_first(Eon m, Angles a) {
-    float s = a.o.x * a.i.x + a.o.y * a.i.y;
-    float t = s > 0.0f ? max(a.o.z, a.i.z) : 1.0f;
-    return max(1.0f + m.roughness * s / t, 0.0f);
+FN LobeValue eon_value(const EonPrepared *p, const EonView *w, Angles a) {
+    float s = a.o.x * a.i.x + a.o.y * a.i.y, t = s > 0.0f ? max(a.o.z, a.i.z) : 1.0f;
+    float first = max(1.0f + p->roughness * s / t, 0.0f),
+          rest = w->lost_o * eon_lost(a.i.z) / (EON_C1 - EON_C2);
+    return lobe_value_of(p->a * (first + rest) / PI, rest / max(first + rest, 1e-12f),
+                         warp_mixed_pdf(p->uniform_part, a.i));
 }
-FN float eon_rest(Eon m, Angles a) {
-    return m.roughness * eon_lost(a.o.z) * eon_lost(a.i.z) / (EON_C1 - EON_C2);
-}
-
-FN float eon_eval(Eon m, Angles a) { return eon_a(m) * (eon_first(m, a) + eon_rest(m, a)) / PI; }
-
-FN float eon_share(Eon m, Angles a) {
-    float rest = eon_rest(m, a);
-    return rest / max(eon_first(m, a) + rest, 1e-12f);
-}
-FN float eon_second(Eon m, float f0, float f90) {
-    float avg = eon_a(m) * (1.0f + EON_C2 * m.roughness);
-    return f0 * f0 * avg / (1.0f - min(f0, 1.0f) * (1.0f - avg));
-}
-
-/* The part of s / t is uniform, since at grazing it outgrows the cosine. */
-FN float eon_pdf(Eon m, Angles a) { return warp_mixed_pdf(m.roughness / (1.0f + m.roughness), a.i); }
-FN Dir eon_sample(Eon m, Dir o, float u, float v) {
-    return warp_mixed(m.roughness / (1.0f + m.roughness), u, v);
+FN Dir eon_sample(const EonPrepared *p, const EonView *w, Dir o, float u, float v) {
+    return warp_mixed(p->uniform_part, u, v);
 }
 
 #endif

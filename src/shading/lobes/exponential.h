@@ -18,6 +18,7 @@
 #ifndef WEFT_EXPONENTIAL_H
 #define WEFT_EXPONENTIAL_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define EXPONENTIAL_PARAMS(P)                                                                                \
@@ -33,14 +34,29 @@ FN float exponential_gain(float y) {
     return y < 0.25f ? s : 1.0f - exp(-y);
 }
 
-/* x at t = 1 - cos, which is taken from the tangential part for the same reason. */
-FN float exponential_x(float beta, Dir w) {
+/* x at t = 1 - cos, which is taken from the tangential part for the same reason; full is
+ * exponential_gain(beta). */
+FN float exponential_x(float beta, float full, Dir w) {
     float t = (w.x * w.x + w.y * w.y) / (1.0f + w.z);
-    return exponential_gain(beta * t) / exponential_gain(beta);
+    return exponential_gain(beta * t) / full;
 }
 
-FN float exponential_eval(Exponential m, Angles a) { return exponential_x(m.beta, a.o) / PI; }
-FN float exponential_pdf(Exponential m, Angles a) { return warp_cosine_pdf(a.i); }
-FN Dir exponential_sample(Exponential m, Dir o, float u, float v) { return warp_cosine(u, v); }
+STRUCT(ExponentialPrepared) { float beta, full; };
+FN void exponential_prepare(Exponential m, ExponentialPrepared *p) {
+    p->beta = m.beta;
+    p->full = exponential_gain(m.beta);
+}
+
+STRUCT(ExponentialView) { float x; };
+FN void exponential_view(const ExponentialPrepared *p, Dir o, ExponentialView *w) {
+    w->x = exponential_x(p->beta, p->full, o);
+}
+
+FN LobeValue exponential_value(const ExponentialPrepared *p, const ExponentialView *w, Angles a) {
+    return lobe_value_of(w->x / PI, 0.0f, warp_cosine_pdf(a.i));
+}
+FN Dir exponential_sample(const ExponentialPrepared *p, const ExponentialView *w, Dir o, float u, float v) {
+    return warp_cosine(u, v);
+}
 
 #endif

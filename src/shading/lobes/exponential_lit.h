@@ -35,21 +35,28 @@ FN float exponential_lit_mean(float beta) {
     return numerator / exponential_gain(beta);
 }
 
-FN float exponential_lit_eval(ExponentialLit m, Angles a) {
-    return exponential_x(m.beta, a.o) * exponential_x(m.beta, a.i) / (PI * exponential_lit_mean(m.beta));
-}
-
 /* A steep x leaves a cosine, a flat one about cos (1 - cos): cosine and uniform mixed by where A is between.
  */
-FN float exponential_lit_share(float beta) {
-    return clamp(1.5f * exponential_lit_mean(beta) - 0.5f, 0.0f, 1.0f);
+STRUCT(ExponentialLitPrepared) { float beta, full, mean, cosine_part; };
+FN void exponential_lit_prepare(ExponentialLit m, ExponentialLitPrepared *p) {
+    p->beta = m.beta;
+    p->full = exponential_gain(m.beta);
+    p->mean = exponential_lit_mean(m.beta);
+    p->cosine_part = clamp(1.5f * p->mean - 0.5f, 0.0f, 1.0f);
 }
 
-FN float exponential_lit_pdf(ExponentialLit m, Angles a) {
-    return mix(warp_uniform_pdf(a.i), warp_cosine_pdf(a.i), exponential_lit_share(m.beta));
+STRUCT(ExponentialLitView) { float x; };
+FN void exponential_lit_view(const ExponentialLitPrepared *p, Dir o, ExponentialLitView *w) {
+    w->x = exponential_x(p->beta, p->full, o);
 }
-FN Dir exponential_lit_sample(ExponentialLit m, Dir o, float u, float v) {
-    float q = exponential_lit_share(m.beta);
+
+FN LobeValue exponential_lit_value(const ExponentialLitPrepared *p, const ExponentialLitView *w, Angles a) {
+    float f = w->x * exponential_x(p->beta, p->full, a.i) / (PI * p->mean);
+    return lobe_value_of(f, 0.0f, mix(warp_uniform_pdf(a.i), warp_cosine_pdf(a.i), p->cosine_part));
+}
+FN Dir exponential_lit_sample(const ExponentialLitPrepared *p, const ExponentialLitView *w, Dir o, float u,
+                              float v) {
+    float q = p->cosine_part;
     Dir i = warp_uniform((u - q) / max(1.0f - q, 1e-6f), v);
     if (u < q) i = warp_cosine(u / q, v);
     return i;

@@ -12,6 +12,7 @@
 #ifndef WEFT_FABRIC_LAMBERT_H
 #define WEFT_FABRIC_LAMBERT_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define FABRIC_LAMBERT_PARAMS(P)                                                                             \
@@ -19,9 +20,15 @@
 #define FABRIC_LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_DIFFUSE)
 
 STRUCT(FabricLambert){FABRIC_LAMBERT_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(fabric_lambert, FabricLambert)
+SEEN_AS_IT_IS(fabric_lambert, FabricLambert)
 
-FN float fabric_lambert_eval(FabricLambert m, Angles a) { return mix(1.0f, 0.5f, m.roughness) / PI; }
-FN float fabric_lambert_pdf(FabricLambert m, Angles a) { return warp_cosine_pdf(a.i); }
-FN Dir fabric_lambert_sample(FabricLambert m, Dir o, float u, float v) { return warp_cosine(u, v); }
+FN LobeValue fabric_lambert_value(const FabricLambertPrepared *p, const FabricLambertView *w, Angles a) {
+    return lobe_value_of(mix(1.0f, 0.5f, p->m.roughness) / PI, 0.0f, warp_cosine_pdf(a.i));
+}
+FN Dir fabric_lambert_sample(const FabricLambertPrepared *p, const FabricLambertView *w, Dir o, float u,
+                             float v) {
+    return warp_cosine(u, v);
+}
 
 #endif

@@ -24,139 +24,144 @@
 
 #include "shading/fibre_medium.h"
 #include "shading/fibre_model.h"
+#include "shading/lobe.h"
 #include "shading/ltc.h"
-#include "shading/tint.h"
-#include "shading/warp.h"
 
 #define FIBRE_PARAMS(P)                                                                                      \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")      \
     P(float, density, 1.0f, 0.25f, 4.0f, 0.25f, 4.0f, "of fibres, times the thickness of the fuzz")          \
     P(float, tilt, 0.0f, 0.0f, 0.785398163f, 0.0f, 0.785398163f, "how far fibres lean over, radians")        \
     P(float, azimuth, 0.0f, 0.0f, 6.28318531f, 0.0f, 6.28318531f, "where to, from the tangent, radians")
-#define FIBRE_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+#define FIBRE_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TINTED)
 
 STRUCT(Fibre){FIBRE_PARAMS(FIELD)};
 
-/* The model of leaning fibres was fitted from alpha 0.38 up; sharper ones that lean ever so little would
- * reflect more than they receive. */
-FN Fibre fibre_sure(Fibre m) {
-    m.alpha = max(m.alpha, min(2.2f * sqrt(m.tilt), 0.38f));
-    return m;
-}
-
-/* All that a material knows before directions come. */
-STRUCT(FibreReady) {
-    Fibre m;
-    FibreModel model;
+/* How fibres lie: how sharp and how they lean. The model of leaning fibres was fitted from alpha 0.38 up;
+ * sharper ones that lean ever so little would reflect more than they receive. */
+STRUCT(FibreNap) {
+    float alpha, s;     /* s = alpha^2 */
+    float sin_t, cos_t; /* of the tilt */
+    float cos_a, sin_a; /* of the azimuth */
     Dir axis;
 };
 
-FN FibreReady fibre_ready(Fibre fibre) {
-    FibreReady r;
-    r.m = fibre_sure(fibre);
-    r.model = fibre_model(r.m.alpha, r.m.density, r.m.tilt);
-    r.axis = flake_axis(r.m.tilt, r.m.azimuth);
-    return r;
-}
-
-FN float fibre_single(FibreReady r, Angles a) {
-    return flake_single(r.m.alpha * r.m.alpha, r.axis, r.m.density, a.o, a.i);
-}
-
-FN float fibre_eval(FibreReady r, Angles a) {
-    FibreSide o = fibre_side(r.model, a.o.z, dir_dot(a.o, r.axis));
-    FibreSide i = fibre_side(r.model, a.i.z, dir_dot(a.i, r.axis));
-    return fibre_single(r, a) + fibre_multiple(r.model, o, i, fibre_turn(o, i, a.o, a.i));
-}
-
-FN Tint fibre_tint(FibreReady r, Angles a) {
-    FibreSide o = fibre_side(r.model, a.o.z, dir_dot(a.o, r.axis));
-    FibreSide i = fibre_side(r.model, a.i.z, dir_dot(a.i, r.axis));
-    float turn = fibre_turn(o, i, a.o, a.i), multiple = fibre_multiple(r.model, o, i, turn);
-    Tint t;
-    t.s = multiple / max(fibre_single(r, a) + multiple, 1e-30f);
-    t.q_o = o.q;
-    t.q_i = i.q;
-    t.e = fibre_deepen(o, i, turn);
-    return t;
+FN FibreNap fibre_nap_of(float alpha, float tilt, float azimuth) {
+    FibreNap n;
+    n.alpha = max(alpha, min(2.2f * sqrt(tilt), 0.38f));
+    n.s = n.alpha * n.alpha;
+    n.sin_t = sin(tilt);
+    n.cos_t = cos(tilt);
+    n.cos_a = cos(azimuth);
+    n.sin_a = sin(azimuth);
+    n.axis = dir(n.sin_t * n.cos_a, n.sin_t * n.sin_a, n.cos_t);
+    return n;
 }
 
 /* M^-1 w = (A w_xy + b wo_xy w_z, w_z), here over A; ln A and b are fitted where fibres stand upright. */
-FN Ltc fibre_ltc(Fibre m, Dir o) {
-    float a = m.alpha, x = sqrt(o.z);
+FN Ltc fibre_ltc(float a, float cos_o) {
+    float x = sqrt(cos_o);
     float log_a = (-4.2660f + a * (6.3668f - 2.6138f * a)) + x * (4.4336f + a * (-5.7563f + 2.1627f * a)) +
-                  o.z * (-2.2343f + a * (3.3418f - 1.6143f * a));
+                  cos_o * (-2.2343f + a * (3.3418f - 1.6143f * a));
     float b = (-0.1178f + a * (-0.7682f + 0.9250f * a)) + x * (1.1469f + a * (-1.2170f - 0.0989f * a)) +
-              o.z * (-1.1981f + a * (2.1293f - 0.8385f * a));
+              cos_o * (-1.1981f + a * (2.1293f - 0.8385f * a));
     float z = exp(-log_a);
-    return ltc_of(z, 1.0f, b * z, 0.0f, o.z);
+    return ltc_of(z, 1.0f, b * z, 0.0f, cos_o);
 }
 
 /* Light that meets one flake goes to where nu = -nu_o, give or take s: with x = nu + nu_o, x / (b + |x|) is
  * uniform, from where something is above the horizon, nu = -sin tilt, to nu = 1. Around t, from the side that
  * is up, the angle is uniform as far as the horizon. */
-STRUCT(FibreCone) {
-    float nu_o, b, low, high; /* low .. high: of x / (b + |x|) */
-    float sin_t, cos_t;       /* of the tilt */
+STRUCT(FibreDraw) {
+    Ltc ltc;
+    float nu, b, low, high; /* low .. high: of x / (b + |x|) */
+    float cone; /* its part of the samples: near grazing, and where enough of the circle is above */
 };
 
 FN float fibre_place(float x, float b) { return x / (b + abs(x)); }
 
-FN FibreCone fibre_cone(Fibre m, Dir o) {
-    FibreCone c;
-    float s = m.alpha * m.alpha;
-    c.sin_t = sin(m.tilt);
-    c.cos_t = cos(m.tilt);
-    c.nu_o = dir_dot(o, flake_axis(m.tilt, m.azimuth));
-    c.b = max(s, o.z * s / (c.sin_t + s));
-    c.low = fibre_place(c.nu_o - c.sin_t, c.b);
-    c.high = fibre_place(c.nu_o + 1.0f, c.b);
+FN FibreDraw fibre_draw(FibreNap n, Dir o) {
+    FibreDraw c;
+    c.ltc = fibre_ltc(n.alpha, o.z);
+    c.nu = dir_dot(o, n.axis);
+    c.b = max(n.s, o.z * n.s / (n.sin_t + n.s));
+    c.low = fibre_place(c.nu - n.sin_t, c.b);
+    c.high = fibre_place(c.nu + 1.0f, c.b);
+    float above = max((n.sin_t - c.nu) / n.s + 1.5f, 0.0f);
+    float lean = 0.9f * (1.0f - n.s) * n.sin_t / (n.sin_t + 0.25f * n.s) * above / (1.0f + above);
+    c.cone = mix(lean, 1.0f, 0.01f / (0.02f + o.z));
     return c;
 }
 
 /* acos of the cosine at which the horizon cuts the circle of that nu, and up to 2e-4 more, so that samples
  * cover all of it. Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45. */
-FN float fibre_reach(FibreCone c, float nu) {
+FN float fibre_reach(FibreNap n, float nu) {
     float r = sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f));
-    float x = clamp(nu * c.cos_t / max(r * c.sin_t, 1e-30f), -1.0f, 1.0f), y = abs(x);
+    float x = clamp(nu * n.cos_t / max(r * n.sin_t, 1e-30f), -1.0f, 1.0f), y = abs(x);
     float angle = sqrt(1.0f - y) * (1.5707288f + y * (-0.2121144f + y * (0.0742610f - 0.0187293f * y)));
     return min((x > 0.0f ? PI - angle : angle) + 1e-4f, PI);
 }
 
-/* The share of that: near grazing, and where enough of the circle is above the horizon. */
-FN float fibre_cone_share(Fibre m, Dir o, FibreCone c) {
-    float s = m.alpha * m.alpha, above = max((c.sin_t - c.nu_o) / s + 1.5f, 0.0f);
-    float lean = 0.9f * (1.0f - s) * c.sin_t / (c.sin_t + 0.25f * s) * above / (1.0f + above);
-    return mix(lean, 1.0f, 0.01f / (0.02f + o.z));
-}
-
 #define FIBRE_UNIFORM 0.04f
 
-FN float fibre_pdf(Fibre fibre, Angles a) {
-    Fibre m = fibre_sure(fibre);
-    FibreCone c = fibre_cone(m, a.o);
-    float nu = clamp(dir_dot(a.i, flake_axis(m.tilt, m.azimuth)), -1.0f, 1.0f), d = c.b + abs(nu + c.nu_o);
-    float cone = c.b / (d * d * (c.high - c.low) * 2.0f * fibre_reach(c, nu));
-    float lobe = mix(ltc_pdf(fibre_ltc(m, a.o), a.o, a.i), cone, fibre_cone_share(m, a.o, c));
-    return mix(lobe, warp_uniform_pdf(a.i), FIBRE_UNIFORM);
+FN float fibre_drawn(FibreNap n, FibreDraw c, Angles a) {
+    float nu = clamp(dir_dot(a.i, n.axis), -1.0f, 1.0f), d = c.b + abs(nu + c.nu);
+    float cone = c.b / (d * d * (c.high - c.low) * 2.0f * fibre_reach(n, nu));
+    return mix(mix(ltc_pdf(c.ltc, a.o, a.i), cone, c.cone), warp_uniform_pdf(a.i), FIBRE_UNIFORM);
 }
 
-FN Dir fibre_cone_sample(Fibre m, FibreCone c, float u, float v) {
+FN Dir fibre_cone(FibreNap n, FibreDraw c, float u, float v) {
     float place = mix(c.low, c.high, u);
-    float nu = clamp(c.b * place / (1.0f - abs(place)) - c.nu_o, -c.sin_t, 1.0f);
-    float r = sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f)), phi = (2.0f * v - 1.0f) * fibre_reach(c, nu);
-    float up = r * cos(phi), along = nu * c.sin_t - up * c.cos_t, side = r * sin(phi);
-    float x = cos(m.azimuth), y = sin(m.azimuth);
-    return dir(along * x - side * y, along * y + side * x, nu * c.cos_t + up * c.sin_t);
+    float nu = clamp(c.b * place / (1.0f - abs(place)) - c.nu, -n.sin_t, 1.0f);
+    float r = sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f)), phi = (2.0f * v - 1.0f) * fibre_reach(n, nu);
+    float up = r * cos(phi), along = nu * n.sin_t - up * n.cos_t, side = r * sin(phi);
+    return dir(along * n.cos_a - side * n.sin_a, along * n.sin_a + side * n.cos_a,
+               nu * n.cos_t + up * n.sin_t);
 }
 
-FN Dir fibre_sample(Fibre fibre, Dir o, float u, float v) {
-    Fibre m = fibre_sure(fibre);
+FN Dir fibre_direction(FibreNap n, FibreDraw c, Dir o, float u, float v) {
+    float rest = (u - FIBRE_UNIFORM) / (1.0f - FIBRE_UNIFORM);
     if (u < FIBRE_UNIFORM) return warp_uniform(u / FIBRE_UNIFORM, v);
-    FibreCone c = fibre_cone(m, o);
-    float rest = (u - FIBRE_UNIFORM) / (1.0f - FIBRE_UNIFORM), share = fibre_cone_share(m, o, c);
-    if (rest < share) return fibre_cone_sample(m, c, rest / share, v);
-    return ltc_sample(fibre_ltc(m, o), o, (rest - share) / (1.0f - share), v);
+    if (rest < c.cone) return fibre_cone(n, c, rest / c.cone, v);
+    return ltc_sample(c.ltc, o, (rest - c.cone) / (1.0f - c.cone), v);
+}
+
+STRUCT(FibrePrepared) {
+    FibreNap nap;
+    float density;
+    FibreModel model;
+};
+FN void fibre_prepare(Fibre m, FibrePrepared *p) {
+    p->nap = fibre_nap_of(m.alpha, m.tilt, m.azimuth);
+    p->density = m.density;
+    p->model = fibre_model(p->nap.alpha, m.density, m.tilt);
+}
+
+STRUCT(FibreView) {
+    FibreDraw draw;
+    FibreSide side;
+    float sigma;
+};
+FN void fibre_view(const FibrePrepared *p, Dir o, FibreView *w) {
+    w->draw = fibre_draw(p->nap, o);
+    w->side = fibre_side(p->model, o.z, w->draw.nu);
+    w->sigma = flake_sigma(p->nap.s, w->draw.nu);
+}
+
+FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
+    float nu_i = dir_dot(a.i, p->nap.axis);
+    float single =
+        flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, flake_sigma(p->nap.s, nu_i), a.o, a.i);
+    FibreSide i = fibre_side(p->model, a.i.z, nu_i);
+    float turn = fibre_turn(w->side, i, a.o, a.i), multiple = fibre_multiple(p->model, w->side, i, turn);
+    LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_drawn(p->nap, w->draw, a));
+    v.tint.s = multiple / max(single + multiple, 1e-30f);
+    v.tint.q_o = w->side.q;
+    v.tint.q_i = i.q;
+    v.tint.e = fibre_deepen(w->side, i, turn);
+    return v;
+}
+FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {
+    return fibre_direction(p->nap, w->draw, o, u, v);
 }
 
 #endif

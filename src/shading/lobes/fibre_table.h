@@ -44,12 +44,12 @@ STRUCT(FibreTableSpot) {
 FN float fibre_table_column(float mu) { return (sqrt(mu + 1e-3f) - 0.0316227766f) * 1.03212265f; }
 
 /* Rows are uniform in the logarithm of alpha. */
-FN FibreTableSpot fibre_table_spot(FibreTable m, float mu) {
+FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
     FibreTableSpot s;
     s.t = lobe_table_fibre();
     s.rows = s.t.rows / FIBRE_TABLE_PLANES;
     float x = fibre_table_column(mu) * to_float(s.t.columns - 1);
-    float y = (log2(m.alpha) - s.t.low) / (s.t.high - s.t.low) * to_float(s.rows - 1);
+    float y = (log2(alpha) - s.t.low) / (s.t.high - s.t.low) * to_float(s.rows - 1);
     float left = clamp(floor(x), 0.0f, to_float(s.t.columns - 2));
     float top = clamp(floor(y), 0.0f, to_float(s.rows - 2));
     s.column = to_int(left);
@@ -71,8 +71,8 @@ FN float fibre_table_mixed(FibreTableSpot s, int plane) {
 /* What one look-up brings. */
 STRUCT(FibreTableSide) { float a, h, g, k; };
 
-FN FibreTableSide fibre_table_side(FibreTable m, float mu) {
-    FibreTableSpot s = fibre_table_spot(m, mu);
+FN FibreTableSide fibre_table_side(float alpha, float mu) {
+    FibreTableSpot s = fibre_table_spot(alpha, mu);
     FibreTableSide r;
     r.a = fibre_table_mixed(s, 0);
     r.h = fibre_table_mixed(s, 1);
@@ -87,27 +87,35 @@ FN float fibre_table_multiple(FibreTableSide o, FibreTableSide i, Dir wo, Dir wi
     return exp2(e - p * log2(wo.z + wi.z + 0.2f * alpha));
 }
 
-FN float fibre_table_eval(FibreTable m, Angles a) {
-    FibreTableSide o = fibre_table_side(m, a.o.z), i = fibre_table_side(m, a.i.z);
-    float p = 1.4f - 2.2f * log2(m.alpha);
-    return flake_single_upright(flake_upright(m.alpha * m.alpha, 1.0f), a.o, a.i) +
-           fibre_table_multiple(o, i, a.o, a.i, m.alpha, p);
+/* The same fibres as the other lobe has them, upright and of density 1. */
+STRUCT(FibreTablePrepared) {
+    FibreNap nap;
+    FlakeUpright flake;
+    float power;
+};
+FN void fibre_table_prepare(FibreTable m, FibreTablePrepared *p) {
+    p->nap = fibre_nap_of(m.alpha, 0.0f, 0.0f);
+    p->flake = flake_upright(m.alpha * m.alpha, 1.0f);
+    p->power = 1.4f - 2.2f * log2(m.alpha);
 }
 
-/* The same fibres as the other lobe has them. */
-FN Fibre fibre_table_fibre(FibreTable m) {
-    Fibre f;
-    f.alpha = m.alpha;
-    f.density = 1.0f;
-    f.tilt = 0.0f;
-    f.azimuth = 0.0f;
-    return f;
+STRUCT(FibreTableView) {
+    FibreDraw draw;
+    FibreTableSide side;
+};
+FN void fibre_table_view(const FibreTablePrepared *p, Dir o, FibreTableView *w) {
+    w->draw = fibre_draw(p->nap, o);
+    w->side = fibre_table_side(p->nap.alpha, o.z);
 }
 
-FN float fibre_table_pdf(FibreTable m, Angles a) { return fibre_pdf(fibre_table_fibre(m), a); }
-
-FN Dir fibre_table_sample(FibreTable m, Dir o, float u, float v) {
-    return fibre_sample(fibre_table_fibre(m), o, u, v);
+FN LobeValue fibre_table_value(const FibreTablePrepared *p, const FibreTableView *w, Angles a) {
+    FibreTableSide i = fibre_table_side(p->nap.alpha, a.i.z);
+    float multiple = fibre_table_multiple(w->side, i, a.o, a.i, p->nap.alpha, p->power);
+    return lobe_value_of(flake_single_upright(p->flake, a.o, a.i) + multiple, 0.0f,
+                         fibre_drawn(p->nap, w->draw, a));
+}
+FN Dir fibre_table_sample(const FibreTablePrepared *p, const FibreTableView *w, Dir o, float u, float v) {
+    return fibre_direction(p->nap, w->draw, o, u, v);
 }
 
 #endif

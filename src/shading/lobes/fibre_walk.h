@@ -27,6 +27,7 @@
 
 #include "base/random.h"
 #include "shading/fibre_medium.h"
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define FIBRE_WALK_PARAMS(P)                                                                                 \
@@ -37,6 +38,8 @@
 #define FIBRE_WALK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_REFERENCE)
 
 STRUCT(FibreWalk){FIBRE_WALK_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(fibre_walk, FibreWalk)
+SEEN_AS_IT_IS(fibre_walk, FibreWalk)
 
 /* Random numbers: what the bits of two directions start. */
 FN uint64_t fibre_walk_bits(Dir w) {
@@ -110,7 +113,7 @@ FN bool fibre_walk_first(FibreWalk m, Dir a, Dir b) {
     return a.y < b.y || a.y > b.y ? a.y > b.y : a.z > b.z;
 }
 
-FN float fibre_walk_eval(FibreWalk m, Angles a) {
+FN float fibre_walk_f(FibreWalk m, Angles a) {
     bool first = fibre_walk_first(m, a.o, a.i);
     Dir from = first ? a.o : a.i, to = first ? a.i : a.o;
     uint64_t stream = stream_start(fibre_walk_bits(from), fibre_walk_bits(to));
@@ -147,7 +150,12 @@ FN float fibre_walk_pdf(FibreWalk m, Angles a) {
     return mix(0.5f / PI * b / (c * c * (high - low)), warp_mixed_pdf(0.5f, a.i), m.alpha);
 }
 
-FN Dir fibre_walk_sample(FibreWalk m, Dir o, float u, float v) {
+FN LobeValue fibre_walk_value(const FibreWalkPrepared *p, const FibreWalkView *w, Angles a) {
+    return lobe_value_of(fibre_walk_f(p->m, a), 0.0f, fibre_walk_pdf(p->m, a));
+}
+
+FN Dir fibre_walk_sample(const FibreWalkPrepared *p, const FibreWalkView *view, Dir o, float u, float v) {
+    FibreWalk m = p->m;
     if (u < m.alpha) return warp_mixed(0.5f, u / m.alpha, v);
     Dir t = flake_axis(m.tilt, m.azimuth);
     float nu_o = dir_dot(o, t), b = fibre_walk_width(m, o);

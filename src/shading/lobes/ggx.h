@@ -17,32 +17,54 @@
 #ifndef WEFT_GGX_H
 #define WEFT_GGX_H
 
+#include "shading/lobe.h"
+#include "shading/terms/d_ggx.h"
 #include "shading/terms/f_schlick.h"
-#include "shading/terms/v_smith_ggx_correlated.h"
 
 /* P(type, name, default, low, high, hard_low, hard_high, help): low .. high is what a slider spans; values
  * beyond it are taken with a warning up to the hard clamp. */
 #define GGX_PARAMS(P)                                                                                        \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 4.0f, "width of the facet slopes across the brushing")       \
     P(float, anisotropy, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "0 round, 1 as rough along x as can be")
-#define GGX_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+#define GGX_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
 STRUCT(Ggx){GGX_PARAMS(FIELD)};
 
 FN float ggx_ax(Ggx m) { return mix(m.alpha, 1.0f, m.anisotropy * m.anisotropy); }
 
-FN float ggx_eval(Ggx m, Angles a) {
-    float ax = ggx_ax(m);
-    return ggx_d(ax, m.alpha, a.h) * smith_ggx_correlated_v(ax, m.alpha, a.o, a.i);
+STRUCT(GgxPrepared) {
+    float ax, ay;         /* alpha along x and y */
+    float per_ax, per_ay; /* their reciprocals */
+    float d_scale;        /* 1 / (pi ax ay) */
+};
+FN GgxPrepared ggx_stretched(float ax, float ay) {
+    GgxPrepared p;
+    p.ax = ax;
+    p.ay = ay;
+    p.per_ax = 1.0f / ax;
+    p.per_ay = 1.0f / ay;
+    p.d_scale = 1.0f / (PI * ax * ay);
+    return p;
+}
+FN void ggx_prepare(Ggx m, GgxPrepared *p) { *p = ggx_stretched(ggx_ax(m), m.alpha); }
+
+STRUCT(GgxView) {
+    float length_o;  /* |A wo|, A = diag(ax, ay, 1) */
+    float pdf_scale; /* pdf = D pdf_scale */
+};
+FN void ggx_view(const GgxPrepared *p, Dir o, GgxView *w) {
+    w->length_o = ggx_length(p->ax, p->ay, o);
+    w->pdf_scale = 0.5f / (o.z + w->length_o);
 }
 
-FN float ggx_share(Ggx m, Angles a) { return schlick_s(a.d); }
-FN float ggx_second(Ggx m, float f0, float f90) { return f90; }
-
-FN float ggx_pdf(Ggx m, Angles a) { return ggx_pdf_h(ggx_ax(m), m.alpha, a); }
-
-FN Dir ggx_sample(Ggx m, Dir o, float u, float v) {
-    return dir_mirror(o, ggx_sample_h(ggx_ax(m), m.alpha, o, u, v));
+FN LobeValue ggx_value(const GgxPrepared *p, const GgxView *w, Angles a) {
+    float x = a.h.x * p->per_ax, y = a.h.y * p->per_ay, q = x * x + y * y + a.h.z * a.h.z;
+    float d = p->d_scale / (q * q);
+    float visibility = 0.5f / max(a.i.z * w->length_o + a.o.z * ggx_length(p->ax, p->ay, a.i), 1e-12f);
+    return lobe_value_of(d * visibility, schlick_s(a.d), d * w->pdf_scale);
+}
+FN Dir ggx_sample(const GgxPrepared *p, const GgxView *w, Dir o, float u, float v) {
+    return dir_mirror(o, ggx_sample_h(p->ax, p->ay, o, u, v));
 }
 
 #endif

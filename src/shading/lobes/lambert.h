@@ -10,15 +10,21 @@
 #ifndef WEFT_LAMBERT_H
 #define WEFT_LAMBERT_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define LAMBERT_PARAMS(P)
 #define LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE)
 
 STRUCT(Lambert) { float none; }; /* neither language has empty records */
+PREPARED_AS_IT_IS(lambert, Lambert)
+SEEN_AS_IT_IS(lambert, Lambert)
 
-FN float lambert_eval(Lambert m, Angles a) { return 1.0f / PI; }
-FN float lambert_pdf(Lambert m, Angles a) { return warp_cosine_pdf(a.i); }
-FN Dir lambert_sample(Lambert m, Dir o, float u, float v) { return warp_cosine(u, v); }
+FN LobeValue lambert_value(const LambertPrepared *p, const LambertView *w, Angles a) {
+    return lobe_value_of(1.0f / PI, 0.0f, warp_cosine_pdf(a.i));
+}
+FN Dir lambert_sample(const LambertPrepared *p, const LambertView *w, Dir o, float u, float v) {
+    return warp_cosine(u, v);
+}
 
 #endif

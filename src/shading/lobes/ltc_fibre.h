@@ -20,7 +20,7 @@
 #ifndef WEFT_LOBES_LTC_FIBRE_H
 #define WEFT_LOBES_LTC_FIBRE_H
 
-#include "shading/angles.h"
+#include "shading/lobe.h"
 #include "shading/lobe_tables.h"
 #include "shading/ltc_table.h"
 
@@ -29,24 +29,22 @@
 #define LTC_FIBRE_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
 STRUCT(LtcFibre){LTC_FIBRE_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(ltc_fibre, LtcFibre)
 
-FN LtcLobe ltc_fibre_at(LtcFibre m, float cos_o) {
-    LtcLobe l = ltc_table_level(lobe_table_ltc_fibre(), cos_o, m.alpha);
-    l.f0 = min(l.f0, 1.0f);
-    return l;
+STRUCT(LtcFibreView) { LtcLobe ltc; };
+FN void ltc_fibre_view(const LtcFibrePrepared *p, Dir o, LtcFibreView *w) {
+    w->ltc = ltc_table_level(lobe_table_ltc_fibre(), o.z, p->m.alpha);
+    w->ltc.f0 = min(w->ltc.f0, 1.0f);
 }
 
-FN float ltc_fibre_eval(LtcFibre m, Angles a) {
-    LtcLobe l = ltc_fibre_at(m, a.o.z);
-    Dir v = ltc_inverse(l.m, a.o, a.i);
+FN LobeValue ltc_fibre_value(const LtcFibrePrepared *p, const LtcFibreView *w, Angles a) {
+    Dir v = ltc_inverse(w->ltc.m, a.o, a.i);
     float r2 = max(dir_dot(v, v), 1e-18f); /* keeps its square a normal number */
-    return l.f0 * l.m.z * l.m.det / (PI * r2 * r2);
+    return lobe_value_of(w->ltc.f0 * w->ltc.m.z * w->ltc.m.det / (PI * r2 * r2), 0.0f,
+                         ltc_pdf(w->ltc.m, a.o, a.i));
 }
-
-FN float ltc_fibre_pdf(LtcFibre m, Angles a) { return ltc_pdf(ltc_fibre_at(m, a.o.z).m, a.o, a.i); }
-
-FN Dir ltc_fibre_sample(LtcFibre m, Dir o, float u, float v) {
-    return ltc_sample(ltc_fibre_at(m, o.z).m, o, u, v);
+FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o, float u, float v) {
+    return ltc_sample(w->ltc.m, o, u, v);
 }
 
 #endif

@@ -17,6 +17,7 @@
 #ifndef WEFT_OREN_NAYAR_H
 #define WEFT_OREN_NAYAR_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define OREN_NAYAR_PARAMS(P)                                                                                 \
@@ -25,23 +26,23 @@
 
 STRUCT(OrenNayar){OREN_NAYAR_PARAMS(FIELD)};
 
-FN float oren_nayar_a(float sigma2) { return 1.0f - 0.5f * sigma2 / (sigma2 + 0.33f); }
-FN float oren_nayar_b(float sigma2) { return 0.45f * sigma2 / (sigma2 + 0.09f); }
+/* The part of B is drawn uniformly, since at grazing it outgrows the cosine. */
+STRUCT(OrenNayarPrepared) { float a, b, uniform_part; };
+FN void oren_nayar_prepare(OrenNayar m, OrenNayarPrepared *p) {
+    float sigma2 = m.sigma * m.sigma;
+    p->a = 1.0f - 0.5f * sigma2 / (sigma2 + 0.33f);
+    p->b = 0.45f * sigma2 / (sigma2 + 0.09f);
+    p->uniform_part = p->b / (p->a + p->b);
+}
+SEEN_AS_IT_IS(oren_nayar, OrenNayar)
 
-FN float oren_nayar_eval(OrenNayar m, Angles a) {
-    float sigma2 = m.sigma * m.sigma, s = a.o.x * a.i.x + a.o.y * a.i.y;
-    return (oren_nayar_a(sigma2) + oren_nayar_b(sigma2) * max(s, 0.0f) / max(a.o.z, a.i.z)) / PI;
+FN LobeValue oren_nayar_value(const OrenNayarPrepared *p, const OrenNayarView *w, Angles a) {
+    float s = a.o.x * a.i.x + a.o.y * a.i.y;
+    float f = (p->a + p->b * max(s, 0.0f) / max(a.o.z, a.i.z)) / PI;
+    return lobe_value_of(f, 0.0f, warp_mixed_pdf(p->uniform_part, a.i));
 }
-
-/* The part of B is uniform, since at grazing it outgrows the cosine. */
-FN float oren_nayar_uniform(float sigma2) {
-    return oren_nayar_b(sigma2) / (oren_nayar_a(sigma2) + oren_nayar_b(sigma2));
-}
-FN float oren_nayar_pdf(OrenNayar m, Angles a) {
-    return warp_mixed_pdf(oren_nayar_uniform(m.sigma * m.sigma), a.i);
-}
-FN Dir oren_nayar_sample(OrenNayar m, Dir o, float u, float v) {
-    return warp_mixed(oren_nayar_uniform(m.sigma * m.sigma), u, v);
+FN Dir oren_nayar_sample(const OrenNayarPrepared *p, const OrenNayarView *w, Dir o, float u, float v) {
+    return warp_mixed(p->uniform_part, u, v);
 }
 
 #endif

@@ -23,6 +23,7 @@
 #ifndef WEFT_PATRY_H
 #define WEFT_PATRY_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define PATRY_PARAMS(P)                                                                                      \
@@ -32,28 +33,33 @@
 
 STRUCT(Patry){PATRY_PARAMS(FIELD)};
 
-FN float patry_phase(Patry m, Dir o, Dir h) {
-    float sigma = m.roughness * m.roughness, s2 = sigma * sigma;
-    float q = s2 * (h.x * h.x + h.y * h.y) + h.z * h.z;
-    return s2 * sigma / (4.0f * PI * q * q * sqrt(o.x * o.x + o.y * o.y + s2 * o.z * o.z));
+STRUCT(PatryPrepared) { float sigma, s2, density; };
+FN void patry_prepare(Patry m, PatryPrepared *p) {
+    p->sigma = m.roughness * m.roughness;
+    p->s2 = p->sigma * p->sigma;
+    p->density = m.density;
 }
 
-FN float patry_eval(Patry m, Angles a) {
-    float y = m.density * (1.0f / a.o.z + 1.0f / a.i.z);
-    return patry_phase(m, a.o, a.h) * (1.0f - exp(-y)) / (a.o.z + a.i.z);
+/* The length of wo as the fibres see it. */
+STRUCT(PatryView) { float length_o; };
+FN void patry_view(const PatryPrepared *p, Dir o, PatryView *w) {
+    w->length_o = sqrt(o.x * o.x + o.y * o.y + p->s2 * o.z * o.z);
 }
 
-FN float patry_pdf(Patry m, Angles a) {
-    return 0.5f * patry_phase(m, a.o, a.h) + 0.5f * warp_uniform_pdf(a.i);
+FN LobeValue patry_value(const PatryPrepared *p, const PatryView *w, Angles a) {
+    float q = p->s2 * (a.h.x * a.h.x + a.h.y * a.h.y) + a.h.z * a.h.z;
+    float phase = p->s2 * p->sigma / (4.0f * PI * q * q * w->length_o);
+    float y = p->density * (1.0f / a.o.z + 1.0f / a.i.z);
+    return lobe_value_of(phase * (1.0f - exp(-y)) / (a.o.z + a.i.z), 0.0f,
+                         0.5f * phase + 0.5f * warp_uniform_pdf(a.i));
 }
 
-FN Dir patry_sample(Patry m, Dir o, float u, float v) {
+FN Dir patry_sample(const PatryPrepared *p, const PatryView *w, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
-        float sigma = m.roughness * m.roughness;
-        float l = 1.0f / sqrt(o.x * o.x + o.y * o.y + sigma * sigma * o.z * o.z);
+        float l = 1.0f / w->length_o;
         float z = 1.0f - 4.0f * u, r = sqrt(max(1.0f - z * z, 0.0f)), phi = 2.0f * PI * v;
-        float x = o.x * l + r * cos(phi), y = o.y * l + r * sin(phi), t = sigma * (sigma * o.z * l + z);
+        float x = o.x * l + r * cos(phi), y = o.y * l + r * sin(phi), t = p->sigma * (p->sigma * o.z * l + z);
         float n = x * x + y * y + t * t;
         Dir h = o;
         if (n > 1e-20f) {

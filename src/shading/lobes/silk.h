@@ -22,31 +22,29 @@
 #ifndef WEFT_SILK_H
 #define WEFT_SILK_H
 
-#include "shading/terms/f_schlick.h"
-#include "shading/terms/v_smith_ggx_correlated.h"
+#include "shading/lobes/ggx.h"
 
 #define SILK_PARAMS(P)                                                                                       \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 1.0f, "mean width of the facet slopes")                      \
     P(float, anisotropy, 0.6f, -0.8f, 0.8f, -0.8f, 0.8f, "above 0 rougher along x, below 0 along y")
-#define SILK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+#define SILK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
 STRUCT(Silk){SILK_PARAMS(FIELD)};
 
 FN float silk_ax(Silk m) { return max(m.alpha * (1.0f + m.anisotropy), 1.0f / 1024.0f); }
 FN float silk_ay(Silk m) { return max(m.alpha * (1.0f - m.anisotropy), 1.0f / 1024.0f); }
 
-FN float silk_eval(Silk m, Angles a) {
-    float ax = silk_ax(m), ay = silk_ay(m);
-    return ggx_d(ax, ay, a.h) * smith_ggx_correlated_v(ax, ay, a.o, a.i);
+STRUCT(SilkPrepared) { GgxPrepared ggx; };
+FN void silk_prepare(Silk m, SilkPrepared *p) { p->ggx = ggx_stretched(silk_ax(m), silk_ay(m)); }
+
+STRUCT(SilkView) { GgxView ggx; };
+FN void silk_view(const SilkPrepared *p, Dir o, SilkView *w) { ggx_view(&p->ggx, o, &w->ggx); }
+
+FN LobeValue silk_value(const SilkPrepared *p, const SilkView *w, Angles a) {
+    return ggx_value(&p->ggx, &w->ggx, a);
 }
-
-FN float silk_share(Silk m, Angles a) { return schlick_s(a.d); }
-FN float silk_second(Silk m, float f0, float f90) { return f90; }
-
-FN float silk_pdf(Silk m, Angles a) { return ggx_pdf_h(silk_ax(m), silk_ay(m), a); }
-
-FN Dir silk_sample(Silk m, Dir o, float u, float v) {
-    return dir_mirror(o, ggx_sample_h(silk_ax(m), silk_ay(m), o, u, v));
+FN Dir silk_sample(const SilkPrepared *p, const SilkView *w, Dir o, float u, float v) {
+    return ggx_sample(&p->ggx, &w->ggx, o, u, v);
 }
 
 #endif

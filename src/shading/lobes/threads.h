@@ -31,7 +31,7 @@
 #ifndef WEFT_THREADS_H
 #define WEFT_THREADS_H
 
-#include "shading/angles.h"
+#include "shading/lobe.h"
 
 #define THREADS_PARAMS(P)                                                                                    \
     P(float, warp_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the warp's highlight along x")            \
@@ -40,9 +40,10 @@
     P(float, warp_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the warp rises and falls")          \
     P(float, weft_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the weft rises and falls")          \
     P(float, isotropic, 0.3f, 0.0f, 1.0f, 0.0f, 1.0f, "part of the light that the yarn scatters evenly")
-#define THREADS_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC)
+#define THREADS_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
 STRUCT(Threads){THREADS_PARAMS(FIELD)};
+PREPARED_AS_IT_IS(threads, Threads)
 
 /* A direction as a piece of yarn of that slope sees it: y along the yarn, x across, z its own normal. */
 FN Dir threads_turn(Dir w, bool weft, float slope) {
@@ -61,6 +62,9 @@ FN float threads_all(Threads m, Dir w) {
     float weft = threads_seen(w.y, w.z, m.weft_crimp) + threads_seen(w.y, w.z, -m.weft_crimp);
     return (1.0f - m.weft) * warp + m.weft * weft;
 }
+
+STRUCT(ThreadsView) { float all; };
+FN void threads_view(const ThreadsPrepared *p, Dir o, ThreadsView *w) { w->all = threads_all(p->m, o); }
 
 /* The area of one slope of a family over a unit of cloth. */
 FN float threads_area(Threads m, bool weft, float slope) {
@@ -90,47 +94,39 @@ FN float threads_yarn(float width, float isotropic, Dir o, Dir i) {
 
 /* One slope of a family: what both directions see of it, in parts of all that each sees. The floor keeps f
  * finite where yarn of hardly any share is all that is seen from the horizon. */
-FN float threads_slope(Threads m, Angles a, bool weft, float slope) {
+FN float threads_slope(Threads m, Angles a, float all_o, float all_i, bool weft, float slope) {
     Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
-    float seen_o = max(o.z, 0.0f) / max(threads_all(m, a.o), 1e-7f);
-    float seen_i = max(i.z, 0.0f) / max(threads_all(m, a.i), 1e-7f);
+    float seen_o = max(o.z, 0.0f) / max(all_o, 1e-7f);
+    float seen_i = max(i.z, 0.0f) / max(all_i, 1e-7f);
     return threads_area(m, weft, slope) * seen_o * seen_i *
            threads_yarn(weft ? m.weft_width : m.warp_width, m.isotropic, o, i);
 }
 
-FN float threads_warp(Threads m, Angles a) {
-    return threads_slope(m, a, false, m.warp_crimp) + threads_slope(m, a, false, -m.warp_crimp);
-}
-FN float threads_weft(Threads m, Angles a) {
-    return threads_slope(m, a, true, m.weft_crimp) + threads_slope(m, a, true, -m.weft_crimp);
-}
-
-FN float threads_eval(Threads m, Angles a) { return threads_warp(m, a) + threads_weft(m, a); }
-FN float threads_share(Threads m, Angles a) {
-    float weft = threads_weft(m, a);
-    return weft / max(threads_warp(m, a) + weft, 1e-30f);
-}
-FN float threads_second(Threads m, float f0, float f90) { return f90; }
-
 /* Sampling: a slope by what wo sees of it; along the yarn by the highlight, cut off at the ends, or evenly;
  * around the yarn by the cosine to its plane (3/4) or evenly. */
-FN float threads_pdf_slope(Threads m, Angles a, bool weft, float slope) {
+FN float threads_pdf_slope(Threads m, Angles a, float all_o, bool weft, float slope) {
     Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
     float scale = threads_scale(weft ? m.weft_width : m.warp_width);
     float inside = threads_below(scale, o.y + 1.0f) - threads_below(scale, o.y - 1.0f);
     float along = mix(threads_density(scale, o.y + i.y) / inside, 0.5f, m.isotropic);
     float around = 0.375f * i.z / max(sqrt(i.x * i.x + i.z * i.z), 1e-6f) + 0.25f / PI;
-    float picked = threads_area(m, weft, slope) * max(o.z, 0.0f) / threads_all(m, a.o);
+    float picked = threads_area(m, weft, slope) * max(o.z, 0.0f) / all_o;
     return i.z > 0.0f ? picked * along * around : 0.0f;
 }
 
-FN float threads_pdf(Threads m, Angles a) {
-    return threads_pdf_slope(m, a, false, m.warp_crimp) + threads_pdf_slope(m, a, false, -m.warp_crimp) +
-           threads_pdf_slope(m, a, true, m.weft_crimp) + threads_pdf_slope(m, a, true, -m.weft_crimp);
+FN LobeValue threads_value(const ThreadsPrepared *p, const ThreadsView *w, Angles a) {
+    Threads m = p->m;
+    float all_i = threads_all(m, a.i), k = m.warp_crimp, l = m.weft_crimp;
+    float warp = threads_slope(m, a, w->all, all_i, false, k) + threads_slope(m, a, w->all, all_i, false, -k);
+    float weft = threads_slope(m, a, w->all, all_i, true, l) + threads_slope(m, a, w->all, all_i, true, -l);
+    float pdf = threads_pdf_slope(m, a, w->all, false, k) + threads_pdf_slope(m, a, w->all, false, -k) +
+                threads_pdf_slope(m, a, w->all, true, l) + threads_pdf_slope(m, a, w->all, true, -l);
+    return lobe_value_of(warp + weft, weft / max(warp + weft, 1e-30f), pdf);
 }
 
-FN Dir threads_sample(Threads m, Dir o, float u, float v) {
-    float all = threads_all(m, o), warp = (1.0f - m.weft) / all, weft = m.weft / all;
+FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, Dir o, float u, float v) {
+    Threads m = prepared->m;
+    float warp = (1.0f - m.weft) / view->all, weft = m.weft / view->all;
     float a = warp * threads_seen(o.x, o.z, m.warp_crimp), b = warp * threads_seen(o.x, o.z, -m.warp_crimp);
     float c = weft * threads_seen(o.y, o.z, m.weft_crimp), d = weft * threads_seen(o.y, o.z, -m.weft_crimp);
     bool second = u >= a + b && c + d > 0.0f;

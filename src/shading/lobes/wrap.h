@@ -16,6 +16,7 @@
 #ifndef WEFT_WRAP_H
 #define WEFT_WRAP_H
 
+#include "shading/lobe.h"
 #include "shading/warp.h"
 
 #define WRAP_PARAMS(P) P(float, wrap, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "reach past the terminator, 0 is Lambert")
@@ -23,13 +24,24 @@
 
 STRUCT(Wrap){WRAP_PARAMS(FIELD)};
 
-FN float wrap_eval(Wrap m, Angles a) {
-    float cos_i = max(a.i.z, 1e-6f), w1 = 1.0f + m.wrap;
-    return (cos_i + m.wrap) / (PI * w1 * w1 * cos_i);
+STRUCT(WrapPrepared) {
+    float wrap, scale; /* scale = 1 / (pi (1 + wrap)^2) */
+    float uniform_part;
+};
+FN void wrap_prepare(Wrap m, WrapPrepared *p) {
+    float w1 = 1.0f + m.wrap;
+    p->wrap = m.wrap;
+    p->scale = 1.0f / (PI * w1 * w1);
+    p->uniform_part = 2.0f * m.wrap / (1.0f + 2.0f * m.wrap);
 }
+SEEN_AS_IT_IS(wrap, Wrap)
 
-FN float wrap_uniform(Wrap m) { return 2.0f * m.wrap / (1.0f + 2.0f * m.wrap); }
-FN float wrap_pdf(Wrap m, Angles a) { return warp_mixed_pdf(wrap_uniform(m), a.i); }
-FN Dir wrap_sample(Wrap m, Dir o, float u, float v) { return warp_mixed(wrap_uniform(m), u, v); }
+FN LobeValue wrap_value(const WrapPrepared *p, const WrapView *w, Angles a) {
+    float cos_i = max(a.i.z, 1e-6f);
+    return lobe_value_of(p->scale * (cos_i + p->wrap) / cos_i, 0.0f, warp_mixed_pdf(p->uniform_part, a.i));
+}
+FN Dir wrap_sample(const WrapPrepared *p, const WrapView *w, Dir o, float u, float v) {
+    return warp_mixed(p->uniform_part, u, v);
+}
 
 #endif

@@ -24,7 +24,7 @@ FN float babylon_alpha(float r) { return r * r + 0.0005f; }
 FN Stack babylon_stack(Surface s, Dir o) {
     float r = clamp(s.roughness, 0.0f, 1.0f), r_s = clamp(s.sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
-    sheen.params[0] = max(babylon_alpha(r_s), 0.005f);
+    sheen.params[CHARLIE_NEUBELT_ALPHA] = max(babylon_alpha(r_s), 0.005f);
     Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
                              LAYER_ALBEDO_VIEW);
     m.albedo = ALBEDO_BABYLON;
@@ -35,7 +35,7 @@ FN Stack babylon_stack(Surface s, Dir o) {
                     max(1.0f - f0.b, 0.0f) * dielectric);
     m = workflow_base(m, s, rgb_mul(s.base_color, below), mixed, s.specular, o);
     m.specular.lobe = lobe_default(LOBE_GGX);
-    m.specular.lobe.params[0] = max(babylon_alpha(r), 0.001f);
+    m.specular.lobe.params[GGX_ALPHA] = max(babylon_alpha(r), 0.001f);
     m.specular =
         filament_compensate(m.specular, mixed, table_albedo(engine_table(ENGINE_BABYLON_GGX), o.z, r));
     return m;

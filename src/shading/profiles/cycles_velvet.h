@@ -17,7 +17,7 @@
 
 FN Stack cycles_velvet_stack(Surface s, Dir o) {
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);
-    sheen.params[0] = clamp(s.sheen_roughness, 0.01f, 1.0f);
+    sheen.params[COOK_TORRANCE_ALPHA] = clamp(s.sheen_roughness, 0.01f, 1.0f);
     sheen.params[COOK_TORRANCE_D] = to_float(D_VELVET);
     sheen.params[COOK_TORRANCE_V] = to_float(V_COOK_TORRANCE);
     sheen.params[COOK_TORRANCE_F] = to_float(F_NONE);

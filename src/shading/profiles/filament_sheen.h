@@ -26,7 +26,7 @@ FN float filament_roughness(float r) { return clamp(r, 0.045f, 1.0f); }
 
 FN Lobe filament_charlie(float r) {
     Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
-    lobe.params[0] = max(r * r, 0.005f);
+    lobe.params[COOK_TORRANCE_ALPHA] = max(r * r, 0.005f);
     lobe.params[COOK_TORRANCE_D] = to_float(D_CHARLIE_FLOORED);
     lobe.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
     lobe.params[COOK_TORRANCE_F] = to_float(F_NONE);
@@ -37,7 +37,7 @@ FN Lobe filament_charlie(float r) {
 FN Stack filament_fuzz(Stack m, float r, Rgb color, int layer) {
     Lobe lobe = filament_charlie(r);
     m = workflow_sheen(m, lobe, color, color, layer);
-    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(lobe.params[0]));
+    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(lobe.params[COOK_TORRANCE_ALPHA]));
     m.sheen.f90 = m.sheen.f0;
     return m;
 }

@@ -20,11 +20,11 @@
 FN Stack hdrp_cotton_stack(Surface s, Dir o) {
     float r = clamp(s.sheen_roughness, 0.0f, 1.0f), alpha = r * r;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
-    sheen.params[0] = max(alpha * (1.0f + s.anisotropy), 0.005f);
+    sheen.params[CHARLIE_NEUBELT_ALPHA] = max(alpha * (1.0f + s.anisotropy), 0.005f);
     Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
                              LAYER_ADDITIVE);
     Lobe diffuse = lobe_default(LOBE_FABRIC_LAMBERT);
-    diffuse.params[0] = alpha;
+    diffuse.params[FABRIC_LAMBERT_ROUGHNESS] = alpha;
     m.diffuse = slot_make(diffuse, s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
     return m;
 }

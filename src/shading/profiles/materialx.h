@@ -61,7 +61,7 @@ FN Rgb materialx_square(Rgb f0, float f90) {
 FN Stack materialx_stack(Surface s, Dir o) {
     float rho = s.sheen_roughness * s.sheen_roughness;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
-    sheen.params[0] = clamp(rho, 0.005f, 4.0f);
+    sheen.params[CHARLIE_NEUBELT_ALPHA] = clamp(rho, 0.005f, 4.0f);
     Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
                              LAYER_ALBEDO_VIEW);
     m.albedo = ALBEDO_MATERIALX;
@@ -75,7 +75,7 @@ FN Stack materialx_stack(Surface s, Dir o) {
     m.under_f90 = rgb_mean(e) * (1.0f + k * f90);
     m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), f0, max(f90, s.metallic), o);
     m.specular.lobe = lobe_default(LOBE_GGX);
-    m.specular.lobe.params[0] = alpha;
+    m.specular.lobe.params[GGX_ALPHA] = alpha;
     m.specular.f0 = rgb_mix(materialx_twice(f0, k), materialx_twice(s.base_color, k), s.metallic);
     m.specular.f90 = rgb_grey(mix(f90 * (1.0f + k * f90), 1.0f + k, s.metallic));
     m.specular.sag =

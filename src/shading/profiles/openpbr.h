@@ -22,7 +22,7 @@
 FN Stack openpbr_stack(Surface s, Dir o) {
     float weight = clamp(s.sheen, 0.0f, 1.0f);
     Lobe fuzz = lobe_default(LOBE_LTC_FIBRE);
-    fuzz.params[0] = clamp(s.sheen_roughness, 0.05f, 1.0f);
+    fuzz.params[LTC_FIBRE_ALPHA] = clamp(s.sheen_roughness, 0.05f, 1.0f);
     Stack m = workflow_sheen(stack_empty(), fuzz, rgb_scale(s.sheen_color, weight), s.sheen_second,
                              LAYER_ALBEDO_VIEW);
     m.color = rgb_grey(weight);
@@ -37,7 +37,7 @@ FN Stack openpbr_stack(Surface s, Dir o) {
     Rgb first = rgb_add(rgb_scale(s.specular_color, f0 * glass), rgb_scale(s.base_color, metal));
     m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), first, 1.0f, o);
     m.specular.lobe = lobe_default(LOBE_GGX);
-    m.specular.lobe.params[0] = clamp(s.roughness * s.roughness, 0.001f, 1.0f);
+    m.specular.lobe.params[GGX_ALPHA] = clamp(s.roughness * s.roughness, 0.001f, 1.0f);
     m.specular.f90 = rgb_add(rgb_scale(s.specular_color, glass), rgb_grey(metal));
     return m;
 }

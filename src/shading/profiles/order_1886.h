@@ -21,7 +21,7 @@
 FN Stack order_1886_stack(Surface s, Dir o) {
     float r = clamp(s.sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);
-    sheen.params[0] = max(r * r, 0.005f);
+    sheen.params[COOK_TORRANCE_ALPHA] = max(r * r, 0.005f);
     sheen.params[COOK_TORRANCE_D] = to_float(D_ASHIKHMIN);
     sheen.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
     sheen.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);

@@ -40,7 +40,7 @@ FN float three_albedo(float cosine, float r) {
 FN Lobe three_ggx(float roughness, float anisotropy) {
     float r = clamp(roughness, THREE_ROUGHNESS_LEAST, 1.0f), alpha = r * r;
     Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
-    lobe.params[0] = alpha;
+    lobe.params[COOK_TORRANCE_ALPHA] = alpha;
     lobe.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
     lobe.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
     lobe.params[COOK_TORRANCE_F] = to_float(F_SCHLICK_GAUSSIAN);
@@ -61,7 +61,7 @@ FN Stack three_coat(Stack m, Surface s, Dir o) {
 
 FN Lobe three_charlie(float alpha) {
     Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
-    lobe.params[0] = max(alpha, 0.005f);
+    lobe.params[COOK_TORRANCE_ALPHA] = max(alpha, 0.005f);
     lobe.params[COOK_TORRANCE_D] = to_float(D_CHARLIE_FLOORED);
     lobe.params[COOK_TORRANCE_V] = to_float(V_NEUBELT_CLAMPED);
     lobe.params[COOK_TORRANCE_F] = to_float(F_NONE);
@@ -73,7 +73,7 @@ FN Stack three_stack(Surface s, Dir o) {
     float r = clamp(s.roughness, THREE_ROUGHNESS_LEAST, 1.0f), r_s = clamp(s.sheen_roughness, 1e-4f, 1.0f);
     Lobe sheen = three_charlie(r_s * r_s);
     m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_MAX);
-    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(sheen.params[0]));
+    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(sheen.params[COOK_TORRANCE_ALPHA]));
     m.sheen.f90 = m.sheen.f0;
     m.albedo = ALBEDO_THREE;
     m.at = r_s;

@@ -22,7 +22,7 @@
 
 FN Lobe unreal4_lobe(float alpha, int d, int v) {
     Lobe lobe = lobe_default(LOBE_COOK_TORRANCE);
-    lobe.params[0] = alpha;
+    lobe.params[COOK_TORRANCE_ALPHA] = alpha;
     lobe.params[COOK_TORRANCE_D] = to_float(d);
     lobe.params[COOK_TORRANCE_V] = to_float(v);
     lobe.params[COOK_TORRANCE_F] = to_float(F_SCHLICK_F90);
@@ -40,7 +40,7 @@ FN Stack unreal4_stack(Surface s, Dir o) {
     Lobe haze = unreal4_lobe(max(alpha, 0.005f), D_INVERSE_GGX, V_NEUBELT);
     m.color = rgb_scale(fuzz, cloth);
     m.sheen_color = m.color;
-    m.at = haze.params[0];
+    m.at = haze.params[COOK_TORRANCE_ALPHA];
     m.sheen = slot_make(haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth, cloth * rgb_mean(fuzz));
     m.specular =
         slot_make(unreal4_lobe(max(alpha, 0.001f), D_GGX, V_SMITH_GGX_FAST), f0, rgb_grey(unreal4_f90(f0)),

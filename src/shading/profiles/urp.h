@@ -24,9 +24,9 @@ FN Stack urp_stack(Surface s, Dir o) {
     float amount = rgb_max3(s.sheen_color) > 0.0f ? clamp(s.sheen, 0.0f, 1.0f) : 0.0f;
     Stack m = stack_empty();
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT), specular = lobe_default(LOBE_COOK_TORRANCE);
-    sheen.params[0] = alpha;
+    sheen.params[CHARLIE_NEUBELT_ALPHA] = alpha;
     m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, amount), s.sheen_second, LAYER_ADDITIVE);
-    specular.params[0] = alpha;
+    specular.params[COOK_TORRANCE_ALPHA] = alpha;
     specular.params[COOK_TORRANCE_D] = to_float(D_GGX);
     specular.params[COOK_TORRANCE_V] = to_float(V_URP);
     specular.params[COOK_TORRANCE_F] = to_float(F_NONE);

@@ -9,13 +9,22 @@
 
 #include "shading/terms/facet.h"
 
-/* sin^2 comes from the tangential part of h: 1 - cos^2 has no digits left where the lobe is small. The floor
- * keeps the argument of pow a normal number. */
-FN float charlie_d_sin2(float alpha, float sin2) {
-    return (2.0f + 1.0f / alpha) / (2.0f * PI) * pow(max(sin2, 1e-30f), 0.5f / alpha);
+/* D = scale (sin^2)^power, and sin_h = u^draw. */
+STRUCT(Charlie) { float scale, power, draw; };
+
+FN Charlie charlie_of(float alpha) {
+    Charlie c;
+    c.scale = (2.0f + 1.0f / alpha) / (2.0f * PI);
+    c.power = 0.5f / alpha;
+    c.draw = alpha / (2.0f * alpha + 1.0f);
+    return c;
 }
 
-FN float charlie_d(float alpha, Dir h) { return charlie_d_sin2(alpha, h.x * h.x + h.y * h.y); }
+/* sin^2 comes from the tangential part of h: 1 - cos^2 has no digits left where the lobe is small. The floor
+ * keeps the argument of pow a normal number. */
+FN float charlie_d_sin2(Charlie c, float sin2) { return c.scale * pow(max(sin2, 1e-30f), c.power); }
+
+FN float charlie_d(float alpha, Dir h) { return charlie_d_sin2(charlie_of(alpha), h.x * h.x + h.y * h.y); }
 
 /* h from D cos_h, at any azimuth: sin_h = u^(alpha / (2 alpha + 1)) inverts the integral. */
 FN Dir charlie_facet(float alpha, float u, float v) {
@@ -23,34 +32,38 @@ FN Dir charlie_facet(float alpha, float u, float v) {
     return facet(sin_h, sqrt(max(1.0f - sin_h * sin_h, 0.0f)), v);
 }
 
-/* For the lobes built on it: h from D cos_h, taken only from the half plane of azimuths that wo is in, where
- * wo . h > 0 without exception; so the density doubles there. */
-FN Dir charlie_sample_h(float alpha, Dir o, float u, float v) {
-    float sin_h = pow(max(u, 1e-7f), alpha / (2.0f * alpha + 1.0f));
-    float cos_h = sqrt(max(1.0f - sin_h * sin_h, 0.0f));
+/* The direction of wo in the tangent plane. */
+STRUCT(CharlieSide) { float x, y; };
+
+FN CharlieSide charlie_side(Dir o) {
     float s = sqrt(o.x * o.x + o.y * o.y);
-    float tx = s > 1e-6f ? o.x / s : 1.0f, ty = s > 1e-6f ? o.y / s : 0.0f;
-    float phi = PI * (v - 0.5f), c = sin_h * cos(phi), t = sin_h * sin(phi);
-    return dir(c * tx - t * ty, c * ty + t * tx, cos_h);
+    CharlieSide side;
+    side.x = s > 1e-6f ? o.x / s : 1.0f;
+    side.y = s > 1e-6f ? o.y / s : 0.0f;
+    return side;
 }
 
-/* Density of the wi that mirrors wo about such an h. */
-FN float charlie_pdf_h(float alpha, Angles a) {
-    float s = sqrt(a.o.x * a.o.x + a.o.y * a.o.y);
-    float side = s > 1e-6f ? a.h.x * a.o.x + a.h.y * a.o.y : a.h.x;
-    return side > 0.0f ? 2.0f * charlie_d_sin2(alpha, a.sin2_h) * a.h.z / (4.0f * max(a.d, 1e-6f)) : 0.0f;
+/* For the lobes built on it: h from D cos_h, taken only from the half plane of azimuths that wo is in, where
+ * wo . h > 0 without exception; so the density doubles there. */
+FN Dir charlie_sample_h(Charlie c, CharlieSide side, float u, float v) {
+    float sin_h = pow(max(u, 1e-7f), c.draw), cos_h = sqrt(max(1.0f - sin_h * sin_h, 0.0f));
+    float phi = PI * (v - 0.5f), x = sin_h * cos(phi), y = sin_h * sin(phi);
+    return dir(x * side.x - y * side.y, x * side.y + y * side.x, cos_h);
 }
 
 /* The sampler of the lobes built on D: half of the samples by D, half uniform, which bounds the weight where
  * D finds nothing (wo near the normal, and light from behind). */
-FN Dir charlie_sample(float alpha, Dir o, float u, float v) {
+FN Dir charlie_sample(Charlie c, CharlieSide side, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
-    if (u < 0.5f) i = dir_mirror(o, charlie_sample_h(alpha, o, 2.0f * u, v));
+    if (u < 0.5f) i = dir_mirror(o, charlie_sample_h(c, side, 2.0f * u, v));
     return i;
 }
 
-FN float charlie_pdf(float alpha, Angles a) {
-    return 0.5f * charlie_pdf_h(alpha, a) + 0.5f * warp_uniform_pdf(a.i);
+/* Its density where D is known: of the wi that mirrors wo about such an h, and of all. */
+FN float charlie_pdf(float d, CharlieSide side, Angles a) {
+    bool seen = a.h.x * side.x + a.h.y * side.y > 0.0f;
+    float by_d = seen ? 2.0f * d * a.h.z / (4.0f * max(a.d, 1e-6f)) : 0.0f;
+    return 0.5f * by_d + 0.5f * warp_uniform_pdf(a.i);
 }
 
 #endif

@@ -18,23 +18,41 @@
 
 #include "shading/lang.h"
 
-/* L of the fit; t = (1 - alpha)^2 mixes alpha = 1 (first number) with alpha = 0 (second). */
-FN float conty_kulla_l(float t, float x) {
-    float a = mix(-0.72635f, 1.16225f, t), b = mix(3.82987f, 3.32435f, t), c = mix(0.19823f, 0.16801f, t);
-    float d = mix(-1.97760f, -1.27393f, t), e = mix(-0.54689f, 0.80258f, t);
-    float p = b * pow(max(x, 1e-30f), c), q = (1.0f - p) / (1.0f + p);
-    return (11.5f * q + 7.0f) + (a * q + (d * x + e));
+/* a/2 .. e for one alpha, and 2 L(1/2). */
+STRUCT(ContyKulla) { float a, b, c, d, e, twice_half; };
+
+/* L, by a power that is x^c. */
+FN float conty_kulla_l(ContyKulla k, float x, float power) {
+    float p = k.b * power, q = (1.0f - p) / (1.0f + p);
+    return (11.5f * q + 7.0f) + (k.a * q + (k.d * x + k.e));
 }
 
-FN float conty_kulla_lambda(float t, float l_half, float x) {
-    float l = conty_kulla_l(t, min(x, 1.0f - x));
-    return exp(x < 0.5f ? l : 2.0f * l_half - l);
+/* t = (1 - alpha)^2 mixes alpha = 1 (first number) with alpha = 0 (second). */
+FN ContyKulla conty_kulla_of(float alpha) {
+    float t = (1.0f - alpha) * (1.0f - alpha);
+    ContyKulla k;
+    k.a = mix(-0.72635f, 1.16225f, t);
+    k.b = mix(3.82987f, 3.32435f, t);
+    k.c = mix(0.19823f, 0.16801f, t);
+    k.d = mix(-1.97760f, -1.27393f, t);
+    k.e = mix(-0.54689f, 0.80258f, t);
+    k.twice_half = 2.0f * conty_kulla_l(k, 0.5f, exp2(-k.c));
+    return k;
+}
+
+FN float conty_kulla_lambda(ContyKulla k, float x) {
+    float least = min(x, 1.0f - x), l = conty_kulla_l(k, least, pow(max(least, 1e-30f), k.c));
+    return exp(x < 0.5f ? l : k.twice_half - l);
+}
+
+/* V where Lambda(cos_o) is known. */
+FN float conty_kulla_seen(ContyKulla k, float lambda_o, float o, float i) {
+    return 0.25f / ((1.0f + (lambda_o + conty_kulla_lambda(k, i))) * max(o * i, 1e-7f));
 }
 
 FN float conty_kulla_v(float alpha, float o, float i) {
-    float t = (1.0f - alpha) * (1.0f - alpha), l_half = conty_kulla_l(t, 0.5f);
-    float lambda = conty_kulla_lambda(t, l_half, o) + conty_kulla_lambda(t, l_half, i);
-    return 0.25f / ((1.0f + lambda) * max(o * i, 1e-7f));
+    ContyKulla k = conty_kulla_of(alpha);
+    return conty_kulla_seen(k, conty_kulla_lambda(k, o), o, i);
 }
 
 #endif

@@ -37,7 +37,7 @@ FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
     float aspect = sqrt(1.0f - 0.9f * s.anisotropy), alpha = s.roughness * s.roughness;
     Lobe specular = lobe_default(LOBE_COOK_TORRANCE);
     float ax = max(alpha / aspect, 0.001f), ay = max(alpha * aspect, 0.001f);
-    specular.params[0] = ay;
+    specular.params[COOK_TORRANCE_ALPHA] = ay;
     specular.params[COOK_TORRANCE_STRETCH] = ax / ay;
     specular.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
     specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO_SEPARATE);
@@ -45,11 +45,11 @@ FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
     m.specular = slot_make(specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
 
     Lobe diffuse = lobe_rough(LOBE_BURLEY_SUBSURFACE, s.roughness);
-    diffuse.params[BURLEY_SUBSURFACE_AMOUNT] = s.subsurface;
+    diffuse.params[BURLEY_SUBSURFACE_SUBSURFACE] = s.subsurface;
     m.diffuse = slot_make(diffuse, s.base_color, s.base_color, below, below * rgb_mean(s.base_color));
 
     Lobe coat = lobe_default(LOBE_BURLEY_COAT);
-    coat.params[0] = mix(0.1f, 0.001f, s.clearcoat_gloss);
+    coat.params[BURLEY_COAT_ALPHA] = mix(0.1f, 0.001f, s.clearcoat_gloss);
     m = stack_coat_frame(m, s.clearcoat_normal);
     float amount = 0.25f * s.clearcoat;
     m.coat = slot_make(coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));

@@ -1,0 +1,194 @@
+# What knows every lobe, as plain text with one `case` a line, from the rows of src/shading/lobes.list and what the files
+# of src/shading/lobes say of their parameters and traits. Adds to a build folder's generated/shading
+#
+#   lobe_ids.gen.h    LOBE_GGX; GGX_ANISOTROPY, where in the table of its parameters each is; LOBE_COUNT
+#   lobes.gen.h       their files, and their records from arrays of parameters; in the dialect
+#   dispatch.gen.h    all of them behind one signature; in the dialect
+#   lobe_infos.gen.h  their tables as data, for registry.c
+#   loops.gen.h       their loops over arrays, for arrays.c
+#
+# A line that is one lobe's alone names its LOBE_ constant: of those in the dialect src/text/dispatch.c takes the lines
+# of lobes that a shader needs.
+
+file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
+
+# Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
+# tinted, tabled, second.
+macro(weft_read_lobe id)
+  string(REPLACE "-" "_" name ${id})
+  string(TOUPPER ${name} NAME)
+  set(Name "")
+  string(REPLACE "_" ";" words ${name})
+  foreach(word ${words})
+    string(SUBSTRING ${word} 0 1 first)
+    string(SUBSTRING ${word} 1 -1 rest)
+    string(TOUPPER ${first} first)
+    string(APPEND Name ${first}${rest})
+  endforeach()
+  set(file ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes/${name}.h)
+  if(NOT EXISTS ${file})
+    message(FATAL_ERROR "src/shading/lobes.list: ${id} has no file lobes/${name}.h")
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(REGEX REPLACE "[][;]" " " text "${text}") # which lists take for their own
+  string(REGEX MATCH "_TRAITS [^\n]*(\\\\\n[^\n]*)*" traits "${text}")
+  foreach(trait REFERENCE TWO_COLORS TINTED TABLE)
+    string(FIND "${traits}" "TRAIT_${trait}" at)
+    set(is_${trait} FALSE)
+    if(NOT at EQUAL -1)
+      set(is_${trait} TRUE)
+    endif()
+  endforeach()
+  string(FIND "${text}" "float ${name}_second(" second)
+  string(REGEX MATCHALL "P\\((float|[A-Z]Term), [a-z_]+, [^,]+, [^,]+, [^,]+, [^,]+, [^,]+," rows "${text}")
+  set(params "")
+  set(types "")
+  foreach(row ${rows})
+    string(REGEX MATCH "P\\((.*), (.*), (.*), (.*), (.*), (.*), (.*)," row "${row}")
+    list(APPEND params ${CMAKE_MATCH_2})
+    list(APPEND types ${CMAKE_MATCH_1})
+    set(type_${CMAKE_MATCH_2} ${CMAKE_MATCH_1})
+    set(def_${CMAKE_MATCH_2} ${CMAKE_MATCH_3})
+    set(low_${CMAKE_MATCH_2} ${CMAKE_MATCH_4})
+    set(high_${CMAKE_MATCH_2} ${CMAKE_MATCH_5})
+    set(hard_${CMAKE_MATCH_2} "${CMAKE_MATCH_6}, ${CMAKE_MATCH_7}")
+  endforeach()
+endmacro()
+
+# Appends a line that belongs to the lobe that is being read.
+macro(weft_case variable statement)
+  string(APPEND ${variable} "    case LOBE_${NAME}: ${statement}\n")
+endmacro()
+
+# lobes.gen.h and dispatch.gen.h of these lobes, in a folder.
+function(weft_dispatch folder)
+  foreach(id ${ARGN})
+    weft_read_lobe(${id})
+    string(APPEND includes "#include \"shading/lobes/${name}.h\" /* LOBE_${NAME} */\n")
+    set(from "")
+    set(defaults "")
+    set(fibres "")
+    set(k 0)
+    foreach(param ${params})
+      set(member "m->params[${k}]")
+      set(read ${member})
+      set(default ${def_${param}})
+      if(NOT type_${param} STREQUAL "float")
+        set(read "to_int(${member})")
+        set(default "to_float(${default})")
+      endif()
+      string(APPEND from "r.${param} = ${read}; ")
+      string(APPEND defaults "m.params[${k}] = ${default}; ")
+      if(k GREATER 0 AND param MATCHES "^(density|tilt|azimuth)$")
+        string(APPEND fibres "m.params[${k}] = clamp(${param}, ${hard_${param}}); ")
+      endif()
+      math(EXPR k "${k} + 1")
+    endforeach()
+    if(params STREQUAL "")
+      set(from "r.none = 0.0f; ")
+    endif()
+    string(APPEND records "FN ${Name} ${name}_of(const Lobe *m) { ${Name} r; ${from}return r; } /* LOBE_${NAME} */\n")
+    if(is_TABLE)
+      set(defaults "LOBE_TABLES_MAKE(LOBE_${NAME}); ${defaults}")
+    endif()
+    weft_case(default_cases "${defaults}break;")
+    list(POP_FRONT params param)
+    if(param AND type_${param} STREQUAL "float")
+      set(value "mix(${low_${param}}, ${high_${param}}, roughness)")
+      if(param STREQUAL "alpha")
+        set(value "roughness * roughness")
+      elseif(param STREQUAL "roughness")
+        set(value "roughness")
+      endif()
+      weft_case(rough_cases "m.params[0] = clamp(${value}, ${hard_${param}}); break;")
+    endif()
+    if(NOT fibres STREQUAL "")
+      weft_case(fibres_cases "${fibres}break;")
+    endif()
+    set(made "${Name}Prepared p; ${Name}View w; ${name}_prepare(${name}_of(m), &p);")
+    weft_case(value_cases "{ ${made} ${name}_view(&p, a.o, &w); return ${name}_value(&p, &w, a); }")
+    weft_case(sample_cases "{ ${made} ${name}_view(&p, o, &w); return ${name}_sample(&p, &w, o, u, v); }")
+    if(is_TWO_COLORS AND second EQUAL -1)
+      weft_case(second_cases "return f90;")
+    elseif(is_TWO_COLORS)
+      weft_case(second_cases "return ${name}_second(${name}_of(m), f0, f90);")
+    elseif(is_TINTED)
+      weft_case(second_cases "return 1.0f;")
+    endif()
+  endforeach()
+  configure_file(cmake/lobes.h.in ${folder}/lobes.gen.h @ONLY)
+  configure_file(cmake/dispatch.h.in ${folder}/dispatch.gen.h @ONLY)
+endfunction()
+
+# Appends a loop that asks the lobe that is being read for one member of its value.
+macro(weft_loop question)
+  set(question ${question})
+  string(CONFIGURE "${loop}" text @ONLY)
+  string(APPEND loops "${text}")
+endmacro()
+
+set(pairs "n, ox, oy, oz, ix, iy, iz")
+file(READ cmake/loop.h.in loop)
+file(READ cmake/tinted_loop.h.in tinted_loop)
+set(count 0)
+foreach(id ${WEFT_LOBE_IDS})
+  weft_read_lobe(${id})
+  string(APPEND ids "#define LOBE_${NAME} ${count}\n")
+  math(EXPR count "${count} + 1")
+  set(k 0)
+  foreach(param ${params})
+    string(TOUPPER ${param} PARAM)
+    string(APPEND places "#define ${NAME}_${PARAM} ${k} /* LOBE_${NAME} */\n")
+    math(EXPR k "${k} + 1")
+  endforeach()
+  string(APPEND tables "static const WeftParamInfo ${name}_params[] = {${NAME}_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0, NULL}};\n")
+  string(APPEND infos "    {\"${id}\", ${NAME}_TRAITS, (int)(sizeof ${name}_params / sizeof *${name}_params) - 1, ${name}_params},\n")
+  string(APPEND names "    {\"${name}\", \"${Name}\", \"${NAME}\"},\n")
+  if(is_REFERENCE)
+    weft_case(walked_cases "return ${name}_albedo(${name}_of(m), o, walks);")
+    continue()
+  endif()
+  list(APPEND WEFT_TEXT_LOBE_IDS ${id})
+  string(FIND "${types}" "Term" composed) # of choices, which arrays.c makes apart
+  if(composed EQUAL -1)
+    weft_loop(f)
+    weft_loop(pdf)
+    if(is_TWO_COLORS)
+      weft_loop(s)
+    endif()
+  endif()
+  weft_case(f_cases "${name}_f_n(m, ${pairs}, f); break;")
+  weft_case(pdf_cases "${name}_pdf_n(m, ${pairs}, pdf); break;")
+  if(is_TWO_COLORS)
+    weft_case(s_cases "${name}_s_n(m, ${pairs}, s); break;")
+  endif()
+  if(is_TINTED)
+    string(CONFIGURE "${tinted_loop}" text @ONLY)
+    string(APPEND loops "${text}")
+    weft_case(tinted_cases "${name}_tinted_n(m, c, ${pairs}, f[0], f[1], f[2]); break;")
+  endif()
+endforeach()
+
+file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_ids.gen.h @ONLY CONTENT
+"/* lobe_ids.gen.h - made by cmake/lobes.cmake of lobes.list: the lobes, and where their parameters are */
+@ids@#define LOBE_COUNT @count@
+
+@places@")
+file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_infos.gen.h @ONLY CONTENT
+"/* lobe_infos.gen.h - made by cmake/lobes.cmake: what the lobes say of themselves, as data, and E of those that walk */
+@tables@static const WeftLobeInfo infos[LOBE_COUNT] = {
+@infos@};
+static const LobeNames names[LOBE_COUNT] = {
+@names@};
+
+float lobe_walked_albedo(const Lobe *m, Dir o, int walks) {
+    switch (m->id) {
+@walked_cases@    default: return 0.0f;
+    }
+}
+")
+configure_file(cmake/loops.h.in ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY)
+weft_dispatch(${WEFT_GENERATED_DIR}/shading ${WEFT_LOBE_IDS})
+weft_dispatch(${WEFT_GENERATED_DIR}/text/shading ${WEFT_TEXT_LOBE_IDS}) # for half floats

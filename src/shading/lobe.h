@@ -1,0 +1,57 @@
+/* lobe.h - a lobe with its parameters, and what every lobe gives */
+#ifndef WEFT_SHADING_LOBE_H
+#define WEFT_SHADING_LOBE_H
+
+#include "shading/angles.h"
+#include "shading/lobe_value.h"
+
+/* A lobe is one file in lobes/ and one row of lobes.list. For the row ID, "-" in it read as "_", as NAME and
+ * in the upper and lower case that the language wants, its file gives
+ *
+ *   NAME_PARAMS(P), NAME_TRAITS             the parameters, one line each; what holds of it (registry.h)
+ *   STRUCT(Name)                            the parameters as a record
+ *   STRUCT(NamePrepared)                    what they make, once for all directions
+ *   STRUCT(NameView)                        what wo adds, once for all wi
+ *   void name_prepare(Name m, NamePrepared *p)
+ *   void name_view(const NamePrepared *p, Dir o, NameView *w)
+ *   LobeValue name_value(const NamePrepared *p, const NameView *w, Angles a)
+ *   Dir name_sample(const NamePrepared *p, const NameView *w, Dir o, float u, float v)
+ *
+ * f of the value is that of a white lobe, pdf the density of name_sample. All of it is inlined: what a caller
+ * does not read is not computed. One with TRAIT_TWO_COLORS mixes f0 and f90 by the share s of its value;
+ * where the second is not the user's own f90 it has
+ *
+ *   float name_second(Name m, float f0, float f90)
+ *
+ * One with TRAIT_TINTED has a colour that is no factor, the albedo of what it is made of: the tint of its
+ * value (tint.h). One with TRAIT_REFERENCE takes a random walk: its f is an estimate, a function of its
+ * inputs whose mean over a neighbourhood is meant. Its text is C, with loops: it is kept from GPU, arrays and
+ * 16-bit floats. Since no quadrature integrates chance it has E of the white lobe too:
+ *
+ *   float name_albedo(Name m, Dir o, int walks)
+ *
+ * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
+
+/* The most that a lobe has. */
+#define LOBE_PARAMS_MAX 8
+
+/* A lobe with its parameters, in the order of its table. */
+STRUCT(Lobe) {
+    int id; /* one of LOBE_... */
+    float params[LOBE_PARAMS_MAX];
+};
+
+/* What makes a lobe makes the tables that it reads; a shader has them already. */
+#ifndef LOBE_TABLES_MAKE
+#define LOBE_TABLES_MAKE(id)
+#endif
+
+/* Of a lobe whose parameters are all that there is to know, and of one to which wo adds nothing. */
+#define PREPARED_AS_IT_IS(name, Name)                                                                        \
+    STRUCT(Name##Prepared) { Name m; };                                                                      \
+    FN void name##_prepare(Name m, Name##Prepared *p) { p->m = m; }
+#define SEEN_AS_IT_IS(name, Name)                                                                            \
+    STRUCT(Name##View) { float none; };                                                                      \
+    FN void name##_view(const Name##Prepared *p, Dir o, Name##View *w) { w->none = 0.0f; }
+
+#endif

@@ -1,0 +1,48 @@
+#!/bin/sh
+# Each loop over arrays of a lobe is one of vectors: its machine code, as built for AVX2, has a loop of packed arithmetic
+# without any of single numbers. Arguments: the compiled src/shading/arrays.c. Exit 77: skipped.
+set -eu
+command -v objdump >/dev/null || {
+    echo "skipped: there is no objdump"
+    exit 77
+}
+# charlie-neubelt-normalised picks taps and texels of a table; F = none (mixed_0) has nothing to work out.
+exceptions="charlie_neubelt_normalised_f_n mixed_0_n"
+objdump -d --no-show-raw-insn "$1" | awk -v exceptions="$exceptions" '
+function judge(k, j, packed, single, best) {
+    if (name == "" || (count <= 2 && op[1] ~ /^jmp/)) return # another with the same code
+    best = 0
+    for (k = 1; k <= count; k++) {
+        if (op[k] !~ /^j/ || !(to[k] in at) || at[to[k]] > k) continue
+        packed = single = 0
+        for (j = at[to[k]]; j <= k; j++) {
+            if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ps$/ && line[j] ~ /%[yz]mm/) packed++
+            if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ss$/) single++
+        }
+        if (packed > 2 && !single && packed > best) best = packed
+    }
+    loops++
+    excepted = index(" " exceptions " ", " " name " ")
+    if (!best && !excepted) { print name " is not vectorised"; wrong = 1 }
+    if (best && excepted) { print name " is vectorised: no exception"; wrong = 1 }
+}
+/^[0-9a-f]+ <.*>:$/ {
+    judge()
+    name = ""
+    count = 0
+    split("", at)
+    if ($2 ~ /_n\.arch_x86_64_v3>:$/) { name = $2; sub(/^</, "", name); sub(/\.arch.*/, "", name) }
+}
+name != "" && $1 ~ /:$/ {
+    address = $1
+    sub(/:/, "", address)
+    at[address] = ++count
+    op[count] = $2
+    to[count] = $3
+    line[count] = $0
+}
+END {
+    judge()
+    print loops " loops"
+    exit wrong || loops < 40
+}'
