@@ -86,6 +86,12 @@ typedef enum WeftTonemap {
 WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                        WeftImage *out, WeftError *error);
 
+/* The same over a background, and opaque. behind is light of the display, linear in [0, 1]: neither exposure
+ * nor curve change it, so that a white one is white. Light is mixed before it is encoded. Of an image without
+ * alpha nothing is seen through. */
+WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
+                                            const float behind[3], WeftImage *out, WeftError *error);
+
 /* Mean over pixels and channels of (a - b)^2 / (b^2 + 1e-2), b being the reference: relMSE, lower is closer.
  * Both F32 and of one size, else a negative number. */
 WEFT_API double weft_image_relmse(const WeftImage *a, const WeftImage *b);

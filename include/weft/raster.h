@@ -146,12 +146,12 @@ typedef struct WeftRasterShow {
     int x, y;             /* the picture's lower left corner in it, pixels */
     int width, height;    /* the picture is scaled to, by its nearest pixels; 0: as it is */
     int clip[4];          /* x, y, width, height of what may change; width 0: no limit */
-    float background[3];  /* display values, in [0, 1], where the picture is transparent */
+    float background[3];  /* light of the display, linear, in [0, 1], where the picture is transparent */
     WeftTonemap tonemap;  /* before the sRGB curve */
     float exposure;       /* stops */
 } WeftRasterShow;
 
-/* Draws the picture drawn last as weft_image_tonemap makes it, dither and all, over the background. It
+/* Draws the picture drawn last as weft_image_tonemap_over makes it, dither and all. It
  * converts to sRGB itself: under OpenGL ES the framebuffer must not do so too. Fails with WEFT_MESSAGE_DESC
  * where nothing was drawn or the raster has a context of its own, _GL_COMPILE, _TEXT_DIALECT, _GL_CONTEXT. */
 WEFT_API WeftResult weft_raster_show(WeftRaster *raster, const WeftRasterShow *show, WeftError *error);

@@ -3,11 +3,20 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 void *alloc_array(size_t count, size_t size) {
     if (size && count > SIZE_MAX / 2 / size) return NULL;
     size_t bytes = count * size;
     return calloc(1, bytes ? bytes : 1);
+}
+
+void memory_return(void) {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 void *realloc_array(void *block, size_t count, size_t size) {

@@ -11,6 +11,9 @@ void *alloc_array(size_t count, size_t size);
 /* Grows or shrinks to count * size bytes; NULL (the old block untouched) on overflow or shortage. */
 void *realloc_array(void *block, size_t count, size_t size);
 
+/* Gives the system back what is free in between blocks that are not, where the C library can. */
+void memory_return(void);
+
 /* Everything allocated from an arena is released together. Zero-initialise; not thread-safe. */
 typedef struct Arena {
     struct ArenaBlock *blocks;

@@ -132,7 +132,6 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .hide_lights = desc->hide_lights,
                            .background = desc->background};
     memcpy(view.crop, desc->crop, sizeof view.crop);
-    memcpy(view.background_color, desc->background_color, sizeof view.background_color);
     WeftResult result = WEFT_OK;
     if (!job->raster)
         result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
@@ -164,15 +163,35 @@ WeftResult job_open(Job *job, WeftError *error) {
     return result;
 }
 
+/* Puts a colour behind a linear picture. */
+static void lay_behind(WeftImage *linear, const float color[3]) {
+    float *p = linear->pixels;
+    for (size_t k = 0; k < (size_t)linear->width * (size_t)linear->height; k++, p += 4) {
+        for (int c = 0; c < 3; c++) p[c] = p[c] * p[3] + color[c] * (1.0f - p[3]);
+        p[3] = 1.0f;
+    }
+}
+
+/* As displayed; a colour is laid behind what is displayed, where neither curve nor exposure changes it, and
+ * behind what is linear. */
+static WeftResult finish(Job *job, WeftError *error) {
+    const Staging *staging = &job->request->staging;
+    bool color = staging->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
+    WeftTonemap curve = (WeftTonemap)staging->tonemap;
+    float exposure = (float)staging->exposure;
+    if (!color) return weft_image_tonemap(&job->linear, curve, exposure, &job->display, error);
+    WeftResult result = weft_image_tonemap_over(&job->linear, curve, exposure, staging->background_color,
+                                                &job->display, error);
+    lay_behind(&job->linear, staging->background_color);
+    return result;
+}
+
 WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
     weft_image_free(&job->linear);
     weft_image_free(&job->display);
     camera = camera_of(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
-    if (result == WEFT_OK)
-        result = weft_image_tonemap(&job->linear, (WeftTonemap)job->request->staging.tonemap,
-                                    (float)job->request->staging.exposure, &job->display, error);
-    return result;
+    return result == WEFT_OK ? finish(job, error) : result;
 }
 
 WeftResult job_run(Job *job, WeftError *error) {

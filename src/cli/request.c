@@ -147,9 +147,8 @@ bool request_read(const Options *options, Request *request) {
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request);
     request->desc.camera = request->staging.camera;
-    request->desc.background = request->staging.background;
-    memcpy(request->desc.background_color, request->staging.background_color,
-           sizeof request->desc.background_color);
+    bool laid_behind = request->staging.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
+    request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->staging.background;
     request->desc.floor = request->staging.floor;
     request->desc.hide_lights = request->staging.hide_lights;
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;

@@ -33,7 +33,8 @@ enum { STAGING_LIGHTS_MOST = 64 };
         OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                    \
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),            \
         OPTION_TEXT("--background", "WHAT", "auto",                                                          \
-                    "auto, environment, blurred, transparent or a linear r,g,b"),                            \
+                    "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "    \
+                    "1,1,1 is white"),                                                                       \
         OPTION_SWITCH("--floor", "a floor that only catches the scene's shadow and mirrors it"),             \
         OPTION_NUMBER("--floor-reflection", "SHARE", "0.1", 0, 1, "of the scene that the floor mirrors"),    \
         OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),               \

@@ -21,8 +21,9 @@ static unsigned char quantized(float display, float fraction) {
     return (unsigned char)fminf(display * 255.0f + fraction, 255.0f);
 }
 
-WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure, WeftImage *out,
-                              WeftError *error) {
+/* behind may be NULL: then alpha is kept. */
+static WeftResult map(const WeftImage *linear, WeftTonemap tonemap, float exposure, const float *behind,
+                      WeftImage *out, WeftError *error) {
     *out = (WeftImage){0};
     if (linear->type != WEFT_PIXEL_F32 || linear->channels < 3)
         return fail(error, WEFT_MESSAGE_DESC, "tone mapping", "it takes float images of 3 or 4 channels");
@@ -38,15 +39,29 @@ WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, floa
     unsigned char *to = out->pixels;
     for (unsigned y = 0; y < (unsigned)linear->height; y++)
         for (unsigned x = 0; x < (unsigned)linear->width; x++) {
-            Rgb c = tone_display(rgb(in[0], in[1], in[2]), gain, (int)tonemap);
+            Rgb light = tone_light(rgb(in[0], in[1], in[2]), gain, (int)tonemap);
+            float alpha = linear->channels == 4 ? fminf(tone_bounded(in[3]), 1.0f) : 1.0f;
+            if (behind) light = tone_over(light, alpha, rgb(behind[0], behind[1], behind[2]));
+            Rgb c = tone_display(light);
             float fraction = dither(x, y);
             to[0] = quantized(c.r, fraction);
             to[1] = quantized(c.g, fraction);
             to[2] = quantized(c.b, fraction);
-            if (linear->channels == 4)
-                to[3] = (unsigned char)(fminf(tone_bounded(in[3]), 1.0f) * 255.0f + 0.5f);
+            if (linear->channels == 4) to[3] = (unsigned char)((behind ? 1.0f : alpha) * 255.0f + 0.5f);
             in += linear->channels;
             to += linear->channels;
         }
     return WEFT_OK;
+}
+
+WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure, WeftImage *out,
+                              WeftError *error) {
+    return map(linear, tonemap, exposure, NULL, out, error);
+}
+
+WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
+                                   const float behind[3], WeftImage *out, WeftError *error) {
+    float light[3];
+    for (int k = 0; k < 3; k++) light[k] = fminf(tone_bounded(behind[k]), 1.0f);
+    return map(linear, tonemap, exposure, light, out, error);
 }

@@ -102,6 +102,14 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
     return true;
 }
 
+/* To fit tables for a lobe's own numbers takes some 10 ms. Of more materials than these all share those over
+ * the range, which know nothing of nap and anisotropy: what turns has its own all the same. */
+enum { MATERIALS_HELD = 100 };
+
+static bool is_round(const ShaderKey *key) {
+    return key->inputs[INPUT_anisotropy].state == INPUT_ZERO && key->inputs[INPUT_nap].state == INPUT_ZERO;
+}
+
 static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures,
                           Uniforms *uniforms) {
     self->key.choices = material_choices(material);
@@ -132,6 +140,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         if (material->worn) {
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
+            material->key.ranged = self->count > MATERIALS_HELD && is_round(&material->key);
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
                       &uniforms);
             whole &= add_fits(material, &scene->materials[k], threads, &uniforms);

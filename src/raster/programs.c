@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "base/thread.h"
 #include "raster/program.h"
 #include "raster/tables.h"
@@ -229,6 +230,7 @@ static bool forget_oldest(Programs *programs) {
     return true;
 }
 
+/* Those to be compiled are in the list already. */
 static void forget(Programs *programs) {
     int count = 0;
     for (const Program *p = programs->first; p; p = p->next) count++;
@@ -249,6 +251,7 @@ bool programs_build(Programs *programs, const GlContext *context) {
     programs->wanted = 0;
     build(programs, context, jobs, count);
     free(jobs);
+    memory_return(); /* most of what a compiler takes */
     return true;
 }
 

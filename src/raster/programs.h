@@ -46,8 +46,9 @@ typedef struct Programs {
     unsigned tick;             /* pictures so far */
 } Programs;
 
-/* So many programs are kept beyond those of the last few pictures: each may be some ten megabytes of code. */
-enum { PROGRAMS_KEPT = 16, PROGRAMS_LATE = 8 };
+/* So many programs are kept, those of the last few pictures at the least: each may be some ten megabytes of
+ * code. */
+enum { PROGRAMS_KEPT = 8, PROGRAMS_LATE = 8 };
 
 /* Notes that a key will be drawn with; false where memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);

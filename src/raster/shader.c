@@ -47,6 +47,7 @@ static const Slot *slot_of(const Stack *m, int slot) {
 bool shader_holds(const ShaderKey *key, int slot) {
     Lobe lobes[2];
     bool zero[INPUT_COUNT];
+    if (key->ranged) return false;
     find_zeros(key, zero);
     for (int k = 0; k < 2; k++) {
         Stack m;

@@ -35,13 +35,23 @@ FN float tone_encode(float linear) {
 /* A radiance as a tone curve wants it: at least 0, also from NaN, and so small that no curve overflows. */
 FN float tone_bounded(float x) { return x > 0.0f ? min(x, 1e9f) : 0.0f; }
 
-/* The display values, in [0, 1], of a linear colour; all are first multiplied by gain. */
-FN Rgb tone_display(Rgb color, float gain, int curve) {
+/* The light, linear and in [0, 1], that a display is to give for a linear colour, first multiplied by gain.
+ */
+FN Rgb tone_light(Rgb color, float gain, int curve) {
     Rgb c = rgb(tone_bounded(color.r * gain), tone_bounded(color.g * gain), tone_bounded(color.b * gain));
     if (curve == TONE_PBR_NEUTRAL) c = tone_pbr_neutral(c);
     if (curve == TONE_ACES) c = rgb(tone_aces(c.r), tone_aces(c.g), tone_aces(c.b));
-    c = rgb_min(c, 1.0f);
-    return rgb(tone_encode(c.r), tone_encode(c.g), tone_encode(c.b));
+    return rgb_min(c, 1.0f);
+}
+
+/* What it is to give where that covers a part, in [0, 1], of what is behind it, which no curve changes. */
+FN Rgb tone_over(Rgb light, float cover, Rgb behind) {
+    return rgb_add(rgb_scale(light, cover), rgb_scale(behind, 1.0f - cover));
+}
+
+/* The display values, in [0, 1], of such light. */
+FN Rgb tone_display(Rgb light) {
+    return rgb(tone_encode(light.r), tone_encode(light.g), tone_encode(light.b));
 }
 
 #endif

@@ -20,7 +20,8 @@ static bool same_order(const Order *a, const Order *b) {
     x.camera = y.camera = NULL;
     bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
                 a->truth == b->truth && a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
-                memcmp((const char *)&x, (const char *)&y, sizeof x) == 0;
+                memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 &&
+                memcmp((const char *)a->behind, (const char *)b->behind, sizeof a->behind) == 0;
     return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) &&
            !(a->exposure > b->exposure);
 }
@@ -37,8 +38,9 @@ static Order make_order(const Viewer *v) {
     order.other = v->side == 0 || v->split == SPLIT_NONE ? v->other : v->look;
     order.view.width = (int)fmaxf(v->stage.width, 16.0f);
     order.view.height = (int)fmaxf(v->stage.height, 16.0f);
-    order.view.background = v->background;
-    memcpy(order.view.background_color, v->background_color, sizeof order.view.background_color);
+    static const float dark[3] = {0.0219f, 0.0219f, 0.0246f};
+    bool color = v->background == WEFT_BACKGROUND_COLOR;
+    order.view.background = color ? WEFT_BACKGROUND_TRANSPARENT : v->background;
     order.view.floor = v->floor;
     order.view.hide_lights = v->hide_lights;
     order.view.part = v->part;
@@ -51,6 +53,8 @@ static Order make_order(const Viewer *v) {
         order.look = v->look;
         order.view.part = WEFT_PART_ALL;
     }
+    order.laid_behind = color && order.view.part == WEFT_PART_ALL;
+    memcpy(order.behind, order.laid_behind ? v->background_color : dark, sizeof order.behind);
     orbit_text(&v->orbit, order.camera);
     return order;
 }
@@ -61,12 +65,11 @@ static void order_truth(Viewer *v, const Order *order) {
     t.wanted = v->mode != MODE_LIVE && v->has_scene;
     t.desc.width = order->view.width, t.desc.height = order->view.height;
     t.desc.background = order->view.background;
-    memcpy(t.desc.background_color, order->view.background_color, sizeof t.desc.background_color);
     t.desc.floor = order->view.floor;
     t.desc.hide_lights = order->view.hide_lights;
     snprintf(t.camera, sizeof t.camera, "%s", order->camera);
     t.tonemap = order->tonemap, t.exposure = order->exposure;
-    t.background[0] = t.background[1] = 0.16f, t.background[2] = 0.17f;
+    memcpy(t.behind, order->behind, sizeof t.behind);
     t.difference = v->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
     truth_order(v->truth, &t);

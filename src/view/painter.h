@@ -31,6 +31,8 @@ typedef struct Order {
     float at;            /* SPLIT_LINE: share of the width that is left of it */
     WeftRasterView view; /* size, background, part, ambient; its camera is the text below */
     char camera[ORBIT_TEXT];
+    float behind[3];  /* light of the display, where the picture is transparent */
+    bool laid_behind; /* also in pictures that are saved */
     WeftTonemap tonemap;
     float exposure;
     Effort effort; /* that is asked for at the least */

@@ -105,7 +105,7 @@ static WeftResult draw_one(Painter *self, const Order *order, const Look *look, 
     const WeftRasterShow show = {.framebuffer = self->targets[target],
                                  .x = sides ? part[0] : 0,
                                  .clip = {part[0], height - part[1] - part[3], part[2], part[3]},
-                                 .background = {0.16f, 0.16f, 0.17f},
+                                 .background = {order->behind[0], order->behind[1], order->behind[2]},
                                  .tonemap = number ? WEFT_TONEMAP_NONE : order->tonemap,
                                  .exposure = number ? 0.0f : order->exposure};
     return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;

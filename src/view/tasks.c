@@ -31,8 +31,11 @@ static WeftResult shot(Painter *self, const Task *task, const Order *order, News
     const WeftImage *image = &linear;
     if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
         bool number = order->view.part >= WEFT_PART_BASE_COLOR && !task->truth;
-        result = weft_image_tonemap(&linear, number ? WEFT_TONEMAP_NONE : order->tonemap,
-                                    number ? 0.0f : order->exposure, &display, error);
+        WeftTonemap curve = number ? WEFT_TONEMAP_NONE : order->tonemap;
+        float exposure = number ? 0.0f : order->exposure;
+        result = order->laid_behind && !task->transparent
+                     ? weft_image_tonemap_over(&linear, curve, exposure, order->behind, &display, error)
+                     : weft_image_tonemap(&linear, curve, exposure, &display, error);
         image = &display;
     }
     if (result == WEFT_OK) result = weft_image_write(task->path, image, error);

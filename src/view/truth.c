@@ -95,16 +95,6 @@ static WeftResult compare(Truth *self, const TruthOrder *order, const WeftImage 
                              : result;
 }
 
-/* Adds an alpha of 1, as textures have it. */
-static void over(WeftImage *image, const float background[3]) {
-    unsigned char *p = image->pixels;
-    for (size_t k = 0; k < (size_t)image->width * (size_t)image->height; k++, p += 4)
-        for (int c = 0; c < 3; c++)
-            p[c] = (unsigned char)(0.5f + ((float)p[c] * (float)p[3] +
-                                           255.0f * background[c] * (float)(255 - p[3])) /
-                                              255.0f);
-}
-
 /* Shows what there is. */
 static void publish(Truth *self, const TruthOrder *order) {
     TruthPicture picture = {.wanted_samples = order->samples};
@@ -114,10 +104,9 @@ static void publish(Truth *self, const TruthOrder *order) {
     picture.samples = info.samples_per_pixel;
     picture.seconds = info.render_seconds;
     bool made = order->difference && compare(self, order, &linear, &picture) == WEFT_OK;
-    if (!made && !order->difference) {
-        made = weft_image_tonemap(&linear, order->tonemap, order->exposure, &picture.image, NULL) == WEFT_OK;
-        if (made && picture.image.channels == 4) over(&picture.image, order->background);
-    }
+    if (!made && !order->difference)
+        made = weft_image_tonemap_over(&linear, order->tonemap, order->exposure, order->behind,
+                                       &picture.image, NULL) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear);
     self->linear = linear;

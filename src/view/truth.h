@@ -17,10 +17,10 @@ typedef struct TruthOrder {
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;
-    float background[3]; /* display values, where it is transparent */
-    bool difference;     /* from the picture that was handed over, in place of it */
-    float scale;         /* of the heat map; 0: the 99 of 100 pixels */
-    int samples;         /* a pixel, after which it rests */
+    float behind[3]; /* light of the display, where it is transparent */
+    bool difference; /* from the picture that was handed over, in place of it */
+    float scale;     /* of the heat map; 0: the 99 of 100 pixels */
+    int samples;     /* a pixel, after which it rests */
 } TruthOrder;
 
 /* What there is to show: U8 RGBA. */

@@ -4,6 +4,8 @@
 
 #include <jansson.h>
 
+#include "weft/image.h"
+
 #define TINY "--width=48", "--height=36"
 
 /* Skips where there is no OpenGL. */
@@ -47,6 +49,29 @@ static void both_stand_side_by_side(void **state) {
     assert_true(json_number_value(json_object_get(difference, "relmse")) > 0.0);
     json_decref(all);
     ran_free(&ran);
+}
+
+/* Whatever the exposure: a background is no part of the scene. */
+static void white_background_is_white_in_both(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const engines[] = {"trace", "raster"};
+    for (int k = 0; k < 2; k++) {
+        WeftImage shown, linear;
+        Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "white.png", "-o", "white.exr",
+                                      "--engine", engines[k], "--background=1,1,1", "--exposure=-2",
+                                      "--spp=1", "--camera=0,100,0;0,200,1;20"));
+        if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+        ran_free(&ran);
+        assert_int_equal(weft_image_read("white.png", &shown, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_image_read("white.exr", &linear, NULL, NULL), WEFT_OK);
+        for (int c = 0; c < 3; c++) {
+            assert_int_equal(((const unsigned char *)shown.pixels)[c], 255);
+            assert_true(((const float *)linear.pixels)[c] > 0.999f);
+        }
+        weft_image_free(&shown);
+        weft_image_free(&linear);
+    }
 }
 
 static void turntables_number_their_pictures(void **state) {
@@ -107,6 +132,7 @@ static void what_makes_no_sense_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(raster_draws), cmocka_unit_test(both_stand_side_by_side),
+        cmocka_unit_test(white_background_is_white_in_both),
         cmocka_unit_test(turntables_number_their_pictures), cmocka_unit_test(what_makes_no_sense_is_refused)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

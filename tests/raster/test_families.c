@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -191,9 +192,41 @@ static void threads_make_no_difference(void **state) {
     weft_scene_free(scene);
 }
 
+/* Numbers alone differ: one program does, and no table is fitted for each. Seconds are of the processor. */
+static void thousands_of_materials_are_drawn_in_seconds(void **state) {
+    (void)state;
+    need_gl();
+    enum { COUNT = 1000 };
+    WeftScene *scene = scene_create("many");
+    WeftRaster *raster;
+    WeftError error;
+    scene->meshes = arena_array(&scene->arena, COUNT, sizeof(Mesh));
+    scene->materials = arena_array(&scene->arena, COUNT, sizeof(Material));
+    for (int k = 0; k < COUNT; k++) {
+        Material *m = test_material(scene, 0.5f);
+        m->inputs[INPUT_roughness].value[0] = 0.2f + 0.7f * (float)k / COUNT;
+        m->inputs[INPUT_sheen_roughness].value[0] = 0.9f - 0.7f * (float)k / COUNT;
+        test_color(m, INPUT_sheen_color, 0.3f);
+        test_quad(scene, vec3((float)(k % 32), (float)(k / 32), 0.0f), vec3(0.8f, 0.0f, 0.0f),
+                  vec3(0.0f, 0.8f, 0.0f));
+    }
+    scene_bounds(scene);
+    clock_t start = clock();
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_raster_draw(raster, &(WeftRasterView){.width = 64, .height = 64}, &error), WEFT_OK);
+    weft_raster_finish(raster);
+    double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    assert_in_range(weft_raster_info(raster).programs, 1, 2);
+    if (!(seconds < 10.0)) fail_msg("%.1f s", seconds);
+    print_message("%d materials: %.1f s\n", COUNT, seconds);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(families_look_as_each_alone),
                                        cmocka_unit_test(even_maps_are_numbers),
-                                       cmocka_unit_test(threads_make_no_difference)};
+                                       cmocka_unit_test(threads_make_no_difference),
+                                       cmocka_unit_test(thousands_of_materials_are_drawn_in_seconds)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -3,7 +3,7 @@
 
 uniform highp sampler2D picture_mean;
 uniform highp vec4 show_place; /* the picture's corner and size in the framebuffer */
-uniform highp vec4 show_back;  /* display values of what is behind it; w: the gain */
+uniform highp vec4 show_back;  /* light of what is behind it; w: the gain */
 uniform int show_curve;
 out highp vec4 shown;
 
@@ -18,8 +18,8 @@ void main() {
     vec4 c = texelFetch(picture_mean, ivec2(min(at * (size / show_place.zw), size - 0.5)), 0);
     float alpha = c.a > 0.0 ? min(c.a, 1.0) : 0.0;
     vec3 straight = alpha > 0.0 ? c.rgb / c.a : vec3(0.0);
-    Rgb display = tone_display(rgb(straight.r, straight.g, straight.b), show_back.w, show_curve);
-    vec3 over = mix(show_back.rgb, vec3(display.r, display.g, display.b), alpha);
+    Rgb light = tone_light(rgb(straight.r, straight.g, straight.b), show_back.w, show_curve);
+    Rgb over = tone_display(tone_over(light, alpha, rgb(show_back.r, show_back.g, show_back.b)));
     float fraction = show_dither(ivec2(int(at.x), int(show_place.w - at.y)));
-    shown = vec4(min(floor(over * 255.0 + fraction) / 255.0, vec3(1.0)), 1.0);
+    shown = vec4(min(floor(vec3(over.r, over.g, over.b) * 255.0 + fraction) / 255.0, vec3(1.0)), 1.0);
 }

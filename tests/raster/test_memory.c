@@ -1,0 +1,109 @@
+/* A raster lets go of what nothing draws with any more: memory does not grow with every term that was tried.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "gl.h"
+#include "weft/weft.h"
+
+/* MiB; with the sanitizers, which keep what is freed, nothing is measured. */
+static double resident(void) {
+    long pages = 0, held = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file || fscanf(file, "%ld %ld", &pages, &held) != 2) held = 0;
+    if (file) fclose(file);
+    return (double)held * (double)sysconf(_SC_PAGESIZE) / 1048576.0;
+}
+
+typedef struct Switches {
+    WeftScene *scene;
+    WeftRaster *raster;
+    int done, wanted;
+} Switches;
+
+static void draw(Switches *self) {
+    const WeftRasterView view = {.width = 320, .height = 180, .samples = 1};
+    WeftError error;
+    if (weft_raster_update(self->raster, NULL, &error) != WEFT_OK ||
+        weft_raster_draw(self->raster, &view, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    weft_raster_finish(self->raster);
+    self->done++;
+}
+
+/* Each value of each choice, and back. */
+static void switch_choices(Switches *self, const char *material) {
+    char target[128];
+    for (int c = 0; weft_material_choice_name(c) && self->done < self->wanted; c++) {
+        snprintf(target, sizeof target, "%s.%s", material, weft_material_choice_name(c));
+        for (int v = 0; weft_material_choice_value(c, v) && self->done < self->wanted; v++) {
+            if (!weft_material_choice_fits(c, v)) continue;
+            if (weft_scene_set(self->scene, target, weft_material_choice_value(c, v), NULL, NULL) == WEFT_OK)
+                draw(self);
+        }
+        weft_scene_set(self->scene, target, "auto", NULL, NULL);
+    }
+}
+
+static void switch_presets(Switches *self) {
+    for (int k = 0; weft_preset_name(k) && self->done < self->wanted; k++) {
+        char name[128];
+        snprintf(name, sizeof name, "preset:%s", weft_preset_name(k));
+        if (weft_scene_dress(self->scene, NULL, name, NULL, NULL) == WEFT_OK) draw(self);
+    }
+}
+
+static Switches begin(int wanted) {
+    Switches self = {.wanted = wanted};
+    WeftError error;
+    assert_int_equal(weft_scene_load("builtin:cloth", &self.scene, NULL, &error), WEFT_OK);
+    assert_int_equal(
+        weft_raster_create(self.scene, &(WeftRasterDesc){.no_cache = 1}, &self.raster, NULL, &error),
+        WEFT_OK);
+    return self;
+}
+
+static void end(Switches *self) {
+    weft_raster_free(self->raster);
+    weft_scene_free(self->scene);
+}
+
+static void programs_in_use_stay_few(void **state) {
+    (void)state;
+    need_gl();
+    Switches self = begin(10);
+    switch_choices(&self, "Cloth");
+    WeftRasterInfo info = weft_raster_info(self.raster);
+    if (!(info.compiled > 11 && info.programs <= 11))
+        fail_msg("%d programs of %d compiled", info.programs, info.compiled);
+    end(&self);
+}
+
+static void two_hundred_switches_stay_within_300_mib(void **state) {
+    (void)state;
+    need_gl();
+    if (!getenv("WEFT_TEST_LONG")) skip();
+    Switches self = begin(200);
+    switch_choices(&self, "Cloth");
+    switch_presets(&self);
+    for (int k = 0; self.done < self.wanted && k < 8; k++) switch_choices(&self, "Cloth");
+    double held = resident();
+    print_message("%.0f MiB after %d switches\n", held, self.done);
+    assert_true(held < 300.0);
+    end(&self);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(programs_in_use_stay_few),
+        cmocka_unit_test(two_hundred_switches_stay_within_300_mib),
+    };
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
+}
