@@ -7,7 +7,6 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
-#include "base/memory.h"
 #include "base/thread.h"
 #include "raster/program.h"
 #include "raster/tables.h"
@@ -194,10 +193,16 @@ static void build(Programs *programs, const GlContext *context, Job *jobs, int c
     }
 }
 
-/* That of a key, or a new one that is stale; NULL where memory is short. */
-static Program *find(Programs *programs, const ShaderKey *key) {
+/* NULL where there is none. */
+static Program *known(const Programs *programs, const ShaderKey *key) {
     Program *p = programs->first;
     while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
+    return p;
+}
+
+/* That of a key, or a new one that is stale; NULL where memory is short. */
+static Program *find(Programs *programs, const ShaderKey *key) {
+    Program *p = known(programs, key);
     if (p) return p;
     p = alloc_array(1, sizeof *p);
     if (!p) return NULL;
@@ -215,6 +220,11 @@ bool programs_want(Programs *programs, const ShaderKey *key) {
     if (p->stale && !p->wanted) programs->wanted++;
     p->wanted = p->stale;
     return true;
+}
+
+bool programs_has(Programs *programs, const ShaderKey *key) {
+    const Program *p = known(programs, key);
+    return p && !p->stale;
 }
 
 /* Drops the program that was drawn with longest ago; false where all that are left were of late. */
@@ -251,13 +261,11 @@ bool programs_build(Programs *programs, const GlContext *context) {
     programs->wanted = 0;
     build(programs, context, jobs, count);
     free(jobs);
-    memory_return(); /* most of what a compiler takes */
     return true;
 }
 
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
-    Program *p = programs->first;
-    while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
+    Program *p = known(programs, key);
     if (!p) return NULL;
     if (p->name && p->turn != programs->turn && !take_sheens(programs, p, error)) return NULL;
     *error = p->error;

@@ -48,10 +48,13 @@ typedef struct Programs {
 
 /* So many programs are kept, those of the last few pictures at the least: each may be some ten megabytes of
  * code. */
-enum { PROGRAMS_KEPT = 8, PROGRAMS_LATE = 8 };
+enum { PROGRAMS_KEPT = 6, PROGRAMS_LATE = 3 };
 
 /* Notes that a key will be drawn with; false where memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);
+
+/* Whether a key was built, and its text has not changed since. */
+bool programs_has(Programs *programs, const ShaderKey *key);
 
 /* Compiles those noted that are new or stale, several at once, in threads with contexts that share the
  * objects of `context`, which is current. Does nothing where there are none; else it changes which program is

@@ -429,18 +429,24 @@ static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, con
     return key;
 }
 
-/* Compiles whatever a picture will be drawn with. */
-static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
-    bool held = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
-    for (int k = 0; k < self->materials.count && held; k++) {
+/* Whether `what` is true of all keys that a picture will be drawn with; a floor is among them where asked. */
+static bool of_all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
+                        bool (*what)(Programs *programs, const ShaderKey *key)) {
+    bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
+    for (int k = 0; k < self->materials.count && all; k++) {
         if (!self->materials.all[k].worn) continue;
         const GlMaterial *material = &self->materials.all[k];
         ShaderKey key = lit_key(self, view, material), depth = depth_key(&material->key);
-        held = programs_want(&self->programs, &key);
-        if (shadows) held = held && programs_want(&self->programs, &depth);
+        all = what(&self->programs, &key);
+        if (shadows) all = all && what(&self->programs, &depth);
     }
     const ShaderKey floor = floor_key(self, view);
-    if (self->floor.there) held = held && programs_want(&self->programs, &floor);
+    return all && (!with_floor || what(&self->programs, &floor));
+}
+
+/* Compiles whatever a picture will be drawn with. */
+static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    bool held = of_all_keys(self, view, self->floor.there, programs_want);
     double start = now();
     int compiled = self->programs.compiled;
     held = held && programs_build(&self->programs, self->context);
@@ -675,6 +681,7 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     View seen = view_of(&self->camera, aspect);
     result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
+    int compiled = self->programs.compiled;
     set_state(self);
     result = find_floor(self, &seen, &view, error);
     if (result == WEFT_OK) result = prepare(self, &view, error);
@@ -693,8 +700,17 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
         glDisable(GL_SCISSOR_TEST);
         target_resolve(&self->target, box);
     }
+    /* drivers compile once more when they first draw, and have most of what that takes to spare */
+    if (self->programs.compiled != compiled) memory_return();
     context_leave(self->context, &outer);
     return result;
+}
+
+int weft_raster_ready(WeftRaster *self, const WeftRasterView *wanted) {
+    WeftRasterView view = *wanted;
+    set_defaults(self->scene, &view);
+    if (check_view(&view, NULL) != WEFT_OK) return 1;
+    return of_all_keys(self, &view, view.floor.on && view.part == WEFT_PART_ALL, programs_has);
 }
 
 WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error) {
