@@ -23,7 +23,8 @@ struct Browser {
     char folder[PATH], typed[PATH], chosen[2 * PATH];
     Entry *entries;
     int count;
-    bool more; /* than are listed */
+    bool more;      /* than are listed */
+    unsigned kinds; /* that are listed and chosen: bit k for PathKind k */
     bool everything;
     char failure[200];
 };
@@ -41,6 +42,8 @@ static bool is_folder(const Browser *self, const struct dirent *d) {
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
+static bool fits(const Browser *self, const char *path) { return self->kinds >> path_kind(path) & 1; }
+
 static void list(Browser *self) {
     DIR *dir = opendir(self->folder);
     self->count = 0;
@@ -54,7 +57,7 @@ static void list(Browser *self) {
     for (const struct dirent *d; (d = readdir(dir));) {
         if (d->d_name[0] == '.' || strlen(d->d_name) >= NAME) continue;
         bool folder = is_folder(self, d);
-        if (!folder && !self->everything && path_kind(d->d_name) == PATH_UNKNOWN) continue;
+        if (!folder && !self->everything && !fits(self, d->d_name)) continue;
         if (self->count == ENTRIES) {
             self->more = true;
             break;
@@ -96,17 +99,38 @@ const char *browser_folder(const Browser *self) { return self->folder; }
 
 static const char *choose(Browser *self, const char *path) {
     struct stat s;
-    if (stat(path, &s) == 0 && S_ISDIR(s.st_mode)) {
+    bool there = stat(path, &s) == 0, catalogue = !there && strchr(path, ':'); /* builtin:, preset: */
+    if (there && S_ISDIR(s.st_mode)) {
         if (!enter(self, path)) snprintf(self->failure, sizeof self->failure, "this folder cannot be opened");
         return NULL;
     }
+    self->failure[0] = '\0';
+    if (!there && !(catalogue && path_kind(path) != PATH_UNKNOWN))
+        snprintf(self->failure, sizeof self->failure, "there is no such file");
+    else if (!fits(self, path))
+        snprintf(self->failure, sizeof self->failure, "this is no file of that kind, by its name");
+    if (self->failure[0]) return NULL;
     snprintf(self->chosen, sizeof self->chosen, "%s", path);
     return self->chosen;
 }
 
-const char *browser_draw(Browser *self, float height) {
+/* Where the program was started, or else in the folder that is shown. */
+static const char *choose_typed(Browser *self) {
+    char path[2 * PATH];
+    struct stat s;
+    snprintf(path, sizeof path, "%s/%s", self->folder, self->typed);
+    bool beside = self->typed[0] != '/' && stat(self->typed, &s) != 0 && stat(path, &s) == 0;
+    if (!beside) snprintf(path, sizeof path, "%s", self->typed);
+    return choose(self, path);
+}
+
+const char *browser_draw(Browser *self, unsigned kinds, float height) {
     const char *chosen = NULL;
     char path[PATH + NAME + 2];
+    if (self->kinds != kinds) {
+        self->kinds = kinds;
+        list(self);
+    }
     if (ui_button("Up")) {
         snprintf(path, sizeof path, "%s/..", self->folder);
         choose(self, path);
@@ -118,7 +142,7 @@ const char *browser_draw(Browser *self, float height) {
     ui_same_line();
     if (ui_checkbox("All files", &self->everything)) list(self);
     ui_tip("Lists what cannot be opened, too.");
-    if (ui_input("##path", self->typed, PATH)) chosen = choose(self, self->typed);
+    if (ui_input("##path", self->typed, PATH)) chosen = choose_typed(self);
     ui_tip("A path to type: Enter opens it.");
     if (self->failure[0]) ui_warning(self->failure);
     if (ui_list("files", height - 3.2f * ui_line_height())) {

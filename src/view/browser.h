@@ -15,8 +15,9 @@ const char *browser_folder(const Browser *browser);
 /* Looks at the folder again. */
 void browser_refresh(Browser *browser);
 
-/* Draws it in what is left of a dialog, `height` pixels high. Returns a path once one is chosen, valid until
- * the next call. */
-const char *browser_draw(Browser *browser, float height);
+/* Draws it in what is left of a dialog, `height` pixels high: folders, and files of some kinds, bit k for
+ * PathKind k. Returns a path once one is chosen that is there and of those kinds, valid until the next call;
+ * what was typed stays until then. */
+const char *browser_draw(Browser *browser, unsigned kinds, float height);
 
 #endif

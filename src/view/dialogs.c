@@ -13,21 +13,41 @@ static void cancel(void) {
     if (pressed || ui_escaped()) ui_dialog_close();
 }
 
-static void draw_open(Viewer *v) {
-    if (!ui_dialog("Open", 640.0f * ui_scale(), 460.0f * ui_scale())) return;
-    ui_scope("Open");
-    ui_dim("Scenes (.glb .gltf), light (.hdr .exr), materials (.json), pictures (.png .jpg .tga)");
-    const char *path = browser_draw(v->browser, 400.0f * ui_scale() - ui_line_height());
+static void use_map(Viewer *v, const char *path) {
+    viewer_task(v, TASK_DRESS, path, v->material, v->dropped_input);
+}
+
+/* Dialogs that choose a file, and what becomes of it; some take the folder that is shown. */
+static const struct {
+    const char *name, *words;
+    unsigned kinds;
+    void (*use)(Viewer *v, const char *path);
+    const char *folder, *tip; /* NULL: folders are not taken */
+} choosers[] = {
+    {"Open", "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), pictures (.png .jpg .tga)",
+     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_PICTURE, viewer_open,
+     "Use this folder as maps",
+     "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
+    {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); the folder of a cubemap",
+     1u << PATH_LIGHT | 1u << PATH_PICTURE, viewer_light_by, "Use this folder as a cubemap",
+     "Six faces by their names: px, nx ... or posx, negx ..."},
+    {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map,
+     NULL, NULL}};
+
+static void draw_chooser(Viewer *v, int k) {
+    if (!ui_dialog(choosers[k].name, 640.0f * ui_scale(), 460.0f * ui_scale())) return;
+    ui_scope(choosers[k].name);
+    ui_dim(choosers[k].words);
+    const char *path = browser_draw(v->browser, choosers[k].kinds, 400.0f * ui_scale() - ui_line_height());
+    if (choosers[k].folder) {
+        if (ui_button(choosers[k].folder)) path = browser_folder(v->browser);
+        ui_tip(choosers[k].tip);
+        ui_same_line();
+    }
     if (path) {
-        viewer_open(v, path);
+        choosers[k].use(v, path);
         ui_dialog_close();
     }
-    if (ui_button("Use this folder as maps")) {
-        viewer_open(v, browser_folder(v->browser));
-        ui_dialog_close();
-    }
-    ui_tip("Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene.");
-    ui_same_line();
     cancel();
     ui_scope_end();
     ui_dialog_end();
@@ -127,6 +147,9 @@ static const char *const help_lines[][2] = {
     {"W A S D, Q E (by place: Z Q S D, A E on AZERTY)", "fly; Q and E go down and up"},
     {"Shift", "flies four times as fast"},
     {"F, Home", "frame all; the first camera"},
+    {"F6, F10", "next panel, menus: then arrows, Space, Enter; Escape ends"},
+    {"M, Shift + M", "next material, the one before"},
+    {"G, H", "floor; hide polygon lights"},
     {"Tab, Shift + Tab", "path traced and back; difference"},
     {"C, X", "A | B; edit the other"},
     {"1 ... 9", "all, diffuse, specular, sheen ... roughness"},
@@ -143,7 +166,7 @@ static const char *const help_lines[][2] = {
 static void draw_help(Viewer *v) {
     if (!v->help_open) return;
     float s = ui_scale();
-    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 470.0f * s}, &v->help_open))
+    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 540.0f * s}, &v->help_open))
         for (size_t k = 0; k < sizeof help_lines / sizeof *help_lines; k++) {
             ui_text(help_lines[k][0]);
             ui_column(0.55f);
@@ -197,7 +220,7 @@ static void draw_profiles(Viewer *v) {
 void dialogs_draw(Viewer *v) {
     if (v->open_dialog[0]) ui_dialog_open(v->open_dialog);
     v->open_dialog[0] = '\0';
-    draw_open(v);
+    for (int k = 0; k < (int)(sizeof choosers / sizeof *choosers); k++) draw_chooser(v, k);
     draw_save(v);
     draw_shot(v);
     draw_use(v);

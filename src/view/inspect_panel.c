@@ -112,13 +112,20 @@ static float radius_of(const Inspection *self, float f, float most) {
     return fmaxf(1.0f + log10f(fmaxf(f / most, 1e-6f)) / 3.0f, 0.0f); /* three decades */
 }
 
+/* Words in the colours of their curves, from the top right of a box downwards. */
+static void draw_legend(const UiBox *box, const char *const *words, const unsigned *of, int count) {
+    for (int k = 0; k < count; k++)
+        ui_label(box->x + box->width - ui_text_width(words[k]) - 6.0f,
+                 box->y + 4.0f + 15.0f * ui_scale() * (float)k, of[k], words[k]);
+}
+
 static void draw_slice(Inspection *self) {
+    static const char *const words[PARTS] = {"all", "diffuse", "specular", "sheen"};
     UiBox box;
     float most = 1e-6f, xy[2 * SLICE];
     bool over = ui_canvas("##slice", 0.0f, 150.0f * ui_scale(), &box);
-    ui_tip("Light from the grey line, and where it goes: f, or f times the cosine, in the plane of "
-           "incidence. White "
-           "is all, blue the diffuse lobe, orange the specular one, green the sheen.");
+    ui_tip(
+        "Light from the grey line, and where it goes: f, or f times the cosine, in the plane of incidence.");
     (void)over;
     for (int p = 0; p < PARTS; p++)
         for (int k = 0; k < SLICE; k++) most = fmaxf(most, self->slice[p][k]);
@@ -146,6 +153,7 @@ static void draw_slice(Inspection *self) {
     char text[48];
     snprintf(text, sizeof text, "ends at %.3g /sr", (double)most);
     ui_label(box.x + 6.0f, box.y + 4.0f, text_color, text);
+    draw_legend(&box, words, colors, PARTS);
     ui_clip(NULL);
 }
 
@@ -174,8 +182,8 @@ static void draw_lobe(Inspection *self) {
     UiBox box;
     ui_canvas("##lobe", 0.0f, 150.0f * ui_scale(), &box);
     ui_tip("The same in all directions: the lobe as a body whose radius is f.");
-    float size = fminf(0.5f * box.width, box.height) * 0.58f, x0 = box.x + 0.5f * box.width,
-          y0 = box.y + 0.34f * box.height;
+    float size = fminf(0.5f * box.width, box.height) * 0.66f, x0 = box.x + 0.5f * box.width,
+          y0 = box.y + 0.7f * box.height;
     int count = 0;
     for (int r = 0; r < RINGS; r++)
         for (int s = 0; s < SECTORS; s++) {
@@ -215,6 +223,7 @@ static float mean_albedo(const Inspection *self, int channel) {
 }
 
 static void draw_albedo(Inspection *self) {
+    static const char *const words[3] = {"red", "green", "blue"};
     static const unsigned channel_colors[3] = {0xFF6060F0u, 0xFF60D070u, 0xFFF08860u};
     UiBox box;
     float xy[2 * ANGLES], most = 1.1f;
@@ -236,10 +245,9 @@ static void draw_albedo(Inspection *self) {
         if (self->angles > 1) ui_curve(xy, self->angles, channel_colors[c], 1.6f);
     }
     ui_label(box.x + 6.0f, y1 + 1.0f, text_color, "1");
-    ui_label(box.x + 6.0f, box.y + box.height - 18.0f * ui_scale(), text_color, "head on");
-    ui_label(box.x + box.width - 58.0f * ui_scale(), box.y + box.height - 18.0f * ui_scale(), text_color,
-             "grazing");
+    draw_legend(&box, words, channel_colors, 3);
     ui_clip(NULL);
+    ui_dim("E over the angle of the light: left head on, right grazing");
 }
 
 static void draw_passport(const Inspection *self) {

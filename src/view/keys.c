@@ -29,6 +29,9 @@ static void plain(Viewer *v, const UiPress *p) {
         v->tool = v->tool == TOOL_PROBE ? TOOL_ORBIT : TOOL_PROBE;
         if (v->tool == TOOL_PROBE) v->panel = 3;
         break;
+    case 'g': v->floor.on = !v->floor.on; break;
+    case 'h': v->hide_lights = !v->hide_lights; break;
+    case 'm': viewer_next_material(v, p->shift ? -1 : 1); break;
     case 'b': v->tool = v->tool == TOOL_BRUSH ? TOOL_ORBIT : TOOL_BRUSH; break;
     default: break;
     }
@@ -40,6 +43,8 @@ static void named(Viewer *v, const UiPress *p) {
     case GLFW_KEY_TAB: viewer_mode(v, p->shift ? MODE_DIFFERENCE : MODE_TRUTH); break;
     case GLFW_KEY_HOME: viewer_reset_camera(v); break;
     case GLFW_KEY_F1: v->help_open = !v->help_open; break;
+    case GLFW_KEY_F6: ui_go_to_next_panel(); break;
+    case GLFW_KEY_F10: ui_go_to_menus(); break;
     case GLFW_KEY_F8: v->warnings_open = !v->warnings_open; break;
     case GLFW_KEY_F12: viewer_shot(v, NULL); break;
     case GLFW_KEY_ESCAPE:

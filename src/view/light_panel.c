@@ -112,6 +112,9 @@ static void draw_shape(WeftLight *l) {
 }
 
 static void draw_lights(Viewer *v) {
+    bool hidden = v->hide_lights;
+    if (ui_checkbox("Hide polygon lights", &hidden)) v->hide_lights = hidden;
+    ui_tip("They shine, but the camera looks through them.");
     for (int k = 0; k < 4; k++) {
         char label[32];
         if (k) ui_same_line();
@@ -156,13 +159,17 @@ static void draw_around(Viewer *v) {
     int kind = (int)a->kind;
     if (ui_choice("source", &rows, &kind)) {
         if (kind == AROUND_FILE && !a->path[0]) {
-            viewer_dialog(v, "Open");
+            viewer_dialog(v, "Choose a light");
         } else {
             if (kind == AROUND_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
                 a->color[0] = a->color[1] = a->color[2] = 1.0f;
             a->kind = (AroundKind)kind;
         }
     }
+    ui_indent();
+    if (ui_button("Choose a picture ...")) viewer_dialog(v, "Choose a light");
+    ui_tip("Another lat-long picture, or the folder of a cubemap.");
+    ui_indent_end();
     if (a->kind == AROUND_FILE) ui_dim(a->path);
     if (a->kind == AROUND_COLOR) {
         ui_color("radiance", grey, a->color);
@@ -199,7 +206,7 @@ static const char *ambient_help(const void *user, int k) {
 
 void light_panel(Viewer *v) {
     if (ui_section("Lights", true)) draw_lights(v);
-    if (ui_section("From far away", true)) {
+    if (ui_section("Environment: light from far away###Environment", true)) {
         draw_around(v);
         const UiChoices rows = {5, ambient_name, ambient_help, NULL};
         int ambient = (int)v->ambient;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "view/paths.h"
 #include "view/survey.h"
 #include "weft/weft.h"
 
@@ -22,6 +23,12 @@ struct Loader {
 };
 
 typedef const char *NameOf(const WeftScene *scene, int index);
+
+/* Textures, counted from 0, share files; materials do not share names. */
+static const char *file_name(const WeftScene *scene, int k) {
+    const char *path = weft_scene_texture_path(scene, k + 1);
+    return path ? path_name(path) : NULL;
+}
 
 /* One line, and no sign that means something in a label. */
 static void make_fit(char *name) {
@@ -49,9 +56,19 @@ static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, con
         else
             snprintf(names[k], FACTS_NAME, "%s %d", kind, k);
         make_fit(names[k]);
-        if (k < FACTS_MOST) make_unique(names, k);
+        if (k < FACTS_MOST && name != file_name) make_unique(names, k);
     }
     return names;
+}
+
+void facts_read_maps(Facts *facts, const WeftScene *scene) {
+    int count = 0;
+    while (weft_scene_texture(scene, count + 1).pixels) count++;
+    FactName *names = copy_names(scene, count, file_name, "map");
+    if (!names) return;
+    free(facts->maps);
+    facts->maps = names;
+    facts->map_count = count;
 }
 
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
@@ -60,6 +77,8 @@ bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
     facts->materials = copy_names(scene, facts->info.material_count, weft_scene_material_name, "material");
     facts->cameras = copy_names(scene, facts->info.camera_count, weft_scene_camera_name, "camera");
     facts->variants = copy_names(scene, facts->info.variant_count, weft_scene_variant_name, "variant");
+    facts->presets = calloc((size_t)facts->info.material_count + 1, sizeof *facts->presets);
+    facts_read_maps(facts, scene);
     if (facts->materials && facts->cameras && facts->variants) return true;
     facts_free(facts);
     return false;
@@ -69,6 +88,8 @@ void facts_free(Facts *facts) {
     free(facts->materials);
     free(facts->cameras);
     free(facts->variants);
+    free(facts->maps);
+    free(facts->presets);
     free(facts->shares);
     *facts = (Facts){0};
 }

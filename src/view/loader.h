@@ -14,6 +14,9 @@ typedef char FactName[FACTS_NAME];
 typedef struct Facts {
     char path[LOOK_PATH];
     FactName *materials, *cameras, *variants; /* owned */
+    FactName *maps;                           /* files of textures, as it was read; owned */
+    int map_count;
+    int *presets;  /* that each material was dressed in last, counted from 1; owned, may be NULL */
     float *shares; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
@@ -21,6 +24,8 @@ typedef struct Facts {
 /* Of a scene from path. False where memory is short. */
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
 void facts_free(Facts *facts);
+/* Its maps anew, where pictures were put on. */
+void facts_read_maps(Facts *facts, const WeftScene *scene);
 
 typedef struct Loader Loader;
 

@@ -154,8 +154,10 @@ Nap *nap_copy(const Look *look, int material, WeftImage **image) {
     atomic_init(&nap->users, 1);
     nap->material = material;
     unsigned char *p = nap->image.pixels;
+    bool leans = material < look->material_count &&
+                 look_material(look, material)->inputs[input_number("nap")].value[0] > 0.0f;
     for (int k = 0; k < NAP_SIDE * NAP_SIDE && !old; k++, p += 3)
-        p[0] = 255, p[1] = p[2] = 128; /* along +u */
+        p[0] = 255, p[1] = 128, p[2] = leans ? 255 : 0; /* along +u */
     if (old) memcpy(p, old->image.pixels, (size_t)3 * NAP_SIDE * NAP_SIDE);
     *image = &nap->image;
     return nap;
@@ -225,9 +227,11 @@ static WeftResult apply_materials(const Look *look, const Look *is, LookWorn *wo
         if (look_same_material(look, is, k) && !nap == !was) continue;
         WeftMaterial m = look->materials[k]->is;
         if (nap) {
-            WeftInput *direction = &m.inputs[input_number("nap_direction")];
-            direction->texture = texture_of(worn, k);
+            WeftInput *direction = &m.inputs[input_number("nap_direction")],
+                      *angle = &m.inputs[input_number("nap")];
+            direction->texture = angle->texture = texture_of(worn, k);
             direction->value[0] = 0.0f;
+            angle->channel = 2;
         }
         result = weft_scene_put_material(scene, k, &m, error);
         *changed |= WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS;

@@ -26,7 +26,8 @@ typedef struct Around {
 
 typedef struct LookMaterial LookMaterial; /* shared */
 
-/* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction. Shared. */
+/* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction, blue how
+ * much of its angle it leans there. Shared. */
 typedef struct Nap Nap;
 
 typedef struct Look {
@@ -58,7 +59,8 @@ bool look_same_material(const Look *a, const Look *b, int index);
 
 /* The nap brushed onto a material; NULL: none. */
 const WeftImage *look_nap(const Look *look, int material);
-/* A copy of it, or a plain one, to be changed and then taken over by look_set_nap. */
+/* A copy of it, or a plain one that leans everywhere or, where the material's nap stands upright, nowhere: to
+ * be changed and then taken over by look_set_nap. */
 Nap *nap_copy(const Look *look, int material, WeftImage **image);
 bool look_set_nap(Look *look, Nap *nap);
 /* Shares the naps of another look of the same scene. */

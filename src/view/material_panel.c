@@ -18,7 +18,7 @@ static const struct {
               {"Coat", {"clearcoat", NULL}, false},
               {"Dust", {"dust", NULL}, false},
               {"Emission", {"emission", NULL}, false}};
-enum { GROUPS = sizeof groups / sizeof *groups };
+enum { GROUPS = sizeof groups / sizeof *groups, SHEEN = 1, MODELS_BEFORE = 2 };
 
 static int group_of(const char *name) {
     for (int g = 1; g < GROUPS; g++)
@@ -51,17 +51,49 @@ static const char *choice_help(const void *user, int row) {
     return help_choice(rows->choice, rows->values[row]);
 }
 
-/* Words are told apart by blanks on a label. */
-static void label_of(const char *name, char label[64]) {
-    snprintf(label, 64, "%s", name);
-    for (char *p = label; *p; p++)
+/* Words of artists, with the term beside them where it is another one; all others are called as they are. */
+static const char *const words[][2] = {{"base_color", "colour"},
+                                       {"metallic", "metalness"},
+                                       {"normal", "bumps, normal map"},
+                                       {"occlusion", "creases, occlusion"},
+                                       {"ior", "refraction, ior"},
+                                       {"extinction", "extinction k"},
+                                       {"specular_color", "specular colour"},
+                                       {"anisotropy", "stretch, anisotropy"},
+                                       {"anisotropy_direction", "stretch direction"},
+                                       {"sheen", "sheen amount"},
+                                       {"sheen_color", "sheen colour"},
+                                       {"sheen_second", "second colour"},
+                                       {"sheen_density", "density of fibres"},
+                                       {"nap", "nap, lean of fibres"},
+                                       {"clearcoat", "coat amount"},
+                                       {"dust_color", "dust colour"},
+                                       {"emission", "glow, emission"},
+                                       {"d", "distribution D"},
+                                       {"v", "shadowing V"},
+                                       {"f", "Fresnel F"},
+                                       {"profile", "engine, profile"},
+                                       {"diffuse", "diffuse model"},
+                                       {"layer", "layering rule"},
+                                       {"layer_by", "rule goes by"},
+                                       {"convert", "convert from"}};
+
+/* What is shown, and the name by which a script finds it: blanks between its words. */
+static void label_of(const char *name, char label[96]) {
+    char plain[48];
+    const char *shown = plain;
+    snprintf(plain, sizeof plain, "%s", name);
+    for (char *p = plain; *p; p++)
         if (*p == '_') *p = ' ';
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (strcmp(words[k][0], name) == 0) shown = words[k][1];
+    snprintf(label, 96, "%.40s###%.47s", shown, plain);
 }
 
 static void draw_choice(WeftMaterial *m, int choice) {
     const Rows rows = rows_of(choice);
     const UiChoices menu = {rows.count, choice_name, choice_help, &rows};
-    char label[64];
+    char label[96];
     int row = 0;
     while (row + 1 < rows.count && rows.values[row] != m->choices[choice]) row++;
     label_of(weft_material_choice_name(choice), label);
@@ -91,14 +123,38 @@ static bool is_beyond(const WeftInputInfo *info, const WeftInput *input) {
     return false;
 }
 
-static void draw_input(WeftMaterial *m, int k) {
+/* The map that multiplies a value: its name, and what to do with it. */
+static void draw_map(Viewer *v, WeftInput *input, int k) {
+    char label[96];
+    const char *name = weft_material_input_name(k);
+    int texture = input->texture;
+    ui_indent();
+    snprintf(label, sizeof label, "...###%s choose", name);
+    if (ui_small_button(label)) {
+        v->dropped_input = k;
+        viewer_dialog(v, "Choose a map");
+    }
+    ui_tip(texture ? "Another picture in the place of this map." : "A picture that multiplies the value.");
+    if (texture) {
+        ui_same_line();
+        snprintf(label, sizeof label, "x###%s map", name);
+        if (ui_small_button(label)) input->texture = 0;
+        ui_tip("Takes the map away.");
+        ui_same_line();
+        snprintf(label, sizeof label, "times %.60s",
+                 texture <= v->facts.map_count ? v->facts.maps[texture - 1] : "a map");
+        ui_text(label);
+    }
+    ui_indent_end();
+}
+
+static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
     WeftInputInfo info;
-    char label[64];
+    char label[96];
     WeftInput *input = &m->inputs[k];
     weft_material_input_info(k, &info);
     label_of(info.name, label);
     const float initial[3] = {info.initial, info.initial, info.initial};
-    bool reads = weft_material_reads(m, k) != 0;
     ui_faint(!reads);
     bool changed = info.kind == WEFT_INPUT_COLOR ? ui_color(label, initial, input->value)
                                                  : draw_number(&info, label, input->value);
@@ -111,17 +167,7 @@ static void draw_input(WeftMaterial *m, int k) {
                       info.kind == WEFT_INPUT_COLOR ? info.hard_high : input->value[c]);
         input->given = 1;
     }
-    if (input->texture) {
-        char text[96];
-        snprintf(text, sizeof text, "no map##%s map", info.name);
-        ui_indent();
-        if (ui_small_button(text)) input->texture = 0;
-        ui_tip("The value multiplies a map. This takes the map away.");
-        ui_same_line();
-        snprintf(text, sizeof text, "times map %d", input->texture);
-        ui_text(text);
-        ui_indent_end();
-    }
+    if (input->texture || info.kind == WEFT_INPUT_COLOR) draw_map(v, input, k);
     if (is_beyond(&info, input)) {
         char text[96];
         snprintf(text, sizeof text, "beyond what is plausible: %g .. %g", (double)info.low,
@@ -156,7 +202,7 @@ static const char *material_help(const void *user, int k) {
 static const char *variant_name(const void *user, int k) {
     return k ? ((const Viewer *)user)->facts.variants[k - 1] : "choose ...";
 }
-static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "choose ..."; }
+static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
 static const char *preset_help(const void *user, int k) {
     return k ? weft_preset_help(k - 1) : "Dresses the material in one that is ready made.";
 }
@@ -164,7 +210,8 @@ static const char *preset_help(const void *user, int k) {
 static void draw_which(Viewer *v) {
     const UiChoices materials = {v->look.material_count, material_name, material_help, v};
     const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
-    int count = 0, preset = 0, variant = v->variant + 1;
+    int count = 0, variant = v->variant + 1;
+    int none = 0, *preset = v->facts.presets ? &v->facts.presets[v->material] : &none;
     while (weft_preset_name(count)) count++;
     const UiChoices presets = {count + 1, preset_name, preset_help, v};
     ui_choice("material", &materials, &v->material);
@@ -175,9 +222,9 @@ static void draw_which(Viewer *v) {
         }
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
-    if (ui_choice("preset", &presets, &preset) && preset > 0) {
+    if (ui_choice("preset", &presets, preset) && *preset > 0) {
         char path[128];
-        snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
+        snprintf(path, sizeof path, "preset:%s", weft_preset_name(*preset - 1));
         viewer_task(v, TASK_DRESS, path, v->material, -1);
     }
 }
@@ -191,8 +238,10 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_disabled_end();
     ui_tip("Puts the copied material here (Ctrl+V).");
     ui_same_line();
-    if (ui_button("Reset") && v->material < v->first.material_count)
+    if (ui_button("Reset") && v->material < v->first.material_count) {
         *m = *look_material(&v->first, v->material);
+        if (v->facts.presets) v->facts.presets[v->material] = 0;
+    }
     ui_tip("Back to what the file says.");
     ui_same_line();
     if (ui_button("Profiles ...")) viewer_profiles(v);
@@ -227,9 +276,30 @@ static void draw_plausible(Viewer *v, const WeftMaterial *m) {
     }
 }
 
-static void draw_inputs(WeftMaterial *m, int group) {
-    for (int k = 0; weft_material_input_name(k); k++)
-        if (group_of(weft_material_input_name(k)) == group) draw_input(m, k);
+/* Those that have any influence; then, folded away, the others. */
+static void draw_inputs(Viewer *v, WeftMaterial *m, int group) {
+    bool reads[WEFT_INPUTS_MAX];
+    int idle = 0;
+    char label[64];
+    for (int k = 0; weft_material_input_name(k); k++) {
+        if (group_of(weft_material_input_name(k)) != group) continue;
+        reads[k] = weft_material_reads(m, k) != 0;
+        idle += !reads[k];
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        snprintf(label, sizeof label, "%d without influence now###idle %s", idle, groups[group].heading);
+        if (pass && (!idle || !ui_fold(label))) return;
+        for (int k = 0; weft_material_input_name(k); k++)
+            if (group_of(weft_material_input_name(k)) == group && reads[k] == !pass)
+                draw_input(v, m, k, reads[k]);
+    }
+}
+
+static const char *const sheen_choice = "sheen_lobe"; /* stands with the sheen */
+
+static void draw_models(WeftMaterial *m) {
+    for (int k = 0; weft_material_choice_name(k); k++)
+        if (strcmp(weft_material_choice_name(k), sheen_choice) != 0) draw_choice(m, k);
 }
 
 void material_panel(Viewer *v) {
@@ -242,9 +312,11 @@ void material_panel(Viewer *v) {
     WeftMaterial m = *look_material(&v->look, v->material);
     draw_buttons(v, &m);
     draw_plausible(v, &m);
-    if (ui_section("Model", true))
-        for (int k = 0; weft_material_choice_name(k); k++) draw_choice(&m, k);
-    for (int g = 0; g < GROUPS; g++)
-        if (ui_section(groups[g].heading, groups[g].unfolded)) draw_inputs(&m, g);
+    for (int g = 0; g < GROUPS; g++) {
+        if (g == MODELS_BEFORE && ui_section("Models", false)) draw_models(&m);
+        if (!ui_section(groups[g].heading, groups[g].unfolded)) continue;
+        if (g == SHEEN) draw_choice(&m, choice_number(sheen_choice));
+        draw_inputs(v, &m, g);
+    }
     viewer_set_material(v, v->material, &m);
 }

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/inputs.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
@@ -37,11 +38,17 @@ static void file_menu(Viewer *v) {
 static void edit_menu(Viewer *v) {
     if (ui_menu_item("Undo", "Ctrl+Z", false, v->history.now > 0)) viewer_undo(v);
     if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->history.now < v->history.count)) viewer_redo(v);
+    ui_rule();
+    if (ui_menu_item("Next material", "M", false, v->has_scene)) viewer_next_material(v, 1);
+    if (ui_menu_item("Material before", "Shift+M", false, v->has_scene)) viewer_next_material(v, -1);
 }
 
 static void view_menu(Viewer *v) {
     if (ui_menu_item("Frame all", "F", false, v->has_scene)) viewer_frame_selection(v);
     if (ui_menu_item("First camera", "Home", false, v->has_scene)) viewer_reset_camera(v);
+    ui_rule();
+    if (ui_menu_item("Floor", "G", v->floor.on, true)) v->floor.on = !v->floor.on;
+    if (ui_menu_item("Hide polygon lights", "H", v->hide_lights, true)) v->hide_lights = !v->hide_lights;
     ui_rule();
     for (int k = 0; k < WEFT_PART_COUNT; k++) {
         char key[8];
@@ -111,6 +118,11 @@ static void draw_modes(Viewer *v) {
     ui_same_line();
     if (ui_checkbox("Brush", &brush)) v->tool = brush ? TOOL_BRUSH : TOOL_ORBIT;
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
+    if (v->tool != TOOL_BRUSH || v->material >= v->look.material_count) return;
+    if (weft_material_reads(look_material(&v->look, v->material), input_number("nap"))) return;
+    ui_same_line();
+    if (ui_button("Make it fibre")) viewer_make_fibre(v);
+    ui_tip("The sheen of this material has no nap: gives it the lobe fibre, which has one.");
 }
 
 void menu_draw(Viewer *v) {
@@ -152,7 +164,7 @@ void status_draw(Viewer *v) {
     float room = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->warnings);
     text[0] = '\0';
-    if (count) snprintf(text, sizeof text, "%d warnings (F8)   ", count);
+    if (count) snprintf(text, sizeof text, "%d warning%s (F8)   ", count, count == 1 ? "" : "s");
     UiBox left = {0.0f, top, room, bar.height};
     ui_clip(&left);
     ui_label(8.0f * scale, top + 4.0f * scale, 0xFF58C7F8u, text);

@@ -163,6 +163,9 @@ static void take_light(Viewer *v, const Around *around) {
 
 static void take_dressed(Viewer *v, News *news) {
     Around around = v->look.around;
+    FactName *maps = v->facts.maps;
+    v->facts.maps = news->maps.maps, v->facts.map_count = news->maps.map_count;
+    news->maps.maps = maps;
     if (!look_same(&v->look, &news->look)) keep_step(v); /* a variant changes who wears what, not the look */
     look_free(&v->look);
     v->look = news->look;

@@ -309,6 +309,7 @@ bool painter_news(Painter *self, News *news) {
 void news_free(News *news) {
     weft_image_free(&news->image);
     free(news->shares);
+    facts_free(&news->maps);
     if (news->look_changed) look_free(&news->look);
 }
 

@@ -7,6 +7,7 @@
 #ifndef WEFT_VIEW_PAINTER_H
 #define WEFT_VIEW_PAINTER_H
 
+#include "view/loader.h"
 #include "view/look.h"
 #include "view/orbit.h"
 #include "view/truth.h"
@@ -88,6 +89,7 @@ typedef struct News {
     WeftImage image;   /* TASK_PROFILES: U8 RGB, owned */
     bool look_changed; /* and `look` is what the scene is dressed as now; owned */
     Look look;
+    Facts maps;    /* with a look: the maps alone; owned */
     float *shares; /* TASK_VARIANT: survey.h; owned, may be NULL */
     int index;
 } News;

@@ -115,7 +115,13 @@ static int key_of(const char *name) {
                                    {"space", GLFW_KEY_SPACE},
                                    {"shift", GLFW_KEY_LEFT_SHIFT},
                                    {"control", GLFW_KEY_LEFT_CONTROL},
+                                   {"up", GLFW_KEY_UP},
+                                   {"down", GLFW_KEY_DOWN},
+                                   {"left", GLFW_KEY_LEFT},
+                                   {"right", GLFW_KEY_RIGHT},
                                    {"f1", GLFW_KEY_F1},
+                                   {"f6", GLFW_KEY_F6},
+                                   {"f10", GLFW_KEY_F10},
                                    {"f8", GLFW_KEY_F8},
                                    {"f12", GLFW_KEY_F12},
                                    {"backspace", GLFW_KEY_BACKSPACE}};

@@ -105,7 +105,7 @@ static void ask(Viewer *v, TaskKind kind, unsigned why) {
     painter_task(v->painter, &task);
 }
 
-/* A stroke that lays no nap yet gives the material one that can be seen. */
+/* Where nothing leans yet the map says what does, and the number how far. */
 static void begin_nap(Viewer *v, int material) {
     WeftMaterial m = *look_material(&v->look, material);
     int nap = input_number("nap");
@@ -113,8 +113,15 @@ static void begin_nap(Viewer *v, int material) {
     m.inputs[nap].value[0] = 0.436332f; /* 25 degrees */
     m.inputs[nap].given = 1;
     viewer_set_material(v, material, &m);
-    if (!weft_material_reads(&m, nap))
-        viewer_say(v, true, "the sheen of this material has no nap: choose the lobe fibre");
+}
+
+/* What has no nap takes no stroke, and stays as it is. */
+static bool takes_strokes(Viewer *v, int material) {
+    if (weft_material_reads(look_material(&v->look, material), input_number("nap"))) return true;
+    viewer_say(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",
+               v->facts.materials[material]);
+    v->brush.down = false;
+    return false;
 }
 
 /* Along the way from where the brush was; over a seam of the map it begins anew. */
@@ -135,6 +142,8 @@ static void brush_at(Viewer *v, const Probe *at) {
     Brush *brush = &v->brush;
     bool goes_on = brush->known && brush->material == at->material;
     if (brush->known && !goes_on) return; /* a stroke stays on what it began on */
+    v->material = at->material;
+    if (!takes_strokes(v, at->material)) return;
     for (int k = 0; k < 3 && goes_on; k++) {
         d[0] += (at->position[k] - brush->at[k]) * at->tangent[k];
         d[1] += (at->position[k] - brush->at[k]) * at->bitangent[k];
@@ -143,8 +152,8 @@ static void brush_at(Viewer *v, const Probe *at) {
     WeftImage *image;
     Nap *nap = moved ? nap_copy(&v->look, at->material, &image) : NULL;
     if (nap) {
-        begin_nap(v, at->material);
         lay_along(brush, image, at, d);
+        begin_nap(v, at->material);
         if (!look_set_nap(&v->look, nap))
             viewer_say(v, true, "no more than %d materials can be brushed", LOOK_NAPS);
     }
@@ -152,7 +161,7 @@ static void brush_at(Viewer *v, const Probe *at) {
     memcpy(brush->at, at->position, sizeof brush->at);
     memcpy(brush->uv, at->texcoord, sizeof brush->uv);
     brush->known = true;
-    brush->material = v->material = at->material;
+    brush->material = at->material;
 }
 
 void stage_picked(Viewer *v, const Probe *at, unsigned stamp) {

@@ -9,13 +9,15 @@ static int wrapped(int k, int n) {
 
 static unsigned char coded(float x) { return (unsigned char)(127.5f + 127.5f * x + 0.5f); }
 
-/* A direction is mixed as a vector, and is unit again; opposite ones meet by way of the new one. */
+/* Directions are mixed as vectors as long as what leans there, lean' = (1 - w) lean + w, and become unit
+ * again; opposite ones meet by way of the new one. */
 static void turn(unsigned char *texel, const float along[2], float w) {
-    float x = (float)texel[0] / 127.5f - 1.0f, y = (float)texel[1] / 127.5f - 1.0f;
-    x += w * (along[0] - x), y += w * (along[1] - y);
-    float n = sqrtf(x * x + y * y);
-    if (n < 0.05f) x = along[0], y = along[1], n = 1.0f;
+    float lean = (float)texel[2] / 255.0f, was = (1.0f - w) * lean;
+    float x = was * ((float)texel[0] / 127.5f - 1.0f) + w * along[0],
+          y = was * ((float)texel[1] / 127.5f - 1.0f) + w * along[1], n = sqrtf(x * x + y * y);
+    if (!(n > 0.05f * (was + w))) x = along[0], y = along[1], n = 1.0f;
     texel[0] = coded(x / n), texel[1] = coded(y / n);
+    texel[2] = (unsigned char)(255.0f * (was + w) + 0.5f);
 }
 
 void stroke_lay(WeftImage *nap, const float at[2], float radius, const float along[2], float strength) {

@@ -71,6 +71,7 @@ static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftErro
         look_free(&self->is);
         self->is = look;
         news->look_changed = look_copy(&news->look, &self->is);
+        facts_read_maps(&news->maps, self->scene);
         painter_watch(self);
         result = weft_raster_update(self->raster, &log, error);
     }

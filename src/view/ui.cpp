@@ -23,6 +23,10 @@ struct Ui {
     std::vector<size_t> scopes;
     std::vector<UiControl> shown, last;
     std::string reveal;
+    std::vector<std::string> panels;         /* of this frame, in their order */
+    std::string panel;                       /* that has the keyboard; "": none */
+    bool to_menus = false, to_panel = false; /* goes there with the next frame */
+    bool navigates = false;
     bool noted = false;         /* the widget before is the last of those shown */
     ImDrawList *list = nullptr; /* that is drawn on; NULL: the current window's */
     ImVec4 accent = ImVec4(0.86f, 0.55f, 0.30f, 1.0f);
@@ -54,8 +58,10 @@ std::string visible(const char *label) {
 void note(const char *label) {
     ui->noted = false;
     UiControl control = {};
-    const char *hidden = strstr(label, "##");
-    std::string name = ui->scope + (hidden == label ? std::string(label + 2) : visible(label));
+    const char *hidden = strstr(label, "##"), *own = strstr(label, "###");
+    std::string name = ui->scope + (own               ? std::string(own + 3)
+                                    : hidden == label ? std::string(label + 2)
+                                                      : visible(label));
     snprintf(control.name, sizeof control.name, "%s", name.c_str());
     ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     control.box = {low.x, low.y, high.x - low.x, high.y - low.y};
@@ -222,11 +228,18 @@ void ui_begin(const UiInput *input) {
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;
     for (int k = 0; k < input->typed_count; k++) io.AddInputCharacter(input->typed[k]);
-    /* Escape and the arrows are a popup's, and nobody else's. */
-    io.ConfigFlags =
-        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? ImGuiConfigFlags_NavEnableKeyboard : 0;
+    /* Escape and the arrows are a popup's, or those of a panel that was asked to take them. */
+    bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    bool leaves = input->button[0] || input->button[1] || (input->key[GLFW_KEY_ESCAPE] && !popup);
+    if (ui->navigates && leaves && !io.WantTextInput) {
+        ui->navigates = false;
+        ui->panel.clear();
+        ImGui::SetWindowFocus(nullptr);
+    }
+    io.ConfigFlags = popup || ui->navigates ? ImGuiConfigFlags_NavEnableKeyboard : 0;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
+    ui->panels.clear();
     ui->last.swap(ui->shown);
     ui->shown.clear();
     ui->list = nullptr;
@@ -243,6 +256,16 @@ bool ui_wants_keys(void) {
     return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 bool ui_types(void) { return ImGui::GetIO().WantTextInput; }
+
+void ui_go_to_menus(void) { ui->navigates = ui->to_menus = true; }
+void ui_go_to_next_panel(void) {
+    size_t k = 0;
+    while (k < ui->panels.size() && ui->panels[k] != ui->panel) k++;
+    k = ui->panel.empty() ? 0 : k + 1;
+    ui->panel = k < ui->panels.size() ? ui->panels[k] : "";
+    ui->navigates = ui->to_panel = !ui->panel.empty();
+    if (!ui->navigates) ImGui::SetWindowFocus(nullptr);
+}
 
 UiCursor ui_cursor(void) {
     switch (ImGui::GetMouseCursor()) {
@@ -268,7 +291,15 @@ bool ui_panel(const char *name, UiBox box, bool scrolls) {
         flags |= ImGuiWindowFlags_AlwaysVerticalScrollbar; /* so that nothing jumps when it gets longer */
     ImGui::SetNextWindowPos(at(box.x, box.y));
     ImGui::SetNextWindowSize(at(box.width, box.height));
-    return ImGui::Begin(name, nullptr, flags);
+    bool shown = ImGui::Begin(name, nullptr, flags);
+    ui->panels.push_back(name);
+    if (ui->to_panel && ui->panel == name) {
+        ui->to_panel = false;
+        ImGui::FocusWindow(ImGui::GetCurrentWindow());
+        ImGui::NavInitWindow(ImGui::GetCurrentWindow(), true);
+        GImGui->NavDisableHighlight = false;
+    }
+    return shown;
 }
 void ui_panel_end(void) { ImGui::End(); }
 
@@ -313,7 +344,24 @@ bool ui_section(const char *label, bool unfolded) {
     return open;
 }
 
-bool ui_menu_bar(void) { return ImGui::BeginMainMenuBar(); }
+bool ui_fold(const char *label) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    bool open =
+        ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    ImGui::PopStyleColor();
+    note_spoken(label);
+    return open;
+}
+
+bool ui_menu_bar(void) {
+    bool shown = ImGui::BeginMainMenuBar();
+    if (!shown || !ui->to_menus) return shown;
+    ui->to_menus = false;
+    ImGui::FocusWindow(ImGui::GetCurrentWindow());
+    ImGui::SetNavID(ImGui::GetID("File"), ImGuiNavLayer_Menu, 0, ImRect());
+    GImGui->NavDisableHighlight = false;
+    return shown;
+}
 void ui_menu_bar_end(void) { ImGui::EndMainMenuBar(); }
 bool ui_menu(const char *label) {
     bool open = ImGui::BeginMenu(label);
@@ -463,10 +511,22 @@ bool ui_slider(const char *label, const UiRange *range, float *value) {
     labelled(label);
     ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat;
     if (range->logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
-    const float before = *value;
-    bool changed = ImGui::SliderFloat(hidden(label).c_str(), value, range->low, range->high, format, flags);
+    const float before = *value, number = 5.2f * ImGui::GetFontSize(),
+                room = ImGui::GetContentRegionAvail().x;
+    ImGui::SetNextItemWidth(std::fmax(room - number, 0.4f * room));
+    ImGuiID id = ImGui::GetID(hidden(label).c_str());
+    bool typed = ImGui::TempInputIsActive(id) || GImGui->NavActivateInputId == id ||
+                 (ImGui::GetIO().KeyCtrl && GImGui->HoveredIdPreviousFrame == id);
+    bool changed =
+        ImGui::SliderFloat(hidden(label).c_str(), value, range->low, range->high, typed ? format : "", flags);
     if (!std::isfinite(*value)) *value = before; /* typed */
     note(label);
+    char shown[48];
+    snprintf(shown, sizeof shown, format, static_cast<double>(*value));
+    ImVec2 end = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddText(
+        at(end.x + 0.4f * ImGui::GetFontSize(), ImGui::GetItemRectMin().y + ImGui::GetStyle().FramePadding.y),
+        ImGui::GetColorU32(ImGuiCol_Text), shown); /* beside the handle, which would hide it */
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && !ImGui::GetIO().KeyCtrl) {
         changed = *value < range->initial || *value > range->initial;
         *value = range->initial;

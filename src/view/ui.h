@@ -1,9 +1,10 @@
 /* ui.h - widgets, in C: the bridge to Dear ImGui, which alone is C++
  *
  * One frame: ui_begin, widgets, ui_end. A widget is named by its label and by the scopes around it:
- * "Material/ roughness"; after "##" a label is part of the name alone. Whatever was shown can be asked for by
- * its name (ui_control), which is how a script finds it. Colours are 0xAABBGGRR, places in pixels from the
- * top left. One thread, the one whose OpenGL context is current. */
+ * "Material/ roughness"; after "##" a label is part of the name alone, and
+ * after "###" that is all of its name, whatever it shows: "Distribution D###d". Whatever was shown can be
+ * asked for by its name (ui_control), which is how a script finds it. Colours are 0xAABBGGRR, places in
+ * pixels from the top left. One thread, the one whose OpenGL context is current. */
 #ifndef WEFT_VIEW_UI_H
 #define WEFT_VIEW_UI_H
 
@@ -60,6 +61,11 @@ bool ui_wants_keys(void);
 /* Whether text is being typed. */
 bool ui_types(void);
 
+/* Hands the keyboard to the menus, or to the next panel and after the last one back to the picture: arrows,
+ * Space and Enter then go through its widgets until Escape, or the mouse, ends that. */
+void ui_go_to_menus(void);
+void ui_go_to_next_panel(void);
+
 typedef enum UiCursor { UI_ARROW, UI_BEAM, UI_ACROSS, UI_HAND, UI_CURSORS } UiCursor;
 UiCursor ui_cursor(void);
 
@@ -94,6 +100,9 @@ void ui_scope_end(void);
 
 /* A heading that folds what is below it; true while unfolded. */
 bool ui_section(const char *label, bool unfolded);
+
+/* A smaller one, within a section: true while unfolded, which it is not at first. */
+bool ui_fold(const char *label);
 
 bool ui_menu_bar(void);
 void ui_menu_bar_end(void);

@@ -62,6 +62,20 @@ static const char *part_help(const void *user, int k) {
                                       : "This property, in numbers as they are.";
 }
 
+static void draw_floor(Viewer *v) {
+    static const UiRange share = {0.0f, 1.0f, 0.1f, NULL, false}, rough = {0.0f, 1.0f, 0.3f, NULL, false};
+    bool on = v->floor.on;
+    if (ui_checkbox("Floor", &on)) v->floor.on = on;
+    ui_tip("Catches the shadow of the scene and mirrors it, and is seen by nothing else (G).");
+    if (!on) return;
+    ui_slider("mirrored", &share, &v->floor.reflection);
+    ui_tip("Share of the scene that the floor mirrors.");
+    ui_slider("floor roughness", &rough, &v->floor.roughness);
+    ui_tip("Of the mirror: 0 is a polished floor.");
+    v->floor.reflection = fminf(fmaxf(v->floor.reflection, 0.0f), 1.0f);
+    v->floor.roughness = fminf(fmaxf(v->floor.roughness, 0.0f), 1.0f);
+}
+
 static void draw_picture(Viewer *v) {
     static const UiRange stops = {-6.0f, 6.0f, 0.0f, "stops", false};
     static const float grey[3] = {0.18f, 0.18f, 0.18f};
@@ -78,6 +92,7 @@ static void draw_picture(Viewer *v) {
         ui_tip("Linear.");
     }
     if (ui_choice("show", &parts, &part)) v->part = (WeftPart)part;
+    draw_floor(v);
 }
 
 static void draw_compare(Viewer *v) {
@@ -119,7 +134,7 @@ static void draw_tools(Viewer *v) {
     ui_tip("How far one pass turns the fibres.");
     v->brush.radius = fminf(fmaxf(v->brush.radius, 1e-4f), 100.0f);
     v->brush.strength = fminf(fmaxf(v->brush.strength, 0.0f), 1.0f);
-    ui_dim("The lobe fibre has a nap.");
+    ui_dim("Of sheens the lobe fibre alone has a nap.");
 }
 
 void view_panel(Viewer *v) {

@@ -147,7 +147,9 @@ void viewer_light_by(Viewer *v, const char *path); /* a picture, or the folder o
 void viewer_redo(Viewer *v);
 void viewer_mode(Viewer *v, Mode mode);
 void viewer_split(Viewer *v, Split split);
-void viewer_swap(Viewer *v); /* edits the other of A and B */
+void viewer_next_material(Viewer *v, int by); /* of those that something wears */
+void viewer_make_fibre(Viewer *v);            /* gives the chosen material a sheen with a nap to brush */
+void viewer_swap(Viewer *v);                  /* edits the other of A and B */
 void viewer_frame_selection(Viewer *v);
 void viewer_reset_camera(Viewer *v);
 void viewer_shot(Viewer *v, const char *path);

@@ -316,18 +316,24 @@ static void take_event(Window *self, UiInput *input, Event *e) {
     }
 }
 
+static bool is_modifier(const Event *e) {
+    return e->kind == EVENT_KEY && e->code >= GLFW_KEY_LEFT_SHIFT && e->code <= GLFW_KEY_RIGHT_SUPER;
+}
+
 bool window_take(Window *self, UiInput *input) {
-    bool button[UI_BUTTONS] = {0}, key[UI_KEYS] = {0}, any = false, pressed = false;
+    bool button[UI_BUTTONS] = {0}, key[UI_KEYS] = {0}, any = false, pressed = false, struck = false;
     input->wheel = input->wheel_across = 0.0f;
     input->typed_count = input->pressed_count = 0;
     while (self->count) {
         Event *e = &self->events[self->first];
         bool turn = e->kind == EVENT_BUTTON && e->code >= 0 && e->code < UI_BUTTONS;
         bool stroke = e->kind == EVENT_KEY && e->code >= 0 && e->code < UI_KEYS;
-        if ((turn && button[e->code]) || (stroke && key[e->code]) || (e->kind == EVENT_MOVE && pressed))
+        if ((turn && button[e->code]) || (stroke && key[e->code]) || (e->kind == EVENT_MOVE && pressed) ||
+            (is_modifier(e) && struck))
             break;
         if (turn) button[e->code] = pressed = true;
         if (stroke) key[e->code] = true;
+        struck |= turn || (stroke && !is_modifier(e));
         take_event(self, input, e);
         self->first = (self->first + 1) % QUEUE_MOST;
         self->count--;

@@ -51,7 +51,8 @@ typedef struct Event {
 void window_push(Window *window, const Event *event);
 
 /* Takes what happened since the last call into input, as far as one frame can tell it: of a button or key
- * that went down and up again the second is left for the next frame. Returns whether anything did. */
+ * that went down and up again the second is left for the next frame, and so is a Ctrl, Shift or Alt that
+ * changed after one of them did. Returns whether anything happened. */
 bool window_take(Window *window, UiInput *input);
 
 /* Whether events wait. */

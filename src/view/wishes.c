@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "view/browser.h"
+#include "view/inputs.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
@@ -37,6 +38,36 @@ void viewer_redo(Viewer *v) {
 }
 
 void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
+
+void viewer_next_material(Viewer *v, int by) {
+    const float *shares = v->facts.shares;
+    int count = v->look.material_count, k = v->material;
+    for (int step = 0; step < count; step++) {
+        k = (k + by + count) % count;
+        if (!shares || shares[k] >= 0.0f) break;
+    }
+    if (!count) return;
+    v->material = k;
+    viewer_say(v, false, "%s", v->facts.materials[k]);
+}
+
+void viewer_make_fibre(Viewer *v) {
+    if (v->material >= v->look.material_count) return;
+    WeftMaterial m = *look_material(&v->look, v->material);
+    int lobe = choice_number("sheen_lobe"), value = 0;
+    while (weft_material_choice_value(lobe, value) &&
+           strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
+        value++;
+    weft_material_choose(&m, lobe, value);
+    WeftInput *color = &m.inputs[input_number("sheen_color")],
+              *rough = &m.inputs[input_number("sheen_roughness")];
+    bool black = !(color->value[0] + color->value[1] + color->value[2] > 0.0f);
+    for (int c = 0; c < 3 && black; c++) color->value[c] = 0.5f;
+    if (black) color->given = 1;
+    if (!(rough->value[0] > 0.0f)) rough->value[0] = 0.6f, rough->given = 1;
+    viewer_set_material(v, v->material, &m);
+    viewer_say(v, false, "%s has a sheen of fibres now: stroke it", v->facts.materials[v->material]);
+}
 
 /* What is not edited is kept while the comparison is off. */
 void viewer_split(Viewer *v, Split split) {

@@ -39,7 +39,7 @@ static void every_menu_goes_through_all_its_values(void **state) {
     need_gl();
     const WeftMaterial material = cloth_material();
     script_begin();
-    say("wait rest\n");
+    say("wait rest\nclick \"Material/Models\"\n");
     for (int k = 0; weft_material_choice_name(k); k++) {
         const char *name = weft_material_choice_name(k);
         char label[64];

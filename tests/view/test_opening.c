@@ -117,6 +117,39 @@ static void undo_to_a_light_that_is_gone_leaves_what_is_there(void **state) {
     assert_true(pictures_most("two.png", "still.png") < 0.5 / 255.0);
 }
 
+static void the_chooser_of_lights_keeps_what_was_typed(void **state) {
+    (void)state;
+    need_gl();
+    assert_int_equal(mkdir("lights", 0700), 0);
+    write_light("lights/dome.hdr", 0.9f, 0.2f, false);
+    file_make("lights/notes.json", "{}", 2);
+    script_begin();
+    say("wait rest\nclick Panel/Light\nclick \"Light/Choose a picture ...\"\nwait 3\n");
+    say("click \"Choose a light/path\"\nkey control+a\ntype lights\nkey enter\nwait 3\n");
+    say("click \"Choose a light/path\"\nkey control+a\ntype lights/nowhere.hdr\nkey enter\nwait 3\n");
+    say("window kept.png\nwait 3\n");
+    say("click \"Choose a light/path\"\nkey control+a\ntype dome.hdr\nkey enter\n");
+    say("wait message lit by\nwait rest\ncommand said\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    bool listed = false, stays = false;
+    for (bool ended = false; !ended;) {
+        ended = drive_ended(&drive);
+        for (json_t *now; (now = drive_next(&drive)); json_decref(now)) {
+            const json_t *controls = json_object_get(now, "controls");
+            listed |= json_object_get(controls, "Choose a light/dome.hdr") != NULL;
+            stays |= listed && json_object_get(controls, "Choose a light/path") != NULL;
+            assert_null(json_object_get(controls, "Choose a light/notes.json"));
+        }
+        if (!ended) sleep_seconds(0.02);
+    }
+    drive_finish(&drive);
+    assert_true(listed && stays);
+    size_t size;
+    char *said = file_bytes("said", &size);
+    if (!said || !strstr(said, "/lights/dome.hdr ")) fail_msg("%s", said);
+    free(said);
+}
+
 /* ---- which material is chosen ---- */
 
 static const char quads[] =
@@ -177,6 +210,7 @@ int main(void) {
         cmocka_unit_test(a_light_that_cannot_be_read_leaves_the_one_before),
         cmocka_unit_test(a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole),
         cmocka_unit_test(undo_to_a_light_that_is_gone_leaves_what_is_there),
+        cmocka_unit_test(the_chooser_of_lights_keeps_what_was_typed),
         cmocka_unit_test(the_chosen_material_is_the_one_on_screen)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

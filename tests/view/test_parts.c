@@ -309,6 +309,38 @@ static void an_order_is_copied_whole_or_not_at_all(void **state) {
     order_free(&order);
 }
 
+/* ---- events ---- */
+
+/* Ctrl was held before, and is let go of within the frame in which A went down: both are seen. */
+static void a_key_keeps_its_modifiers_in_a_slow_frame(void **state) {
+    (void)state;
+    char why[256];
+    const WindowDesc desc = {.title = "", .width = 320, .height = 240, .unseen = true};
+    enum { CONTROL = 341 };
+    Window *window = window_open(&desc, why);
+    if (!window) {
+        print_message("%s\n", why);
+        skip();
+    }
+    UiInput *input = calloc(1, sizeof *input);
+    assert_non_null(input);
+    const Event events[] = {{.kind = EVENT_KEY, .code = CONTROL, .down = true},
+                            {.kind = EVENT_KEY, .code = 'A', .letter = 'a', .down = true, .control = true},
+                            {.kind = EVENT_KEY, .code = CONTROL, .control = true},
+                            {.kind = EVENT_KEY, .code = 'A', .letter = 'a'}};
+    window_push(window, &events[0]);
+    assert_true(window_take(window, input));
+    for (int k = 1; k < 4; k++) window_push(window, &events[k]);
+    assert_true(window_take(window, input));
+    assert_true(input->key['A'] && input->control);
+    assert_true(window_take(window, input));
+    assert_false(input->control);
+    while (window_take(window, input)) continue;
+    assert_false(input->key['A'] || input->control);
+    free(input);
+    window_close(window);
+}
+
 /* ---- files of others ---- */
 
 static void write_file(const char *text) {
@@ -501,6 +533,7 @@ int main(void) {
                                        cmocka_unit_test(the_oldest_steps_are_forgotten),
                                        cmocka_unit_test(looks_share_and_part),
                                        cmocka_unit_test(an_order_is_copied_whole_or_not_at_all),
+                                       cmocka_unit_test(a_key_keeps_its_modifiers_in_a_slow_frame),
                                        cmocka_unit_test(a_half_written_file_is_waited_for),
                                        cmocka_unit_test(kinds_of_files_are_told_by_name),
                                        cmocka_unit_test(strokes_turn_what_lies_beneath),

@@ -355,6 +355,84 @@ static void a_brushed_nap_is_kept(void **state) {
     assert_true(traced < 0.01);
 }
 
+static double nap_of(const json_t *state) {
+    return json_number_value(json_array_get(json_object_get(material_of(state, 0), "nap"), 0));
+}
+
+/* How many of a hundred pixels differ. */
+static double share_that_differs(const char *a, const char *b) {
+    WeftImage x = picture_read(a), y = picture_read(b);
+    int count = 0, pixels = x.width * x.height;
+    assert_true(x.width == y.width && x.height == y.height && x.channels == y.channels);
+    for (int k = 0; k < pixels; k++)
+        count += memcmp((const unsigned char *)x.pixels + (size_t)(k * x.channels),
+                        (const unsigned char *)y.pixels + (size_t)(k * x.channels), 3) != 0;
+    weft_image_free(&x);
+    weft_image_free(&y);
+    return 100.0 * count / pixels;
+}
+
+static void a_stroke_naps_what_it_touches_or_nothing(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nkey b\ndrag left 0.45 0.5 0.55 0.5\nwait message no nap\nwait rest\n");
+    say("key control+z\nwait message nothing to undo\nwait seconds 0.5\nclick \"Make it fibre\"\nwait "
+        "rest\n");
+    say("click Panel/View\nset View/radius 0.02\n");
+    say_picture("plain.png");
+    say("move 0.45 0.5\npress left\nwait rest\n");
+    for (int k = 1; k <= 5; k++) say("move %.3f 0.5\nwait rest\n", 0.45 + 0.02 * k);
+    say("release left\nwait rest\n");
+    say_picture("stroked.png");
+    say("wait rest\nkey control+z\nwait message undone\n");
+    say_picture("undone.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = drive_until(&drive, "message", "nothing to undo");
+    assert_true(nap_of(now) <= 0.0);
+    json_decref(now);
+    now = drive_until(&drive, "message", "wrote stroked.png");
+    assert_true(fabs(nap_of(now) - 0.436332) < 1e-5);
+    json_decref(now);
+    now = drive_until(&drive, "message", "wrote undone.png");
+    assert_true(nap_of(now) <= 0.0);
+    json_decref(now);
+    drive_finish(&drive);
+    double touched = share_that_differs("plain.png", "stroked.png");
+    print_message("%.2f %% of the picture was stroked\n", touched);
+    assert_true(touched > 0.2 && touched < 15.0);
+    assert_true(pictures_most("plain.png", "undone.png") < 0.5 / 255.0);
+}
+
+/* ---- keys ---- */
+
+static void panels_and_menus_are_reached_by_keys(void **state) {
+    (void)state;
+    need_gl();
+    Drive drive =
+        drive_start("wait rest\nkey f6\nkey f6\nkey f6\nwait 3\nkey space\nwait 4\nkey down\nkey space\nwait "
+                    "4\nwait rest\n"
+                    "picture 1.png\nwait message wrote 1.png\nwait rest\nkey escape\nkey g\nwait 3\n"
+                    "key f10\nwait 3\nkey down\nwait 6\nwait seconds 1\nkey escape\nkey escape\nwait rest\n",
+                    LIST(UNSEEN, CHEAP));
+    json_t *now = drive_until(&drive, "message", "wrote 1.png");
+    assert_int_equal(number_of(now, "material"), 1);
+    json_decref(now);
+    bool opened = false, floor = false;
+    for (bool ended = false; !ended;) {
+        ended = drive_ended(&drive);
+        for (json_t *next; (next = drive_next(&drive)); json_decref(next)) {
+            opened |= json_object_get(json_object_get(next, "controls"), "Menu/File/Open ...") != NULL;
+            floor |= strstr(word_of(next, "command"), " --floor ") != NULL;
+        }
+        if (!ended) sleep_seconds(0.02);
+    }
+    drive_finish(&drive);
+    assert_true(opened);
+    assert_true(floor);
+}
+
 /* ---- what cannot be done ---- */
 
 static void a_script_that_is_wrong_ends_it(void **state) {
@@ -395,6 +473,8 @@ int main(void) {
                                        cmocka_unit_test(a_texture_is_read_again),
                                        cmocka_unit_test(shader_text_is_compiled_again),
                                        cmocka_unit_test(a_brushed_nap_is_kept),
+                                       cmocka_unit_test(a_stroke_naps_what_it_touches_or_nothing),
+                                       cmocka_unit_test(panels_and_menus_are_reached_by_keys),
                                        cmocka_unit_test(a_script_that_is_wrong_ends_it),
                                        cmocka_unit_test(without_a_display_it_says_what_does_without)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
