@@ -8,7 +8,7 @@
 #include "report.h"
 #include "weft/weft.h"
 
-enum { NOTE = 96, COLUMNS_MOST = 5 };
+enum { NOTE = 96, COLUMNS_MOST = 5, CAPTION = 512 };
 
 /* One picture and its two panels. */
 typedef struct Shot {
@@ -79,32 +79,65 @@ static WeftResult measure(Comparison *all, WeftError *error) {
 }
 
 /* What the pictures differ by. */
-static const char *varied(const Request *request) {
-    return request->engine == ENGINE_BOTH ? "engine" : request->staging.dress.varied + 2;
+static void caption_of(const Request *request, char caption[CAPTION]) {
+    const Dress *dress = &request->staging.dress;
+    const char *by = request->engine == ENGINE_BOTH ? "engine" : dress->varied[0].name;
+    if (dress->varied_count > 1)
+        snprintf(caption, CAPTION, "%.200s, rows by %s, columns by %s", request->staging.scene, by,
+                 dress->varied[1].name);
+    else
+        snprintf(caption, CAPTION, "%.200s, by %s", request->staging.scene, by);
+}
+
+/* Rows and columns of pictures alone. */
+static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
+    *columns = all->request->staging.dress.varied[1].count;
+    if (*columns > all->count) *columns = all->count;
+    for (int k = 0; k < all->count; k++) {
+        const Shot *shot = &all->shots[k];
+        panels[k] = (WeftPanel){.image = &shot->job.display, .title = shot->label, .note = shot->samples};
+    }
+    return all->count;
 }
 
 /* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. One
  * picture has none of these. */
-static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
-    WeftPanel panels[2 * (DRESS_VARIANTS_MOST + COLUMNS_MOST)] = {0};
-    int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST,
-        columns = 1 + last / bands, rows = last ? 2 * bands : 1;
+static int place_bands(const Comparison *all, WeftPanel *panels, int *columns) {
+    int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST;
+    *columns = 1 + last / bands;
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
-        int at = k / columns * 2 * columns + k % columns;
+        int at = k / *columns * 2 * *columns + k % *columns;
         panels[at] = (WeftPanel){.image = &shot->job.display, .title = shot->label, .note = shot->samples};
         if (!last) break;
-        panels[at + columns] =
+        panels[at + *columns] =
             k ? (WeftPanel){.image = &shot->picture, .title = shot->title, .note = shot->figures}
               : (WeftPanel){.scale = all->scale,
                             .title = shot->title,
                             .note = "of linear radiance, the channel that differs most"};
     }
-    char caption[512];
-    snprintf(caption, sizeof caption, "%.200s, by %s", all->request->staging.scene, varied(all->request));
-    const WeftSheetDesc desc = {
-        .caption = caption, .panels = panels, .count = rows * columns, .columns = columns};
+    return (last ? 2 * bands : 1) * *columns;
+}
+
+static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
+    WeftPanel panels[2 * (DRESS_VARIANTS_MOST + COLUMNS_MOST)] = {0};
+    bool grid = all->request->staging.dress.varied_count > 1;
+    int columns, count = grid ? place_grid(all, panels, &columns) : place_bands(all, panels, &columns);
+    char caption[CAPTION];
+    caption_of(all->request, caption);
+    const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = count, .columns = columns};
     return weft_sheet_compose(&desc, sheet, error);
+}
+
+/* What makes picture k another one than the rest, by the names of what varies. */
+static void json_variant(Json *json, const Request *request, int k) {
+    const Dress *dress = &request->staging.dress;
+    char value[DRESS_LABEL];
+    if (request->engine == ENGINE_BOTH) json_text(json, "engine", k ? "raster" : "trace");
+    for (int v = 0; v < dress->varied_count; v++) {
+        dress_value(dress, v, k, value);
+        json_text(json, dress->varied[v].name, value);
+    }
 }
 
 static void figures(const Comparison *all) {
@@ -113,9 +146,7 @@ static void figures(const Comparison *all) {
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
         json_open(&json, NULL, '{');
-        json_text(&json,
-                  all->request->engine == ENGINE_BOTH ? "engine" : dress_varied(&all->request->staging.dress),
-                  shot->label);
+        json_variant(&json, all->request, k);
         json_open(&json, "difference", '{');
         json_number(&json, "mean", shot->difference.mean);
         json_number(&json, "relmse", shot->difference.relmse);

@@ -25,26 +25,27 @@ static const char *after_by(const char *text) {
     return strncmp(text, "by=", 3) == 0 ? text + 3 : NULL;
 }
 
-/* The end of the item that begins at text: a comma or the end. "RULE,by=channel" is one item. */
-static const char *item_end(const char *text) {
-    const char *end = text + strcspn(text, ",");
-    while (*end && after_by(end + 1)) end += 1 + strcspn(end + 1, ",");
+/* The end of the item that begins at text: a separator or the end. "RULE,by=channel" is one item. */
+static const char *item_end(const char *text, char separator) {
+    const char separators[] = {separator, '\0'};
+    const char *end = text + strcspn(text, separators);
+    while (*end && after_by(end + 1)) end += 1 + strcspn(end + 1, separators);
     return end;
 }
 
-static int item_count(const char *text) {
+static int item_count(const char *text, char separator) {
     int count = 1;
-    for (const char *end = item_end(text); *end; end = item_end(end + 1)) count++;
+    for (const char *end = item_end(text, separator); *end; end = item_end(end + 1, separator)) count++;
     return count;
 }
 
 /* Item k of a list, without blanks around it, or of a list of one that one; false where it is too long to be
- * an id. */
-static bool item_at(const char *text, int k, char item[DRESS_LABEL]) {
-    const char *end = item_end(text);
+ * a value. */
+static bool item_at(const char *text, char separator, int k, char item[DRESS_LABEL]) {
+    const char *end = item_end(text, separator);
     while (k-- > 0 && *end) {
         text = end + 1;
-        end = item_end(text);
+        end = item_end(text, separator);
     }
     while (text < end && *text == ' ') text++;
     while (text < end && end[-1] == ' ') end--;
@@ -63,7 +64,7 @@ static const char *split_by(char *item) {
 
 static bool check_item(int axis, const char *text, int k) {
     char item[DRESS_LABEL];
-    if (!item_at(text, k, item)) {
+    if (!item_at(text, ',', k, item)) {
         report(WEFT_USAGE, "%s: \"%.80s\" is too long for an id", axes[axis].option, text);
         return false;
     }
@@ -81,38 +82,47 @@ static bool check_item(int axis, const char *text, int k) {
 }
 
 /* Whether item k of a list stands there once; it was checked, and so were those before it. */
-static bool check_once(int axis, const char *text, int k) {
+static bool check_once(const Varied *varied, int k) {
     char item[DRESS_LABEL], other[DRESS_LABEL];
-    item_at(text, k, item);
+    item_at(varied->values, varied->separator, k, item);
     for (int j = 0; j < k; j++) {
-        item_at(text, j, other);
+        item_at(varied->values, varied->separator, j, other);
         if (strcmp(item, other) != 0) continue;
-        report(WEFT_USAGE, "%s: %s stands there twice", axes[axis].option, item);
+        report(WEFT_USAGE, "%s: %s stands there twice", varied->option, item);
         return false;
     }
     return true;
 }
 
+/* Takes in an option's list, unless it is of one value. */
+static bool add_varied(Dress *dress, Varied varied) {
+    for (int k = 0; k < varied.count; k++)
+        if (!check_once(&varied, k)) return false;
+    if (varied.count < 2) return true;
+    if (dress->varied_count == DRESS_VARIED_MOST) {
+        report(WEFT_USAGE,
+               "%s: has several values, and so have %s and %s: two options may, as rows and columns",
+               varied.option, dress->varied[0].option, dress->varied[1].option);
+        return false;
+    }
+    if (varied.count > DRESS_VARIANTS_MOST / dress->count) {
+        report(WEFT_USAGE, "%s: makes more than %d pictures", varied.option, DRESS_VARIANTS_MOST);
+        return false;
+    }
+    dress->varied[dress->varied_count++] = varied;
+    dress->count *= varied.count;
+    return true;
+}
+
 static bool check_axis(int axis, Dress *dress) {
     const char *text = option_text(dress->options, axes[axis].option);
-    int count = text ? item_count(text) : 1;
     if (!text) return true;
-    if (count > DRESS_VARIANTS_MOST) {
-        report(WEFT_USAGE, "%s: has more than %d ids", axes[axis].option, DRESS_VARIANTS_MOST);
-        return false;
-    }
-    for (int k = 0; k < count; k++)
-        if (!check_item(axis, text, k) || !check_once(axis, text, k)) return false;
-    if (count > 1 && dress->varied) {
-        report(WEFT_USAGE, "%s: has several ids, and so has %s; one option may", axes[axis].option,
-               dress->varied);
-        return false;
-    }
-    if (count > 1) {
-        dress->varied = axes[axis].option;
-        dress->count = count;
-    }
-    return true;
+    Varied varied = {
+        .option = axes[axis].option, .values = text, .separator = ',', .count = item_count(text, ',')};
+    for (int k = 0; k < varied.count; k++)
+        if (!check_item(axis, text, k)) return false;
+    snprintf(varied.name, sizeof varied.name, "%s", axes[axis].choice);
+    return add_varied(dress, varied);
 }
 
 /* Names of materials, and of what is set: */
@@ -140,10 +150,9 @@ static bool check_dressings(const Options *options, const char *option, bool is_
     return true;
 }
 
-/* Whether text has the form of a setting and names an input or a choice; the rest is for the library to
- * judge. */
-static bool check_set(const char *text) {
-    char name[64], hint[96];
+/* The name in "MATERIAL.NAME=VALUE"; false after one line where it is not of that form, or too long. A
+ * material's name may hold '=' and '.', so the last of each divides. */
+static bool setting_name(const char *text, char name[DRESS_LABEL]) {
     const char *equals = strrchr(text, '='), *point = equals;
     while (point && point > text && *point != '.') point--;
     if (!equals || *point != '.') {
@@ -154,15 +163,19 @@ static bool check_set(const char *text) {
         report(WEFT_USAGE, "--set: \"%.80s\" is too long for the name of a material", text);
         return false;
     }
-    snprintf(name, sizeof name, "%.*s", (int)(equals - point - 1), point + 1);
+    snprintf(name, DRESS_LABEL, "%.*s", (int)(equals - point - 1), point + 1);
+    return true;
+}
+
+static bool refuse_name(const char *text, const char *name) {
+    char hint[96];
     const Kind *input = kind_of("input"), *choice = kind_of("choice");
-    if (kind_find(input, name) >= 0 || kind_find(choice, name) >= 0) return true;
+    Nearest nearest = {.typed = name};
     if (strncmp(name, "layer=", 6) == 0) {
         report(WEFT_USAGE, "--set: \"%.80s\": the by of a layer rule is a setting of its own, layer_by",
                text);
         return false;
     }
-    Nearest nearest = {.typed = name};
     for (int k = 0; input->name(k); k++) nearest_offer(&nearest, input->name(k));
     for (int k = 0; choice->name(k); k++) nearest_offer(&nearest, choice->name(k));
     report(WEFT_USAGE, "--set: \"%s\" %s%s", name, weft_message_text(WEFT_MESSAGE_PARAM_NAME),
@@ -171,10 +184,37 @@ static bool check_set(const char *text) {
     return false;
 }
 
-static bool check_sets(const Options *options) {
+/* What parts the values of a setting: ';' always may, ',' unless it is a colour, which has commas itself. */
+static char separator_of(int input, const char *values) {
+    WeftInputInfo info = {.kind = WEFT_INPUT_SCALAR};
+    if (input >= 0) weft_material_input_info(input, &info);
+    return strchr(values, ';') || info.kind == WEFT_INPUT_COLOR ? ';' : ',';
+}
+
+/* Whether text has the form of a setting and names an input or a choice; values are for the library to judge.
+ */
+static bool check_set(const char *text, Dress *dress) {
+    char name[DRESS_LABEL], item[DRESS_LABEL];
+    if (!setting_name(text, name)) return false;
+    int input = kind_find(kind_of("input"), name);
+    if (input < 0 && kind_find(kind_of("choice"), name) < 0) return refuse_name(text, name);
+    const char *equals = strrchr(text, '=');
+    Varied varied = {.option = "--set", .values = equals + 1, .separator = separator_of(input, equals + 1)};
+    varied.count = item_count(varied.values, varied.separator);
+    snprintf(varied.name, sizeof varied.name, "%.*s", (int)(equals - text), text);
+    for (int k = 0; varied.count > 1 && k < varied.count; k++) {
+        if (item_at(varied.values, varied.separator, k, item) && item[0]) continue;
+        report(WEFT_USAGE, "--set: \"%.80s\": value %d of %d is empty or too long", text, k + 1,
+               varied.count);
+        return false;
+    }
+    return add_varied(dress, varied);
+}
+
+static bool check_sets(const Options *options, Dress *dress) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--set", &cursor));)
-        if (!check_set(text)) return false;
+        if (!check_set(text, dress)) return false;
     return true;
 }
 
@@ -200,19 +240,44 @@ bool dress_read(const Options *options, Dress *dress) {
         return false;
     }
     return check_dressings(options, "--preset", false) && check_dressings(options, "--material", true) &&
-           check_dressings(options, "--materials", true) && check_textures(options) && check_sets(options) &&
+           check_dressings(options, "--materials", true) && check_textures(options) &&
+           check_sets(options, dress) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
-const char *dress_varied(const Dress *dress) {
-    for (int k = 0; k < AXES; k++)
-        if (dress->varied && strcmp(axes[k].option, dress->varied) == 0) return axes[k].choice;
-    return NULL;
+/* Which of its values varied number v has in picture k. */
+static int value_index(const Dress *dress, int v, int k) {
+    for (int later = dress->varied_count - 1; later > v; later--) k /= dress->varied[later].count;
+    return k % dress->varied[v].count;
+}
+
+void dress_value(const Dress *dress, int v, int k, char value[DRESS_LABEL]) {
+    const Varied *varied = &dress->varied[v];
+    item_at(varied->values, varied->separator, value_index(dress, v, k), value);
 }
 
 void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]) {
-    label[0] = '\0';
-    if (dress->varied) item_at(option_text(dress->options, dress->varied), k, label);
+    char text[DRESS_VARIED_MOST * 3 * DRESS_LABEL] = "";
+    for (int v = 0; v < dress->varied_count; v++) {
+        char value[DRESS_LABEL];
+        size_t used = strlen(text);
+        const char *input = strrchr(dress->varied[v].name, '.');
+        dress_value(dress, v, k, value);
+        snprintf(text + used, sizeof text - used, "%s%s%s%s", used ? ", " : "", input ? input + 1 : "",
+                 input ? " " : "", value);
+    }
+    snprintf(label, DRESS_LABEL, "%.*s", DRESS_LABEL - 1, text);
+}
+
+/* The value that what stands at `values` has in picture k: of a list one, else all of it; false where there
+ * is no list. */
+static bool value_of(const Dress *dress, const char *values, int k, char value[DRESS_LABEL]) {
+    for (int v = 0; v < dress->varied_count; v++) {
+        if (dress->varied[v].values != values) continue;
+        dress_value(dress, v, k, value);
+        return true;
+    }
+    return false;
 }
 
 /* The choice of all materials. */
@@ -242,7 +307,7 @@ static WeftResult apply_axis(const Dress *dress, int axis, int k, WeftScene *sce
     char item[DRESS_LABEL];
     const char *text = option_text(dress->options, axes[axis].option), *choice = axes[axis].choice;
     if (!text) return WEFT_OK;
-    item_at(text, k, item);
+    if (!value_of(dress, text, k, item)) item_at(text, ',', 0, item);
     const char *by = split_by(item);
     WeftResult result = make_room(scene, choice, item, error);
     if (result == WEFT_OK) result = choose(scene, choice, item, log, error);
@@ -291,15 +356,17 @@ static WeftResult apply_dressings(const Dress *dress, WeftScene *scene, const We
     return result;
 }
 
-/* Every --set. A material's name may hold '=' and '.', so the last of each divides. */
-static WeftResult apply_sets(const Dress *dress, WeftScene *scene, const WeftLog *log, WeftError *error) {
+/* Every --set as picture k has it. */
+static WeftResult apply_sets(const Dress *dress, int k, WeftScene *scene, const WeftLog *log,
+                             WeftError *error) {
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *text; result == WEFT_OK && (text = option_next(dress->options, "--set", &cursor));) {
-        char target[TARGET_SIZE];
+        char target[TARGET_SIZE], value[DRESS_LABEL];
         const char *equals = strrchr(text, '=');
         snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
-        result = weft_scene_set(scene, target, equals + 1, log, error);
+        bool listed = value_of(dress, equals + 1, k, value);
+        result = weft_scene_set(scene, target, listed ? value : equals + 1, log, error);
     }
     return result;
 }
@@ -344,7 +411,7 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
         const WeftLog *to = heard ? log : NULL;
         for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
             result = apply_axis(dress, axis, k, scene, to, error);
-        if (result == WEFT_OK) result = apply_sets(dress, scene, to, error);
+        if (result == WEFT_OK) result = apply_sets(dress, k, scene, to, error);
     }
     if (result == WEFT_OK && workflow) result = convert(workflow, scene, log, error);
     return result;

@@ -1,18 +1,29 @@
 /* dress.h - what the materials of a scene are to be: the options that say so, in their order
  *
- * An option that takes several ids, comma between, makes several pictures: one option may. */
+ * An option with several values makes several pictures; two such options make a row for each value of the
+ * first and a column for each of the second. */
 #ifndef WEFT_CLI_DRESS_H
 #define WEFT_CLI_DRESS_H
 
 #include "options.h"
 #include "weft/scene.h"
 
-enum { DRESS_LABEL = 96, DRESS_VARIANTS_MOST = 32 };
+enum { DRESS_LABEL = 96, DRESS_VARIANTS_MOST = 64, DRESS_VARIED_MOST = 2 };
+
+/* An option with several values. */
+typedef struct Varied {
+    const char *option;     /* "--profile" or "--set" */
+    char name[DRESS_LABEL]; /* of what varies: "profile", "*.subsurface" */
+    const char *values;     /* the list as it was typed */
+    char separator;         /* between them: ',' or ';' */
+    int count;
+} Varied;
 
 typedef struct Dress {
     const Options *options;
-    const char *varied; /* the option with several ids, NULL: none */
-    int count;          /* pictures, at least 1 */
+    Varied varied[DRESS_VARIED_MOST]; /* the last one changes from picture to picture */
+    int varied_count;
+    int count; /* pictures, at least 1 */
 } Dress;
 
 /* The rows of the option table. */
@@ -36,19 +47,19 @@ typedef struct Dress {
                     "put a picture on an input of material MAT; MAT.INPUT.g=FILE takes its green channel"),  \
         OPTION_LIST(                                                                                         \
             "--set", "MAT.INPUT=VALUE",                                                                      \
-            "set an input of material MAT (name, index or *) to a number or r,g,b, or a choice to an "       \
-            "id"),                                                                                           \
+            "set an input of material MAT (name, index or *) to a number or r,g,b, or a choice to an id; "   \
+            "several make a sheet: numbers and ids with , between, colours with ;"),                         \
         OPTION_TEXT("--convert", "WORKFLOW", NULL,                                                           \
                     "turn all materials from metallic to specular, or the other way, and say what is lost")
 
 /* Checks every id of these options. False after one line on standard error. */
 bool dress_read(const Options *options, Dress *dress);
 
-/* The id that makes picture number k another one than the rest, "" where there is but one. */
-void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]);
+/* The value that picture number k has of varied number v. */
+void dress_value(const Dress *dress, int v, int k, char value[DRESS_LABEL]);
 
-/* The choice that is varied: "profile"; NULL where there is but one picture. */
-const char *dress_varied(const Dress *dress);
+/* What makes picture number k another one than the rest, "" where there is but one. */
+void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]);
 
 /* Does to a fresh scene what the options say of picture number k. log also hears what a conversion loses. */
 WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLog *log, WeftError *error);

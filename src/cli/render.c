@@ -71,11 +71,13 @@ const Verb verb_render = {
     .operands_least = 1,
     .operands_most = 1,
     .options = request_options,
-    .notes = "SCENE is a .gltf or .glb file or builtin:NAME. `weft models` lists all ids. Of\n"
-             "--workflow, --profile, --diffuse, --sheen and --layer one may have several ids,\n"
-             "comma between: then OUT is a sheet with a picture for each and, below, how it\n"
-             "differs from the first. Ctrl-C writes what there is and exits with 130. A\n"
-             "picture appears under its name complete or not at all.\n\n"
+    .notes = "SCENE is a .gltf or .glb file (glTF 2.0; docs/gltf.md has the limits) or\n"
+             "builtin:NAME. `weft models` lists all ids. --workflow, --profile, --diffuse,\n"
+             "--sheen, --layer and --set may have several values: then OUT is a sheet with a\n"
+             "picture for each and, below, how it differs from the first. Numbers and ids have\n"
+             "a comma between them, colours a semicolon, as in --set '*.sheen_color=1;1,0,0'.\n"
+             "Two such options make rows and columns. Ctrl-C writes what there is and exits\n"
+             "with 130. A picture appears under its name complete or not at all.\n\n"
              "Examples\n"
              "  weft render builtin:cloth -o cloth.png\n"
              "  weft render SheenChair.glb -o chair.png -o chair.exr --spp 256\n"
@@ -88,6 +90,8 @@ const Verb verb_render = {
              "  weft render chair.glb --save velvet-chair.glb --preset velvet\n"
              "  weft render builtin:cloth -o sheet.png \\\n"
              "       --sheen ashikhmin-neubelt,charlie-neubelt\n"
+             "  weft render builtin:spheres -o row.png --workflow disney \\\n"
+             "       --set '*.subsurface=0,0.25,0.5,0.75,1'\n"
              "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n"
              "  weft render velvet.glb -o both.png --engine both --light \"sun;-1,-2,-1;3,3,3\"\n"
              "  weft render velvet.glb -o turn.png --engine raster --turntable 36\n",

@@ -111,8 +111,8 @@ static bool read_engine(const Options *options, Request *request) {
         return false;
     }
     if (good && request->engine == ENGINE_BOTH && request->staging.dress.count > 1) {
-        report(WEFT_USAGE, "--engine both: %s has several ids already; one option may",
-               request->staging.dress.varied);
+        report(WEFT_USAGE, "--engine both: %s has several values already; one option may",
+               request->staging.dress.varied[0].option);
         return false;
     }
     if (good && request->turntable && request_count(request) > 1) {

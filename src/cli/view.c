@@ -83,7 +83,8 @@ static int view_verb_run(const Options *options) {
         !read_sizes(options, &desc))
         return WEFT_USAGE;
     if (staging.dress.count > 1)
-        return report(WEFT_USAGE, "%s: the window shows one picture: give one id", staging.dress.varied);
+        return report(WEFT_USAGE, "%s: the window shows one picture: give one value",
+                      staging.dress.varied[0].option);
     desc.dress = dress_scene;
     desc.user = &staging;
     desc.camera = staging.camera;

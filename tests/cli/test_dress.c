@@ -163,8 +163,14 @@ static void mistakes_are_named(void **state) {
     refused(LIST("--layer=seed,by=both"), 2, "by=both");
     refused(LIST("--sheen=ggx,by=max"), 2, "by=max");
     refused(LIST("--workflow=cloth", "--profile=three"), 2, "--workflow or --profile");
-    refused(LIST("--sheen=ggx,patry", "--layer=seed,additive"), 2,
-            "--layer: has several ids, and so has --sheen");
+    refused(LIST("--sheen=ggx,patry", "--layer=seed,additive", "--set=*.roughness=0,1"), 2,
+            "--set: has several values, and so have --sheen and --layer");
+    refused(LIST("--set=*.roughness=0,1,0"), 2, "--set: 0 stands there twice");
+    refused(LIST("--set=*.roughness=0,,1"), 2, "value 2 of 3 is empty");
+    refused(LIST("--set=*.roughness=0,x"), 2, "x: is not a value");
+    refused(LIST("--set=*.roughness=0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8", "--set=*.metallic=0,1,2,3,4,5,6,7,8"),
+            2, "--set: makes more than 64 pictures");
+    refused(LIST("--set=*.base_color=1,0,0,1"), 2, "a number or r,g,b");
     refused(LIST("--preset=velvt"), 2, "did you mean velvet?");
     refused(LIST("--preset=wool=velvet"), 2, "there is cloth");
     refused(LIST("--material=none.json"), 3, "none.json: ");
@@ -309,6 +315,58 @@ static void a_sheet_holds_the_pictures(void **state) {
     weft_image_free(&sheet);
 }
 
+/* The values that the pictures of a sheet have of `name`, "a b c", as --json tells them. */
+static void assert_values(const char *const *options, const char *name, const char *wanted) {
+    const char *arguments[32] = {"render", "scene.gltf", TINY, "-o", "sheet.png", "--json"};
+    char values[256] = "";
+    int count = 9;
+    for (int k = 0; options[k]; k++) arguments[count++] = options[k];
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%s ...: %d: %s", options[0], ran.code, ran.err);
+    json_t *shots = json_loads(ran.out, 0, NULL);
+    for (size_t k = 0; k < json_array_size(shots); k++) {
+        const char *value = json_string_value(json_object_get(json_array_get(shots, k), name));
+        snprintf(values + strlen(values), sizeof values - strlen(values), "%s%s", k ? " " : "",
+                 value ? value : "-");
+    }
+    assert_string_equal(values, wanted);
+    json_decref(shots);
+    ran_free(&ran);
+}
+
+static void a_sweep_has_a_picture_for_each_value(void **state) {
+    (void)state;
+    assert_values(LIST("--set=*.roughness=0, 0.25,1"), "*.roughness", "0 0.25 1");
+    assert_values(LIST("--set=*.roughness=0;1"), "*.roughness", "0 1");
+    assert_values(LIST("--set=*.base_color=0.2;1,0,0"), "*.base_color", "0.2 1,0,0");
+    assert_values(LIST("--set=*.layer=albedo-max,reciprocal"), "*.layer", "albedo-max reciprocal");
+    assert_values(LIST("--set=*.nap_direction=0,90", "--set=*.roughness=0.3"), "*.nap_direction", "0 90");
+    assert_true(same(LIST("--set=*.base_color=1,0,0"), LIST("--set=*.base_color=1, 0, 0"))); /* one picture */
+}
+
+/* A row for each value of the first option, a column for each of the second. */
+static void two_sweeps_make_rows_and_columns(void **state) {
+    (void)state;
+    assert_values(LIST("--set=*.roughness=0.2,0.9", "--set=*.base_color=1,0,0;0,1,0;0,0,1"), "*.roughness",
+                  "0.2 0.2 0.2 0.9 0.9 0.9");
+    WeftImage sheet = png("sheet.png");
+    const char *const color[] = {"1,0,0", "0,1,0", "0,0,1"};
+    for (int k = 0; k < 6; k++) {
+        char roughness[64], base[64];
+        snprintf(roughness, sizeof roughness, "--set=*.roughness=%s", k < 3 ? "0.2" : "0.9");
+        snprintf(base, sizeof base, "--set=*.base_color=%s", color[k % 3]);
+        Ran ran = RUN("render", "scene.gltf", TINY, "-o", "one.png", roughness, base);
+        assert_int_equal(ran.code, 0);
+        ran_free(&ran);
+        WeftImage one = png("one.png");
+        assert_true(holds(&sheet, &one));
+        weft_image_free(&one);
+    }
+    weft_image_free(&sheet);
+    assert_values(LIST("--profile=khronos,three", "--set=*.roughness=0.2,0.9"), "profile",
+                  "khronos khronos three three");
+}
+
 static void every_axis_makes_a_sheet(void **state) {
     (void)state;
     static const char *const axes[] = {
@@ -331,12 +389,20 @@ static void every_axis_makes_a_sheet(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(materials_have_any_name),    cmocka_unit_test(what_is_stronger_wins),
-        cmocka_unit_test(files_have_any_name),        cmocka_unit_test(pictures_are_put_on),
-        cmocka_unit_test(profiles_are_not_converted), cmocka_unit_test(aliases_are_taken),
-        cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(conversion_says_what_it_loses),
-        cmocka_unit_test(a_sheet_holds_the_pictures), cmocka_unit_test(every_axis_makes_a_sheet),
-        cmocka_unit_test(blanks_around_ids_are_none), cmocka_unit_test(choices_without_effect_are_told),
+        cmocka_unit_test(materials_have_any_name),
+        cmocka_unit_test(what_is_stronger_wins),
+        cmocka_unit_test(files_have_any_name),
+        cmocka_unit_test(pictures_are_put_on),
+        cmocka_unit_test(profiles_are_not_converted),
+        cmocka_unit_test(aliases_are_taken),
+        cmocka_unit_test(mistakes_are_named),
+        cmocka_unit_test(conversion_says_what_it_loses),
+        cmocka_unit_test(a_sheet_holds_the_pictures),
+        cmocka_unit_test(a_sweep_has_a_picture_for_each_value),
+        cmocka_unit_test(two_sweeps_make_rows_and_columns),
+        cmocka_unit_test(every_axis_makes_a_sheet),
+        cmocka_unit_test(blanks_around_ids_are_none),
+        cmocka_unit_test(choices_without_effect_are_told),
         cmocka_unit_test(the_whole_is_judged),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
