@@ -125,7 +125,7 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 
-/* What a file is for, by the end of its name without case and suffix. */
+/* What a file is for, by the end of its name without case, suffix, and '_', '-' and blanks between words. */
 static const struct {
     const char *name;
     InputId input;
@@ -133,7 +133,6 @@ static const struct {
 } maps[] = {
     {"albedo", INPUT_base_color, 0},
     {"basecolor", INPUT_base_color, 0},
-    {"base_color", INPUT_base_color, 0},
     {"diffuse", INPUT_base_color, 0},
     {"color", INPUT_base_color, 0},
     {"normal", INPUT_normal, 0},
@@ -142,13 +141,20 @@ static const struct {
     {"metalness", INPUT_metallic, 0},
     {"specular", INPUT_specular_color, 0},
     {"specularcolor", INPUT_specular_color, 0},
-    {"specular_color", INPUT_specular_color, 0},
+    {"speculartint", INPUT_specular_tint, 0},
+    {"subsurface", INPUT_subsurface, 0},
+    {"anisotropy", INPUT_anisotropy, 0},
+    {"anisotropic", INPUT_anisotropy, 0},
     {"sheen", INPUT_sheen_color, 0},
     {"sheencolor", INPUT_sheen_color, 0},
-    {"sheen_color", INPUT_sheen_color, 0},
     {"sheenroughness", INPUT_sheen_roughness, 0},
-    {"sheen_roughness", INPUT_sheen_roughness, 0},
+    {"sheentint", INPUT_sheen_tint, 0},
+    {"clearcoat", INPUT_clearcoat, 0},
+    {"clearcoatgloss", INPUT_clearcoat_gloss, 0},
+    {"clearcoatroughness", INPUT_clearcoat_roughness, 0},
+    {"clearcoatnormal", INPUT_clearcoat_normal, 0},
     {"ao", INPUT_occlusion, 0},
+    {"ambientocclusion", INPUT_occlusion, 0},
     {"occlusion", INPUT_occlusion, 0},
     {"emission", INPUT_emission, 0},
     {"emissive", INPUT_emission, 0},
@@ -159,26 +165,40 @@ static const struct {
     {"orm", INPUT_metallic, 2},
     {"metallicroughness", INPUT_roughness, 1},
     {"metallicroughness", INPUT_metallic, 2},
-    {"metallic_roughness", INPUT_roughness, 1},
-    {"metallic_roughness", INPUT_metallic, 2},
     {"nap", INPUT_nap_direction, 0},
     {"nap", INPUT_nap, 2},
 };
-enum { MAPS = sizeof maps / sizeof *maps, FILES_MOST = INPUT_COUNT };
+enum { MAPS = sizeof maps / sizeof *maps, FILES_MOST = INPUT_COUNT, NAMES_ROOM = 160 };
 
-/* The name of the table that a file's name, cut at its suffix, is or ends in; NULL: none. */
-static const char *map_of(const char *file) {
+static bool is_separator(char c) { return c && strchr("_-. ", c); }
+
+/* Whether the name ends so, between its start and its suffix at dot, after a separator or nothing. */
+static bool ends_in(const char *file, const char *dot, const char *name) {
+    const char *at = dot, *letter = name + strlen(name);
+    while (letter > name && at > file) {
+        at--;
+        if (is_separator(*at)) continue;
+        if (tolower((unsigned char)*at) != *--letter) return false;
+    }
+    return letter == name && (at == file || is_separator(at[-1]));
+}
+
+static bool is_picture(const char *file) {
     static const char *const suffixes[] = {".tga", ".png", ".jpg", ".jpeg", ".exr", ".hdr"};
-    const char *dot = strrchr(file, '.'), *found = NULL;
+    const char *dot = strrchr(file, '.');
     bool picture = false;
     for (size_t k = 0; dot && k < sizeof suffixes / sizeof *suffixes; k++)
         picture |= strcasecmp(dot, suffixes[k]) == 0;
-    for (int k = 0; k < MAPS && picture; k++) {
-        size_t length = strlen(maps[k].name), stem = (size_t)(dot - file);
-        if (length > stem || strncasecmp(dot - length, maps[k].name, length) != 0) continue;
-        bool apart = length == stem || strchr("_-. ", dot[-(ptrdiff_t)length - 1]);
-        if (apart && (!found || length > strlen(found))) found = maps[k].name;
-    }
+    return picture;
+}
+
+/* The name of the table that a file's name, cut at its suffix, is or ends in, the longest; NULL: none. */
+static const char *map_of(const char *file) {
+    const char *found = NULL;
+    for (int k = 0; k < MAPS && is_picture(file); k++)
+        if (ends_in(file, strrchr(file, '.'), maps[k].name) &&
+            (!found || strlen(maps[k].name) > strlen(found)))
+            found = maps[k].name;
     return found;
 }
 
@@ -189,6 +209,7 @@ typedef struct Wardrobe {
     int count;
     int of_input[INPUT_COUNT]; /* which picture, + 1 */
     int channel[INPUT_COUNT];
+    char unknown[NAMES_ROOM]; /* pictures without a meaning, comma between */
 } Wardrobe;
 
 static void free_wardrobe(Wardrobe *wardrobe) {
@@ -196,6 +217,17 @@ static void free_wardrobe(Wardrobe *wardrobe) {
         weft_image_free(&wardrobe->pictures[k].image);
         free(wardrobe->pictures[k].path);
     }
+}
+
+/* Notes a picture whose name says nothing. */
+static void note_unknown(Wardrobe *wardrobe, const char *file) {
+    char *names = wardrobe->unknown;
+    size_t used = strlen(names);
+    const char *comma = used ? ", " : "";
+    if (used + strlen(comma) + strlen(file) + sizeof ", ..." <= NAMES_ROOM)
+        snprintf(names + used, NAMES_ROOM - used, "%s%s", comma, file);
+    else if (!strstr(names, "..."))
+        snprintf(names + used, NAMES_ROOM - used, "%s...", comma);
 }
 
 /* Takes a file in, unless all that it is for is taken. */
@@ -209,6 +241,7 @@ static WeftResult take_file(Wardrobe *wardrobe, const char *folder, const char *
             wardrobe->channel[maps[k].input] = maps[k].channel;
             needed = true;
         }
+    if (!meaning && is_picture(file)) note_unknown(wardrobe, file);
     if (meaning && !needed)
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file, meaning);
     if (!needed) return WEFT_OK;
@@ -231,15 +264,40 @@ static WeftResult read_folder(const char *folder, Wardrobe *wardrobe, const Weft
         free(entries[k]);
     }
     free(entries);
+    if (result == WEFT_OK && wardrobe->unknown[0])
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no map is called so: %s", wardrobe->unknown);
     if (result == WEFT_OK && !wardrobe->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
     return result;
 }
 
+static void move_map(Wardrobe *wardrobe, InputId from, InputId to) {
+    if (wardrobe->of_input[to]) return;
+    wardrobe->of_input[to] = wardrobe->of_input[from];
+    wardrobe->of_input[from] = 0;
+}
+
+/* A map of what workflow disney alone reads is of that workflow, in which specular and sheen are amounts. */
+static bool is_disney(Wardrobe *wardrobe) {
+    static const InputId own[] = {INPUT_subsurface, INPUT_specular_tint, INPUT_sheen_tint,
+                                  INPUT_clearcoat_gloss};
+    bool any = false;
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++) any |= wardrobe->of_input[own[k]] != 0;
+    if (!any) return false;
+    move_map(wardrobe, INPUT_specular_color, INPUT_specular);
+    move_map(wardrobe, INPUT_sheen_color, INPUT_sheen);
+    return true;
+}
+
 /* A specular colour without a metalness is the older workflow's. */
-static void wear(Material *material, const Wardrobe *wardrobe) {
-    if (wardrobe->of_input[INPUT_specular_color] && !wardrobe->of_input[INPUT_metallic])
-        material_choose(material, CHOICE_workflow, WORKFLOW_SPECULAR);
+static int workflow_of(Wardrobe *wardrobe) {
+    if (is_disney(wardrobe)) return choice_find(CHOICE_workflow, "disney");
+    return wardrobe->of_input[INPUT_specular_color] && !wardrobe->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR
+                                                                                           : -1;
+}
+
+static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
+    if (workflow >= 0) material_choose(material, CHOICE_workflow, workflow);
     for (int k = 0; k < INPUT_COUNT; k++)
         if (wardrobe->of_input[k])
             put_on_input(material, (InputId)k, wardrobe->pictures[wardrobe->of_input[k] - 1].texture,
@@ -258,8 +316,9 @@ WeftResult weft_scene_wear_folder(WeftScene *scene, const char *material, const 
     for (int k = 0; k < wardrobe.count && result == WEFT_OK; k++)
         if (!take_over(scene, &wardrobe.pictures[k]))
             result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    int workflow = workflow_of(&wardrobe);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
-        if (wished[k]) wear(&scene->materials[k], &wardrobe);
+        if (wished[k]) wear(&scene->materials[k], &wardrobe, workflow);
     if (count && result == WEFT_OK) *count = wardrobe.count;
     free_wardrobe(&wardrobe);
     return result == WEFT_OK ? tangents_complete(scene, error) : result;

@@ -69,8 +69,14 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     put_word(line, word);
 }
 
+/* Whether the folder of maps beside the scene was put on it without being asked for. */
+static bool wears_folder(const Viewer *v) {
+    return v->desc->materials && strcmp(v->dressed, v->facts.path) == 0;
+}
+
 /* What was changed in a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
+    bool maps_said = wears_folder(v); /* by --materials */
     WeftMaterial was = *look_material(&v->first, index);
     const WeftMaterial *is = look_material(&v->look, index);
     for (int k = 0; weft_material_choice_name(k); k++) {
@@ -87,8 +93,8 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
         bool changed = differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) ||
                        differs(a->value[2], b->value[2]);
-        if (a->texture != b->texture && b->texture) *lost = true;
-        if (changed && b->texture) *lost = true; /* --set would drop the map */
+        if (a->texture != b->texture && b->texture && !maps_said) *lost = true;
+        if (changed && b->texture && !maps_said) *lost = true; /* --set would drop the map */
         if ((changed || a->texture != b->texture) && !b->texture) put_input(line, index, k, b);
     }
 }
@@ -173,6 +179,10 @@ char *command_line(const Viewer *v, bool *lost) {
     put_word(&line, v->facts.path);
     if (v->desc->options && v->desc->options[0] && strcmp(v->dressed, v->facts.path) == 0)
         put(&line, " %s", v->desc->options);
+    if (wears_folder(v)) {
+        put(&line, " --materials");
+        put_word(&line, v->desc->materials);
+    }
     if (v->variant >= 0 && v->variant < v->facts.info.variant_count) {
         put(&line, " --variant");
         put_word(&line, v->facts.variants[v->variant]);

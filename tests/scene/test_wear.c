@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "scene/scene.h"
+#include "shading/choice.h"
 #include "shading/convert.h"
 #include "weft/weft.h"
 
@@ -173,7 +174,7 @@ static void a_folder_is_worn(void **state) {
     if (weft_scene_wear_folder(scene, NULL, path, &count, &log, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     assert_int_equal(count, 6);
-    assert_int_equal(warned, 1); /* of a second base_color */
+    assert_int_equal(warned, 2); /* of a second base_color, and in one line of what is not understood */
     const Material *cloth = named(scene, "Cloth");
     static const InputId worn[] = {INPUT_base_color,  INPUT_normal, INPUT_roughness,    INPUT_specular_color,
                                    INPUT_sheen_color, INPUT_nap,    INPUT_nap_direction};
@@ -206,9 +207,65 @@ static void a_folder_is_worn(void **state) {
     weft_scene_free(scene);
 }
 
+static char last_said[512];
+static void keep_warning(void *user, WeftMessage message, const char *text) {
+    (void)user;
+    (void)message;
+    snprintf(last_said, sizeof last_said, "%s", text);
+}
+
+/* The ten parameters of the principled model as files are called. */
+static void maps_of_the_principled_model_are_read(void **state) {
+    (void)state;
+    static const struct {
+        const char *file, *other;
+        InputId input;
+    } maps[] = {
+        {"Subsurface", "cloth_subsurface", INPUT_subsurface},
+        {"Metallic", "cloth-Metalness", INPUT_metallic},
+        {"Specular", "cloth specular", INPUT_specular},
+        {"Specular Tint", "cloth_specular_tint", INPUT_specular_tint},
+        {"Roughness", "cloth.roughness", INPUT_roughness},
+        {"Anisotropy", "cloth_Anisotropic", INPUT_anisotropy},
+        {"Sheen", "cloth_sheen", INPUT_sheen},
+        {"Sheen Tint", "cloth-sheenTint", INPUT_sheen_tint},
+        {"Clearcoat", "cloth_clear_coat", INPUT_clearcoat},
+        {"ClearcoatGloss", "cloth_Clearcoat_Gloss", INPUT_clearcoat_gloss},
+    };
+    for (int spelling = 0; spelling < 2; spelling++) {
+        char path[128], file[160];
+        WeftScene *scene = load("builtin:cloth");
+        const WeftLog log = {keep_warning, NULL};
+        WeftError error;
+        int count;
+        snprintf(path, sizeof path, "%s", in_folder(spelling ? "b" : "a"));
+        assert_int_equal(mkdir(path, 0700), 0);
+        for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) {
+            snprintf(file, sizeof file, "%s/%s.png", spelling ? "b" : "a",
+                     spelling ? maps[k].other : maps[k].file);
+            draw(file, 4, 100 + (int)k);
+        }
+        last_said[0] = '\0';
+        assert_int_equal(weft_scene_wear_folder(scene, NULL, path, &count, &log, &error), WEFT_OK);
+        assert_string_equal(last_said, "");
+        assert_int_equal(count, 10);
+        const Material *cloth = named(scene, "Cloth");
+        assert_string_equal(choice_id(CHOICE_workflow, cloth->choices[CHOICE_workflow]), "disney");
+        for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
+            if (!cloth->inputs[maps[k].input].texture) fail_msg("%s", input_infos[maps[k].input].name);
+        snprintf(file, sizeof file, "%s/flakes.png", spelling ? "b" : "a");
+        draw(file, 4, 1);
+        snprintf(file, sizeof file, "%s/mask.png", spelling ? "b" : "a");
+        draw(file, 4, 1);
+        assert_int_equal(weft_scene_wear_folder(scene, NULL, path, &count, &log, &error), WEFT_OK);
+        assert_non_null(strstr(last_said, "no map is called so: flakes.png, mask.png"));
+        weft_scene_free(scene);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_picture_is_put_on_an_input),
-                                       cmocka_unit_test(what_cannot_be_put_is_refused),
-                                       cmocka_unit_test(a_folder_is_worn)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_picture_is_put_on_an_input), cmocka_unit_test(what_cannot_be_put_is_refused),
+        cmocka_unit_test(a_folder_is_worn), cmocka_unit_test(maps_of_the_principled_model_are_read)};
     return cmocka_run_group_tests(tests, begin, end);
 }

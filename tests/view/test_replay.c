@@ -156,6 +156,28 @@ static void render_as(const char *line_path, const char *picture) {
     free(line);
 }
 
+/* The maps in Models/Materials/0 are put on the cloth without being asked for. */
+static void its_command_line_has_the_folder_that_it_found(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = run_shell(
+        "mkdir -p Models/Materials/0 && \"$0\" render builtin:spheres --width 16 --height 16 --spp 1"
+        " --quiet -o Models/Materials/0/Albedo.png");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    script_begin();
+    say("wait rest\nwait message maps of\nwait rest\ncommand w.txt\n");
+    drive_through(script, LIST(UNSEEN, CHEAP));
+    size_t size;
+    char *line = file_bytes("w.txt", &size);
+    assert_non_null(line);
+    assert_non_null(strstr(line, " --materials Models/Materials/0 "));
+    free(line);
+    ran = run_shell("rm -r Models");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
 static void its_command_line_makes_its_picture(void **state) {
     (void)state;
     need_gl();
@@ -469,6 +491,7 @@ int main(void) {
                                        cmocka_unit_test(a_saved_scene_looks_the_same),
                                        cmocka_unit_test(a_full_disk_is_told_of),
                                        cmocka_unit_test(its_command_line_makes_its_picture),
+                                       cmocka_unit_test(its_command_line_has_the_folder_that_it_found),
                                        cmocka_unit_test(two_settings_and_the_difference),
                                        cmocka_unit_test(a_texture_is_read_again),
                                        cmocka_unit_test(shader_text_is_compiled_again),
