@@ -52,7 +52,9 @@ typedef enum WeftExportLut {
 /* "c", "png16", "exr", "dds", "npy"; NULL past the end. */
 WEFT_API const char *weft_export_lut(int lut);
 
-/* Zero means default, in every member. Of lobe, profile and material exactly one is given. */
+/* Zero means default, in every member. Of lobe, profile and material exactly one is given, or profile and
+ * material: then the text is that of a profile, for any numbers, and has the material's choices and numbers
+ * for defaults. */
 typedef struct WeftExportDesc {
     const WeftLobe *lobe;         /* its parameters are what ID_default returns */
     const WeftLobe *right;        /* SHADERTOY: a second lobe, for the right half of the picture */

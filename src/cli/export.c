@@ -22,18 +22,19 @@ typedef struct Export {
     bool quiet;
 } Export;
 
-/* A profile or workflow by its name alone keeps the numbers that the export gives it: any value may come. */
+/* A profile or workflow keeps its own defaults but for what is set behind its name: any value may come. */
 static int read_subject(Export *self, const char *typed) {
     Subject *subject = &self->subject;
-    int result = subject_parse(typed, subject);
+    int result = subject_parse_bare(typed, subject);
     if (result != 0) return result;
     bool choice = subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_WORKFLOW;
     if (subject->kind == SUBJECT_MEASURED)
         return report(WEFT_USAGE, "%.200s: is a measurement: `weft fit` makes a material of it", typed);
     if (subject->kind == SUBJECT_LOBE) {
         self->desc.lobe = &subject->lobe;
-    } else if (choice && !subject->given && strcmp(subject->name, "none") != 0) {
+    } else if (choice && strcmp(subject->name, "none") != 0) {
         self->desc.profile = subject->name;
+        if (subject->given) self->desc.material = &subject->material;
     } else {
         self->desc.material = &subject->material;
         self->desc.name = subject->name;

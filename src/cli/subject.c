@@ -83,14 +83,14 @@ static int of_lobe(Subject *subject, const char *id) {
     return weft_lobe_create(id, &subject->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* A choice, "profile" or "workflow", on a grey cloth. */
+/* A choice, "profile" or "workflow", on a grey cloth unless it is to be bare. */
 static int of_choice(Subject *subject, const char *choice, const char *id) {
     static const char *const cloth[][2] = {
         {"base_color", "0.2"}, {"sheen_color", "1"}, {"sheen_roughness", "0.5"}, {"roughness", "1"}};
     WeftError error;
     weft_material_default(&subject->material);
     WeftResult result = weft_material_set(&subject->material, choice, id, NULL, &error);
-    for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
+    for (size_t k = 0; result == WEFT_OK && !subject->bare && k < sizeof cloth / sizeof *cloth; k++)
         result = weft_material_set(&subject->material, cloth[k][0], cloth[k][1], NULL, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
@@ -207,9 +207,10 @@ static void name_after(Subject *subject, const char *path) {
     subject->name[length] = '\0';
 }
 
-int subject_parse(const char *typed, Subject *out) {
+static int parse(const char *typed, bool bare, Subject *out) {
     Parts parts;
     memset(out, 0, sizeof *out);
+    out->bare = bare;
     int result = take_apart(typed, &parts);
     if (result != 0) return result;
     out->given = parts.settings != NULL;
@@ -218,6 +219,10 @@ int subject_parse(const char *typed, Subject *out) {
     result = of_name(out, &parts);
     return result == 0 && parts.settings ? set_all(out, parts.settings) : result;
 }
+
+int subject_parse(const char *typed, Subject *out) { return parse(typed, false, out); }
+
+int subject_parse_bare(const char *typed, Subject *out) { return parse(typed, true, out); }
 
 int subject_prepare(Subject *subject) {
     WeftError error;

@@ -29,6 +29,7 @@ typedef struct Subject {
     SubjectKind kind;
     char name[128];  /* what it is called: an id, a material's own name, a file without folder and suffix */
     char path[1024]; /* SUBJECT_MEASURED: the file */
+    bool bare;       /* a profile or workflow has its own defaults */
     bool given;      /* settings stood behind the name */
     char words[256]; /* as it was typed, cut where it is long: for labels */
     WeftLobe lobe;   /* SUBJECT_LOBE */
@@ -46,6 +47,9 @@ int subject_read(const char *typed, Subject *out);
 
 /* Without the reflection. */
 int subject_parse(const char *typed, Subject *out);
+
+/* The same, but a profile or workflow has its own defaults and no grey cloth. */
+int subject_parse_bare(const char *typed, Subject *out);
 
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */
 int subject_prepare(Subject *subject);

@@ -42,7 +42,7 @@ static WeftResult check_lobe(const WeftLobe *lobe, WeftError *error) {
 
 static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
     const char *subject = "export";
-    if (!desc || (desc->lobe != NULL) + (desc->profile != NULL) + (desc->material != NULL) != 1)
+    if (!desc || (desc->lobe != NULL) + (desc->profile != NULL || desc->material != NULL) != 1)
         return fail(error, WEFT_MESSAGE_DESC, subject, "one of lobe, profile and material is needed");
     if ((unsigned)desc->target >= WEFT_EXPORT_TARGETS || (unsigned)desc->lut >= WEFT_EXPORT_LUTS)
         return fail(error, WEFT_MESSAGE_DESC, subject, "a target or lut that there is not");

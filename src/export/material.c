@@ -98,10 +98,9 @@ static void find_facts(Draft *draft, Subject *subject) {
 static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error) {
     const WeftExportDesc *desc = draft->desc;
     WeftResult result = WEFT_OK;
-    if (desc->profile)
-        result = find_profile(desc->profile, &subject->material, error);
-    else if ((result = numbers_sound(desc->material, error)) == WEFT_OK)
-        subject->material = material_of_numbers(desc->material);
+    if (desc->profile) result = find_profile(desc->profile, &subject->material, error);
+    if (desc->material && result == WEFT_OK) result = numbers_sound(desc->material, error);
+    if (desc->material && result == WEFT_OK) subject->material = material_of_numbers(desc->material);
     if (result != WEFT_OK) return result;
     subject->surface = material_plain(&subject->material);
     subject->choices = material_choices(&subject->material);

@@ -173,6 +173,36 @@ static void png_is_scaled(void **state) {
     weft_export_free(&scaled);
 }
 
+/* The lines of NAME_surface() in the text of a model. */
+static void surface_of(const char *model, char lines[8192]) {
+    Ran ran = RUN("export", model, "--target", "glsl", "-o", "s.glsl", "--quiet");
+    if (ran.code != 0) fail_msg("%s: %s", model, ran.err);
+    ran_free(&ran);
+    size_t size;
+    char *text = file_bytes("s.glsl", &size), *start = text ? strstr(text, "_surface() {") : NULL;
+    assert_non_null(start);
+    snprintf(lines, 8192, "%.*s", (int)(strstr(start, "\n}") - start), start);
+    free(text);
+}
+
+/* What is set behind a workflow or a profile is all that differs from its defaults. */
+static void a_setting_leaves_other_defaults(void **state) {
+    (void)state;
+    static char plain[8192], with[8192];
+    surface_of("metallic", plain);
+    surface_of("metallic:layer=additive", with);
+    assert_string_equal(plain, with);
+    surface_of("khronos", plain);
+    surface_of("khronos:layer=seed", with);
+    assert_string_equal(plain, with);
+    surface_of("disney", plain);
+    surface_of("disney:subsurface=0.5", with);
+    char *was = strstr(plain, "s.subsurface = 0.0"), *is = strstr(with, "s.subsurface = 0.5");
+    assert_true(was && is && was - plain == is - with);
+    is[strlen("s.subsurface = 0.")] = '0';
+    assert_string_equal(plain, with);
+}
+
 static void nonsense_is_refused(void **state) {
     (void)state;
     const struct {
@@ -213,9 +243,13 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_is_complete),   cmocka_unit_test(all_subjects_are_found),
-        cmocka_unit_test(options_are_heeded), cmocka_unit_test(tables_are_read_back),
-        cmocka_unit_test(png_is_scaled),      cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(help_is_complete),
+        cmocka_unit_test(all_subjects_are_found),
+        cmocka_unit_test(options_are_heeded),
+        cmocka_unit_test(tables_are_read_back),
+        cmocka_unit_test(png_is_scaled),
+        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(a_setting_leaves_other_defaults),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }
