@@ -103,6 +103,8 @@ static void json_half(Json *json, const WeftPassport *p) {
         json_open(json, "floor", '[');
         for (int row = 0; row < p->rows; row++) json_floor(json, NULL, p->half_floor[row]);
         json_close(json, ']');
+        json_floats(json, "underflow", p->half_zero, p->rows);
+        json_floats(json, "off", p->half_off, p->rows);
         if (p->half_place.cos_o > 0.0f) json_place(json, "never_at", &p->half_place);
         json_float(json, "least_value", p->half_parameter);
         json_floor(json, "least_value_floor", p->half_cosine);

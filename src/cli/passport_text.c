@@ -102,7 +102,7 @@ static void print_sampling(const WeftPassport *p) {
 }
 
 static void print_sweep(const WeftPassport *p) {
-    printf("\nAdversarial sweep\n  of %lld results %lld not finite, %lld negative, %lld not 0 below the "
+    printf("\nAdversarial sweep\n  of %lld results %lld not finite, %lld negative, %lld nonzero below the "
            "horizon\n",
            p->sweep_count, p->sweep_infinite, p->sweep_negative, p->sweep_below);
 }
@@ -112,7 +112,7 @@ static void print_half(const WeftPassport *p) {
     printf("\nHalf precision\n");
     if (!p->half_measured) {
         const char *why = "the compiler of this program has no 16-bit floats";
-        if (p->profile) why = "it is a lobe's affair";
+        if (p->profile) why = "only lobes are measured in half precision";
         if (p->traits & WEFT_LOBE_REFERENCE) why = "for the path tracer only";
         printf("  not measured: %s\n", why);
         return;
@@ -123,11 +123,13 @@ static void print_half(const WeftPassport *p) {
         if (*p->parameter) printf("  %s %.3g: ", p->parameter, (double)p->values[row]);
         if (!*p->parameter) printf("  ");
         if (p->half_floor[row] == WEFT_HALF_FREE)
-            printf("none needed\n");
+            printf("none needed");
         else if (p->half_floor[row])
-            printf("2^-%d\n", p->half_floor[row]);
+            printf("2^-%d", p->half_floor[row]);
         else
-            printf("none up to 2^-%d helps\n", WEFT_HALF_MOST);
+            printf("none up to 2^-%d helps", WEFT_HALF_MOST);
+        printf("; away from grazing %.3g %% underflow to 0, %.3g %% are off by more than 1 %%\n",
+               100.0 * (double)p->half_zero[row], 100.0 * (double)p->half_off[row]);
     }
     if (p->half_place.cos_o > 0.0f)
         printf("  where none helps, an example is %s\n", place_text(p, &p->half_place, place, sizeof place));

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include "base/random.h"
 #include "base/thread.h"
 #include "measure/half.h"
 #include "measure/sweep.h"
@@ -62,6 +63,35 @@ static int least_floor(const Lobe *lobe) {
     return 0;
 }
 
+/* A direction of cosine 0.1 to 1, even in solid angle. */
+static Dir ordinary_dir(uint32_t k) {
+    float z = 0.1f + 0.9f * unit_float(hash32(k)), phi = 6.2831853f * unit_float(hash32(k + 1u));
+    float s = (sqrtf)(1.0f - z * z);
+    return dir(s * (cosf)(phi), s * (sinf)(phi), z);
+}
+
+/* Shares of ordinary pairs: f is 0 in half alone, and f is off by more than 1 %. */
+static void find_losses(const Lobe *lobe, float *zero, float *off) {
+    enum { PAIRS = 4096 };
+    static const float tolerance = 0.01f;
+    float o[3][PAIRS], i[3][PAIRS], f[PAIRS];
+    int zeros = 0, offs = 0;
+    for (int k = 0; k < PAIRS; k++) {
+        Dir a = ordinary_dir(4u * (uint32_t)k), b = ordinary_dir(4u * (uint32_t)k + 2u);
+        o[0][k] = a.x, o[1][k] = a.y, o[2][k] = a.z;
+        i[0][k] = b.x, i[1][k] = b.y, i[2][k] = b.z;
+    }
+    half_eval(lobe->id, lobe->params, PAIRS, o[0], o[1], o[2], i[0], i[1], i[2], f);
+    for (int k = 0; k < PAIRS; k++) {
+        float right =
+            lobe_eval(lobe, angles_between(dir(o[0][k], o[1][k], o[2][k]), dir(i[0][k], i[1][k], i[2][k])));
+        zeros += right > 0.0f && f[k] <= 0.0f;
+        offs += !(fabsf(f[k] - right) <= tolerance * right);
+    }
+    *zero = (float)zeros / PAIRS;
+    *off = (float)offs / PAIRS;
+}
+
 typedef struct Rows {
     const Subject *subject;
     WeftPassport *out;
@@ -76,6 +106,7 @@ static void measure_row(void *user, int row, int thread) {
     WeftPlace ignored = {0};
     rows->bad[row] = bad_pairs(&lobe, 0.0, &ignored);
     rows->out->half_floor[row] = least_floor(&lobe);
+    find_losses(&lobe, &rows->out->half_zero[row], &rows->out->half_off[row]);
     if (!rows->out->half_floor[row]) bad_pairs(&lobe, ldexp(1.0, -WEFT_HALF_MOST), &rows->place[row]);
 }
 

@@ -275,7 +275,7 @@ bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, Weft
     if (!desc->brief) find_sweep(work);
     half_floor_measure(subject, out, desc->threads);
     if (desc->no_gpu || desc->brief)
-        snprintf(out->parity_words, sizeof out->parity_words, "not asked for");
+        snprintf(out->parity_words, sizeof out->parity_words, "skipped (--no-gpu)");
     else
         parity_measure(subject, out);
     bool held = !work->short_of_memory;

@@ -19,7 +19,7 @@ static void passport_tells_all_in_words(void **state) {
                                         "missed by sampling: 0\n",
                                         "Adversarial sweep",
                                         "Half precision",
-                                        "C and GPU\n  not compared: not asked for"};
+                                        "C and GPU\n  not compared: skipped (--no-gpu)"};
     Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu");
     assert_int_equal(ran.code, 0);
     assert_string_equal(ran.err, "");
