@@ -15,7 +15,7 @@ html_show_sphinx = False
 # What stands in the sidebar, in this order; a page that is not named comes at the end of the last part, and a name
 # without a page is passed over.
 parts = {
-    "First": ["getting-started", "cloth", "engines"],
+    "First": ["getting-started", "cloth", "engines", "sources"],
     "Catalogue": ["lobes", "terms", "layers", "workflows", "profiles"],
     "The program": ["cli", "view", "materials", "chart", "gltf", "images", "render", "raster", "check", "bake", "diff",
                     "export", "plots", "match", "fit", "doctor"],

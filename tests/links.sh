@@ -22,6 +22,15 @@ anchors() {
     awk '/^ *```/ { code = !code } !code && sub(/^#+ /, "") { print tolower($0) }' "$1" | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
 
+# The index leads to every page that is beside it.
+for page in docs/*.md; do
+    name=$(basename "$page")
+    [ "$name" = index.md ] || grep -q "]($name)" docs/index.md || {
+        echo "docs/index.md: has no link to $name"
+        exit 1
+    }
+done
+
 links >/dev/null # fails where there are none
 links | {
     bad=0

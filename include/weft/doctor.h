@@ -53,7 +53,7 @@ typedef enum WeftSeverity {
     F(SHEEN_ROUGHNESS_PLAIN, "sheen-roughness-plain", WARNING, 1,                                            \
       "the texture of a sheen's roughness says nothing")                                                     \
     F(SHEEN_GAINS, "sheen-gains", WARNING, 1, "the sheen returns more light than arrives")                   \
-    F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the base is taken away for a sheen that does not come")      \
+    F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the sheen removes more light from the base than it adds")    \
     F(ENGINES_DIFFER, "engines-differ", NOTE, 0,                                                             \
       "the same sheen is much brighter in one engine than in another")                                       \
     F(SHEEN_ON_METAL, "sheen-on-metal", WARNING, 1, "a sheen on a metal")                                    \

@@ -209,7 +209,8 @@ static const Option diff_options[] = {
     OPTION_NUMBER("--exposure", "STOPS", NULL, -64, 64,
                   "show linear pictures after 2^STOPS, where they are shown at all [0]; flip of two linear "
                   "pictures then is of this exposure alone"),
-    OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "and through this curve: none, pbr-neutral or aces"),
+    OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",
+                "and through this curve: none, pbr-neutral or aces (Narkowicz' fit)"),
     OPTION_HEADING("Result"),
     OPTION_NUMBER("--max", "X", NULL, -1, 1e9,
                   "exit with 1 where the number is above X; of ssim, whose best is 1, where it is below X"),

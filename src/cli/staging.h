@@ -31,7 +31,8 @@ enum { STAGING_LIGHTS_MOST = 64 };
             "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in " \
             "degrees, 3 to 8 corners; none drops those before it, the file's too"),                          \
         OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                    \
-        OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral", "of a .png: none, pbr-neutral or aces"),            \
+        OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                     \
+                    "of a .png: none, pbr-neutral or aces, which is Narkowicz' fit of the ACES curve"),      \
         OPTION_TEXT("--background", "WHAT", "auto",                                                          \
                     "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "    \
                     "1,1,1 is white"),                                                                       \

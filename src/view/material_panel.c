@@ -272,7 +272,7 @@ static void draw_plausible(Viewer *v, const WeftMaterial *m) {
         if (lines.count)
             ui_warning(lines.text);
         else
-            ui_dim("Nothing in it is hardly real.");
+            ui_dim("All of its numbers are plausible.");
     }
 }
 

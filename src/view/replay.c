@@ -353,7 +353,8 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
         bool good = true, waits = is(word, "wait");
         if (waits && still_waiting(self, v, rest)) {
             if (now() - self->since < 120.0) return true;
-            snprintf(why, 512, "%.200s:%d: waited in vain", self->path, self->line + 1);
+            snprintf(why, 512, "%.200s:%d: \"%.100s\" did not finish within 120 s", self->path,
+                     self->line + 1, copy);
             return false;
         }
         self->line++;

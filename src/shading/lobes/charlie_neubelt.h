@@ -3,7 +3,8 @@
  *   f = color D(h) V(wo, wi)                                                                     [1/sr]
  *
  *   D: term d_charlie (Conty Estevez, Kulla 2017).  V: term v_neubelt (Neubelt, Pettineo 2013).
- *   roughness: alpha = roughness^2 (KHR_materials_sheen; Filament, three.js, Babylon.js).
+ *   roughness: alpha = roughness^2, as in KHR_materials_sheen and three.js. Babylon.js adds 0.0005; Filament
+ *     first raises roughness to at least 0.045.
  *   reciprocal: yes.
  *   energy: no, E passes 1 near grazing for alpha < 0.21: at cos_o 0.02 it is 1.38 at alpha 0.0625,
  *     and 2.69 at alpha 0.01.
