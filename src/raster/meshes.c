@@ -122,8 +122,7 @@ static WeftResult begin_occlusion(GlMeshes *self, bool lamps, WeftError *error) 
     size_t others = self->vertex_count - self->own_count;
     float *unknown = alloc_array(others, (size_t)seen_size);
     if (!unknown) return fail(error, WEFT_MESSAGE_MEMORY, "occlusion", NULL);
-    for (size_t k = 0; k < others * OCCLUSION_VALUES; k++)
-        unknown[k] = k % OCCLUSION_VALUES < 2 ? 1.0f : -1.0f;
+    for (size_t k = 0; k < others; k++) occlusion_nothing(unknown + k * OCCLUSION_VALUES);
     if (!self->occlusion) glGenBuffers(1, &self->occlusion);
     glBindVertexArray(self->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
@@ -131,7 +130,7 @@ static WeftResult begin_occlusion(GlMeshes *self, bool lamps, WeftError *error) 
     glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others,
                     unknown);
     free(unknown);
-    for (size_t k = 0, at = 0; k < (lamps ? 3 : 1); at += k++ ? 4 : 2) {
+    for (size_t k = 0, at = 0; k < (lamps ? 5 : 3); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
         glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)seen_size,
                               (const void *)(at * sizeof(float)));
@@ -214,6 +213,7 @@ void meshes_bind(const GlMeshes *self) {
         glVertexAttrib4f(a, constant, constant, constant, constant);
     }
     glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
+    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_OPEN + k, 1.0f, 0.0f, 0.0f, 0.0f);
     for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LAMPS + k, -1.0f, -1.0f, -1.0f, -1.0f);
 }
 

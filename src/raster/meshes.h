@@ -15,7 +15,8 @@ enum {
     AT_COLOR = AT_TEXCOORD + 2,
     AT_COUNT,
     AT_OCCLUSION = AT_COUNT, /* not of a file: meshes_occlusion */
-    AT_LAMPS                 /* two */
+    AT_OPEN,                 /* two */
+    AT_LAMPS = AT_OPEN + 2   /* two */
 };
 
 typedef struct GlMeshes {

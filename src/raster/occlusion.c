@@ -16,7 +16,7 @@
 enum { BLOCK = 256 }; /* vertices in one go */
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 2 };
+enum { LOOK = 3 };
 
 struct Occlusion {
     WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
@@ -39,20 +39,70 @@ static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 /* Part of a turn by which a vertex's directions differ from others', so that neighbours do not err alike. */
 static float turned(uint32_t vertex) { return (float)(vertex * 2654435769u >> 8) * 0x1p-24f; }
 
-/* The part of the sky above n that a point sees: directions by Christophe Schlick's grid of the golden ratio.
- */
-static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t turn) {
+/* c_0 + c . w about n, each from -1 to 1. */
+typedef struct Ramp {
+    float mean, x, y, z;
+} Ramp;
+
+/* By so many times its slope. */
+static float ramp_at(const Ramp *r, float steeper, Dir w) {
+    float slope = r->x * w.x + r->y * w.y + r->z * (w.z - 0.5f);
+    return clamp(r->mean + steeper * slope, 0.0f, 1.0f);
+}
+
+static Dir sky_ray(int k, int rays, float turn) {
+    float v = (float)k * 0.618033989f + turn;
+    return warp_uniform(((float)k + 0.5f) / (float)rays, v - floor(v));
+}
+
+/* Nearest to what is seen, V, over the hemisphere, whose x, y, z have the means 0, 0, 1/2 and the variances
+ * 1/3, 1/3, 1/12:
+ *
+ *   mean(V) + 3 mean(V x) x + 3 mean(V y) y + 12 mean(V (z - 1/2)) (z - 1/2)
+ *
+ * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there. */
+static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *out) {
+    static const float steps[] = {1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
+    Ramp r = {0.0f, 0.0f, 0.0f, 0.0f};
+    float least = INFINITY, best = 1.0f, share = 1.0f / (float)self->rays;
+    for (int k = 0; k < self->rays; k++) {
+        Dir w = sky_ray(k, self->rays, turn);
+        if (!seen[k]) continue;
+        r.mean += share;
+        r.x += 3.0f * share * w.x;
+        r.y += 3.0f * share * w.y;
+        r.z += 12.0f * share * (w.z - 0.5f);
+    }
+    for (size_t n = 0; n < sizeof steps / sizeof steps[0]; n++) {
+        float off = 0.0f;
+        for (int k = 0; k < self->rays; k++) {
+            float d = ramp_at(&r, steps[n], sky_ray(k, self->rays, turn)) - (seen[k] ? 1.0f : 0.0f);
+            off += d * d;
+        }
+        if (off < least) least = off, best = steps[n];
+    }
+    *out = (Ramp){r.mean, best * r.x, best * r.y, best * r.z};
+}
+
+/* The part of the cosine-weighted sky above n that a point sees, and which. Directions are even over the
+ * hemisphere by the golden ratio. */
+static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
+    bool seen[OCCLUSION_RAYS_MAX];
     Frame frame = frame_about(dir_of(n), dir(0.0f, 0.0f, 0.0f), 1.0f);
     Vec3 from = vec3_madd(p, n, reach);
-    int seen = 0;
+    float sum = 0.0f, turn = turned(vertex);
+    Ramp ramp;
     for (int k = 0; k < self->rays; k++) {
-        float u = ((float)k + 0.5f) / (float)self->rays;
-        float v = (float)k * 0.618033989f + turned(turn);
-        Dir d = frame_from(frame, warp_cosine(u, v - floor(v)));
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn, false};
-        seen += !geometry_occluded(self->geometry, ray);
+        Dir w = sky_ray(k, self->rays, turn), d = frame_from(frame, w);
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
+        seen[k] = !geometry_occluded(self->geometry, ray);
+        if (seen[k]) sum += 2.0f * w.z / (float)self->rays;
     }
-    return (float)seen / (float)self->rays;
+    fit_ramp(self, seen, turn, &ramp);
+    Dir slope = frame_from(frame, dir(ramp.x, ramp.y, ramp.z));
+    open[0] = ramp.mean - 0.5f * ramp.z;
+    open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;
+    return min(sum, 1.0f);
 }
 
 /* The part of a lamp that a point sees, its light spread about it by exp(kappa (mu - 1)), whose mean squared
@@ -76,6 +126,11 @@ static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, V
     return above ? (float)seen / (float)above : 1.0f;
 }
 
+void occlusion_nothing(float values[OCCLUSION_VALUES]) {
+    for (int k = 0; k < OCCLUSION_VALUES; k++) values[k] = k < OCCLUSION_LAMP ? 0.0f : -1.0f;
+    values[0] = values[1] = values[OCCLUSION_OPEN] = values[OCCLUSION_OPEN + 4] = 1.0f;
+}
+
 static void look(void *user, int item, int thread) {
     Occlusion *self = user;
     const WeftScene *scene = &self->scene;
@@ -88,15 +143,14 @@ static void look(void *user, int item, int thread) {
         const Mesh *mesh = &scene->meshes[m];
         size_t at = 3 * (size_t)(k - self->first[m]);
         float *to = self->values + OCCLUSION_VALUES * (size_t)k;
-        to[0] = to[1] = 1.0f;
-        for (int j = 0; j < OCCLUSION_LAMPS; j++) to[2 + j] = -1.0f;
+        occlusion_nothing(to);
         if (!mesh->normal) continue;
         Vec3 p = vec3_load(mesh->position + at), n = vec3_load(mesh->normal + at);
-        to[0] = seen_from(self, p, n, reach, k);
+        to[0] = seen_from(self, p, n, reach, k, to + OCCLUSION_OPEN);
         if (scene->materials[mesh->material].double_sided)
-            to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k);
+            to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k, to + OCCLUSION_OPEN + 4);
         for (int j = 0; j < self->lamp_count; j++)
-            to[2 + j] = lamp_from(self, &self->lamps[j], p, n, reach, k);
+            to[OCCLUSION_LAMP + j] = lamp_from(self, &self->lamps[j], p, n, reach, k);
     }
 }
 
@@ -137,7 +191,7 @@ static size_t values_count(const Occlusion *self) {
 static bool in_range(const float *values, size_t count) {
     bool good = true;
     for (size_t k = 0; k < count; k++)
-        good &= values[k] >= (k % OCCLUSION_VALUES < 2 ? 0.0f : -1.0f) && values[k] <= 1.0f;
+        good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? 4.0f : 1.0f);
     return good;
 }
 

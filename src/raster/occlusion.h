@@ -6,12 +6,20 @@
 
 typedef struct Occlusion Occlusion;
 
-/* Numbers of a vertex: of the sky what its front sees and what its back does, then of each lamp. */
-enum { OCCLUSION_LAMPS = AMBIENT_LAMPS, OCCLUSION_VALUES = 2 + OCCLUSION_LAMPS };
+/* Numbers of a vertex: the part of the cosine-weighted sky that its front sees, and its back; of front and of
+ * back four numbers c by which the part of direction w that is seen is near c_0 + c_1 w.x + c_2 w.y +
+ * c_3 w.z, w in the world; then of each lamp. */
+enum {
+    OCCLUSION_OPEN = 2,
+    OCCLUSION_LAMP = OCCLUSION_OPEN + 2 * 4,
+    OCCLUSION_LAMPS = AMBIENT_LAMPS,
+    OCCLUSION_VALUES = OCCLUSION_LAMP + OCCLUSION_LAMPS,
+    OCCLUSION_RAYS_MAX = 4096
+};
 
 /* How to look. */
 typedef struct OcclusionHow {
-    int rays;      /* directions a side; a quarter of them for each lamp */
+    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; a quarter of them for each lamp */
     int threads;   /* beside the caller; 0: one a processor */
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const AmbientLamp *lamps; /* in the world; copied */
@@ -25,9 +33,12 @@ typedef struct OcclusionHow {
 WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
                            const WeftLog *log, WeftError *error);
 
-/* OCCLUSION_VALUES a vertex, its own meshes one after the other: of the sky the cosine-weighted part, 1 is
- * all; of a lamp the part that is above the horizon of whichever side faces it; below 0 where nothing is
- * known. NULL until it is done, unless it is waited for. Lives until occlusion_free. */
+/* The numbers of a vertex before which there is nothing, and that knows of no lamp. */
+void occlusion_nothing(float values[OCCLUSION_VALUES]);
+
+/* OCCLUSION_VALUES a vertex, its own meshes one after the other: of the sky 1 is all; of a lamp the part that
+ * is above the horizon of whichever side faces it; below 0 where nothing is known. NULL until it is done,
+ * unless it is waited for. Lives until occlusion_free. */
 const float *occlusion_values(Occlusion *occlusion, bool wait);
 
 /* Stops early where it is not done; occlusion may be NULL. */

@@ -35,12 +35,10 @@
  *
  * The E of a sheen that has a table of its own is taken from there, where it is mixed with more care.
  *
- * Occlusion is the part of the cosine-weighted sky that is seen, taken for a cone about the normal, as in
- * Jorge Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", SIGGRAPH 2016
- * course: whatever comes from outside of it, a sheen's light first of all, is not seen.
- *
- * A lamp may be anywhere, and a cone would hide all of it or nothing: it is dimmed by the part instead,
- * unless the source knows better.
+ * Occlusion is the part of the cosine-weighted sky that is seen. A lobe that is not spread as the cosine sees
+ * more of the sky or less: each look-up is dimmed by what the source knows to be open about its direction,
+ * and a lamp by what is seen of it. Of a source that knows the number alone it is a cone about the normal
+ * (occlusion_cone.h), and the number itself for a lamp, of which a cone would hide all or nothing.
  *
  * Departures: of lobes that are brushed or lean, tables know wo along, across and against that, and take what
  * comes back to lie evenly about the plane of wo; lamps have them as they are. What the lamps leave meets a
@@ -266,14 +264,6 @@ FN AmbientView ambient_view(Dir o, Dir x, Dir y, Dir z, float occlusion) {
     return v;
 }
 
-/* Whether a direction of that cosine is seen through the occlusion. With x = cos^2, over which
- * cosine-weighted directions are even, a ramp from b^2 to 2 b - b^2, b = 1 - occlusion, has the mean
- * `occlusion`: a cone with a soft rim. */
-FN float ambient_visible(float occlusion, float cos_i) {
-    float b = 1.0f - occlusion, x = max(cos_i, 0.0f) * max(cos_i, 0.0f);
-    return occlusion >= 1.0f ? 1.0f : clamp((x - b * b) / max(2.0f * b * occlusion, 1e-4f), 0.0f, 1.0f);
-}
-
 /* A direction of the lobe's frame. */
 FN Dir ambient_out(AmbientView v, Dir w) {
     return dir(w.x * v.x.x + w.y * v.y.x + w.z * v.z.x, w.x * v.x.y + w.y * v.y.y + w.z * v.z.y,
@@ -284,9 +274,12 @@ FN Dir ambient_turn(AmbientView v, Dir w) {
     return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z);
 }
 
-FN Rgb ambient_rest_at(AmbientSource s, AmbientView v, Dir w, float kappa) {
-    return rgb_scale(ambient_rest(s, ambient_out(v, ambient_turn(v, w)), kappa),
-                     ambient_visible(v.occlusion, w.z));
+/* A look-up about w of the rest, as much of it as is seen towards m, the mean of its weight above the
+ * horizon, and bent to where that is seen. */
+FN Rgb ambient_rest_at(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
+    float open = ambient_open(s, ambient_out(v, ambient_turn(v, m)), w.z, v.occlusion);
+    Dir bent = ambient_bent(s, ambient_out(v, ambient_turn(v, w)), kappa, open);
+    return rgb_scale(ambient_rest(s, bent, kappa), open);
 }
 
 /* What the two colours of a lobe are multiplied by. */
@@ -297,12 +290,16 @@ STRUCT(AmbientFour) { Rgb a, b, c, d; };
 
 FN AmbientFour ambient_four(AmbientSource s, AmbientView v) {
     AmbientFour l;
-    l.a = rgb_scale(ambient_rest(s, v.z, 0.0f), v.occlusion);
-    l.b = rgb_add(ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f),
-                  ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f));
-    l.c = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f);
-    l.d = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f),
-                  ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f));
+    l.a = rgb_scale(ambient_rest(s, ambient_bent(s, v.z, 4.0f, v.occlusion), 0.0f), v.occlusion);
+    l.b = rgb_add(
+        ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f, dir(0.3984f, 0.3984f, 0.5224f)),
+        ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f,
+                        dir(0.3984f, -0.3984f, 0.5224f)));
+    l.c = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f, dir(-0.791f, 0.0f, 0.483f));
+    l.d = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f,
+                                  dir(-0.6334f, 0.6334f, 0.2856f)),
+                  ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f,
+                                  dir(-0.6334f, -0.6334f, 0.2856f)));
     l.b = rgb_scale(l.b, 0.5f);
     l.d = rgb_scale(l.d, 0.5f);
     return l;
@@ -322,11 +319,10 @@ FN AmbientPair ambient_mixed(AmbientFour l, AmbientLobe of) {
 }
 
 /* One look-up for a whole lobe, whose colours have E first and second. */
-FN AmbientPair ambient_one(AmbientView v, Rgb radiance, Dir w, float first, float second) {
+FN AmbientPair ambient_one(Rgb radiance, float first, float second) {
     AmbientPair p;
-    Rgb l = rgb_scale(radiance, ambient_visible(v.occlusion, w.z));
-    p.first = rgb_scale(l, first);
-    p.second = rgb_scale(l, second);
+    p.first = rgb_scale(radiance, first);
+    p.second = rgb_scale(radiance, second);
     return p;
 }
 FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
@@ -366,7 +362,7 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float na
             Rgb l = rgb_grey(0.0f);
             if (narrow < 1.0f) l = ambient_rest(s, out_i, kappa);
             if (narrow > 0.0f) l = rgb_mix(l, ambient_radiance(s, out_i, kappa), narrow);
-            l = rgb_scale(l, w * ambient_visible(v.occlusion, i.z));
+            l = rgb_scale(l, w * ambient_open(s, out_i, i.z, v.occlusion));
             p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(l, x.s));
             e = e + w;
@@ -392,14 +388,14 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
     AmbientLobe l = ambient_lobe(t, s, spot, known);
     a.lamps = 0.0f;
     if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
-        a.of = ambient_one(v, rgb_scale(ambient_irradiance(s, v.z), v.occlusion), dir(0.0f, 0.0f, 1.0f),
-                           l.first, l.second);
+        a.of = ambient_one(rgb_scale(ambient_irradiance(s, v.z), v.occlusion), l.first, l.second);
         return a;
     }
     if (AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
-        Dir r = dir(-v.o.x, -v.o.y, v.o.z);
+        Dir r = ambient_out(v, dir(-v.o.x, -v.o.y, v.o.z));
         AmbientWeights facing = ambient_group(t, s, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
-        a.of = ambient_one(v, ambient_radiance(s, ambient_out(v, r), exp2(facing.b)), r, l.first, l.second);
+        Rgb about = ambient_radiance(s, r, exp2(facing.b));
+        a.of = ambient_one(rgb_scale(about, ambient_open(s, r, v.o.z, v.occlusion)), l.first, l.second);
         return a;
     }
     a.lamps = 1.0f;
@@ -415,11 +411,12 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
         a.of = ambient_drawn(s, v, lobe, narrow, l.first + l.second);
         return a;
     }
-    Rgb wide = ambient_rest(s, out_axis, kappa);
-    a.of = ambient_pair_mix(a.of, ambient_one(v, wide, axis, l.first, l.second), close);
+    float seen = ambient_open(s, out_axis, axis.z, v.occlusion);
+    Rgb wide = rgb_scale(ambient_rest(s, out_axis, kappa), seen);
+    a.of = ambient_pair_mix(a.of, ambient_one(wide, l.first, l.second), close);
     if (!t.narrow) return a;
-    Rgb sharp = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
-    a.of = ambient_pair_mix(a.of, ambient_one(v, sharp, axis, l.first, l.second), narrow);
+    Rgb sharp = rgb_scale(ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f)), seen);
+    a.of = ambient_pair_mix(a.of, ambient_one(sharp, l.first, l.second), narrow);
     return a;
 }
 

@@ -6,6 +6,12 @@
  *   ambient_count(s)               how many there are
  *   ambient_seen(s, k, occlusion)  the part of lamp k that is seen, where that part of the sky is: no more is
  *                                  known of it in C
+ *   ambient_open(s, w, cos_i, occlusion)
+ *                                  the part of the sky about w that is seen, where that part of the
+ *                                  cosine-weighted sky is; cos_i is that of its look-up's axis to the normal
+ *   ambient_bent(s, w, kappa, open)
+ *                                  the mean direction of what is seen about w, which of a weight as wide as
+ *                                  kappa is the part `open`; the cosine's kappa is 4
  *   ambient_lamp_kappa(s)          log2 of the kappa of a weight as wide as what a lamp stands for
  *   ambient_rest(s, w, kappa)      what the lamps leave of L, which is smooth, weighted as radiance is
  *   ambient_held(s, k)             coefficients k of tables that are held (ambient.h)
@@ -18,6 +24,7 @@
 #ifndef WEFT_SHADING_AMBIENT_SOURCE_H
 #define WEFT_SHADING_AMBIENT_SOURCE_H
 
+#include "shading/occlusion_cone.h"
 #include "shading/rgb.h"
 
 STRUCT(AmbientLight) {
@@ -49,6 +56,10 @@ FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
 FN AmbientWeights ambient_held(AmbientSource s, int k) { return s->held[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 FN float ambient_seen(AmbientSource s, int k, float occlusion) { return occlusion; }
+FN float ambient_open(AmbientSource s, Dir w, float cos_i, float occlusion) {
+    return occlusion_cone(occlusion, cos_i);
+}
+FN Dir ambient_bent(AmbientSource s, Dir w, float kappa, float open) { return w; }
 FN float ambient_diffuse(AmbientSource s) { return 1.0f; }
 FN float ambient_reflection(AmbientSource s) { return 1.0f; }
 

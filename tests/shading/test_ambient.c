@@ -212,7 +212,7 @@ static void occlusion_takes_what_it_says(void **state) {
         float occlusion = (float)k / 20.0f, before = 0.0f;
         double mean = 0.0;
         for (int n = 0; n < STEPS; n++) {
-            float x = ((float)n + 0.5f) / STEPS, seen = ambient_visible(occlusion, sqrt(x));
+            float x = ((float)n + 0.5f) / STEPS, seen = occlusion_cone(occlusion, sqrt(x));
             assert_true(seen >= before - 1e-6f && seen <= 1.0f);
             before = seen;
             mean += (double)seen / STEPS;

@@ -1,10 +1,33 @@
-/* lamps.glsl - what a fragment sees of the environment's lamps, of which there are eight: raster/occlusion.h */
+/* lamps.glsl - what a fragment sees of the sky and of the environment's lamps, of which there are eight:
+ * raster/occlusion.h */
+#include "shading/occlusion_cone.h"
+
 in highp vec2 vertex_occlusion;
+in highp vec4 vertex_open_front;
+in highp vec4 vertex_open_back;
 in highp vec4 vertex_lamps_0;
 in highp vec4 vertex_lamps_1;
 
 /* Of the sky, by a texture, which is of the material's own bumps. */
 float texture_occlusion = 1.0;
+
+vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
+
+float ambient_open(Frame f, Dir w, float cos_i, float occlusion) {
+    vec4 c = fragment_open();
+    Dir d = frame_from(f, w);
+    float seen = clamp(c.x + c.y * d.x + c.z * d.y + c.w * d.z, 0.0, 1.0);
+    return min(seen, occlusion_cone(texture_occlusion, cos_i));
+}
+
+/* A Gaussian of variance 1 / kappa times V = open + c . x has its mean at c / (kappa open); cut off where V
+ * is, it is not beyond a deviation. */
+Dir ambient_bent(Frame f, Dir w, float kappa, float open) {
+    vec3 c = fragment_open().yzw;
+    Dir slope = frame_to(f, dir(c.x, c.y, c.z));
+    float by = min(1.0 / (kappa * max(open, 0.01)), inversesqrt(kappa * max(dot(c, c), 1e-12)));
+    return dir_normal_or(dir_add(w, dir_scale(slope, open < 1.0 ? by : 0.0)), w);
+}
 
 float ambient_seen(Frame f, int k, float occlusion) {
     float seen = k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4];

@@ -8,8 +8,10 @@ layout(location = 3) in highp vec2 at_texcoord_0;
 layout(location = 4) in highp vec2 at_texcoord_1;
 layout(location = 5) in highp vec4 at_color;
 layout(location = 6) in highp vec2 at_occlusion;
-layout(location = 7) in highp vec4 at_lamps_0;
-layout(location = 8) in highp vec4 at_lamps_1;
+layout(location = 7) in highp vec4 at_open_front;
+layout(location = 8) in highp vec4 at_open_back;
+layout(location = 9) in highp vec4 at_lamps_0;
+layout(location = 10) in highp vec4 at_lamps_1;
 
 out highp vec3 from_eye;
 centroid out highp vec3 vertex_normal;
@@ -18,6 +20,8 @@ out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
 out highp vec4 vertex_color;
 out highp vec2 vertex_occlusion;
+out highp vec4 vertex_open_front;
+out highp vec4 vertex_open_back;
 out highp vec4 vertex_lamps_0;
 out highp vec4 vertex_lamps_1;
 
@@ -29,6 +33,8 @@ void main() {
     texcoord_1 = at_texcoord_1;
     vertex_color = at_color;
     vertex_occlusion = at_occlusion;
+    vertex_open_front = at_open_front;
+    vertex_open_back = at_open_back;
     vertex_lamps_0 = at_lamps_0;
     vertex_lamps_1 = at_lamps_1;
     gl_Position = to_clip * vec4(from_eye, 1.0);
