@@ -63,7 +63,7 @@ typedef enum WeftResult {
     M(MATERIAL_FILE, INPUT, "is not a valid material file")                                                  \
     M(PARAM_NAME, USAGE, "is not a parameter")                                                               \
     M(PARAM_VALUE, USAGE, "is not a value that the parameter takes")                                         \
-    M(PARAM_RANGE, WARNING, "is outside the plausible range")                                                \
+    M(PARAM_RANGE, WARNING, "is out of range")                                                               \
     M(PLAUSIBLE, WARNING, "is not plausible")                                                                \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(EXPORT_LOBE, USAGE, "is a random walk, for the path tracer only: export fibre, which stands for it")   \

@@ -76,10 +76,11 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
     const InputInfo *info = &input_infos[input];
     float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
     if (taken < value || taken > value)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g was clamped to %g", (double)value, (double)taken);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is beyond the limit, %g, which is used",
+             (double)value, (double)taken);
     else if (info->kind != INPUT_DIRECTION && (value < info->low || value > info->high))
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is not in %g .. %g", (double)value, (double)info->low,
-             (double)info->high);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is taken; plausible is %g .. %g", (double)value,
+             (double)info->low, (double)info->high);
     bool angle = info->kind == INPUT_DIRECTION || info->kind == INPUT_ANGLE;
     return angle ? taken * (3.14159265f / 180.0f) : taken;
 }

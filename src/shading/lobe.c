@@ -30,10 +30,11 @@ static const WeftParamInfo color_info = {"color", "", 1.0f, 0.0f, 1.0f, 0.0f, 10
 static float ranged(float value, const WeftParamInfo *p, const char *name, const WeftLog *log) {
     float taken = clamp(value, p->hard_low, p->hard_high);
     if (taken < value || taken > value)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g was clamped to %g", (double)value, (double)taken);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is beyond the limit, %g, which is used", (double)value,
+             (double)taken);
     else if (value < p->low || value > p->high)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is not in %g .. %g", (double)value, (double)p->low,
-             (double)p->high);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is taken; plausible is %g .. %g", (double)value,
+             (double)p->low, (double)p->high);
     return taken;
 }
 
