@@ -88,6 +88,7 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
     bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
     text_include(text, "shading/rgb.h");
+    if (two && has_second(own)) text_include(text, "shading/share.h");
     text_line(text,
               "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
               "Dir wi) {\n    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
@@ -108,7 +109,8 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
         text_line(text,
                   "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
                   "                    %s_second(m, color.b, second.b));\n"
-                  "    return rgb_scale(rgb_mix(color, other, v.s), %sv.f);\n}",
+                  "    Rgb c = rgb(share_mix(v.s, color.r, other.r), share_mix(v.s, color.g, other.g),\n"
+                  "                share_mix(v.s, color.b, other.b));\n    return rgb_scale(c, %sv.f);\n}",
                   p, p, p, pi);
     else if (two)
         text_line(text, "    return rgb_scale(rgb_mix(color, second, v.s), %sv.f);\n}", pi);
@@ -165,6 +167,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     rename_own(text, own->prefix);
     unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     text_include(text, "shading/angles.h");
+    if (lobe->lobe != LOBE_COOK_TORRANCE) text_define(text, "SHARE_IS_COSINE(s)", "false");
     if (!(traits & TRAIT_TINTED)) put_plain_value(text, traits & TRAIT_TWO_COLORS);
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);

@@ -58,7 +58,7 @@ static void measure_albedo(void *user, int item, int thread) {
     Lobe lobe = subject_lobe(work->subject, row);
     if (work->colored) {
         float tinted[3];
-        albedo_tinted(&lobe, o, (const float[3]){1.0f, work->colored->albedo, 0.0f}, 1e-4, tinted);
+        albedo_in_color(&lobe, o, (const float[3]){1.0f, work->colored->albedo, 0.0f}, 1e-4, tinted);
         work->out->albedo[row][c] = tinted[0];
         work->out->albedo_half[row][c] = tinted[1];
         return;

@@ -75,7 +75,7 @@ static void lobe_f(const View *view, Dirs i, float *f) {
         }
         lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at,
                     mixes ? share : NULL);
-        for (size_t k = 0; mixes && k < n; k++) f[at + k] *= 1.0f - share[k] + share[k] * view->second;
+        for (size_t k = 0; mixes && k < n; k++) f[at + k] *= share_mix(share[k], 1.0f, view->second);
     }
 }
 

@@ -34,8 +34,8 @@ static Rule rule_make(double step) {
     return rule;
 }
 
-/* What is integrated of a lobe: f times 1 - share and times share; of a tinted one, given the albedos w, f in
- * these three colours. */
+/* What is integrated of a lobe: f times 1 - share and times share; or, given the colours w, f in these: the
+ * albedos of a tinted one, the f0 of one whose f0 makes its F. */
 typedef struct Asked {
     const Lobe *lobe;
     const float *w; /* NULL: two parts */
@@ -76,7 +76,7 @@ static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, doub
             w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
         }
     Sum sum = {0};
-    if (asked->w) {
+    if (asked->w && traits & TRAIT_TINTED) {
         lobe_tinted_n(asked->lobe, asked->w, n, ox, oy, oz, ix, iy, iz, (float *const[3]){f[0], f[1], f[2]});
         for (int p = 0; p < 3; p++)
             for (size_t k = 0; k < n; k++) sum.part[p] += w[k] * (double)f[p][k];
@@ -85,8 +85,11 @@ static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, doub
     float *share = f[1];
     lobe_eval_n(asked->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
     for (size_t k = 0; k < n; k++) {
-        sum.part[0] += w[k] * (double)f[0][k] * (1.0 - (double)share[k]);
-        sum.part[1] += w[k] * (double)f[0][k] * (double)share[k];
+        double plain = (double)share_plain(share[k]), weight = w[k] * (double)f[0][k];
+        const double parts[2] = {1.0 - plain, plain};
+        for (int p = 0; asked->w && p < 3; p++)
+            sum.part[p] += weight * (double)share_mix(share[k], asked->w[p], 1.0f);
+        for (int p = 0; !asked->w && p < 2; p++) sum.part[p] += weight * parts[p];
     }
     return sum;
 }
@@ -136,7 +139,13 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
     return albedo_quadrature_error(lobe, wo, tolerance, &error);
 }
 
-void albedo_tinted(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {
+bool albedo_asks_color(const Lobe *lobe) {
+    Dir n = dir(0.0f, 0.0f, 1.0f);
+    return weft_lobe_info(lobe->id)->traits & TRAIT_TINTED ||
+           SHARE_IS_COSINE(lobe_value(lobe, angles_between(n, n)).s);
+}
+
+void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {
     double error;
     Sum sum = quadrature(&(Asked){lobe, w}, wo, tolerance, &error);
     for (int c = 0; c < 3; c++) e[c] = (float)sum.part[c];
@@ -220,7 +229,7 @@ static void fill_column(void *user, int column, int thread) {
         table->e[row][column] = e.f0 + e.f90;
         if (!tinted) continue;
         float colors[3];
-        albedo_tinted(&lobe, wo, map_colors, 1e-4, colors);
+        albedo_in_color(&lobe, wo, map_colors, 1e-4, colors);
         for (int c = 0; c < 3; c++) table->e[(1 + c) * table->rows + row][column] = colors[c];
     }
 }

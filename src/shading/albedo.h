@@ -22,8 +22,11 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
  * `tolerance` where the finest step was not enough. */
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
-/* E of a tinted lobe made of what has albedo w[c]: of each by itself, for it is no factor. */
-void albedo_tinted(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
+/* Whether colour is no factor and no share either: of a tinted lobe, and of one whose f0 makes its F. */
+bool albedo_asks_color(const Lobe *lobe);
+
+/* E of such a lobe in the colour w: of each channel by itself. */
+void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
 
 /* E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, ALBEDO_MU nodes uniform in y, and over one
  * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends

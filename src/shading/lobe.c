@@ -96,8 +96,8 @@ void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
     if (!lobe_of(lobe, &inner)) return;
     float z = clamp(cos_o, 1e-6f, 1.0f);
     Dir o = dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z);
-    if (weft_lobe_info(lobe->lobe)->traits & TRAIT_TINTED) {
-        albedo_tinted(&inner, o, lobe->f0, 2e-5, e);
+    if (albedo_asks_color(&inner)) {
+        albedo_in_color(&inner, o, lobe->f0, 2e-5, e);
         return;
     }
     Albedo albedo = albedo_quadrature(&inner, o, 2e-5);

@@ -6,6 +6,7 @@
 #ifndef WEFT_SHADING_TERMS_H
 #define WEFT_SHADING_TERMS_H
 
+#include "shading/share.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/d_beckmann.h"
 #include "shading/terms/d_blinn_phong.h"
@@ -19,6 +20,7 @@
 #include "shading/terms/f_schlick.h"
 #include "shading/terms/f_schlick_gaussian.h"
 #include "shading/terms/v_conty_kulla_clamped.h"
+#include "shading/terms/v_conty_kulla_soft.h"
 #include "shading/terms/v_cook_torrance.h"
 #include "shading/terms/v_implicit.h"
 #include "shading/terms/v_kelemen.h"
@@ -88,7 +90,8 @@
 #define V_NEUBELT_CLAMPED          14
 #define V_CONTY_KULLA              15
 #define V_CONTY_KULLA_CLAMPED      16
-#define V_COUNT                    17
+#define V_CONTY_KULLA_SOFT         17
+#define V_COUNT                    18
 
 /* T(id, number, V, help). 1 / (4 cos_o cos_i) is inside. */
 #define WEFT_V_TERMS(T)                                                                                      \
@@ -115,7 +118,9 @@
       "neubelt at most 1, as three.js has it")                                                               \
     T("conty-kulla", V_CONTY_KULLA, conty_kulla_v(alpha, a.o.z, a.i.z), "fitted to charlie")                 \
     T("conty-kulla-clamped", V_CONTY_KULLA_CLAMPED, conty_kulla_clamped_v(alpha, a.o.z, a.i.z),              \
-      "conty-kulla at most 1, as glTF's viewer has it")
+      "conty-kulla at most 1, as glTF's viewer has it")                                                      \
+    T("conty-kulla-soft", V_CONTY_KULLA_SOFT, conty_kulla_soft_v(alpha, a.o.z, a.i.z),                       \
+      "conty-kulla without a hard terminator; not reciprocal")
 
 #define F_NONE             0
 #define F_SCHLICK          1
@@ -126,14 +131,15 @@
 #define F_CONDUCTOR        6
 #define F_COUNT            7
 
-/* T(id, number, share s of the second colour, the second colour, help):  F = f0 (1 - s) + second s */
+/* T(id, number, share s of the second colour, the second colour, help):  F = f0 (1 - s) + second s, or with
+ * a cosine for a share what share.h makes of it */
 #define WEFT_F_TERMS(T)                                                                                      \
     T("none", F_NONE, 0.0f, f0, "f0 from everywhere")                                                        \
     T("schlick", F_SCHLICK, schlick_s(d), 1.0f, "to white by a fifth power")                                 \
     T("schlick-f90", F_SCHLICK_F90, schlick_s(d), f90, "to the colour f90 by a fifth power")                 \
     T("schlick-gaussian", F_SCHLICK_GAUSSIAN, schlick_gaussian_s(d), f90,                                    \
       "schlick-f90 by an exponential, as three.js has it")                                                   \
-    T("cook-torrance", F_COOK_TORRANCE, cook_torrance_s(ior, d), 1.0f, "dielectric, in the form of 1982")    \
+    T("cook-torrance", F_COOK_TORRANCE, share_of(d), 1.0f, "exact, by the index that each f0 stands for")    \
     T("dielectric", F_DIELECTRIC, dielectric_s(ior, d), 1.0f, "to white as a dielectric of that ior does")   \
     T("conductor", F_CONDUCTOR, conductor_s(ior, k, d), 1.0f, "to white as a metal of that ior and k does")
 
@@ -165,7 +171,7 @@ FN float term_v(int term, float alpha, float ax, float ay, Angles a) {
     return 0.0f;
 }
 
-/* s at d = wi . h, in [0, 1]. */
+/* s at d = wi . h, in [0, 1] where it is a share. */
 FN float term_f(int term, float ior, float k, float d) {
     WEFT_F_TERMS(F_CASE)
     return 0.0f;

@@ -16,7 +16,7 @@ static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
             if (i.z <= 0.0f) continue;
             Angles a = angles_between(o, i);
             LobeValue value = lobe_value(lobe, a);
-            double e = (double)value.f * (double)i.z * area * step * step, s = (double)value.s;
+            double e = (double)value.f * (double)i.z * area * step * step, s = (double)share_plain(value.s);
             f0 += e * (1.0 - s);
             f90 += e * s;
         }
@@ -183,7 +183,7 @@ static void the_table_is_close_off_its_nodes(void **state) {
             double low = info->param_count ? fmax((double)table.low, 0.005) : 0.0, high = (double)table.high;
             double alpha = n % 2 && low > 0.0 ? low * (pow)(high / low, y) : low + (high - low) * y * y;
             Dir o = direction_cos(fmax(n % 4 < 2 ? x * x * x * x : x, 1e-3), 0.0);
-            Lobe lobe = lobe_default(id);
+            Lobe lobe = table.lobe;
             if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
             Albedo e = albedo_quadrature(&lobe, o, 1e-5);
             double d =

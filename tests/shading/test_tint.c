@@ -112,7 +112,7 @@ static void the_table_knows_every_colour(void **state) {
             float roughness = 0.3f + 0.7f * random_unit(&random), mu = random_unit(&random),
                   w[3] = {random_unit(&random), random_unit(&random), random_unit(&random)}, e[3];
             Lobe lobe = lobe_rough(id, roughness);
-            albedo_tinted(&lobe, direction_cos((double)(mu * mu), 0.0), w, 1e-5, e);
+            albedo_in_color(&lobe, direction_cos((double)(mu * mu), 0.0), w, 1e-5, e);
             SheenE seen = table_sheen(ref, mu * mu, lobe.params[0]);
             for (int c = 0; c < 3; c++) {
                 double off = (double)(w[c] * sheen_e_in(seen, w[c]) - e[c]);
@@ -128,7 +128,7 @@ static void the_table_knows_every_colour(void **state) {
         for (int k = 0; k < STEPS; k++) {
             double mu = (k + 0.5) / STEPS;
             float e[3];
-            albedo_tinted(&lobe, direction_cos(mu, 0.0), w, 1e-4, e);
+            albedo_in_color(&lobe, direction_cos(mu, 0.0), w, 1e-4, e);
             for (int c = 0; c < 3; c++) sum[c] += 2.0 * mu * (double)e[c] / STEPS;
         }
         SheenE mean = table_sheen_average(ref, lobe.params[0]);

@@ -2,13 +2,13 @@
  * Fresnel term
  *
  *   f = D(h) V(wo, wi) F(wi . h),   F = f0 (1 - s) + second s                                    [1/sr]
- *   alpha_x = stretch alpha,  alpha_y = alpha
+ *   alpha_x = stretch alpha,  alpha_y = alpha,  of a round V beside D = ggx-aniso sqrt(alpha_x alpha_y)
  *
  *   Robert L. Cook, Kenneth E. Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on
  * Graphics 1(1), 1982. The choice of terms is that of Brian Karis, "Specular BRDF Reference", 2013, GTR1
  * (Burley 2012) and those of cloth; each file of terms/ names its source.
  *   roughness: alpha = roughness^2 in all of them (Karis), but D = velvet has alpha = sigma of Cycles.
- *   reciprocal: yes.
+ *   reciprocal: yes, but with V = conty-kulla-soft.
  *   energy: no, a V that does not belong to its D may give E > 1 at grazing.
  *   sampling: half by D, visible normals for ggx and ggx-aniso, h from D cos_h else; half uniform, which
  *     bounds the weight where D finds nothing. 1/2 D cos_h / (4 d) bounds it by 8 V cos_i d / cos_h, the
@@ -25,11 +25,11 @@
 #define COOK_TORRANCE_PARAMS(P)                                                                              \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")              \
     P(DTerm, d, D_GGX, 0, D_VELVET, 0, D_VELVET, "distribution of half vectors")                             \
-    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_CONTY_KULLA_CLAMPED, 0, V_CONTY_KULLA_CLAMPED,                  \
+    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_CONTY_KULLA_SOFT, 0, V_CONTY_KULLA_SOFT,                        \
       "shadowing and masking, over 4 cos_o cos_i")                                                           \
     P(FTerm, f, F_SCHLICK, 0, F_CONDUCTOR, 0, F_CONDUCTOR, "reflectance from normal to grazing")             \
     P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")          \
-    P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction of those F that have one")            \
+    P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction for F = dielectric and conductor")    \
     P(float, k, 3.0f, 0.0f, 8.0f, 0.0f, 20.0f, "extinction of F = conductor")
 #define COOK_TORRANCE_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -44,7 +44,9 @@ FN float cook_torrance_spread(CookTorrance m, Angles a) {
     return term_d(m.d, m.alpha, cook_torrance_ax(m), m.alpha, a.h);
 }
 FN float cook_torrance_shadow(CookTorrance m, Angles a) {
-    return term_v(m.v, m.alpha, cook_torrance_ax(m), m.alpha, a);
+    float mean = m.alpha;
+    if (m.d == D_GGX_ANISO) mean = m.alpha * sqrt(m.stretch);
+    return term_v(m.v, mean, cook_torrance_ax(m), m.alpha, a);
 }
 
 FN float cook_torrance_share(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }

@@ -40,10 +40,11 @@ FN ContyKulla conty_kulla_of(float alpha) {
     return k;
 }
 
-FN float conty_kulla_lambda(ContyKulla k, float x) {
+FN float conty_kulla_log_lambda(ContyKulla k, float x) {
     float least = min(x, 1.0f - x), l = conty_kulla_l(k, least, pow(max(least, 1e-30f), k.c));
-    return exp(x < 0.5f ? l : k.twice_half - l);
+    return x < 0.5f ? l : k.twice_half - l;
 }
+FN float conty_kulla_lambda(ContyKulla k, float x) { return exp(conty_kulla_log_lambda(k, x)); }
 
 /* V where Lambda(cos_o) is known. */
 FN float conty_kulla_seen(ContyKulla k, float lambda_o, float o, float i) {
