@@ -91,9 +91,10 @@ typedef struct WeftLobe {
 WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error);
 
 /* Sets a parameter by name: one number, the id or alias of a choice, or "color" ("f0") and "f90" as "r,g,b"
- * or one number for all three. Beyond the plausible range the value is taken with a warning and clamped to
- * the hard range; beyond that range too the warning says so. Fails with WEFT_MESSAGE_PARAM_NAME or
- * _PARAM_VALUE, and with _LOBE_NAME where there is no lobe of that index. */
+ * or one number for all three. "roughness" is an artist's, 0 to 1, and sets the first parameter as that of a
+ * material would, where no parameter is called so. Beyond the plausible range the value is taken with a
+ * warning and clamped to the hard range; beyond that range too the warning says so. Fails with
+ * WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE, and with _LOBE_NAME where there is no lobe of that index. */
 WEFT_API WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                                   WeftError *error);
 

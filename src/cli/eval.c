@@ -234,6 +234,7 @@ const Verb verb_eval = {
              "Examples\n"
              "  echo 30 0 60 180 | weft eval charlie-neubelt -p alpha=0.25\n"
              "  weft eval ggx -p alpha=0.1 -p color=1,0.8,0.3 angles.txt\n"
+             "  weft eval silk -p roughness=0.3 angles.txt\n"
              "  weft eval cook-torrance -p d=charlie -p v=neubelt -p f=none angles.txt\n"
              "  seq 0.05 0.05 1 | weft eval charlie-neubelt -p alpha=0.25 --albedo\n",
     .run = eval_run,

@@ -22,7 +22,7 @@ static int set_param(WeftLobe *lobe, const char *text, const char *taken) {
     if (!equals || equals == text || (size_t)(equals - text) >= sizeof param)
         return report(WEFT_USAGE, "-p: \"%.80s\" is not name=value", text);
     snprintf(param, sizeof param, "%.*s", (int)(equals - text), text);
-    if (taken && strcmp(param, taken) == 0)
+    if (taken && (strcmp(param, taken) == 0 || strcmp(param, "roughness") == 0))
         return report(WEFT_USAGE, "-p: the rows of the report run over %s", param);
     return weft_lobe_set(lobe, param, equals + 1, &log, &error) == WEFT_OK ? 0 : report_error(&error);
 }

@@ -38,6 +38,20 @@ static float ranged(float value, const WeftParamInfo *p, const char *name, const
     return taken;
 }
 
+/* The artist's roughness of a lobe that has no parameter of that name: its first one, as of a material. */
+static WeftResult set_roughness(WeftLobe *lobe, const char *value, const WeftLog *log, WeftError *error) {
+    static const WeftParamInfo info = {"roughness", "", 0.5f, 0.0f, 1.0f, 0.0f, 2.0f, NULL};
+    const WeftLobeInfo *of = weft_lobe_info(lobe->lobe);
+    float v[3];
+    if (!of->param_count)
+        return fail(error, WEFT_MESSAGE_PARAM_NAME, info.name, "%s has nothing that a roughness sets",
+                    of->id);
+    if (!parse_number(value, v))
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", info.name);
+    lobe->params[0] = lobe_rough(lobe->lobe, ranged(v[0], &info, info.name, log)).params[0];
+    return WEFT_OK;
+}
+
 WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
                          WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -51,6 +65,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
         return WEFT_OK;
     }
     int k = lobe_param(lobe->lobe, param);
+    if (k < 0 && strcmp(param, "roughness") == 0) return set_roughness(lobe, value, log, error);
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
     const WeftParamInfo *row = &info->params[k];
     for (int choice = 0; row->choices && row->choices[choice]; choice++)

@@ -192,6 +192,20 @@ static void malformed_lines_are_named(void **state) {
     assert_complaint(NULL, LIST("eval", "lambert", "/"), 3, "/: cannot be read");
 }
 
+/* An artist's roughness in the place of a lobe's own width. */
+static void roughness_is_what_artists_have(void **state) {
+    (void)state;
+    const char *pairs = "30 0 60 180\n10 20 80 40\n";
+    Ran own = run_with(pairs, LIST("eval", "charlie-neubelt", "-p", "alpha=0.25")),
+        rough = run_with(pairs, LIST("eval", "charlie-neubelt", "-p", "roughness=0.5"));
+    assert_int_equal(rough.code, 0);
+    assert_string_equal(own.out, rough.out);
+    ran_free(&own);
+    ran_free(&rough);
+    assert_complaint(pairs, LIST("eval", "lambert", "-p", "roughness=0.5"), 2,
+                     "has nothing that a roughness sets");
+}
+
 static void albedo_of_lambert_is_one(void **state) {
     (void)state;
     Ran ran = run_with("1\n0.5\n0.01\n", LIST("eval", "lambert", "--albedo"));
@@ -290,6 +304,7 @@ int main(void) {
         cmocka_unit_test(lines_that_say_nothing_are_passed_over),
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(malformed_lines_are_named),
+        cmocka_unit_test(roughness_is_what_artists_have),
         cmocka_unit_test(albedo_of_lambert_is_one),
         cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),
         cmocka_unit_test(terms_make_a_lobe),

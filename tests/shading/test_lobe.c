@@ -40,10 +40,39 @@ static void parameters_are_clamped(void **state) {
         }
 }
 
+/* "roughness" is the artist's, of every lobe that has something for it to set. */
+static void roughness_sets_what_a_material_sets(void **state) {
+    (void)state;
+    int refused = 0;
+    for (int k = 0; k < weft_lobe_count(); k++) {
+        const WeftLobeInfo *info = weft_lobe_info(k);
+        WeftLobe lobe;
+        WeftError error;
+        assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+        WeftResult result = weft_lobe_set(&lobe, "roughness", "0.6", NULL, &error);
+        if (info->param_count) {
+            assert_int_equal(result, WEFT_OK);
+            assert_float_equal(lobe.params[0], lobe_rough(k, 0.6f).params[0], 0.0f);
+            assert_int_equal(weft_lobe_set(&lobe, "roughness", "much", NULL, &error), WEFT_USAGE);
+        } else {
+            assert_int_equal(result, WEFT_USAGE);
+            assert_int_equal(error.message, WEFT_MESSAGE_PARAM_NAME);
+            assert_non_null(strstr(error.text, "has nothing that a roughness sets"));
+            refused++;
+        }
+    }
+    assert_int_equal(refused, 2); /* lambert and burley-sheen */
+    WeftLobe silk;
+    assert_int_equal(weft_lobe_create("silk", &silk, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_set(&silk, "roughness", "0.6", NULL, NULL), WEFT_OK);
+    assert_float_equal(silk.params[0], 0.36f, 1e-7f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_such_lobe_is_black),
         cmocka_unit_test(parameters_are_clamped),
+        cmocka_unit_test(roughness_sets_what_a_material_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

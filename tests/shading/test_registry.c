@@ -193,7 +193,7 @@ static void a_name_that_is_none_is_refused(void **state) {
     assert_int_equal(weft_lobe_create("velvet", &lobe, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     assert_int_equal(weft_lobe_create("ggx", &lobe, &error), WEFT_OK);
-    assert_int_equal(weft_lobe_set(&lobe, "roughness", "0.5", NULL, &error), WEFT_USAGE);
+    assert_int_equal(weft_lobe_set(&lobe, "shininess", "0.5", NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_NAME);
     assert_int_equal(weft_lobe_create("lambert", &lobe, &error), WEFT_OK);
     assert_int_equal(weft_lobe_set(&lobe, "f90", "1", NULL, &error), WEFT_USAGE); /* it has no Fresnel term */
