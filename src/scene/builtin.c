@@ -6,6 +6,7 @@ extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[], embed
     embedded_sewing_glb_end[];
 
 static const Builtin builtins[] = {
+    {"ball", "one ball in velvet on a floor, to look at one material", NULL, NULL, ball_make},
     {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb,
      embedded_cloth_glb_end, NULL},
     {"sewing", "an old sewing machine that has gathered dust, cloth under its needle", embedded_sewing_glb,

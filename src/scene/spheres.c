@@ -71,22 +71,36 @@ static Material sphere_material(const char *name, bool light, float sheen_roughn
     return material;
 }
 
-WeftResult spheres_make(WeftScene *scene, WeftError *error) {
+static Camera camera_of(float height, float distance, float pitch, float yfov) {
+    return (Camera){.name = "main",
+                    .eye = {0.0f, height, distance},
+                    .right = {1.0f, 0.0f, 0.0f},
+                    .up = {0.0f, cosf(pitch), sinf(pitch)},
+                    .forward = {0.0f, sinf(pitch), -cosf(pitch)},
+                    .yfov = yfov};
+}
+
+/* Balls, of which each has its own material, and a floor, seen by one camera. */
+typedef struct Arrangement {
+    int count;
+    Vec3 (*centre)(int k);
+    Material (*material)(int k, const char *name);
+    const char *(*name)(int k, char text[16]);
+    Camera camera;
+} Arrangement;
+
+static WeftResult arrange(WeftScene *scene, const Arrangement *balls, WeftError *error) {
     Arena *arena = &scene->arena;
-    int count = COLUMNS * ROWS;
+    int count = balls->count;
     scene->meshes = arena_array(arena, (size_t)count + 1, sizeof(Mesh));
     scene->materials = arena_array(arena, (size_t)count + 1, sizeof(Material));
     scene->cameras = arena_array(arena, 1, sizeof(Camera));
     bool made = scene->meshes && scene->materials && scene->cameras;
     for (int k = 0; made && k < count; k++) {
-        int row = k / COLUMNS, column = k % COLUMNS;
-        char name[16];
-        snprintf(name, sizeof name, "%s-%d", row ? "light" : "dark", column);
-        char *kept = arena_text(arena, name);
-        Vec3 centre = {((float)column - 2.0f) * spacing, radius, row ? -0.7f * spacing : 0.7f * spacing};
+        char text[16], *kept = arena_text(arena, balls->name(k, text));
         scene->meshes[k] = (Mesh){.name = kept, .material = k};
-        made = kept && sphere(arena, &scene->meshes[k], centre);
-        if (made) scene->materials[k] = sphere_material(kept, row == 1, 0.1f + 0.225f * (float)column);
+        made = kept && sphere(arena, &scene->meshes[k], balls->centre(k));
+        if (made) scene->materials[k] = balls->material(k, kept);
     }
     if (made) {
         scene->meshes[count] = (Mesh){.name = "floor", .material = count};
@@ -97,14 +111,49 @@ WeftResult spheres_make(WeftScene *scene, WeftError *error) {
         scene->mesh_count = scene->material_count = count + 1;
     }
     if (!made) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    float pitch = -0.50f; /* looks down on both rows */
-    scene->cameras[0] = (Camera){.name = "main",
-                                 .eye = {0.0f, 6.2f, 10.8f},
-                                 .right = {1.0f, 0.0f, 0.0f},
-                                 .up = {0.0f, cosf(pitch), sinf(pitch)},
-                                 .forward = {0.0f, sinf(pitch), -cosf(pitch)},
-                                 .yfov = 0.345f};
+    scene->cameras[0] = balls->camera;
     scene->camera_count = 1;
     scene_bounds(scene);
     return WEFT_OK;
+}
+
+static const char *sphere_name(int k, char text[16]) {
+    snprintf(text, 16, "%s-%d", k / COLUMNS ? "light" : "dark", k % COLUMNS);
+    return text;
+}
+
+static Vec3 sphere_centre(int k) {
+    float row = k / COLUMNS ? -0.7f : 0.7f;
+    return (Vec3){((float)(k % COLUMNS) - 2.0f) * spacing, radius, row * spacing};
+}
+
+static Material sphere_of(int k, const char *name) {
+    return sphere_material(name, k / COLUMNS == 1, 0.1f + 0.225f * (float)(k % COLUMNS));
+}
+
+WeftResult spheres_make(WeftScene *scene, WeftError *error) {
+    const Arrangement spheres = {COLUMNS * ROWS, sphere_centre, sphere_of, sphere_name,
+                                 camera_of(6.2f, 10.8f, -0.50f, 0.345f)}; /* looks down on both rows */
+    return arrange(scene, &spheres, error);
+}
+
+static const char *ball_name(int k, char text[16]) {
+    (void)k;
+    snprintf(text, 16, "ball");
+    return text;
+}
+
+static Vec3 ball_centre(int k) {
+    (void)k;
+    return (Vec3){0.0f, radius, 0.0f};
+}
+
+static Material ball_of(int k, const char *name) {
+    (void)k;
+    return sphere_material(name, true, 0.5f);
+}
+
+WeftResult ball_make(WeftScene *scene, WeftError *error) {
+    const Arrangement ball = {1, ball_centre, ball_of, ball_name, camera_of(1.6f, 3.1f, -0.365f, 0.32f)};
+    return arrange(scene, &ball, error);
 }
