@@ -97,7 +97,7 @@ static void print_lobes(const char *only) {
 /* A dielectric under a sheen. */
 static void print_layers(void) {
     static AlbedoTable table;
-    static const int rules[] = {LAYER_ADDITIVE, LAYER_SEED, LAYER_ALBEDO_VIEW, LAYER_ALBEDO_MAX,
+    static const int rules[] = {LAYER_ADDITIVE, LAYER_SIDE_BY_SIDE, LAYER_ALBEDO_VIEW, LAYER_ALBEDO_MAX,
                                 LAYER_RECIPROCAL};
     Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, 0.5f);
     albedo_table_fill(&table, &sheen, 0.005f, 1.0f, 0);

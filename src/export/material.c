@@ -91,8 +91,10 @@ static void find_facts(Draft *draft, Subject *subject) {
     static const char *const shown[] = {"only.diffuse", "only.specular", "only.sheen", "only.coat",
                                         "only.dust"};
     for (int k = 0; k < 5; k++) draft_fact(draft, shown[k], 1);
-    subject->chosen = c->diffuse >= 0 || c->d >= 0 || c->v >= 0 || c->f >= 0 || c->sheen_lobe >= 0 ||
-                      c->layer >= 0 || c->layer_by >= 0;
+    Choices beside = *c;
+    beside.workflow = beside.profile = beside.convert = CHOICE_AUTO;
+#define CHOICE_MADE(name, help) subject->chosen |= beside.name != CHOICE_AUTO;
+    SURFACE_CHOICES(CHOICE_MADE)
 }
 
 static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error) {
@@ -115,8 +117,8 @@ static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error)
 
 /* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
 static bool needs_e(const Subject *subject) {
-    return subject->slots.slots[2].count && (!subject->one_layer || (subject->stack.layer != LAYER_ADDITIVE &&
-                                                                     subject->stack.layer != LAYER_SEED));
+    return subject->slots.slots[2].count &&
+           (!subject->one_layer || (subject->stack.layer != LAYER_ADDITIVE && !IS_BELOW_F(subject->stack)));
 }
 
 static bool needs_table(const Subject *subject) {
@@ -207,8 +209,10 @@ static void put_shade(Draft *draft, const Subject *subject) {
     text_line(text,
               "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
-              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Dir o = wo;\n    Stack m = %s;",
-              draft->desc->fold_pi ? " times pi" : "", draft->id[0], composition_stack(&subject->choices));
+              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Dir o = wo;",
+              draft->desc->fold_pi ? " times pi" : "", draft->id[0]);
+    if (subject->chosen) text_line(text, "    s = compose_surface(s, material_choices());");
+    text_line(text, "    Stack m = %s;", composition_stack(&subject->choices));
     if (subject->chosen) text_line(text, "    m = compose_choices(m, s, material_choices());");
     if (!subject->zero[INPUT_dust]) text_line(text, "    m = compose_dust(m, s, o);");
     if (subject->table) text_line(text, "    m.table = sheen_table();");

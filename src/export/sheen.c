@@ -1,7 +1,7 @@
 #include "export/sheen.h"
 
 void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTable *out) {
-    enum { INPUTS = 3 };
+    enum { INPUTS = 4 };
     Stack m;
     Surface s = *surface;
     float low = 0.0f, high = 0.0f;
@@ -13,6 +13,7 @@ void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTabl
         s.sheen_roughness = (float)(ends & 1);
         s.roughness = (float)(ends >> 1 & 1);
         s.anisotropy = (float)(ends >> 2 & 1);
+        s.sheen_beta = ends >> 3 & 1 ? surface->sheen_beta : 0.0f;
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
         low = ends ? min(low, m.at) : m.at;
         high = ends ? max(high, m.at) : m.at;

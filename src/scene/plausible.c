@@ -155,6 +155,7 @@ static const struct {
 } gains[] = {
     {CHOICE_layer, "additive", "the base loses nothing to the sheen: more light may leave than came"},
     {CHOICE_layer, "multiplicative", "the sheen adds to the base: more light may leave than came"},
+    {CHOICE_layer, "seed", "its F is that at wi . h alone: at grazing more light may leave than came"},
     {CHOICE_layer, "albedo-min", "the base loses too little to the sheen: more light may leave than came"},
     {CHOICE_workflow, "free", "nothing takes from anything: more light may leave than came"},
 };

@@ -120,11 +120,13 @@ static bool has_sheen(const Material *material) {
     return compose_begin(surface, convert_choices(choices), dir(0.0f, 0.0f, 1.0f)).sheen.pick > 0.0f;
 }
 
-/* Whether a setting does something to a sheen alone. Layer rule seed dims the base without one too. */
+/* Whether a setting does something to a sheen alone. */
 static bool wants_sheen(const Setting *setting) {
-    return setting->value != CHOICE_AUTO &&
-           (setting->choice == CHOICE_sheen_lobe ||
-            (setting->choice == CHOICE_layer && setting->value != LAYER_SEED));
+    static const ChoiceId choices[] = {CHOICE_sheen_lobe, CHOICE_sheen_d, CHOICE_sheen_v, CHOICE_sheen_f,
+                                       CHOICE_layer};
+    bool wants = false;
+    for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) wants |= setting->choice == (int)choices[k];
+    return wants && setting->value != CHOICE_AUTO;
 }
 
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,

@@ -21,13 +21,16 @@ static Stack plain_stack(const Surface *surface, const Choices *choices) {
     return stack;
 }
 
-/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for. */
+/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for; and the
+ * least that a texture makes of them. Beta is asked for as it is, and of 0 it would be the roughness. */
 static const struct {
     InputId input;
     size_t member; /* of Surface */
-} shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness)},
-              {INPUT_roughness, offsetof(Surface, roughness)},
-              {INPUT_anisotropy, offsetof(Surface, anisotropy)}};
+    float least;
+} shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness), 0.0f},
+              {INPUT_roughness, offsetof(Surface, roughness), 0.0f},
+              {INPUT_anisotropy, offsetof(Surface, anisotropy), 0.0f},
+              {INPUT_sheen_beta, offsetof(Surface, sheen_beta), 1e-6f}};
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
 /* Where that parameter runs while textures scale their inputs from 0 to 1; with all, wherever inputs may be.
@@ -41,10 +44,10 @@ static void table_range(const Material *material, bool all, float *low, float *h
         for (int k = 0; k < SHAPES; k++) {
             float *value = (float *)((char *)&surface + shapes[k].member);
             bool upper = ends >> k & 1;
-            if (all)
+            if (all && shapes[k].input != INPUT_sheen_beta)
                 *value = upper ? 1.0f : 0.0f;
             else if (material->inputs[shapes[k].input].texture && !upper)
-                *value = 0.0f;
+                *value = shapes[k].least;
         }
         float at = plain_stack(&surface, &choices).at;
         *low = min(*low, at);

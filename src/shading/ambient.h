@@ -454,10 +454,10 @@ FN Rgb ambient_under(Stack m, float cos_o) {
         f = rgb_grey(rgb_max3(rgb_mix(m.under_f0, rgb_grey(m.under_f90), ambient_schlick_least(cos_o))));
     return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
 }
-FN float ambient_interface(Stack m, float cos_o) {
+FN Rgb ambient_let_through(Stack m, float cos_o) {
     float s = ambient_schlick_least(cos_o);
-    float f = rgb_max3(rgb_mix(m.specular.f0, m.specular.f90, s)) / max(m.left, 1e-6f);
-    return HAS_SPECULAR(m) ? min(f, 1.0f) : 0.0f;
+    if (m.layer == LAYER_SEED) s = ambient_schlick_half(cos_o);
+    return stack_let_by(m, s);
 }
 
 /* A slot as the lamps see it. */
@@ -498,8 +498,8 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     if (worn) keep = stack_keep(m, m.e_avg);
     Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
-    if (m.layer == LAYER_SEED && worn) {
-        over = rgb_grey(1.0f - ambient_interface(m, o.z));
+    if (IS_BELOW_F(m) && worn) {
+        over = ambient_let_through(m, o.z);
         diffuse = rgb_mul(keep, over);
         keep = rgb_grey(1.0f);
     }
@@ -519,7 +519,7 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
         only.specular = SHOWS_SPECULAR && lamps > 0.0f;
         if (lamps > 0.0f) {
             lit.specular = ambient_lit(m.specular, lamps);
-            lit.left = m.left * lamps; /* so that stack_interface is what it was */
+            lit.left = m.left * lamps; /* so that stack_let_by is what it was */
         }
     }
     if (HAS_SHEEN(m)) {

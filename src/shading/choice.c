@@ -12,8 +12,11 @@ const char *choice_id(ChoiceId choice, int k) {
     case CHOICE_profile: return weft_profile_id(k);
     case CHOICE_diffuse:
     case CHOICE_sheen_lobe: return k >= 0 && k < LOBE_COUNT ? weft_lobe_info(k)->id : NULL;
+    case CHOICE_sheen_d:
     case CHOICE_d: return weft_term_id(WEFT_TERM_D, k);
+    case CHOICE_sheen_v:
     case CHOICE_v: return weft_term_id(WEFT_TERM_V, k);
+    case CHOICE_sheen_f:
     case CHOICE_f: return weft_term_id(WEFT_TERM_F, k);
     case CHOICE_layer: return weft_layer_id(k);
     case CHOICE_layer_by: return k == LAYER_BY_MAX ? "max" : k == LAYER_BY_CHANNEL ? "channel" : NULL;

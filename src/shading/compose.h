@@ -15,6 +15,12 @@
 #include "shading/profile.h"
 #include "shading/slots.h"
 
+/* The index of refraction; where none is given, that of the reflectance. */
+FN float compose_ior(Surface s) {
+    float root = sqrt(dielectric_f0(s));
+    return s.ior > 0.0f ? max(s.ior, 1.0f) : (1.0f + root) / max(1.0f - root, 0.1f);
+}
+
 /* A lobe of facets as the composition that it is. */
 FN Lobe compose_facets(Lobe lobe) {
     if (lobe.id != LOBE_GGX && lobe.id != LOBE_SILK) return lobe;
@@ -41,41 +47,68 @@ FN Lobe compose_facets(Lobe lobe) {
     return m;
 }
 
-/* The specular lobe with terms of one's own choice; what is not chosen stays. A distribution or visibility
- * that knows no direction makes it round. */
-FN Lobe compose_specular(Lobe lobe, Choices c) {
-    Lobe m = compose_facets(lobe);
-    if (c.d >= 0) m.params[COOK_TORRANCE_D] = to_float(c.d);
-    if (c.v >= 0) m.params[COOK_TORRANCE_V] = to_float(c.v);
-    if (c.f >= 0) m.params[COOK_TORRANCE_F] = to_float(c.f);
+/* A composition with terms of one's own choice; what is not chosen stays. */
+FN Lobe compose_terms(Lobe lobe, int d, int v, int f, Surface s) {
+    Lobe m = lobe;
+    if (d >= 0) m.params[COOK_TORRANCE_D] = to_float(d);
+    if (v >= 0) m.params[COOK_TORRANCE_V] = to_float(v);
+    if (f >= 0) m.params[COOK_TORRANCE_F] = to_float(f);
+    m.params[COOK_TORRANCE_IOR] = compose_ior(s);
+    m.params[COOK_TORRANCE_K] = s.extinction;
     return m;
 }
 
-/* The index of refraction; where none is given, that of the reflectance. */
-FN float compose_ior(Surface s) {
-    float root = sqrt(dielectric_f0(s));
-    return s.ior > 0.0f ? max(s.ior, 1.0f) : (1.0f + root) / max(1.0f - root, 0.1f);
+/* A distribution that knows no direction is laid on a base that is not brushed: it is as wide as the
+ * roughness says, which for workflow disney is sqrt(alpha_x alpha_y), and anisotropy is not read. */
+FN Surface compose_surface(Surface s, Choices c) {
+    Surface t = s;
+    if (c.d >= 0 && c.d != D_GGX_ANISO) t.anisotropy = 0.0f;
+    return t;
+}
+
+/* Whether terms of the sheen are chosen, or the lobe that is made of terms. */
+FN bool compose_sheen_is_free(Choices c) {
+    return c.sheen_lobe == LOBE_COOK_TORRANCE || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
+}
+
+/* A sheen of free terms. What is not chosen is that of the workflow's or profile's sheen where that is such a
+ * composition and stays, and else of charlie-neubelt. */
+FN Lobe compose_sheen(Lobe lobe, Surface s, Choices c) {
+    Lobe m = lobe;
+    if (c.sheen_lobe >= 0 || lobe.id != LOBE_COOK_TORRANCE) {
+        m = lobe_rough(LOBE_COOK_TORRANCE, s.sheen_roughness);
+        m.params[COOK_TORRANCE_D] = to_float(D_CHARLIE);
+        m.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
+        m.params[COOK_TORRANCE_F] = to_float(F_NONE);
+    }
+    return compose_terms(m, c.sheen_d, c.sheen_v, c.sheen_f, s);
 }
 
 FN Stack compose_choices(Stack m, Surface s, Choices c) {
-    if (c.sheen_lobe >= 0) {
-        Lobe lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
-        lobe = lobe_fibres(lobe, s.sheen_density, s.nap, azimuth_of(s.nap_direction));
+    bool free = compose_sheen_is_free(c);
+    if (c.sheen_lobe >= 0 || free) {
+        Lobe lobe = m.sheen.lobe;
+        if (c.sheen_lobe >= 0) {
+            lobe = lobe_rough(c.sheen_lobe, s.sheen_roughness);
+            lobe = lobe_fibres(lobe, s.sheen_density, s.nap, azimuth_of(s.nap_direction));
+            if (s.sheen_beta > 0.0f && (lobe.id == LOBE_EXPONENTIAL || lobe.id == LOBE_EXPONENTIAL_LIT))
+                lobe.params[0] = max(s.sheen_beta, 0.01f);
+        }
+        if (free) lobe = compose_sheen(lobe, s, c);
         m.nap = nap_of(s.nap, s.nap_direction);
         m.sheen = slot_make(lobe, m.sheen_color, s.sheen_second, m.left, m.sheen.pick);
         m.albedo = ALBEDO_TABLE;
         m.at = lobe.params[0];
     }
     if (c.layer >= 0) m.layer = c.layer;
+    m.amount = min(s.sheen, 1.0f);
     if ((c.layer == LAYER_RECIPROCAL || c.layer == LAYER_STOCHASTIC) && m.albedo > ALBEDO_KHRONOS) {
         m.albedo = ALBEDO_TABLE; /* these ask for more than engines' own formulas know */
         m.at = m.sheen.lobe.params[0];
     }
     if (c.layer_by >= 0) m.by = c.layer_by;
     if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && HAS_SPECULAR(m)) {
-        m.specular.lobe = compose_specular(m.specular.lobe, c);
-        m.specular.lobe.params[COOK_TORRANCE_IOR] = compose_ior(s);
-        m.specular.lobe.params[COOK_TORRANCE_K] = s.extinction;
+        m.specular.lobe = compose_terms(compose_facets(m.specular.lobe), c.d, c.v, c.f, s);
     }
     if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
         Lobe lobe = lobe_rough(c.diffuse, c.diffuse == LOBE_WRAP ? s.subsurface : s.roughness);
@@ -123,7 +156,7 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
             m.sheen.f90 = m.sheen.f0;
         }
         m.diffuse.pick = m.diffuse.pick * keep;
-        if (m.layer != LAYER_SEED) m.specular.pick = m.specular.pick * keep;
+        if (!IS_BELOW_F(m)) m.specular.pick = m.specular.pick * keep;
     }
     float sum = m.diffuse.pick + m.specular.pick + m.sheen.pick + m.coat.pick + m.dust.pick;
     /* a floor keeps every lobe reachable, so that no weight is unbounded */
@@ -147,8 +180,8 @@ FN Stack compose_finish(Stack m, TableRef e, Dir o) {
  * its first parameter, where the stack without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust
  * is what lies at this point: dust_settle says. */
 FN Stack surface_stack(Surface s, Choices c, TableRef e, Dir o) {
-    Surface t = convert_surface(s, c);
     Choices d = convert_choices(c);
+    Surface t = compose_surface(convert_surface(s, c), d);
     return compose_finish(compose_dust(compose_choices(compose_begin(t, d, o), t, d), t, o), e, o);
 }
 
@@ -160,8 +193,8 @@ FN StackValue stack_value_of(Stack m, Slots only, Angles a, Angles coat) {
     Rgb keep = rgb_grey(1.0f);
     if (worn) keep = stack_keep(m, e_i);
     Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
-    if (m.layer == LAYER_SEED && worn) {
-        under = rgb_grey(1.0f - stack_interface(m, a));
+    if (IS_BELOW_F(m) && worn) {
+        under = stack_let_through(m, a);
         over = under;
         specular_keep = rgb_grey(1.0f);
     }

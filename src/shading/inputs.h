@@ -47,6 +47,8 @@
     P(COLOR, sheen_color, 0.0f, 0.0f, 1.0f, 0.0f, 1000.0f, "colour of the sheen; black is none")             \
     P(SCALAR, sheen_roughness, 0.0f, 0.0f, 1.0f, 0.0f, 2.0f,                                                 \
       "of the sheen; each lobe says what alpha it becomes")                                                  \
+    P(SCALAR, sheen_beta, 0.0f, 0.0f, 20.0f, 0.0f, 100.0f,                                                   \
+      "beta of an exponential sheen; 0: mix(0.5, 20, sheen_roughness)")                                      \
     P(SCALAR, sheen_density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of the fibres of a sheen that has a density")  \
     P(ANGLE, nap, 0.0f, 0.0f, 45.0f, 0.0f, 90.0f, "how far the fibres of a sheen lean over, degrees")        \
     P(DIRECTION, nap_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f,                                             \
@@ -73,6 +75,9 @@
     C(v, "visibility of the specular lobe")                                                                  \
     C(f, "Fresnel term of the specular lobe")                                                                \
     C(sheen_lobe, "the lobe of the sheen")                                                                   \
+    C(sheen_d, "distribution of a sheen of free terms; auto is charlie")                                     \
+    C(sheen_v, "visibility of a sheen of free terms; auto is neubelt")                                       \
+    C(sheen_f, "Fresnel term of a sheen of free terms; auto is none")                                        \
     C(layer, "the rule by which the sheen sits on the base")                                                 \
     C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own")         \
     C(convert, "turn the inputs of workflow metallic or specular into those of the other one first")

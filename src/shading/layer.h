@@ -9,17 +9,19 @@
 #include "shading/layers/multiplicative.h"
 #include "shading/layers/reciprocal.h"
 #include "shading/layers/seed.h"
+#include "shading/layers/side_by_side.h"
 #include "shading/layers/stochastic.h"
 
 #define LAYER_ADDITIVE       0
 #define LAYER_MULTIPLICATIVE 1
 #define LAYER_SEED           2
-#define LAYER_ALBEDO_VIEW    3
-#define LAYER_ALBEDO_MIN     4
-#define LAYER_ALBEDO_MAX     5
-#define LAYER_RECIPROCAL     6
-#define LAYER_STOCHASTIC     7
-#define LAYER_COUNT          8
+#define LAYER_SIDE_BY_SIDE   3
+#define LAYER_ALBEDO_VIEW    4
+#define LAYER_ALBEDO_MIN     5
+#define LAYER_ALBEDO_MAX     6
+#define LAYER_RECIPROCAL     7
+#define LAYER_STOCHASTIC     8
+#define LAYER_COUNT          9
 
 /* Which colour of the sheen a rule takes. */
 #define LAYER_BY_MAX     0
@@ -32,8 +34,10 @@
       "the base loses nothing; gains energy")                                                                \
     L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false,                \
       "no sheen of its own: the base times 1 + c E(wo); gains energy")                                       \
-    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), true,                                               \
-      "(1 - F)(1 - c) diffuse + specular + (1 - F) c sheen")                                                 \
+    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), false,                                              \
+      "(1 - F)(1 - k) diffuse + specular + (1 - F) k sheen, k the amount of sheen")                          \
+    L("side-by-side", LAYER_SIDE_BY_SIDE, side_by_side_base(c, e_o, e_i, e_avg), true,                       \
+      "as seed, k the sheen's colour and F the most that conserves energy")                                  \
     L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), true,                          \
       "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                            \
     L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), false,                            \

@@ -48,6 +48,7 @@ STRUCT(Stack) {
     int layer, by;
     Rgb color;       /* of the sheen, as the layer rule sees it */
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
+    float amount;    /* k of layer rule seed */
     int albedo;      /* source of E */
     TableRef table;
     Nap nap;                    /* of the sheen */
@@ -86,6 +87,9 @@ STRUCT(StackValue) {
 #define HAS_DUST(m)     ((m).dust.pick > 0.0f)
 #define IS_WORN(m)      ((m).color.r + (m).color.g + (m).color.b > 0.0f)
 #endif
+
+/* Whether the rule lays the interface of the base over the sheen too: it asks for no E. */
+#define IS_BELOW_F(m) (m.layer == LAYER_SEED || m.layer == LAYER_SIDE_BY_SIDE)
 
 /* Whether what a slot reflects is looked at. A shader that shows a part of the light says so; what the others
  * do to that part stays. */
@@ -145,6 +149,7 @@ FN Stack stack_empty(void) {
     m.by = LAYER_BY_MAX;
     m.color = rgb_grey(0.0f);
     m.sheen_color = m.color;
+    m.amount = 0.0f;
     m.albedo = ALBEDO_TABLE;
     m.table.texels = TABLE_OF_NOTHING;
     m.table.kind = TABLE_NONE;
@@ -182,7 +187,7 @@ FN float slot_pdf(Slot s, LobeValue v) { return s.pick * v.pdf; }
 FN Rgb slot_f(Slot s, LobeValue v) {
     Rgb f = rgb(lobe_color(v, s.f0.r, s.f90.r), lobe_color(v, s.f0.g, s.f90.g),
                 lobe_color(v, s.f0.b, s.f90.b)),
-        sag = rgb_scale(s.sag, -v.s * (1.0f - v.s));
+        sag = rgb_scale(s.sag, -share_plain(v.s) * (1.0f - share_plain(v.s)));
     return rgb_scale(rgb_add(f, sag), v.f);
 }
 
@@ -199,12 +204,18 @@ FN Rgb stack_under(Stack m, Angles a) {
     return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
 }
 
-/* F of whatever the specular slot is, metal too, for layer rule seed: by schlick between its two colours, at
- * the least of the three cosines. */
-FN float stack_interface(Stack m, Angles a) {
-    float s = schlick_s(min(a.d, min(a.o.z, a.i.z)));
-    float f = rgb_max3(rgb_mix(m.specular.f0, m.specular.f90, s)) / max(m.left, 1e-6f);
-    return HAS_SPECULAR(m) ? min(f, 1.0f) : 0.0f;
+/* For the rules whose interface lies over diffuse and sheen, what it lets through: 1 - F of whatever the
+ * specular slot is, metal too, by schlick between its two colours. seed: at wi . h, each channel.
+ * side-by-side: of the strongest channel at the least of the three cosines. s: schlick_s there. */
+FN Rgb stack_let_by(Stack m, float s) {
+    Rgb f = rgb_scale(rgb_mix(m.specular.f0, m.specular.f90, s), 1.0f / max(m.left, 1e-6f));
+    if (m.layer == LAYER_SIDE_BY_SIDE) f = rgb_grey(rgb_max3(f));
+    if (!HAS_SPECULAR(m)) f = rgb_grey(0.0f);
+    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+}
+FN Rgb stack_let_through(Stack m, Angles a) {
+    float cosine = m.layer == LAYER_SEED ? a.d : min(a.d, min(a.o.z, a.i.z));
+    return stack_let_by(m, schlick_s(cosine));
 }
 
 /* What the sheen leaves of the base, by one channel of its colour. */
@@ -212,6 +223,7 @@ FN float stack_keep_by(Stack m, float c, SheenE e_i) {
     return layer_base(m.layer, c, sheen_e_in(m.e_o, c), sheen_e_in(e_i, c), sheen_e_in(m.e_avg, c));
 }
 FN Rgb stack_keep(Stack m, SheenE e_i) {
+    if (m.layer == LAYER_SEED) return rgb_grey(layer_base(m.layer, m.amount, 0.0f, 0.0f, 0.0f));
     if (m.by == LAYER_BY_CHANNEL)
         return rgb(stack_keep_by(m, m.color.r, e_i), stack_keep_by(m, m.color.g, e_i),
                    stack_keep_by(m, m.color.b, e_i));

@@ -76,7 +76,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
         const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
         for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
-        found.worn &= m.layer != LAYER_SEED;
+        found.worn &= !IS_BELOW_F(m);
     }
     return found;
 }

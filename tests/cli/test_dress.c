@@ -209,7 +209,10 @@ static void choices_without_effect_are_told(void **state) {
     warns(LIST("--sheen=patry", "--set=*.sheen_color=0", "--set=*.sheen_color=1"), NULL);
     warns(LIST("--sheen=patry", "--workflow=disney", "--set=*.metallic=0", "--set=*.sheen=1"), NULL);
     warns(LIST("--sheen=patry", "--profile=unreal4"), NULL);
-    warns(LIST("--layer=seed", "--set=*.sheen_color=0"), NULL);
+    warns(LIST("--layer=seed", "--set=*.sheen_color=0"), "*.layer: is not plausible: it changes nothing");
+    warns(LIST("--set=*.sheen_d=charlie", "--set=*.sheen_color=0"),
+          "*.sheen_d: is not plausible: it changes");
+    warns(LIST("--set=*.sheen_d=inverse-ggx", "--set=*.sheen_v=implicit"), NULL);
 }
 
 /* A metal by three settings is none after the first. */

@@ -66,6 +66,41 @@ static inline int subjects_profiles(Exported *out) {
     return count;
 }
 
+/* Materials of choices beside a workflow: rules below the interface, a sheen of free terms with an F of its
+ * colour, and a round highlight on a brushed base. */
+static inline int subjects_choices(Exported *out) {
+    static const struct {
+        const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f;
+    } rows[] = {
+        {"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance"},
+        {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto"},
+        {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto"}};
+    enum { ROWS = sizeof rows / sizeof *rows };
+    for (int k = 0; k < ROWS; k++) {
+        const char *const choices[][2] = {{"workflow", rows[k].workflow},
+                                          {"layer", rows[k].layer},
+                                          {"sheen_d", rows[k].sheen_d},
+                                          {"sheen_v", rows[k].sheen_v},
+                                          {"sheen_f", rows[k].sheen_f},
+                                          {"d", rows[k].d},
+                                          {"f", rows[k].f}};
+        WeftScene *scene;
+        assert_int_equal(weft_scene_load("builtin:ball", &scene, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "ball.anisotropy", "0.7", NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "ball.sheen", "0.4", NULL, NULL), WEFT_OK);
+        for (size_t c = 0; c < sizeof choices / sizeof *choices; c++) {
+            char target[32];
+            snprintf(target, sizeof target, "ball.%s", choices[c][0]);
+            assert_int_equal(weft_scene_set(scene, target, choices[c][1], NULL, NULL), WEFT_OK);
+        }
+        out[k] = (Exported){.id = rows[k].id, .fixed = true};
+        assert_int_equal(weft_scene_material(scene, 0, &out[k].numbers, NULL), WEFT_OK);
+        out[k].material = material_of_numbers(&out[k].numbers);
+        weft_scene_free(scene);
+    }
+    return ROWS;
+}
+
 static inline int subjects_presets(Exported *out) {
     int count = 0;
     WeftScene *scene;

@@ -109,6 +109,7 @@ static int begin(void **state) {
     if (!mkdtemp(folder)) return -1;
     subject_count = subjects_lobes(subjects);
     subject_count += subjects_profiles(subjects + subject_count);
+    subject_count += subjects_choices(subjects + subject_count);
     if (getenv("WEFT_TEST_LONG")) subject_count += subjects_presets(subjects + subject_count);
     FILE *all = file_open("all.c");
     fprintf(all, "typedef struct { float x, y, z, w; } float4;\n");

@@ -11,6 +11,7 @@ static int begin(void **state) {
     (void)state;
     subject_count = subjects_lobes(subjects);
     subject_count += subjects_profiles(subjects + subject_count);
+    subject_count += subjects_choices(subjects + subject_count);
     subject_count += subjects_presets(subjects + subject_count);
     return 0;
 }

@@ -231,6 +231,7 @@ static int begin(void **state) {
     (void)state;
     lobe_count = subjects_lobes(subjects);
     subject_count = lobe_count + subjects_profiles(subjects + lobe_count);
+    subject_count += subjects_choices(subjects + subject_count);
     if (getenv("WEFT_TEST_LONG")) subject_count += subjects_presets(subjects + subject_count);
     context_create(TEXT_GLSL_330, &contexts[0], NULL);
     context_create(TEXT_GLSL_ES_300, &contexts[1], NULL);

@@ -177,7 +177,10 @@ static void on_spheres(void **state) {
                    {CHOICE_diffuse, "diffuse"},
                    {CHOICE_d, "d"},
                    {CHOICE_v, "v"},
-                   {CHOICE_f, "f"}};
+                   {CHOICE_f, "f"},
+                   {CHOICE_sheen_d, "sheen_d"},
+                   {CHOICE_sheen_v, "sheen_v"},
+                   {CHOICE_sheen_f, "sheen_f"}};
     WeftScene *scene = scene_of("builtin:spheres");
     find_inside(scene, "0");
     weft_scene_free(scene);

@@ -356,6 +356,7 @@ static void answer_v(int which, const float *row, float *answers) {
 static void answer_f(int which, const float *row, float *answers) {
     answers[0] = term_f(which, row[10], row[11], row_angles(row).d);
     answers[1] = term_second(which, row[3], row[7]);
+    answers[2] = share_mix(answers[0], row[3], 1.0f);
 }
 
 static const Subject d_terms = {
@@ -378,9 +379,10 @@ static const Subject v_terms = {
 };
 static const Subject f_terms = {
     .body = ANGLES "    out0.x = term_f(TERM, in2.z, in2.w, a.d);\n"
-                   "    out0.y = term_second(TERM, in0.w, in1.w);\n",
+                   "    out0.y = term_second(TERM, in0.w, in1.w);\n"
+                   "    out0.z = share_mix(out0.x, in0.w, 1.0);\n",
     .inputs = 3,
-    .answers = "nn",
+    .answers = "nnn",
     .put = put_term,
     .fill = fill_term,
     .answer = answer_f,
@@ -435,7 +437,7 @@ static void layers_agree(void **state) {
 /* A surface and its choices are numbers in a row behind the pair of directions. */
 enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
 enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
-_Static_assert((int)STACK_INPUTS == 20, "the body of stacks_agree reads as many");
+_Static_assert((int)STACK_INPUTS == 21, "the body of stacks_agree reads as many");
 
 /* Functions that make a Surface and Choices of the row. */
 static void put_readers(Text *text) {
@@ -556,8 +558,8 @@ static void stacks_agree(void **state) {
     (void)state;
     static const Subject subject = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
-            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18)
-                ROW(19) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
+            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19)
+                ROW(20) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
                         "lobe_table_charlie_neubelt(), o);\n"
                         "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
                         "    StackValue v = stack_value(m, a, coat);\n"

@@ -214,8 +214,12 @@ static void workflows_read_their_own(void **state) {
     set_value(&m, "dust_tilt", 0.5f);
     set_value(&m, "dust_noise", 0.5f);
     assert_reads(&m, "dust_direction dust_scale");
+    set_choice(&m, "sheen_lobe", "exponential");
+    assert_reads(&m, "sheen_beta sheen_roughness");
+    set_value(&m, "sheen_beta", 3.0f);
+    assert_reads(&m, "sheen_beta -sheen_roughness");
     set_choice(&m, "sheen_lobe", "fibre");
-    assert_reads(&m, "sheen_density nap -nap_direction");
+    assert_reads(&m, "sheen_density nap -nap_direction -sheen_beta");
     set_value(&m, "nap", 0.5f);
     assert_reads(&m, "nap_direction");
     set_choice(&m, "layer", "multiplicative");
@@ -253,6 +257,15 @@ static void profiles_read_their_own(void **state) {
     set_choice(&m, "workflow", "metallic");
     set_value(&m, "roughness", 0.02f);
     assert_reads(&m, "roughness specular reflectance");
+    set_choice(&m, "d", "ggx"); /* which knows no direction */
+    set_value(&m, "anisotropy", 0.9f);
+    assert_reads(&m, "roughness -anisotropy -anisotropy_direction");
+    set_choice(&m, "workflow", "disney");
+    assert_reads(&m, "roughness -anisotropy -anisotropy_direction");
+    set_choice(&m, "d", "ggx-aniso");
+    assert_reads(&m, "roughness anisotropy anisotropy_direction");
+    set_choice(&m, "workflow", "metallic");
+    set_value(&m, "anisotropy", 0.0f);
     set_value(&m, "sheen_color", 0.5f);
     /* whatever a profile reads, all of them read something of a sheen and of a base */
     for (int k = 1; weft_profile_id(k); k++) {

@@ -132,7 +132,6 @@ static void sheen_and_layer_are_set_by_id(void **state) {
     Warnings warnings = {0};
     WeftLog log = {note, &warnings};
     assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", "patry", &log, &error), WEFT_OK);
-    assert_int_equal(weft_scene_set(scene, "floor.layer", "seed", &log, &error), WEFT_OK);
     assert_int_equal(weft_scene_set(scene, "floor.sheen_lobe", "auto", &log, &error), WEFT_OK);
     assert_int_equal(warnings.count, 0);
     assert_int_equal(weft_scene_set(scene, "floor.sheen_lobe", "patry", &log, &error), WEFT_OK);

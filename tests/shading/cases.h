@@ -229,14 +229,6 @@ static inline Stack test_stack(const Surface *surface, int layer, const AlbedoTa
     return stack;
 }
 
-/* E of a lobe over what a roughness from 0 to 1 makes of its first parameter, as a stack expects it. */
-static inline void fill_albedo(AlbedoTable *table, int id) {
-    Lobe lobe = lobe_default(id);
-    float a = lobe_rough(id, 0.0f).params[0], b = lobe_rough(id, 1.0f).params[0];
-    bool one = weft_lobe_info((int)id)->param_count == 0;
-    albedo_table_fill(table, &lobe, one ? 0.0f : min(a, b), one ? 0.0f : max(a, b), 0);
-}
-
 /* A white Lambert base without an interface, under a white sheen. */
 static inline Surface white_cloth(float roughness) {
     return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
@@ -247,6 +239,23 @@ static inline Surface white_cloth(float roughness) {
                      .sheen_roughness = roughness,
                      .sheen_density = 1.0f,
                      .normal = {0.0f, 0.0f, 1.0f}};
+}
+
+/* The lobe that a material's sheen is where that one is chosen. */
+static inline Lobe sheen_lobe(int id, float roughness) {
+    Surface cloth = white_cloth(roughness);
+    Choices choices = test_choices(id, CHOICE_AUTO);
+    Stack stack;
+    stack_make(&stack, &cloth, &choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    return stack.sheen.lobe;
+}
+
+/* E of a lobe over what a roughness from 0 to 1 makes of its first parameter, as a stack expects it. */
+static inline void fill_albedo(AlbedoTable *table, int id) {
+    Lobe lobe = sheen_lobe(id, 0.5f);
+    float a = sheen_lobe(id, 0.0f).params[0], b = sheen_lobe(id, 1.0f).params[0];
+    bool one = weft_lobe_info((int)id)->param_count == 0;
+    albedo_table_fill(table, &lobe, one ? 0.0f : min(a, b), one ? 0.0f : max(a, b), 0);
 }
 
 #endif

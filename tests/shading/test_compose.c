@@ -1,5 +1,6 @@
 /* Choices beside a workflow or a profile: what they replace, and what they leave alone */
 #include "cases.h"
+#include "shading/choice.h"
 
 static Surface plain(void) {
     return (Surface){.base_color = {1.0f, 1.0f, 1.0f},
@@ -42,8 +43,72 @@ static double furnace(const Surface *surface, Choices choices, double cos_o) {
 static const double cosines[] = {1.0, 0.4, 0.15, 0.05};
 enum { COSINES = sizeof cosines / sizeof cosines[0] };
 
-/* Rule seed leaves what wears no sheen as it is, and gains nothing on dielectrics or metals. */
-static void seed_gains_nothing(void **state) {
+static double power5(double x) { return x * x * x * x * x; }
+
+/* D, V and F of the metallic workflow's highlight, and charlie-neubelt, as their papers print them. */
+static double ggx_dv(double alpha, Dir o, Dir i, double cos_h) {
+    double a2 = alpha * alpha, q = cos_h * cos_h * (a2 - 1.0) + 1.0, z_o = (double)o.z, z_i = (double)i.z;
+    double seen = z_o * (sqrt)(z_i * z_i * (1.0 - a2) + a2) + z_i * (sqrt)(z_o * z_o * (1.0 - a2) + a2);
+    return a2 / (TEST_PI * q * q) * 0.5 / seen;
+}
+static double charlie_neubelt_dv(double alpha, Dir o, Dir i, double cos_h) {
+    double d = (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * TEST_PI);
+    return d / (4.0 * ((double)o.z + (double)i.z - (double)o.z * (double)i.z));
+}
+
+/* f = (1 - F)(1 - k) diffuse + specular + (1 - F) k sheen, of one channel. */
+static double seed_by_hand(double base, double color, const Surface *s, Dir o, Dir i) {
+    double x = (double)o.x + (double)i.x, y = (double)o.y + (double)i.y, z = (double)o.z + (double)i.z;
+    double length = (sqrt)(x * x + y * y + z * z), cos_h = z / length, d = 0.5 * length;
+    double m = (double)s->metallic, f_0 = 0.03 * (1.0 - m) + base * m, k = (double)s->sheen;
+    double f = f_0 + (1.0 - f_0) * power5(1.0 - d), diffuse = base * (1.0 - m) / TEST_PI;
+    double r = (double)s->roughness, r_s = (double)s->sheen_roughness;
+    double specular = f * ggx_dv(r * r, o, i, cos_h);
+    double sheen = color * charlie_neubelt_dv(r_s * r_s, o, i, cos_h);
+    return (1.0 - f) * (1.0 - k) * diffuse + specular + (1.0 - f) * k * sheen;
+}
+
+/* Rule seed is its formula, to the letter, for dielectrics and coloured metals. */
+static void seed_is_its_formula(void **state) {
+    (void)state;
+    Random random = {71};
+    Choices choices = test_choices(LOBE_CHARLIE_NEUBELT, LAYER_SEED);
+    double worst = 0.0;
+    for (int n = 0; n < 5000; n++) {
+        Surface s = plain();
+        s.base_color = (Rgb){random_unit(&random), random_unit(&random), random_unit(&random)};
+        s.sheen_color = (Rgb){random_unit(&random), 0.1f + random_unit(&random), random_unit(&random)};
+        s.sheen = random_unit(&random);
+        s.metallic = n % 3 ? 0.0f : random_unit(&random);
+        s.roughness = 0.3f + 0.7f * random_unit(&random);
+        s.sheen_roughness = 0.3f + 0.7f * random_unit(&random);
+        Dir o = random_direction(&random), i = random_direction(&random);
+        Stack stack = made(&s, choices, o);
+        Rgb f_cos = stack_eval(&stack, o, i, 0).f_cos;
+        const float found[] = {f_cos.r, f_cos.g, f_cos.b},
+                    base[] = {s.base_color.r, s.base_color.g, s.base_color.b},
+                    color[] = {s.sheen_color.r, s.sheen_color.g, s.sheen_color.b};
+        for (int c = 0; c < 3; c++) {
+            double f = seed_by_hand((double)base[c], (double)color[c], &s, o, i);
+            worst = fmax(worst, fabs((double)found[c] / (double)i.z - f) / fmax(f, 1e-3));
+        }
+    }
+    print_message("seed within %.1e of its formula\n", worst);
+    assert_true(worst < 1e-5);
+}
+
+/* Without a sheen there is nothing to blend with, whatever amount is asked for. */
+static void seed_leaves_what_wears_no_sheen(void **state) {
+    (void)state;
+    Surface surface = plain();
+    surface.roughness = 0.3f;
+    for (int c = 0; c < COSINES; c++)
+        assert_float_equal(furnace(&surface, test_choices(CHOICE_AUTO, LAYER_SEED), cosines[c]),
+                           furnace(&surface, test_choices(CHOICE_AUTO, CHOICE_AUTO), cosines[c]), 1e-6);
+}
+
+/* Rule side-by-side leaves what wears no sheen as it is, and gains nothing on dielectrics or metals. */
+static void side_by_side_gains_nothing(void **state) {
     (void)state;
     for (int metal = 0; metal < 2; metal++)
         for (int c = 0; c < COSINES; c++) {
@@ -51,13 +116,125 @@ static void seed_gains_nothing(void **state) {
             surface.roughness = 0.3f;
             surface.metallic = (float)metal;
             Choices any = test_choices(CHOICE_AUTO, CHOICE_AUTO),
-                    seed = test_choices(CHOICE_AUTO, LAYER_SEED);
-            assert_float_equal(furnace(&surface, seed, cosines[c]), furnace(&surface, any, cosines[c]), 1e-6);
+                    both = test_choices(CHOICE_AUTO, LAYER_SIDE_BY_SIDE);
+            assert_float_equal(furnace(&surface, both, cosines[c]), furnace(&surface, any, cosines[c]), 1e-6);
             surface.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
             surface.sheen_roughness = 0.8f;
-            double all = furnace(&surface, seed, cosines[c]);
+            double all = furnace(&surface, both, cosines[c]);
             if (all > 1.0 + 1e-3) fail_msg("metal %d at cos_o %g: %.4f", metal, cosines[c], all);
         }
+}
+
+/* A round D on a brushed base is as wide as the roughness says: sqrt(alpha_x alpha_y) of workflow disney. */
+static void a_round_highlight_knows_no_brushing(void **state) {
+    (void)state;
+    const int workflows[] = {choice_find(CHOICE_workflow, "metallic"), choice_find(CHOICE_workflow, "disney"),
+                             0},
+              profiles[] = {CHOICE_AUTO, CHOICE_AUTO, choice_find(CHOICE_profile, "hdrp-silk")};
+    for (int k = 0; k < 3; k++) {
+        Surface brushed = plain(), round = brushed;
+        brushed.roughness = round.roughness = 0.5f;
+        brushed.anisotropy = 0.9f;
+        Choices choices = test_choices(CHOICE_AUTO, CHOICE_AUTO);
+        choices.workflow = workflows[k];
+        choices.profile = profiles[k];
+        choices.d = D_GGX;
+        Dir o = direction(0.4, 0.2), i = direction(0.7, 2.9);
+        Stack a = made(&brushed, choices, o), b = made(&round, choices, o);
+        assert_float_equal(a.specular.lobe.params[0], 0.25f, 1e-6f);
+        assert_float_equal(stack_eval(&a, o, i, 0).f_cos.g, stack_eval(&b, o, i, 0).f_cos.g, 0.0f);
+        choices.d = D_GGX_ANISO; /* a round V beside it: the mean width */
+        choices.v = V_SMITH_GGX;
+        Stack c = made(&brushed, choices, o);
+        const float *p = c.specular.lobe.params;
+        Angles angles = angles_between(o, i);
+        float alpha = p[0] * sqrt(p[COOK_TORRANCE_STRETCH]), ax = p[0] * p[COOK_TORRANCE_STRETCH];
+        float dv =
+            term_d(D_GGX_ANISO, p[0], ax, p[0], angles.h) * term_v(V_SMITH_GGX, alpha, ax, p[0], angles);
+        assert_float_equal(lobe_eval(&c.specular.lobe, angles), dv, 1e-6f * dv);
+    }
+}
+
+/* A sheen is any D with any V and F: as the formula has it, whatever is below. */
+static void a_sheen_is_made_of_free_terms(void **state) {
+    (void)state;
+    Random random = {73};
+    for (int n = 0; n < D_COUNT * V_COUNT * F_COUNT; n++) {
+        Surface s = plain();
+        s.sheen_color = (Rgb){0.3f, 0.6f, 0.9f};
+        s.sheen_second = (Rgb){0.8f, 0.2f, 0.4f};
+        s.sheen_roughness = 0.3f + 0.7f * random_unit(&random);
+        s.base_color = (Rgb){0.0f, 0.0f, 0.0f};
+        s.specular = 0.0f;
+        Choices c = test_choices(n % 2 ? LOBE_COOK_TORRANCE : CHOICE_AUTO, LAYER_ADDITIVE);
+        c.sheen_d = n % D_COUNT, c.sheen_v = n / D_COUNT % V_COUNT, c.sheen_f = n / D_COUNT / V_COUNT;
+        Dir o = random_direction(&random), i = random_direction(&random);
+        Stack stack = made(&s, c, o);
+        Angles a = angles_between(o, i);
+        float alpha = s.sheen_roughness * s.sheen_roughness,
+              share = term_f(c.sheen_f, compose_ior(s), 0.0f, a.d);
+        float dv = term_d(c.sheen_d, alpha, alpha, alpha, a.h) * term_v(c.sheen_v, alpha, alpha, alpha, a);
+        float expected = dv * share_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
+        assert_float_equal(stack_eval(&stack, o, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);
+    }
+    /* what is not chosen: of the profile's own terms, or of charlie-neubelt */
+    Surface s = plain();
+    s.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
+    s.sheen_roughness = 0.5f;
+    Choices c = test_choices(LOBE_COOK_TORRANCE, CHOICE_AUTO);
+    Stack stack = made(&s, c, direction(0.3, 0.0));
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_D], D_CHARLIE);
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_V], V_NEUBELT);
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_F], F_NONE);
+    c = test_choices(CHOICE_AUTO, CHOICE_AUTO);
+    c.profile = choice_find(CHOICE_profile, "order-1886");
+    c.sheen_v = V_IMPLICIT;
+    stack = made(&s, c, direction(0.3, 0.0));
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_D], D_ASHIKHMIN);
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_V], V_IMPLICIT);
+    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_F], F_SCHLICK);
+}
+
+/* Beta of an exponential sheen is given, or else made of the roughness; no other sheen takes notice. */
+static void beta_is_an_input(void **state) {
+    (void)state;
+    const int lobes[] = {LOBE_EXPONENTIAL, LOBE_EXPONENTIAL_LIT, LOBE_CHARLIE_NEUBELT};
+    Dir o = direction(0.9, 0.0);
+    for (int k = 0; k < 3; k++) {
+        Surface s = plain();
+        s.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
+        s.sheen_roughness = 0.4f;
+        Choices c = test_choices(lobes[k], LAYER_ADDITIVE);
+        Stack rough = made(&s, c, o);
+        assert_float_equal(rough.at, k == 2 ? 0.16f : mix(0.5f, 20.0f, 0.4f), 1e-5f);
+        s.sheen_beta = 3.0f;
+        Stack given = made(&s, c, o);
+        assert_float_equal(given.at, k == 2 ? 0.16f : 3.0f, 1e-6f);
+        assert_float_equal(given.sheen.lobe.params[0], given.at, 0.0f);
+        s.sheen_beta = 100.0f;
+        assert_float_equal(made(&s, c, o).at, k == 2 ? 0.16f : 100.0f, 1e-5f);
+    }
+}
+
+/* F cook-torrance of a material: of a metal the index is that of its colour, of a dielectric its ior. */
+static void cook_torrance_of_metals_and_dielectrics(void **state) {
+    (void)state;
+    Dir o = direction_cos(0.15, 0.0), i = direction_cos(0.15, TEST_PI);
+    for (int metal = 0; metal < 2; metal++) {
+        Surface s = plain();
+        s.metallic = (float)metal;
+        s.base_color = metal ? rgb(0.638f, 0.3f, 0.9f) : rgb_grey(0.0f);
+        s.ior = 1.8f;
+        s.roughness = 0.6f;
+        Choices c = test_choices(CHOICE_AUTO, CHOICE_AUTO);
+        c.f = F_COOK_TORRANCE;
+        c.v = V_IMPLICIT;
+        Stack stack = made(&s, c, o);
+        float d = term_d(D_GGX, 0.36f, 0.36f, 0.36f, dir(0.0f, 0.0f, 1.0f));
+        float f = stack_eval(&stack, o, i, 0).f_cos.r / (0.25f * d * i.z);
+        if (metal) assert_float_equal(f, 0.478f, 5e-4f);
+        if (!metal) assert_float_equal(f, cook_torrance_f((0.8f / 2.8f) * (0.8f / 2.8f), 0.15f), 1e-4f);
+    }
 }
 
 /* F that has an index of refraction takes that of the reflectance where none is given. */
@@ -159,7 +336,13 @@ static void fibres_find_their_parameters(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(seed_gains_nothing),
+        cmocka_unit_test(seed_is_its_formula),
+        cmocka_unit_test(seed_leaves_what_wears_no_sheen),
+        cmocka_unit_test(side_by_side_gains_nothing),
+        cmocka_unit_test(a_round_highlight_knows_no_brushing),
+        cmocka_unit_test(a_sheen_is_made_of_free_terms),
+        cmocka_unit_test(beta_is_an_input),
+        cmocka_unit_test(cook_torrance_of_metals_and_dielectrics),
         cmocka_unit_test(fresnel_follows_the_reflectance),
         cmocka_unit_test(brushed_metal_stays_brushed),
         cmocka_unit_test(reciprocal_asks_the_table),

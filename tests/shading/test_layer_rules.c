@@ -7,15 +7,17 @@
 #include "shading/layers/multiplicative.h"
 #include "shading/layers/reciprocal.h"
 #include "shading/layers/seed.h"
+#include "shading/layers/side_by_side.h"
 #include "shading/layers/stochastic.h"
 
-enum { ADDITIVE, MULTIPLICATIVE, SEED, VIEW, MAX, MIN, RECIPROCAL, STOCHASTIC, RULES };
+enum { ADDITIVE, MULTIPLICATIVE, SEED, SIDE, VIEW, MAX, MIN, RECIPROCAL, STOCHASTIC, RULES };
 
 static float rule_base(int rule, float c, float e_o, float e_i, float e_avg) {
     switch (rule) {
     case ADDITIVE: return additive_base(c, e_o, e_i, e_avg);
     case MULTIPLICATIVE: return multiplicative_base(c, e_o, e_i, e_avg);
     case SEED: return seed_base(c, e_o, e_i, e_avg);
+    case SIDE: return side_by_side_base(c, e_o, e_i, e_avg);
     case VIEW: return albedo_view_base(c, e_o, e_i, e_avg);
     case MAX: return albedo_max_base(c, e_o, e_i, e_avg);
     case MIN: return albedo_min_base(c, e_o, e_i, e_avg);
@@ -24,8 +26,9 @@ static float rule_base(int rule, float c, float e_o, float e_i, float e_avg) {
     }
 }
 
-static const char *const rule_names[RULES] = {"additive",   "multiplicative", "seed",       "albedo-view",
-                                              "albedo-max", "albedo-min",     "reciprocal", "stochastic"};
+static const char *const rule_names[RULES] = {"additive",     "multiplicative", "seed",
+                                              "side-by-side", "albedo-view",    "albedo-max",
+                                              "albedo-min",   "reciprocal",     "stochastic"};
 
 /* A sheen's E(mu) to calculate with: dark in front, bright at the rim. */
 static double sheen_e(double mu) { return 0.04 + 0.86 * (1.0 - mu) * (1.0 - mu) * (1.0 - mu); }
@@ -52,20 +55,22 @@ static double base_albedo(int rule, double c, double mu_o) {
 
 static void energy_is_as_stated(void **state) {
     (void)state;
-    double average = 0.0, most[RULES] = {0}, least[RULES] = {9, 9, 9, 9, 9, 9, 9, 9};
+    double average = 0.0, most[RULES] = {0}, least[RULES] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
     for (int k = 0; k <= STEPS; k++) average += simpson(k) * 2.0 * sheen_e((double)k / STEPS) * k / STEPS;
     assert_true(fabs(average - sheen_average) < 1e-9);
     for (int n = 0; n < 100; n++) {
         double mu = (n % 10 + 0.5) / 10.0, c = (n / 10 + 1) / 10.0, e = sheen_e(mu);
         for (int rule = 0; rule < RULES; rule++) {
-            double sheen = rule == MULTIPLICATIVE ? 0.0 : rule == SEED ? c : c * e;
+            double sheen = rule == MULTIPLICATIVE ? 0.0 : rule == SEED || rule == SIDE ? c : c * e;
             double all = sheen + base_albedo(rule, c, mu);
             most[rule] = fmax(most[rule], all);
             least[rule] = fmin(least[rule], all);
         }
         assert_true(fabs(base_albedo(ADDITIVE, c, mu) - 1.0) < 1e-6);
         assert_true(fabs(base_albedo(MULTIPLICATIVE, c, mu) - 1.0 - c * e) < 1e-6);
-        assert_true(fabs(base_albedo(SEED, c, mu) - 1.0 + c) < 1e-6); /* beside a sheen whose E is 1 */
+        /* beside a sheen whose E is 1 */
+        assert_true(fabs(base_albedo(SEED, c, mu) - 1.0 + c) < 1e-6);
+        assert_true(fabs(base_albedo(SIDE, c, mu) - 1.0 + c) < 1e-6);
         assert_true(fabs(base_albedo(VIEW, c, mu) - 1.0 + c * e) < 1e-6);
         assert_true(fabs(base_albedo(RECIPROCAL, c, mu) - 1.0 + c * e) < 1e-6);
         /* one pass, and all bounces between the sheen's underside and a Lambert base of colour rho */

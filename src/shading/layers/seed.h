@@ -1,13 +1,17 @@
-/* seed - a share k of the surface is sheen and the rest is not
+/* seed - a number k blends from diffuse to sheen, below the highlight's interface
  *
- *   f = specular + (1 - F) ((1 - k) diffuse + k sheen),  k = c
+ *   f = (1 - F) (1 - k) diffuse + specular + (1 - F) k sheen
+ *   F = f0 (1 - s) + f90 s,  s = (1 - wi . h)^5,  each channel
  *
- *   This function is the factor 1 - k on the diffuse lobe. Whoever adds the lobes up multiplies the sheen by
- * k and both by 1 - F, what the interface lets through: F of the highlight, a metal's too, at the least of
- * wi . h, cos_o and cos_i, so that nothing is gained at grazing. E is not asked. The blend is what the
- * OpenPBR Surface specification calls mixing (Academy Software Foundation, 2024): threads side by side, none
- * above another. energy: E <= 1 where it holds of sheen, diffuse and interface, as a mean of theirs.
- *   reciprocal: yes where F is. */
+ *   The blend that engines began with, from before they knew E: the (1 - F) of a dielectric's diffuse lobe,
+ * on the sheen too. F as in the glTF 2.0 Specification, Khronos Group, 2021, Appendix B; f0 and f90 are those
+ * of the highlight, a metal's too. k is the material's `sheen`, at most 1; `sheen` of the formula is the lobe
+ * in the colour sheen_color. This function is 1 - k; whoever adds the lobes up does the rest. A sheen that is
+ * black counts as none: the base stays as its workflow has it.
+ *   energy: no. F at wi . h says nothing of grazing light, so that a smooth white dielectric reflects up to
+ * 1.45 times what it receives there (workflow metallic); and at k = 1 nothing of the diffuse lobe is left,
+ * however little the sheen reflects. The safer form is side-by-side.
+ *   reciprocal: yes. */
 #ifndef WEFT_LAYER_SEED_H
 #define WEFT_LAYER_SEED_H
 

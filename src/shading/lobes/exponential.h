@@ -7,7 +7,8 @@
  *     paper with that form was found. As a lobe: Lambert of albedo x. Under the layer rules `additive` and
  *     `multiplicative` it gives the two forms of its source: color x is added to the base, or the base is
  *     scaled by 1 + color x.
- *   roughness: an artist's is spread over the range of beta; more is a wider rim, beta to 0 the ramp x = t.
+ *   roughness: beta = mix(0.5, 20, roughness), more is a wider rim; beta to 0 is the ramp x = t. Input
+ *     sheen_beta is beta itself.
  *   reciprocal: no, wi is not in it.
  *   energy: E(cos_o) = x(1 - cos_o) exactly, so at most 1.
  *   sampling: cosine, weight constant.

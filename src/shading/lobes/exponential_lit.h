@@ -8,7 +8,7 @@
  *     light, E is x again, so that both lobes weigh the same in a layer. The construction: Csaba Kelemen,
  *     Laszlo Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with Importance
  *     Sampling", Eurographics 2001 short papers.
- *   roughness: an artist's is spread over the range of beta; more is a wider rim, beta to 0 the ramp x = t.
+ *   roughness: beta as of exponential.
  *   reciprocal: yes.
  *   energy: E(cos_o) = x(1 - cos_o) exactly, so at most 1.
  *   sampling: cosine and uniform, mixed by A; the weight is at most 1.5.

@@ -8,7 +8,8 @@
  * Neubelt, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", ACM TOG 35(4), 2016.
  * Departures: z, q, b and E are fitted to the lobe fibre, upright, white and of density 1, without noise and
  * with one number more, q; no tangent and no angle is taken, so that nothing is singular at normal incidence
- * (ltc.h).
+ * (ltc.h). And alpha is a roughness squared, as of every sheen here, where the talk gives alpha itself to
+ * artists: its .35 is roughness .59 (profile openpbr takes the roughness as it is).
  *   color: a factor, as engines have it; that of fibres is not.
  *   roughness: alpha = roughness^2.
  *   reciprocal: no; z, q, b and E belong to wo alone.
