@@ -5,11 +5,10 @@
  *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
  * course, section 4, on softening the terminator: the power is on the side of the light alone, and they call
  * it non-physical.
- *   energy: with D charlie E is at most 1.42, where v_conty_kulla has 2.10 (weft check cook-torrance -p d=charlie
- * -p v=conty-kulla-soft -p f=none; both at alpha 0.01, cos_o 0.001).
- *   reciprocal: no. Where light grazes, Lambda is above 1 and the power makes it more, so V is less; where
- * the viewer grazes nothing changes.
- *   Departures: those of v_conty_kulla. */
+ *   energy: with D charlie E is at most 1.42, where v_conty_kulla has 2.10 (weft check cook-torrance -p
+ * d=charlie -p v=conty-kulla-soft -p f=none; both at alpha 0.01, cos_o 0.001). reciprocal: no. Where light
+ * grazes, Lambda is above 1 and the power makes it more, so V is less; where the viewer grazes nothing
+ * changes. Departures: those of v_conty_kulla. */
 #ifndef WEFT_V_CONTY_KULLA_SOFT_H
 #define WEFT_V_CONTY_KULLA_SOFT_H
 
