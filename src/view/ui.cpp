@@ -54,14 +54,17 @@ std::string visible(const char *label) {
     return end ? std::string(label, end) : std::string(label);
 }
 
+/* The name that a label gives. */
+std::string called(const char *label) {
+    const char *hidden = strstr(label, "##"), *own = strstr(label, "###");
+    return own ? own + 3 : hidden == label ? label + 2 : visible(label);
+}
+
 /* Notes the widget before under its name. */
 void note(const char *label) {
     ui->noted = false;
     UiControl control = {};
-    const char *hidden = strstr(label, "##"), *own = strstr(label, "###");
-    std::string name = ui->scope + (own               ? std::string(own + 3)
-                                    : hidden == label ? std::string(label + 2)
-                                                      : visible(label));
+    std::string name = ui->scope + called(label);
     snprintf(control.name, sizeof control.name, "%s", name.c_str());
     ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     control.box = {low.x, low.y, high.x - low.x, high.y - low.y};
@@ -329,7 +332,7 @@ void ui_list_end(void) { ImGui::EndChild(); }
 
 void ui_scope(const char *name) {
     ui->scopes.push_back(ui->scope.size());
-    ui->scope += visible(name) + "/";
+    ui->scope += called(name) + "/";
     ImGui::PushID(name);
 }
 void ui_scope_end(void) {
