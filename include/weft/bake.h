@@ -139,11 +139,11 @@ typedef enum WeftTablePart {
     WEFT_TABLE_PARTS
 } WeftTablePart;
 
-/* Zero means default, in every member but image and lobe. */
+/* Zero means default, in every member but image. */
 typedef struct WeftAuditDesc {
     const WeftImage *image;    /* of any type; integers are plain numbers, value / 255 or / 65535 */
     int channel;               /* of image */
-    const WeftLobe *lobe;      /* counts as white */
+    const WeftLobe *lobe;      /* counts as white; NULL: the nearest of those with one parameter or none */
     const WeftTableForm *form; /* NULL: the best of those that engines use, or of all there are */
     double scale;              /* multiplies the image's values; 0: 1 */
     double most;               /* an error above this is one too many; 0: 0.01 */
@@ -183,6 +183,7 @@ typedef struct WeftAudit {
         char text[WEFT_AUDIT_TEXT]; /* one plain sentence */
     } found[WEFT_AUDIT_FINDINGS];   /* `faults` of them, the gravest first */
     int other;                      /* OTHER_LOBE: the lobe; else -1 */
+    int lobe;                       /* whose E it was compared with */
 } WeftAudit;
 
 /* Compares a table with the quadrature of a lobe at the table's own texels. errors (may be NULL) becomes F32

@@ -17,6 +17,7 @@ typedef struct Audit {
     const char *path;
     BakeCommon common;
     WeftLobe lobe;
+    bool any; /* the nearest lobe is looked for */
     WeftImage file, errors;
     int channel;
     double most;
@@ -26,7 +27,7 @@ typedef struct Audit {
 static const char *const part_words[] = {"E", "the part of f0", "the part of f90"};
 static const char *const part_names[] = {"sum", "f0", "f90"};
 
-static const char *lobe_id(const Audit *audit) { return weft_lobe_info(audit->lobe.lobe)->id; }
+static const char *lobe_id(const Audit *audit) { return weft_lobe_info(audit->found.lobe)->id; }
 
 /* Reading. */
 
@@ -51,7 +52,11 @@ static int audit_read(const Options *options, Audit *audit) {
     if (!lobe) return report(WEFT_USAGE, "bake audit: needs --lobe LOBE, whose E the table should hold");
     if (!bake_common(options, &audit->common) || !option_number(options, "--max", &audit->most))
         return WEFT_USAGE;
-    int result = bake_lobe(options, lobe, &audit->lobe);
+    int result = 0;
+    audit->any = strcmp(lobe, "any") == 0;
+    if (audit->any && option_given(options, "-p"))
+        return report(WEFT_USAGE, "-p: is for a lobe, and --lobe any names none");
+    if (!audit->any) result = bake_lobe(options, lobe, &audit->lobe);
     if (result == 0) result = outputs_check(options);
     if (result != 0) return result;
     return weft_image_read(audit->path, &audit->file, &log, &error) == WEFT_OK ? 0 : report_error(&error);
@@ -92,7 +97,7 @@ static int audit_make(Audit *audit) {
         progress_start_count(audit->common.quiet, "texels", (double)audit->file.width * audit->file.height);
     const WeftAuditDesc desc = {.image = &audit->file,
                                 .channel = audit->channel,
-                                .lobe = &audit->lobe,
+                                .lobe = audit->any ? NULL : &audit->lobe,
                                 .form = audit->common.formed ? &audit->common.form : NULL,
                                 .scale = audit->common.scale,
                                 .most = audit->most,
@@ -120,7 +125,7 @@ static void form_words(const Audit *audit, char *text, size_t size) {
 
 static void place_words(const Audit *audit, char *text, size_t size) {
     const WeftTablePlace *place = &audit->found.place;
-    const WeftLobeInfo *info = weft_lobe_info(audit->lobe.lobe);
+    const WeftLobeInfo *info = weft_lobe_info(audit->found.lobe);
     int used = snprintf(text, size, "%.4g at texel %d, %d: cos_o %.4g", audit->found.largest, place->x,
                         place->y, (double)place->cos_o);
     if (info->param_count)
@@ -134,8 +139,8 @@ static void text_write(const Audit *audit) {
     enum { COLUMN = 18 };
     const WeftAudit *found = &audit->found;
     char text[400];
-    printf("%s: %d x %d, %s of %s\n", audit->path, audit->file.width, audit->file.height,
-           part_words[found->part], lobe_id(audit));
+    printf("%s: %d x %d, %s of %s%s\n", audit->path, audit->file.width, audit->file.height,
+           part_words[found->part], lobe_id(audit), audit->any ? ", the nearest of all lobes" : "");
     form_words(audit, text, sizeof text);
     layout_entry(stdout, COLUMN, "axes", text);
     place_words(audit, text, sizeof text);
@@ -169,6 +174,7 @@ static void json_write(const Audit *audit) {
     json_whole(&json, "height", audit->file.height);
     json_whole(&json, "channel", audit->channel);
     json_text(&json, "lobe", lobe_id(audit));
+    json_bool(&json, "lobe_given", !audit->any);
     json_text(&json, "part", part_names[found->part]);
     json_text(&json, "axes", weft_table_form_text(&found->form, elements));
     if (named >= 0) json_text(&json, "axes_name", weft_table_form_name(named));

@@ -15,6 +15,7 @@ typedef struct Work {
     const WeftAuditDesc *desc;
     double most, tolerance;
     int width, height;
+    int step;      /* texels that a cell of the map is wide */
     float *values; /* of the channel, times scale */
     Lobe lobe;
     Probe probe;
@@ -34,8 +35,8 @@ static WeftResult check(const WeftAuditDesc *desc, Work *work, WeftError *error)
     if ((int64_t)image->width * image->height > WEFT_BAKE_TEXELS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "table", "%d x %d; at most %d texels are audited", image->width,
                     image->height, WEFT_BAKE_TEXELS_MAX);
-    if (!desc->lobe || !lobe_of(desc->lobe, &work->lobe))
-        return fail(error, WEFT_MESSAGE_DESC, "table", "it needs a lobe to be compared with");
+    if (desc->lobe && !lobe_of(desc->lobe, &work->lobe))
+        return fail(error, WEFT_MESSAGE_DESC, "table", "there is no such lobe to compare it with");
     if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
     return WEFT_OK;
@@ -63,16 +64,90 @@ static float *map_at(const Work *work, int x, int y) {
     return (float *)work->errors->pixels + 3 * ((size_t)y * (size_t)work->width + (size_t)x);
 }
 
-static void map_texel(void *user, int x, int y, int thread) {
-    Work *work = user;
-    const BakeTexel texel = bake_texel(&work->plane, x, y);
+enum { CELL = 32, NODES = (CELL + 1) * (CELL + 1), EXACT_TEXELS = 128 * 128 };
+
+/* A square of a large table, its last column and row those where its neighbours begin. */
+typedef struct Cell {
+    Work *work;
+    int thread, x, y; /* of its first texel */
+    float e[NODES];   /* below 0 where a texel is not judged */
+    bool known[NODES];
+} Cell;
+
+static float cell_exact(Cell *cell, int i, int j) {
+    Work *work = cell->work;
+    const int n = j * (CELL + 1) + i;
+    if (cell->known[n]) return cell->e[n];
+    const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
+    const bool judged = !texel.beyond && texel.cos_o > 0.0f;
+    if (judged && is_more(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
+    cell->known[n] = true;
+    return cell->e[n] = judged ? texel.part[work->reading.part] : -1.0f;
+}
+
+/* Columns i[0] .. i[1] and rows j[0] .. j[1] of a cell, between whose corners E is taken as bilinear. */
+typedef struct Patch {
+    int i[2], j[2];
+} Patch;
+
+static float patch_at(const Cell *cell, const Patch *p, int i, int j) {
+    const float u = p->i[1] > p->i[0] ? (float)(i - p->i[0]) / (float)(p->i[1] - p->i[0]) : 0.0f,
+                v = p->j[1] > p->j[0] ? (float)(j - p->j[0]) / (float)(p->j[1] - p->j[0]) : 0.0f;
+    const float *low = cell->e + p->j[0] * (CELL + 1), *high = cell->e + p->j[1] * (CELL + 1);
+    return mix(mix(low[p->i[0]], low[p->i[1]], u), mix(high[p->i[0]], high[p->i[1]], u), v);
+}
+
+/* Fills a patch: as it is where E, in its middle and in the middles of its sides, is what lies between the
+ * corners; else quarter by quarter, down to the texel. A patch of which nothing is judged is left at that. */
+static void patch_fill(Cell *cell, Patch p) {
+    const int mid_i = (p.i[0] + p.i[1]) / 2, mid_j = (p.j[0] + p.j[1]) / 2;
+    const int columns[3] = {p.i[0], mid_i, p.i[1]}, rows[3] = {p.j[0], mid_j, p.j[1]};
+    const float allowed = (float)(2.0 * cell->work->tolerance);
+    bool flat = true, all = true, none = true;
+    for (int corner = 0; corner < 4; corner++) cell_exact(cell, p.i[corner & 1], p.j[corner >> 1]);
+    for (int k = 0; k < 9; k++) {
+        const float e = cell_exact(cell, columns[k % 3], rows[k / 3]);
+        all &= e >= 0.0f, none &= e < 0.0f;
+        flat &= fabsf(e - patch_at(cell, &p, columns[k % 3], rows[k / 3])) <= allowed;
+    }
+    if (p.i[1] - p.i[0] <= 1 && p.j[1] - p.j[0] <= 1) return;
+    if ((flat && all) || none) {
+        for (int j = p.j[0]; j <= p.j[1]; j++)
+            for (int i = p.i[0]; i <= p.i[1]; i++) {
+                const int n = j * (CELL + 1) + i;
+                if (!cell->known[n]) cell->e[n] = patch_at(cell, &p, i, j);
+                cell->known[n] = true;
+            }
+        return;
+    }
+    for (int quarter = 0; quarter < 4; quarter++)
+        patch_fill(cell, (Patch){{columns[quarter & 1], columns[(quarter & 1) + 1]},
+                                 {rows[quarter >> 1], rows[(quarter >> 1) + 1]}});
+}
+
+static void map_put(Work *work, int x, int y, float e) {
     const float value = work->values[(size_t)y * (size_t)work->width + (size_t)x];
     float *to = map_at(work, x, y);
-    const bool judged = !texel.beyond && texel.cos_o > 0.0f;
-    to[2] = judged ? texel.part[work->reading.part] : -1.0f;
-    to[0] = judged ? value - to[2] : 0.0f;
+    const bool judged = e >= 0.0f;
+    to[0] = judged ? value - e : 0.0f;
     to[1] = judged ? value : 0.0f;
-    if (judged && is_more(texel.error, work->met[thread])) work->met[thread] = texel.error;
+    to[2] = e;
+}
+
+/* Texels of a small table are measured one by one; of a large one E is measured where it bends. */
+static void map_cell(void *user, int column, int row, int thread) {
+    Work *work = user;
+    const int step = work->step, x = column * step, y = row * step;
+    Cell cell = {.work = work, .thread = thread, .x = x, .y = y};
+    const int wide = x + step < work->width ? step : work->width - 1 - x,
+              high = y + step < work->height ? step : work->height - 1 - y;
+    if (step == 1)
+        cell_exact(&cell, 0, 0);
+    else
+        patch_fill(&cell, (Patch){{0, wide}, {0, high}});
+    for (int j = 0; j < step && y + j < work->height; j++)
+        for (int i = 0; i < step && x + i < work->width; i++)
+            map_put(work, x + i, y + j, cell.e[j * (CELL + 1) + i]);
 }
 
 static void measure(const Work *work, WeftAudit *out) {
@@ -179,6 +254,14 @@ static void choose_form(Work *work, WeftAudit *out) {
     }
 }
 
+/* Takes the lobe and the axes to which the table is nearest, be it encoded or not; find_cause then says
+ * which. */
+static void choose_lobe(Work *work) {
+    const Reading best = probe_any(&work->probe, work->desc->form);
+    work->lobe = best.lobe;
+    work->reading = (Reading){.lobe = best.lobe, .form = best.form, .factor = 1.0};
+}
+
 /* Values cut off at the largest that the table has: all but few of those that are wrong. */
 static bool find_clipped(const Work *work, WeftAudit *out) {
     const size_t count = (size_t)work->width * (size_t)work->height;
@@ -226,6 +309,7 @@ static void find_cause(Work *work, WeftAudit *out) {
         words_scaled(last_text(out), reading, &scaled);
         return;
     }
+    if (!work->desc->lobe) return; /* all others are further away */
     const Reading other = probe_best_lobe(&work->probe, reading, !work->desc->form);
     if (other.distance >= enough || other.distance > 0.1 * mean_value(work)) return;
     find(out, WEFT_TABLE_OTHER_LOBE);
@@ -286,14 +370,26 @@ static WeftResult map_make(Work *work, WeftError *error) {
                               .height = work->height,
                               .lobe = work->lobe,
                               .tolerance = work->tolerance};
-    return bake_texels(work->width, work->height, desc->threads, desc->progress, desc->user, map_texel, work);
+    work->step = work->width * work->height > EXACT_TEXELS ? CELL : 1;
+    result =
+        bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
+                    desc->threads, desc->progress, desc->user, map_cell, work);
+    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* by which a patch may be off between */
+    return result;
 }
 
 static WeftResult audit(Work *work, WeftAudit *out, WeftError *error) {
     out->step = work->probe.step;
-    work->reading = (Reading){.lobe = work->lobe, .factor = 1.0};
     probe_take(&work->probe, work->values, work->width, work->height);
-    if (!find_constant(work, out)) {
+    if (work->desc->lobe)
+        work->reading = (Reading){.lobe = work->lobe, .factor = 1.0};
+    else
+        choose_lobe(work);
+    out->lobe = work->lobe.id;
+    if (!work->desc->lobe) {
+        probe_read(&work->probe, &work->reading);
+        out->fits = work->reading.distance <= 1e-3 + work->probe.step;
+    } else if (!find_constant(work, out)) {
         choose_form(work, out);
     } else {
         if (work->desc->form) work->reading.form = *work->desc->form;

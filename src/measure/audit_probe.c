@@ -170,6 +170,43 @@ Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms) 
     return best;
 }
 
+/* Tries both ways to take the numbers, in the flips that are asked for: both of each where `flips`. */
+static void try_forms(const Probe *probe, const Albedos *e, Reading now, bool flips, Reading best[2]) {
+    const WeftTableForm form = now.form;
+    for (int way = 0; way < (flips ? 8 : 2); way++) {
+        now.form = form;
+        now.decoded = way & 1;
+        if (flips) now.form.flip_x = way >> 1 & 1, now.form.flip_y = way >> 2;
+        part_find(probe, e, &now, false);
+        Reading *nearest = &best[now.decoded];
+        if (now.distance < 0.95 * nearest->distance - nothing(probe)) *nearest = now;
+    }
+}
+
+Reading probe_any(const Probe *probe, const WeftTableForm *form) {
+    const double explained = 0.25; /* as in audit.c: less is no explanation */
+    Reading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
+    for (int id = 0; id < weft_lobe_count(); id++) {
+        const WeftLobeInfo *info = weft_lobe_info(id);
+        if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
+        for (int base = 0; base < (form ? 1 : 16); base++) {
+            Albedos e;
+            WeftTableForm bare;
+            Reading now = {.lobe = lobe_default(id), .factor = 1.0};
+            if (form)
+                now.form = *form;
+            else
+                now.form = (WeftTableForm){.transposed = base & 1,
+                                           .alpha = base >> 1 & 1,
+                                           .edges = base >> 2 & 1,
+                                           .root = base >> 3 & 1};
+            albedos_find(probe, &now, &bare, &e);
+            try_forms(probe, &e, now, !form, best);
+        }
+    }
+    return best[best[1].distance < explained * best[0].distance];
+}
+
 bool probe_flat(const Lobe *lobe, int threads) {
     Probe probe = {.threads = threads};
     const float none[64] = {0};

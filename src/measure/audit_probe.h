@@ -43,6 +43,10 @@ Reading probe_best_form(const Probe *probe, const Reading *reading, bool engines
  * form that engines use. */
 Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms);
 
+/* The nearest reading of all lobes of one parameter, or none, in a form (NULL: in all that there are),
+ * decoded or not. */
+Reading probe_any(const Probe *probe, const WeftTableForm *form);
+
 /* The reading with the factor that brings its values nearest to E, in least squares. */
 Reading probe_scaled(const Probe *probe, const Reading *reading);
 

@@ -430,7 +430,6 @@ static void nonsense_is_refused(void **state) {
     const WeftAuditDesc wrong[] = {
         {.lobe = &lobe},
         {.image = &(WeftImage){0}, .lobe = &lobe},
-        {.image = &table},
         {.image = &table, .lobe = &none},
         {.image = &table, .lobe = &lobe, .channel = 1},
         {.image = &table, .lobe = &lobe, .channel = -1},
@@ -453,6 +452,84 @@ static void nonsense_is_refused(void **state) {
     weft_image_free(&grazing);
 }
 
+static WeftImage baked(const char *lobe_id, const char *axes) {
+    const WeftLobe lobe = lobe_of_id(lobe_id);
+    const WeftBakeDesc desc = {
+        .kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form_of(axes)};
+    WeftImage table;
+    assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);
+    return table;
+}
+
+static WeftAudit audited_as_any(WeftImage *table) {
+    WeftAudit audit;
+    WeftError error = {0};
+    const WeftAuditDesc desc = {.image = table};
+    if (weft_audit(&desc, &audit, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(table);
+    return audit;
+}
+
+/* Without a word of what it holds: the lobe, the axes however they are turned, and sRGB if it is that. */
+static void a_table_of_an_unknown_lobe_is_recognised(void **state) {
+    (void)state;
+    static const char *const lobes[] = {"charlie-neubelt", "charlie-conty-kulla", "ashikhmin-neubelt"},
+                             *const axes[] = {"gltf", "filament", "cos,roughness,centres"};
+    for (int k = 0; k < 3; k++)
+        for (int encoded = 0; encoded < 2; encoded++) {
+            WeftImage table = baked(lobes[k], axes[k]);
+            float *values = table.pixels;
+            for (size_t n = 0; encoded && n < count_of(&table); n++)
+                values[n] = values[n] <= 0.0031308f ? 12.92f * values[n]
+                                                    : 1.055f * powf(values[n], 1.0f / 2.4f) - 0.055f;
+            const WeftTableForm form = form_of(axes[k]);
+            const WeftAudit audit = audited_as_any(&table);
+            assert_string_equal(weft_lobe_info(audit.lobe)->id, lobes[k]);
+            assert_int_equal(weft_table_form_find(&audit.form), weft_table_form_find(&form));
+            assert_string_equal(weft_table_fault_name(audit.found[0].fault),
+                                weft_table_fault_name(encoded ? WEFT_TABLE_ENCODED : WEFT_TABLE_NONE));
+        }
+}
+
+/* Nothing is like it: the nearest is named all the same, and how far off that is. */
+static void a_table_of_nothing_has_a_nearest_lobe(void **state) {
+    (void)state;
+    WeftImage table = table_make(SIDE, SIDE);
+    for (int n = 0; n < SIDE * SIDE; n++)
+        ((float *)table.pixels)[n] = 0.5f + 0.4f * (float)((n % SIDE + n / SIDE) % 2);
+    const WeftAudit audit = audited_as_any(&table);
+    assert_non_null(weft_lobe_info(audit.lobe));
+    assert_int_equal(audit.fits, 0);
+    assert_true(audit.rms > 0.05 && audit.largest > 0.1);
+}
+
+/* Of a large table E is measured where it bends; between, it is as near as is said. */
+static void e_of_a_large_table_is_as_near_as_is_said(void **state) {
+    (void)state;
+    enum { LARGE = 200, ASKED = 60 };
+    WeftImage table = table_make(LARGE, LARGE), errors;
+    WeftError error;
+    WeftAudit audit;
+    const WeftLobe lobe = lobe_of_id("charlie-neubelt");
+    const WeftTableForm form = form_of("gltf");
+    const WeftAuditDesc desc = {.image = &table, .lobe = &lobe, .form = &form};
+    if (weft_audit(&desc, &audit, &errors, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(audit.error < 5e-4);
+    for (int k = 0; k < ASKED; k++) {
+        const int x = (int)(hash32(2 * (uint32_t)k + 1) % LARGE),
+                  y = (int)(hash32(2 * (uint32_t)k + 2) % LARGE);
+        const float *texel = (const float *)errors.pixels + 3 * ((size_t)y * LARGE + (size_t)x);
+        WeftLobe there = lobe;
+        float cos_o, e[3];
+        weft_table_form_texel(&form, lobe.lobe, LARGE, LARGE, x, y, &cos_o, &there.params[0]);
+        if (!(cos_o > 0.0f) || !(texel[2] > 0.0f)) continue;
+        weft_lobe_albedo(&there, cos_o, e);
+        assert_near((double)texel[2], (double)e[0], audit.error + 1e-4);
+    }
+    weft_image_free(&table);
+    weft_image_free(&errors);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_right_is_right),
@@ -471,6 +548,9 @@ int main(void) {
         cmocka_unit_test(a_corner_is_named),
         cmocka_unit_test(the_map_holds_error_table_and_albedo),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(a_table_of_an_unknown_lobe_is_recognised),
+        cmocka_unit_test(a_table_of_nothing_has_a_nearest_lobe),
+        cmocka_unit_test(e_of_a_large_table_is_as_near_as_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
