@@ -243,6 +243,7 @@ void weft_doctor_free(WeftDoctor *doctor) {
     free(doctor->repairs);
     free(doctor->pixels);
     free(doctor->energies);
+    free(doctor->energy_tables);
     free(doctor);
 }
 

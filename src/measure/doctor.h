@@ -29,7 +29,8 @@ typedef struct Pixels {
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
 
-typedef struct Energy Energy; /* of doctor_energy.c */
+typedef struct Energy Energy; /* of doctor_energy.c, as what all of them share is */
+typedef struct EnergyTables EnergyTables;
 
 struct WeftDoctor {
     Asset asset;
@@ -43,7 +44,8 @@ struct WeftDoctor {
     Pixels *pixels;   /* of the scene's images */
     Energy *energies; /* of the materials whose light was measured */
     int energy_count, energy_room;
-    bool failed; /* memory gave out */
+    EnergyTables *energy_tables; /* NULL until they are asked for */
+    bool failed;                 /* memory gave out */
 };
 
 /* Where something is. */
@@ -122,6 +124,10 @@ void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
 void check_black(WeftDoctor *doctor, const Cloth *cloth);
 void check_channel(WeftDoctor *doctor, const Cloth *cloth);
 void check_energy(WeftDoctor *doctor, const Cloth *cloth);
+
+/* E of the whole material in the strongest channel, as check_energy has it: for one of doctor_readers and one
+ * of the cosines that it looks at; below 0 where it was not measured. */
+float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
 void check_neighbours(WeftDoctor *doctor, const Cloth *cloth);
 void check_plausible(WeftDoctor *doctor, const Cloth *cloth);
 void check_mesh(WeftDoctor *doctor, int mesh);

@@ -2,30 +2,37 @@
  * there
  *
  * The material is taken with the means of its textures. E is the share of light that comes back, all of it
- * towards one cosine: weft_reflection_albedo of the whole material; and of its sheen alone, white, by
- * quadrature. */
+ * towards one cosine. Under the rules of these engines the base keeps a part that depends on the cosines of
+ * wo and wi alone, so that
+ *
+ *   E(wo) = over + sum of keep(wo, z) base(wo, z) over slices z of wi + c E_sheen(wo)
+ *
+ * where `over` is the coat's. The base is sampled once for a material and an engine, slot by slot, and holds
+ * for every roughness of the sheen that is tried after. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "measure/doctor.h"
+#include "measure/halton.h"
+#include "scene/material_numbers.h"
 #include "scene/shade.h"
 #include "shading/albedo.h"
 #include "shading/choice.h"
 #include "shading/frame.h"
 #include "weft/material.h"
-#include "weft/reflection.h"
 
 /* From the face to 87 degrees; beyond, a pixel of cloth is a sliver. */
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};
-enum { COSINES = sizeof cosines / sizeof *cosines, READERS = 5 };
+enum { COSINES = sizeof cosines / sizeof *cosines, AT_60 = 1, READERS = 5 };
 
 /* What an engine makes of a material, with its sheen and without: E of the strongest channel, and luminance.
  */
 typedef struct Answer {
     float with[COSINES], without[COSINES];
     float light_with[COSINES], light_without[COSINES];
+    float alone[COSINES]; /* E of the white sheen by itself */
 } Answer;
 
 /* What a material is to a reflection: its numbers, without its textures. */
@@ -38,9 +45,7 @@ typedef struct Key {
 struct Energy {
     Key key;
     Answer answers[READERS];
-    float at_60[READERS]; /* E of the white sheen alone, at 60 degrees */
     float least; /* the roughness from which no engine gains, as least_roughness has it; < 0: not asked */
-    float alone; /* E of the white sheen alone in the engine that gains most, where it does; set with least */
 };
 
 static int input_of(const char *name) {
@@ -68,33 +73,170 @@ static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float
     return true;
 }
 
-static void measure_all(const WeftMaterial *material, float most[COSINES], float light[COSINES]) {
-    WeftReflection *reflection;
-    WeftError error;
-    for (int k = 0; k < COSINES; k++) most[k] = light[k] = 0.0f;
-    if (weft_reflection_create(material, &reflection, &error) != WEFT_OK) return;
-    for (int k = 0; k < COSINES; k++) {
-        float e[3];
-        weft_reflection_albedo(reflection, WEFT_PART_ALL, cosines[k], e);
-        most[k] = fmaxf(e[0], fmaxf(e[1], e[2]));
-        light[k] = 0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2];
-    }
-    weft_reflection_free(reflection);
+enum { SLICES = 24, DRAWS = 128 };
+
+/* What a material returns towards one cosine below its sheen, by the cosine that the light comes in with, and
+ * above. */
+typedef struct Base {
+    float over[3], below[SLICES][3], z[SLICES]; /* z: mean cosine */
+} Base;
+
+/* A material under one engine. */
+typedef struct Case {
+    Surface bare; /* without its sheen */
+    Choices choices;
+    Dir along; /* x of the shading frame */
+    Base base[COSINES];
+} Case;
+
+/* What all materials share: E of the white sheens by hundredths of roughness, and the table that a rule asks
+ * for. */
+struct EnergyTables {
+    float white[READERS][101][COSINES]; /* 0: not known yet */
+    AlbedoTable keep;
+};
+
+static Dir seen_from(Dir along, int k) {
+    const float z = cosines[k], s = sqrtf(1.0f - z * z);
+    return dir(s * along.x, -s * along.y, z);
 }
 
-/* known: another answer of the same engine, whose part without the sheen holds here too; NULL: there is none.
- */
-static Answer ask(const WeftDoctor *doctor, const Cloth *cloth, float roughness, int reader,
-                  const Answer *known) {
+/* The surface with a sheen, as stack_make takes it. */
+static Surface dressed(const Case *self, const float color[3], float roughness) {
+    Surface surface = self->bare;
+    surface.sheen_color = (Rgb){color[0], color[1], color[2]};
+    surface.sheen_roughness = roughness;
+    return surface;
+}
+
+static void stack_of(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
+                     Stack *stack) {
+    const Surface surface = dressed(self, color, roughness);
+    stack_make(stack, &surface, &self->choices, table, o);
+}
+
+/* Samples what one slot reflects, each draw as that slot spreads its light. */
+static void base_add(const Stack *stack, int slot, Dir o, Base *base) {
+    Stack one = *stack;
+    Slot *const slots[] = {&one.diffuse, &one.specular, &one.coat};
+    const Slots only[] = {slots_of(true, false, false, false, false),
+                          slots_of(false, true, false, false, false),
+                          slots_of(false, false, false, true, false)};
+    if (!(slots[slot]->pick > 0.0f)) return;
+    one.diffuse.pick = one.specular.pick = one.sheen.pick = one.coat.pick = one.dust.pick = 0.0f;
+    slots[slot]->pick = 1.0f;
+    int counts[SLICES] = {0};
+    double heights[SLICES] = {0.0};
+    for (int d = 0; d < DRAWS; d++) {
+        const Dir i = stack_sample(&one, o, ((float)d + 0.5f) / DRAWS, (float)halton(d, 2));
+        if (!(i.z > 0.0f)) continue;
+        const StackValue value = stack_eval_of(&one, only[slot], o, i);
+        if (!(value.pdf > 0.0f)) continue;
+        const int slice = (int)fminf(i.z * SLICES, SLICES - 1);
+        float *to = slot == 2 ? base->over : base->below[slice];
+        const float weight = 1.0f / (value.pdf * DRAWS);
+        to[0] += value.f_cos.r * weight, to[1] += value.f_cos.g * weight, to[2] += value.f_cos.b * weight;
+        counts[slice]++;
+        heights[slice] += (double)i.z;
+    }
+    for (int k = 0; k < SLICES; k++)
+        if (counts[k]) base->z[k] = (float)(heights[k] / counts[k]);
+}
+
+/* The case of a material under an engine, which knows nothing of what else glTF's extras may choose. False
+ * where it has no sound numbers. */
+static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, Case *self) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
-    const char *profile = doctor_readers[reader];
-    Answer answer = {{0.0f}, {0.0f}, {0.0f}, {0.0f}};
-    WeftMaterial material;
-    if (known) answer = *known;
-    if (numbers_of(doctor, cloth, cloth->color, roughness, profile, &material))
-        measure_all(&material, answer.with, answer.light_with);
-    if (!known && numbers_of(doctor, cloth, black, roughness, profile, &material))
-        measure_all(&material, answer.without, answer.light_without);
+    WeftMaterial numbers, plain;
+    WeftError error;
+    if (!numbers_of(doctor, cloth, black, 0.0f, doctor_readers[reader], &numbers)) return false;
+    weft_material_default(&plain);
+    plain.choices[CHOICE_profile] = numbers.choices[CHOICE_profile];
+    memcpy(numbers.choices, plain.choices, sizeof numbers.choices);
+    if (numbers_sound(&numbers, &error) != WEFT_OK) return false;
+    const Material material = material_of_numbers(&numbers);
+    const Surface surface = material_plain(&material);
+    *self = (Case){.bare = frame_surface(surface),
+                   .choices = material_choices(&material),
+                   .along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f)};
+    for (int k = 0; k < COSINES; k++) {
+        const Dir o = seen_from(self->along, k);
+        Stack stack;
+        stack_make(&stack, &self->bare, &self->choices, (TableRef){.kind = TABLE_NONE}, o);
+        for (int slot = 0; slot < 3; slot++) base_add(&stack, slot, o, &self->base[k]);
+    }
+    return true;
+}
+
+/* The table of E that the layer rule asks for, over all roughnesses; TABLE_NONE where an engine has its own.
+ */
+static TableRef keep_table(EnergyTables *tables, const Case *self) {
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    const Dir n = dir(0.0f, 0.0f, 1.0f);
+    Stack stack, end;
+    stack_of(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &stack);
+    if (stack.albedo != ALBEDO_TABLE && stack.albedo != ALBEDO_KHRONOS) return (TableRef){.kind = TABLE_NONE};
+    stack_of(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
+    const float low = fminf(end.at, stack.at), high = fmaxf(end.at, stack.at);
+    if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack.sheen.lobe, low, high, false))
+        albedo_table_fill(&tables->keep, &stack.sheen.lobe, low, high, 0);
+    return albedo_table_ref(&tables->keep);
+}
+
+/* E of a white lobe alone, whose first parameter follows from roughness: looked up between hundredths, each
+ * of which is measured once. */
+static float white_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    const float at = fminf(fmaxf(roughness, 0.0f), 1.0f) * 100.0f;
+    const int low = (int)fminf(at, 99.0f);
+    float *memory[2] = {&tables->white[reader][low][k], &tables->white[reader][low + 1][k]};
+    for (int end = 0; end < 2; end++) {
+        if (*memory[end] > 0.0f) continue;
+        const Dir o = seen_from(self->along, k);
+        Stack stack;
+        stack_of(self, white, (float)(low + end) / 100.0f, (TableRef){.kind = TABLE_NONE}, o, &stack);
+        *memory[end] = albedo_quadrature(&stack.sheen.lobe, o, 1e-4).f0;
+    }
+    return mix(*memory[0], *memory[1], at - (float)low);
+}
+
+/* E of the white sheen by itself under an engine: the lobe's, times what the engine puts on it. */
+static float sheen_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    Stack stack;
+    stack_of(self, white, roughness, (TableRef){.kind = TABLE_NONE}, seen_from(self->along, k), &stack);
+    return white_albedo(tables, self, reader, roughness, k) * stack.sheen.f0.r;
+}
+
+static float luminance_of(const float e[3]) { return 0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2]; }
+
+static float most_of(const float e[3]) { return fmaxf(e[0], fmaxf(e[1], e[2])); }
+
+/* Puts the sheen of a roughness on a case. */
+static Answer answer_of(EnergyTables *tables, const Case *self, int reader, const float color[3],
+                        float roughness) {
+    const TableRef table = keep_table(tables, self);
+    Answer answer;
+    for (int k = 0; k < COSINES; k++) {
+        const Base *base = &self->base[k];
+        const Dir o = seen_from(self->along, k);
+        Stack stack;
+        stack_of(self, color, roughness, table, o, &stack);
+        const float e = white_albedo(tables, self, reader, roughness, k);
+        float with[3] = {base->over[0] + e * stack.sheen.f0.r, base->over[1] + e * stack.sheen.f0.g,
+                         base->over[2] + e * stack.sheen.f0.b},
+              without[3] = {base->over[0], base->over[1], base->over[2]};
+        for (int slice = 0; slice < SLICES; slice++) {
+            const float z = base->z[slice], *below = base->below[slice];
+            if (!(z > 0.0f)) continue;
+            const Rgb keep = stack_keep(stack, stack_albedo(stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
+            with[0] += keep.r * below[0], with[1] += keep.g * below[1], with[2] += keep.b * below[2];
+            for (int c = 0; c < 3; c++) without[c] += below[c];
+        }
+        answer.alone[k] = sheen_albedo(tables, self, reader, roughness, k);
+        answer.with[k] = most_of(with), answer.without[k] = most_of(without);
+        answer.light_with[k] = luminance_of(with), answer.light_without[k] = luminance_of(without);
+    }
     return answer;
 }
 
@@ -112,53 +254,36 @@ static float gain(const Answer *answer, int *where) {
     return most;
 }
 
-/* Whether an engine gains at a roughness in hundredths. */
-static bool gains_at(const WeftDoctor *doctor, const Cloth *cloth, int hundredths, int reader,
-                     const Answer *known) {
-    Answer answer = ask(doctor, cloth, (float)hundredths / 100.0f, reader, known);
+static bool gains(const Answer *answer) {
     int where;
-    return gain(&answer, &where) > 0.0f;
+    return gain(answer, &where) > 0.0f;
 }
 
 /* The least roughness, in hundredths, from which no engine gains; 0 where even 1 does. An engine gains less
  * the rougher a sheen is, so that each is halved only above where those before it end. */
-static float least_roughness(const WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
+static float least_roughness(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
     const int start = (int)(cloth->roughness * 100.0f);
-    int least = start, where;
+    int least = start;
     for (int r = 0; r < READERS; r++) {
-        int low = least, high = 100;
-        bool gains = least == start ? gain(&answers[r], &where) > 0.0f
-                                    : gains_at(doctor, cloth, least, r, &answers[r]);
-        if (!gains) continue;
-        if (gains_at(doctor, cloth, high, r, &answers[r])) return 0.0f;
+        Case self;
+        if ((least == start && !gains(&answers[r])) || !case_make(doctor, cloth, r, &self)) continue;
+        const Answer first = answer_of(doctor->energy_tables, &self, r, cloth->color, (float)least / 100.0f);
+        if (least != start && !gains(&first)) continue;
+        int low = least, high = 101;
         while (high - low > 1) {
-            int middle = (low + high) / 2;
-            if (gains_at(doctor, cloth, middle, r, &answers[r]))
-                low = middle;
-            else
+            const int middle = high > 100 ? 100 : (low + high) / 2;
+            const Answer answer =
+                answer_of(doctor->energy_tables, &self, r, cloth->color, (float)middle / 100.0f);
+            if (!gains(&answer))
                 high = middle;
+            else if (middle == 100)
+                return 0.0f;
+            else
+                low = middle;
         }
         least = high;
     }
     return (float)least / 100.0f;
-}
-
-/* E of the white sheen by itself under a profile: the slot's lobe, to 1e-4, times what the profile puts on
- * it. */
-static float sheen_albedo(const char *profile, float roughness, float cosine) {
-    Material material = material_default("");
-    for (int c = 0; c < 3; c++) {
-        material.inputs[INPUT_sheen_color].value[c] = 1.0f;
-        material.inputs[INPUT_base_color].value[c] = 0.0f;
-    }
-    material.inputs[INPUT_sheen_roughness].value[0] = roughness;
-    material.choices[CHOICE_profile] = choice_find(CHOICE_profile, profile);
-    Surface surface = frame_surface(material_plain(&material));
-    Choices choices = material_choices(&material);
-    Stack stack;
-    const Dir o = dir(sqrtf(1.0f - cosine * cosine), 0.0f, cosine);
-    stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE}, o);
-    return albedo_quadrature(&stack.sheen.lobe, o, 1e-4).f0 * stack.sheen.f0.r;
 }
 
 /* The engines of a mask by name, "three, babylon". */
@@ -177,10 +302,7 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
-    if (energy->least < 0.0f) {
-        energy->least = least_roughness(doctor, cloth, answers);
-        energy->alone = sheen_albedo(doctor_readers[worst], cloth->roughness, cosines[where]);
-    }
+    if (energy->least < 0.0f) energy->least = least_roughness(doctor, cloth, answers);
     float least = energy->least;
     bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
@@ -191,7 +313,7 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
                  "(without the sheen %.3g; its white sheen alone returns %.3g): rims glow",
                  (double)cloth->roughness, given ? "" : " (it is left out, and then is 0)",
                  (double)answers[worst].with[where], degrees(cosines[where]), doctor_readers[worst],
-                 (double)answers[worst].without[where], (double)energy->alone);
+                 (double)answers[worst].without[where], (double)answers[worst].alone[where]);
     if (mends)
         doctor_advise(
             doctor,
@@ -254,13 +376,14 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *ans
 }
 
 /* The same sheen by itself, at 60 degrees. */
-static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const float e[READERS]) {
+static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
     const float limit = 1.5f;
     float low = INFINITY, high = 0.0f;
     int lowest = 0, highest = 0;
     for (int r = 0; r < READERS; r++) {
-        if (e[r] < low) low = e[lowest = r];
-        if (e[r] > high) high = e[highest = r];
+        const float e = answers[r].alone[AT_60];
+        if (e < low) low = e, lowest = r;
+        if (e > high) high = e, highest = r;
     }
     if (!(high > limit * low)) return;
     doctor_found(
@@ -308,20 +431,30 @@ static Energy *energy_add(WeftDoctor *doctor) {
     return &doctor->energies[doctor->energy_count++];
 }
 
-/* Measured once for all that have the same numbers: some sixty quadratures of the whole material. */
+/* Measured once for all that have the same numbers. */
 static Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
     Key key;
     if (!key_of(doctor, cloth, &key)) return NULL;
     Energy *energy = energy_find(doctor, &key);
     if (energy) return energy;
-    energy = energy_add(doctor);
+    if (!doctor->energy_tables) doctor->energy_tables = alloc_array(1, sizeof *doctor->energy_tables);
+    doctor->failed |= !doctor->energy_tables;
+    energy = doctor->energy_tables ? energy_add(doctor) : NULL;
     if (!energy) return NULL;
     *energy = (Energy){.key = key, .least = -1.0f};
     for (int r = 0; r < READERS; r++) {
-        energy->answers[r] = ask(doctor, cloth, cloth->roughness, r, NULL);
-        energy->at_60[r] = sheen_albedo(doctor_readers[r], cloth->roughness, 0.5f);
+        Case self;
+        if (!case_make(doctor, cloth, r, &self)) return NULL;
+        energy->answers[r] = answer_of(doctor->energy_tables, &self, r, cloth->color, cloth->roughness);
     }
     return energy;
+}
+
+float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine) {
+    const Energy *energy = energy_of(doctor, cloth);
+    for (int k = 0; energy && k < COSINES; k++)
+        if (fabsf(cosines[k] - cosine) < 1e-6f) return energy->answers[reader].with[k];
+    return -1.0f;
 }
 
 void check_energy(WeftDoctor *doctor, const Cloth *cloth) {
@@ -330,5 +463,5 @@ void check_energy(WeftDoctor *doctor, const Cloth *cloth) {
     if (!energy) return;
     check_gain(doctor, cloth, energy);
     check_dark(doctor, cloth, energy->answers);
-    check_differ(doctor, cloth, energy->at_60);
+    check_differ(doctor, cloth, energy->answers);
 }
