@@ -9,6 +9,10 @@
 
 enum { HEADER = 12, FILE_SIZE = HEADER + 3 * MERL_BINS * 8 };
 
+static size_t bins_of(MerlShape shape) {
+    return (size_t)shape.theta_h * (size_t)shape.theta_d * (size_t)shape.phi_d;
+}
+
 static const double units[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
 static uint64_t little(const unsigned char *bytes, int count) {
@@ -24,30 +28,35 @@ static double double_at(const unsigned char *bytes) {
     return value;
 }
 
-static WeftResult check_size(const unsigned char *bytes, size_t size, const char *name, WeftError *error) {
+static WeftResult check_size(const unsigned char *bytes, size_t size, MerlShape shape, const char *name,
+                             WeftError *error) {
     if (size < HEADER) return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes", size);
+    const size_t whole = HEADER + 3 * 8 * bins_of(shape);
     unsigned n[3];
     for (int k = 0; k < 3; k++) n[k] = (unsigned)little(bytes + (size_t)4 * (size_t)k, 4);
-    if (n[0] != MERL_THETA_H || n[1] != MERL_THETA_D || n[2] != MERL_PHI_D)
+    if (n[0] != (unsigned)shape.theta_h || n[1] != (unsigned)shape.theta_d || n[2] != (unsigned)shape.phi_d)
         return fail(error, WEFT_MESSAGE_MEASURED, name,
-                    "it says %u x %u x %u bins where 90 x 90 x 180 are meant", n[0], n[1], n[2]);
-    if (size != FILE_SIZE)
-        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes, and %s: %d would be right", size,
-                    size < FILE_SIZE ? "was cut short" : "goes on behind its end", (int)FILE_SIZE);
+                    "it says %u x %u x %u bins where %d x %d x %d are meant", n[0], n[1], n[2], shape.theta_h,
+                    shape.theta_d, shape.phi_d);
+    if (size != whole)
+        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes, and %s: %zu would be right", size,
+                    size < whole ? "was cut short" : "goes on behind its end", whole);
     return WEFT_OK;
 }
 
-WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error) {
+WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
+                           WeftError *error) {
     const unsigned char *bytes = data;
-    *out = (Merl){{NULL}};
-    WeftResult result = check_size(bytes, size, name, error);
+    const size_t bins = bins_of(shape);
+    *out = (Merl){.shape = shape};
+    WeftResult result = check_size(bytes, size, shape, name, error);
     if (result != WEFT_OK) return result;
     bool any = false;
     for (int c = 0; c < 3; c++) {
-        out->f[c] = alloc_array(MERL_BINS, sizeof **out->f);
+        out->f[c] = alloc_array(bins, sizeof **out->f);
         if (!out->f[c]) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-        for (size_t k = 0; k < MERL_BINS; k++) {
-            double f = double_at(bytes + HEADER + ((size_t)c * MERL_BINS + k) * 8) * units[c];
+        for (size_t k = 0; k < bins; k++) {
+            double f = double_at(bytes + HEADER + ((size_t)c * bins + k) * 8) * units[c];
             if (!isfinite(f) || f > 1e30)
                 return fail(error, WEFT_MESSAGE_MEASURED, name, "number %zu is not finite", k + 1);
             out->f[c][k] = f < 0.0 ? -1.0f : (float)f;
@@ -58,9 +67,14 @@ WeftResult merl_read_memory(const void *data, size_t size, const char *name, Mer
     return WEFT_OK;
 }
 
+WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error) {
+    const MerlShape shape = {MERL_THETA_H, MERL_THETA_D, MERL_PHI_D};
+    return merl_read_shape(data, size, shape, name, out, error);
+}
+
 WeftResult merl_read(const char *path, Merl *out, WeftError *error) {
     FileBytes bytes;
-    *out = (Merl){{NULL}};
+    *out = (Merl){0};
     WeftResult result = file_read(path, FILE_SIZE + 1, &bytes, error);
     if (result != WEFT_OK) return result;
     result = merl_read_memory(bytes.data, bytes.size, path, out, error);
@@ -70,7 +84,7 @@ WeftResult merl_read(const char *path, Merl *out, WeftError *error) {
 
 void merl_free(Merl *merl) {
     for (int c = 0; c < 3; c++) free(merl->f[c]);
-    *merl = (Merl){{NULL}};
+    *merl = (Merl){0};
 }
 
 /* Half vector and difference angles, radians; phi_d in [0, pi), since f(wo, wi) = f(wi, wo) turns it by pi.
@@ -116,15 +130,17 @@ static Between between(double place, int bins, bool round_it) {
 bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
     f[0] = f[1] = f[2] = 0.0f;
     if (!(o.z > 0.0f) || !(i.z > 0.0f)) return false;
+    const MerlShape s = merl->shape;
     HalfDiff a = half_diff(o, i);
     /* bins of theta_h are narrow near the mirror direction: uniform in its root */
-    Between h = between((sqrt)(a.theta_h / (0.5 * pi)) * MERL_THETA_H, MERL_THETA_H, false);
-    Between d = between(a.theta_d / (0.5 * pi) * MERL_THETA_D, MERL_THETA_D, false);
-    Between p = between(a.phi_d / pi * MERL_PHI_D, MERL_PHI_D, true);
+    Between h = between((sqrt)(a.theta_h / (0.5 * pi)) * s.theta_h, s.theta_h, false);
+    Between d = between(a.theta_d / (0.5 * pi) * s.theta_d, s.theta_d, false);
+    Between p = between(a.phi_d / pi * s.phi_d, s.phi_d, true);
     double sum[3] = {0.0}, weights = 0.0;
     for (int corner = 0; corner < 8; corner++) {
         int u = corner & 1, v = corner >> 1 & 1, w = corner >> 2;
-        size_t at = ((size_t)h.bin[u] * MERL_THETA_D + (size_t)d.bin[v]) * MERL_PHI_D + (size_t)p.bin[w];
+        size_t at =
+            ((size_t)h.bin[u] * (size_t)s.theta_d + (size_t)d.bin[v]) * (size_t)s.phi_d + (size_t)p.bin[w];
         double weight = (u ? h.weight : 1.0 - h.weight) * (v ? d.weight : 1.0 - d.weight) *
                         (w ? p.weight : 1.0 - p.weight);
         if (merl->f[0][at] < 0.0f || merl->f[1][at] < 0.0f || merl->f[2][at] < 0.0f) continue;

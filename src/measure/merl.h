@@ -16,8 +16,14 @@
 
 enum { MERL_THETA_H = 90, MERL_THETA_D = 90, MERL_PHI_D = 180, MERL_BINS = 90 * 90 * 180 };
 
+/* How many bins there are of each angle. */
+typedef struct MerlShape {
+    int theta_h, theta_d, phi_d;
+} MerlShape;
+
 /* f[channel][bin], 1/sr, negative where it was not measured. */
 typedef struct Merl {
+    MerlShape shape;
     float *f[3];
 } Merl;
 
@@ -26,6 +32,11 @@ typedef struct Merl {
 WeftResult merl_read(const char *path, Merl *out, WeftError *error);
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
+
+/* The same of a file with another number of bins, of which the format knows none: for a fuzzer, to which 35
+ * MB an input are too many. */
+WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
+                           WeftError *error);
 
 /* f between the middles of the bins, linear, of those that were measured. False where none was, and below the
  * horizon. */
