@@ -2,6 +2,8 @@
 #ifndef WEFT_BASE_MEMORY_H
 #define WEFT_BASE_MEMORY_H
 
+#include <errno.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* count * size zeroed bytes, or NULL when the product overflows or memory is short. Release with free().
@@ -13,6 +15,12 @@ void *realloc_array(void *block, size_t count, size_t size);
 
 /* Gives the system back what is free in between blocks that are not, where the C library can. */
 void memory_return(void);
+
+/* Libraries that decode fail without saying whether data were wrong or memory was short: jansson's parser,
+ * OpenEXR, zlib. malloc does, in errno, which decoders in memory leave alone else. So: memory_begin, call,
+ * memory_was_short. */
+static inline void memory_begin(void) { errno = 0; }
+static inline bool memory_was_short(void) { return errno == ENOMEM; }
 
 /* Everything allocated from an arena is released together. Zero-initialise; not thread-safe. */
 typedef struct Arena {

@@ -19,8 +19,9 @@ static void json_read(Asset *asset, Span text) {
         return;
     }
     json_error_t error;
+    memory_begin();
     asset->root = json_loadb((const char *)text.data, text.size, 0, &error);
-    if (!asset->root && json_error_code(&error) == json_error_out_of_memory)
+    if (memory_was_short())
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
     else if (!asset->root)
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "line %d, column %d: %s", error.line, error.column,

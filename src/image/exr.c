@@ -1,5 +1,4 @@
 /* OpenEXR through its C library. Colours of an EXR file are multiplied by alpha; ours are not. */
-#include <errno.h>
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -38,10 +37,6 @@ static void exr_job_error(exr_const_context_t exr, exr_result_t code, const char
 
 /* Zeroed, so that a chunk that decodes to less than it should shows no old memory; and of a bounded size. */
 static void *exr_job_alloc(size_t size) { return size <= (size_t)1 << 30 ? alloc_array(size, 1) : NULL; }
-
-/* Returns true if memory was short since errno was set to 0: what the library says is no sign of it, since it
- * takes a code that does not decode for lack of memory, and lack of memory in zlib for a damaged chunk. */
-static bool is_starved(void) { return errno == ENOMEM; }
 
 static int64_t exr_job_read(exr_const_context_t exr, void *user, void *to, uint64_t size, uint64_t offset,
                             exr_stream_error_func_ptr_t report) {
@@ -322,7 +317,7 @@ static void alpha_straighten(WeftImage *image) {
 static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *error) {
     WeftMessage message = WEFT_MESSAGE_IMAGE_DAMAGED;
     if (status == EXR_ERR_FEATURE_NOT_IMPLEMENTED) message = WEFT_MESSAGE_IMAGE_UNSUPPORTED;
-    if (is_starved()) message = WEFT_MESSAGE_MEMORY;
+    if (memory_was_short()) message = WEFT_MESSAGE_MEMORY;
     return fail(error, message, job->source->name, "EXR: %s",
                 job->reason[0] ? job->reason : exr_get_default_error_message(status));
 }
@@ -353,7 +348,7 @@ WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *
     setup.max_tile_width = setup.max_tile_height = IMAGE_SIDE_MAX;
     setup.flags =
         EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* a cut file is damaged, not half an image */
-    errno = 0;
+    memory_begin();
     exr_result_t status = exr_start_read(&exr.context, source->name, &setup);
     if (status != EXR_ERR_SUCCESS) return exr_refuse(&job, status, error);
     WeftResult result = exr_decode(&exr, &job, out, error);
@@ -464,7 +459,7 @@ WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *imag
     exr_context_initializer_t setup = exr_job_setup(&job);
     setup.write_fn = exr_job_write;
     exr_context_t exr = NULL;
-    errno = 0;
+    memory_begin();
     exr_result_t status = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &setup);
     int32_t lines = 0;
     float *planes = NULL;
@@ -480,6 +475,6 @@ WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *imag
         if (status == EXR_ERR_SUCCESS) status = finished;
     }
     if (status == EXR_ERR_SUCCESS && !ferror(stream)) return WEFT_OK;
-    return fail(error, is_starved() ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_FILE_WRITE, name, "EXR: %s",
+    return fail(error, memory_was_short() ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_FILE_WRITE, name, "EXR: %s",
                 job.reason[0] ? job.reason : exr_get_default_error_message(status));
 }

@@ -330,10 +330,11 @@ WeftResult material_file_read(const void *data, size_t size, const char *name, c
     size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, blank = mark; /* of UTF-8 */
     while (blank < size && text[blank] && strchr(" \t\r\n", text[blank])) blank++;
     json_error_t where;
+    memory_begin();
     json_t *root = json_loadb(text + mark, size - mark, JSON_REJECT_DUPLICATES, &where);
     if (blank == size)
         refuse(&reader, "it is empty");
-    else if (!root && json_error_code(&where) == json_error_out_of_memory)
+    else if (memory_was_short())
         reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     else if (!root)
         refuse(&reader, "line %d: %s", where.line, where.text);

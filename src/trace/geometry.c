@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "trace/geometry.h"
+#include "trace/guard.h"
 
 #include "base/fail.h"
 #include "base/random.h"
@@ -13,7 +14,9 @@ struct Geometry {
     RTCDevice device;
     RTCScene accel;
     bool *asked; /* of a mesh: see is_asked */
-    int meshes;
+    int meshes, threads;
+    enum RTCError complaint;
+    bool built;
 };
 
 static struct RTCRay to_embree(const Ray *ray) {
@@ -106,48 +109,66 @@ static bool attach(Geometry *geometry, uint32_t id) {
 /* Up to here the slower build that traces faster takes less than the eye notices. */
 enum { FINE_BUILD_TRIANGLES = 200000 };
 
+/* Embree's first complaint; 0: none. */
+static void note_error(void *user, enum RTCError code, const char *text) {
+    Geometry *geometry = user;
+    if (geometry->complaint == RTC_ERROR_NONE) geometry->complaint = code;
+}
+
+/* Makes what Embree holds; `built` where all of it stands. */
+static void build(void *user) {
+    Geometry *geometry = user;
+    const WeftScene *scene = geometry->scene;
+    char config[64];
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0", geometry->threads);
+    geometry->device = rtcNewDevice(config);
+    if (!geometry->device) return;
+    rtcSetDeviceErrorFunction(geometry->device, note_error, geometry);
+    geometry->accel = rtcNewScene(geometry->device);
+    bool made = geometry->accel != NULL;
+    uint32_t triangles = 0;
+    for (int k = 0; made && k < geometry->meshes; k++) {
+        if (!scene->meshes[k].triangle_count) continue;
+        made = attach(geometry, (uint32_t)k);
+        triangles += scene->meshes[k].triangle_count;
+    }
+    if (!made) return;
+    rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    if (triangles <= FINE_BUILD_TRIANGLES) rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
+    rtcCommitScene(geometry->accel);
+    geometry->built =
+        geometry->complaint == RTC_ERROR_NONE && rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
+}
+
+static void release(void *user) {
+    const Geometry *geometry = user;
+    if (geometry->accel) rtcReleaseScene(geometry->accel);
+    if (geometry->device) rtcReleaseDevice(geometry->device);
+}
+
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out,
                            WeftError *error) {
-    char config[64];
-    snprintf(config, sizeof config, "threads=%d,set_affinity=0", threads);
     Geometry *geometry = alloc_array(1, sizeof *geometry);
     if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    geometry->scene = scene;
-    geometry->meshes = meshes;
+    *geometry = (Geometry){.scene = scene, .meshes = meshes, .threads = threads};
     geometry->asked = alloc_array((size_t)meshes, sizeof *geometry->asked);
     if (!geometry->asked) {
         free(geometry);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     for (int k = 0; k < meshes; k++) geometry->asked[k] = is_asked(scene, k);
-    geometry->device = rtcNewDevice(config);
-    geometry->accel = geometry->device ? rtcNewScene(geometry->device) : NULL;
-    bool built = geometry->accel != NULL;
-    uint32_t triangles = 0;
-    for (int k = 0; built && k < meshes; k++) {
-        if (!scene->meshes[k].triangle_count) continue;
-        built = attach(geometry, (uint32_t)k);
-        triangles += scene->meshes[k].triangle_count;
+    if (guarded(build, geometry) && geometry->built) {
+        *out = geometry;
+        return WEFT_OK;
     }
-    if (built) {
-        rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-        if (triangles <= FINE_BUILD_TRIANGLES)
-            rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
-        rtcCommitScene(geometry->accel);
-        built = rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
-    }
-    if (!built) {
-        geometry_free(geometry);
-        return fail(error, WEFT_MESSAGE_RENDER_DEVICE, scene->name, NULL);
-    }
-    *out = geometry;
-    return WEFT_OK;
+    bool starved = geometry->complaint == RTC_ERROR_OUT_OF_MEMORY;
+    geometry_free(geometry);
+    return fail(error, starved ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_RENDER_DEVICE, scene->name, NULL);
 }
 
 void geometry_free(Geometry *geometry) {
     if (!geometry) return;
-    if (geometry->accel) rtcReleaseScene(geometry->accel);
-    if (geometry->device) rtcReleaseDevice(geometry->device);
+    guarded(release, geometry); /* a scene whose building broke off throws on its way out */
     free(geometry->asked);
     free(geometry);
 }
