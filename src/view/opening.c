@@ -112,10 +112,22 @@ void opening_forget(Viewer *v) {
     facts_free(&v->facts);
 }
 
-/* Those of the panels, of a scene that is another one: the material that is seen largest. */
+/* The material that is seen largest, of those with a sheen where one is seen: a backdrop is larger than what
+ * stands before it. */
+static int largest_seen(const Look *look, const float *shares) {
+    int count = look->material_count, largest = -1;
+    char *sheens = calloc((size_t)count + 1, 1);
+    for (int k = 0; k < count && sheens; k++)
+        sheens[k] = (char)(weft_material_reads(look_material(look, k), input_number("sheen_roughness")) != 0);
+    if (sheens && shares) largest = survey_largest(shares, count, sheens);
+    if (largest < 0 && shares) largest = survey_largest(shares, count, NULL);
+    free(sheens);
+    return largest > 0 ? largest : 0;
+}
+
+/* Those of the panels, of a scene that is another one. */
 static void choose_first(Viewer *v, const Look *look) {
-    int largest = v->facts.shares ? survey_largest(v->facts.shares, look->material_count, NULL) : -1;
-    v->material = largest > 0 ? largest : 0;
+    v->material = largest_seen(look, v->facts.shares);
     v->light = 0;
     v->variant = -1;
     v->has_probe = v->has_copied = false;
