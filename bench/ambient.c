@@ -194,17 +194,18 @@ static Stack surface_of(int subject, float roughness, Dir o) {
 /* What is looked at; `albedo` may be NULL. */
 static Stack subject_stack(int subject, float roughness, Dir o, const AlbedoTable *albedo) {
     if (subject >= BASE && subject != SATIN) return surface_of(subject, roughness, o);
-    Stack m = stack_empty();
+    Stack m;
+    stack_clear(&m);
     Rgb white = rgb_grey(1.0f);
     Lobe lobe = lobe_rough(subject == SATIN ? LOBE_SILK : subject, roughness);
     if (subject == SATIN) lobe.params[1] = 0.8f;
-    m.sheen = slot_make(lobe, white, white, 1.0f, 1.0f);
+    slot_make(&m.sheen, lobe, white, white, 1.0f, 1.0f);
     m.sheen.pick = 1.0f;
     if (albedo) {
         m.albedo = ALBEDO_TABLE;
         m.table = albedo_table_ref(albedo);
         m.at = lobe.params[0];
-        m.e_o = stack_albedo(m, o);
+        m.e_o = stack_albedo(&m, o);
     }
     return m;
 }
@@ -329,7 +330,7 @@ static void measure(void *user, int item, int thread) {
                                         held->polynomials};
             Rgb truth = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                Rgb got = stack_ambient(m, p->o, by_strategy(tables, s), &calls, 1.0f);
+                Rgb got = stack_ambient(&m, p->o, by_strategy(tables, s), &calls, 1.0f);
                 double *sum = results[subject][r][s][k];
                 sum[0] +=
                     p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));

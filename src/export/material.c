@@ -117,8 +117,9 @@ static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error)
 
 /* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
 static bool needs_e(const Subject *subject) {
+    const Stack *m = &subject->stack;
     return subject->slots.slots[2].count &&
-           (!subject->one_layer || (subject->stack.layer != LAYER_ADDITIVE && !IS_BELOW_F(subject->stack)));
+           (!subject->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
 }
 
 static bool needs_table(const Subject *subject) {
@@ -211,10 +212,10 @@ static void put_shade(Draft *draft, const Subject *subject) {
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
               "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Dir o = wo;",
               draft->desc->fold_pi ? " times pi" : "", draft->id[0]);
-    if (subject->chosen) text_line(text, "    s = compose_surface(s, material_choices());");
-    text_line(text, "    Stack m = %s;", composition_stack(&subject->choices));
-    if (subject->chosen) text_line(text, "    m = compose_choices(m, s, material_choices());");
-    if (!subject->zero[INPUT_dust]) text_line(text, "    m = compose_dust(m, s, o);");
+    if (subject->chosen) text_line(text, "    compose_surface(s, material_choices());");
+    text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&subject->choices));
+    if (subject->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
+    if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s, o);");
     if (subject->table) text_line(text, "    m.table = sheen_table();");
     if (needs_e(subject)) text_line(text, "    m.e_o = stack_albedo(m, o);");
     if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)

@@ -116,7 +116,7 @@ static void specular_save(Saving *saving, json_t *object, const Material *materi
     const Surface plain = {.ior = value(material, INPUT_ior),
                            .reflectance = value(material, INPUT_reflectance)};
     bool own = material_choices(material).workflow == WORKFLOW_SPECULAR;
-    float root = sqrtf(unit(dielectric_f0(plain))), ior = (1.0f + root) / fmaxf(1.0f - root, 1e-3f);
+    float root = sqrtf(unit(dielectric_f0(&plain))), ior = (1.0f + root) / fmaxf(1.0f - root, 1e-3f);
     json_t *extension = json_object(), *index = json_object();
     number_put(saving, extension, "specularFactor", unit(value(material, INPUT_specular)));
     texture_put(saving, extension, "specularTexture", &inputs[INPUT_specular], A);

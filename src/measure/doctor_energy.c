@@ -229,7 +229,7 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
         for (int slice = 0; slice < SLICES; slice++) {
             const float z = base->z[slice], *below = base->below[slice];
             if (!(z > 0.0f)) continue;
-            const Rgb keep = stack_keep(stack, stack_albedo(stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
+            const Rgb keep = stack_keep(&stack, stack_albedo(&stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
             with[0] += keep.r * below[0], with[1] += keep.g * below[1], with[2] += keep.b * below[2];
             for (int c = 0; c < 3; c++) without[c] += below[c];
         }

@@ -38,7 +38,9 @@ void half_eval(int lobe, const Single *params, size_t n, const Single *ox, const
     Half second = lobe_second(&m, first, 1.0f16);
     for (size_t k = 0; k < n; k++) {
         Dir o = {(Half)ox[k], (Half)oy[k], (Half)oz[k]}, i = {(Half)ix[k], (Half)iy[k], (Half)iz[k]};
-        LobeValue v = lobe_value(&m, angles_between(o, i));
+        Angles a = angles_between(o, i);
+        LobeValue v;
+        lobe_value_to(&m, &a, &v);
         f[k] = (Single)(v.f * lobe_color(v, first, second));
     }
 }

@@ -42,7 +42,7 @@ static bool asks_for_table(const Whole *self, Stack *stack) {
     stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
     if (!(stack->sheen.pick > 0.0f) && stack->layer != LAYER_MULTIPLICATIVE) return false;
     if (stack->albedo == ALBEDO_TABLE || stack->albedo == ALBEDO_KHRONOS) return true;
-    stack_albedo(*stack, dir(0.0f, 0.0f, 1.0f));
+    stack_albedo(stack, dir(0.0f, 0.0f, 1.0f));
     return false;
 }
 

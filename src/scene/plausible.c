@@ -21,7 +21,7 @@
 static float f0_judged(float f0) { return f0 > 0.0f ? f0 : NOTHING; }
 /* `specular` and its colour may dim it below any dielectric's, as gaps between threads do, not raise it. */
 static float f0_metallic(Surface s) {
-    float whole = dielectric_f0(s), left = rgb_max3(metallic_f0(s));
+    float whole = dielectric_f0(&s), left = rgb_max3(metallic_f0(&s));
     return s.metallic < 1.0f ? f0_judged(fmaxf(left, fminf(whole, DIELECTRIC_HIGH))) : NOTHING;
 }
 static float f0_disney(Surface s) { return s.metallic < 1.0f ? f0_judged(0.08f * s.specular) : NOTHING; }
@@ -36,7 +36,7 @@ static float spread(Rgb f0) {
     float most = rgb_max3(f0), least = fminf(f0.r, fminf(f0.g, f0.b));
     return most > 0.0f ? (most - least) / most : NOTHING;
 }
-static float spread_metallic(Surface s) { return s.metallic < 1.0f ? spread(metallic_f0(s)) : NOTHING; }
+static float spread_metallic(Surface s) { return s.metallic < 1.0f ? spread(metallic_f0(&s)) : NOTHING; }
 static float spread_disney(Surface s) {
     Rgb tint = rgb_mix(rgb_grey(1.0f), disney_tint(s.base_color), s.specular_tint);
     return s.metallic < 1.0f && s.specular > 0.0f ? spread(tint) : NOTHING;

@@ -117,7 +117,9 @@ void material_set(Material *material, const Setting *setting) {
 static bool has_sheen(const Material *material) {
     Choices choices = material_choices(material);
     Surface surface = convert_surface(material_plain(material), choices);
-    return compose_begin(surface, convert_choices(choices), dir(0.0f, 0.0f, 1.0f)).sheen.pick > 0.0f;
+    Stack stack;
+    compose_begin(&stack, &surface, convert_choices(choices), dir(0.0f, 0.0f, 1.0f));
+    return stack.sheen.pick > 0.0f;
 }
 
 /* Whether a setting does something to a sheen alone. */

@@ -72,7 +72,7 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     Stack most = plain_stack(&plain, &choices);
     if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
     if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
-        stack_albedo(most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
+        stack_albedo(&most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
         return WEFT_OK;
     }
     Lobe lobe = most.sheen.lobe;

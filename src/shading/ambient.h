@@ -446,17 +446,17 @@ FN float ambient_schlick_half(float cos_o) {
 }
 
 /* What the interface leaves for the diffuse lobe, on cosine average over wi. */
-FN Rgb ambient_under(Stack m, float cos_o) {
+FN Rgb ambient_under(const Stack *m, float cos_o) {
     Rgb f = rgb_grey(0.0f);
-    if (m.under == UNDER_HALF || m.under == UNDER_GAUSSIAN)
-        f = rgb_mix(m.under_f0, rgb_grey(m.under_f90), ambient_schlick_half(cos_o));
-    if (m.under == UNDER_LEAST)
-        f = rgb_grey(rgb_max3(rgb_mix(m.under_f0, rgb_grey(m.under_f90), ambient_schlick_least(cos_o))));
+    if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN)
+        f = rgb_mix(m->under_f0, rgb_grey(m->under_f90), ambient_schlick_half(cos_o));
+    if (m->under == UNDER_LEAST)
+        f = rgb_grey(rgb_max3(rgb_mix(m->under_f0, rgb_grey(m->under_f90), ambient_schlick_least(cos_o))));
     return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
 }
-FN Rgb ambient_let_through(Stack m, float cos_o) {
+FN Rgb ambient_let_through(const Stack *m, float cos_o) {
     float s = ambient_schlick_least(cos_o);
-    if (m.layer == LAYER_SEED) s = ambient_schlick_half(cos_o);
+    if (m->layer == LAYER_SEED) s = ambient_schlick_half(cos_o);
     return stack_let_by(m, s);
 }
 
@@ -469,7 +469,7 @@ FN Slot ambient_lit(Slot s, float lamps) {
     return t;
 }
 
-FN Rgb ambient_lamps(Stack m, Slots only, Dir o, AmbientSource s, float occlusion) {
+FN Rgb ambient_lamps(const Stack *m, Slots only, Dir o, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f);
     int count = ambient_count(s);
     for (int k = 0; k < count; k++) {
@@ -486,16 +486,16 @@ FN Rgb ambient_lamps(Stack m, Slots only, Dir o, AmbientSource s, float occlusio
 
 /* What a stack reflects towards wo, its tables being those of its lobes. occlusion: the part of the
  * cosine-weighted sky that is seen, in [0, 1]. */
-FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occlusion) {
+FN Rgb stack_ambient(const Stack *m, Dir o, AmbientTables t, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f), over = rgb_grey(1.0f);
-    Stack lit = m;
+    Stack lit = *m;
     Slots only = slots_of(false, false, false, false, false);
     AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
     AmbientFour rest = ambient_four(s, v);
     bool worn = IS_WORN(m);
     Rgb keep = rgb_grey(1.0f);
-    if (worn) keep = stack_keep(m, m.e_avg);
+    if (worn) keep = stack_keep(m, m->e_avg);
     Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
     if (IS_BELOW_F(m) && worn) {
@@ -505,52 +505,52 @@ FN Rgb stack_ambient(Stack m, Dir o, AmbientTables t, AmbientSource s, float occ
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
-        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m.diffuse.lobe, -1.0f);
-        Rgb c = rgb_scale(ambient_colored(m.diffuse, plain, a.of), matte);
+        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m->diffuse.lobe, -1.0f);
+        Rgb c = rgb_scale(ambient_colored(m->diffuse, plain, a.of), matte);
         if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, c);
-        lit.diffuse = ambient_lit(m.diffuse, a.lamps * matte);
+        lit.diffuse = ambient_lit(m->diffuse, a.lamps * matte);
         only.diffuse = SHOWS_DIFFUSE && a.lamps * matte > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
-        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m.specular.lobe, -1.0f);
+        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m->specular.lobe, -1.0f);
         float lamps = a.lamps * other;
-        Rgb c = rgb_scale(ambient_colored(m.specular, plain, a.of), other);
+        Rgb c = rgb_scale(ambient_colored(m->specular, plain, a.of), other);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
         only.specular = SHOWS_SPECULAR && lamps > 0.0f;
         if (lamps > 0.0f) {
-            lit.specular = ambient_lit(m.specular, lamps);
-            lit.left = m.left * lamps; /* so that stack_let_by is what it was */
+            lit.specular = ambient_lit(m->specular, lamps);
+            lit.left = m->left * lamps; /* so that stack_let_by is what it was */
         }
     }
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
-        if (m.nap.tilt > 0.0f) along.heading = v.tx * m.nap.x + v.ty * m.nap.y;
+        if (m->nap.tilt > 0.0f) along.heading = v.tx * m->nap.x + v.ty * m->nap.y;
         /* E of the stack is mixed with more care than that of the fit */
-        float known = m.albedo == ALBEDO_TABLE && m.table.kind != TABLE_NONE ? m.e_o.e : -1.0f;
-        AmbientSlot a = ambient_slot(t.sheen, s, along, rest, m.sheen.lobe, known);
-        Rgb c = ambient_colored(m.sheen, m.e_o, a.of);
+        float known = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? m->e_o.e : -1.0f;
+        AmbientSlot a = ambient_slot(t.sheen, s, along, rest, m->sheen.lobe, known);
+        Rgb c = ambient_colored(m->sheen, m->e_o, a.of);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), other));
-        lit.sheen = ambient_lit(m.sheen, a.lamps * other);
+        lit.sheen = ambient_lit(m->sheen, a.lamps * other);
         only.sheen = SHOWS_SHEEN && a.lamps * other > 0.0f;
     }
     if (HAS_COAT(m)) {
         Dir oc = stack_to_coat(m, o);
         if (oc.z > 0.0f) {
-            AmbientView c = ambient_view(oc, m.coat_x, m.coat_y, m.coat_z, v.occlusion);
-            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m.coat.lobe, -1.0f);
-            if (SHOWS_COAT) sum = rgb_add(sum, rgb_scale(ambient_colored(m.coat, plain, a.of), other));
-            lit.coat = ambient_lit(m.coat, a.lamps * other);
+            AmbientView c = ambient_view(oc, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
+            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m->coat.lobe, -1.0f);
+            if (SHOWS_COAT) sum = rgb_add(sum, rgb_scale(ambient_colored(m->coat, plain, a.of), other));
+            lit.coat = ambient_lit(m->coat, a.lamps * other);
             only.coat = SHOWS_COAT && a.lamps * other > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
-        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m.dust.lobe, -1.0f);
-        if (SHOWS_DUST) sum = rgb_add(sum, rgb_scale(ambient_colored(m.dust, plain, a.of), matte));
-        lit.dust = ambient_lit(m.dust, a.lamps * matte);
+        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m->dust.lobe, -1.0f);
+        if (SHOWS_DUST) sum = rgb_add(sum, rgb_scale(ambient_colored(m->dust, plain, a.of), matte));
+        lit.dust = ambient_lit(m->dust, a.lamps * matte);
         only.dust = SHOWS_DUST && a.lamps * matte > 0.0f;
     }
     if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
-        sum = rgb_add(sum, ambient_lamps(lit, only, o, s, v.occlusion));
+        sum = rgb_add(sum, ambient_lamps(&lit, only, o, s, v.occlusion));
     return sum;
 }
 

@@ -96,7 +96,7 @@ FN AreaDensity area_density(Lobe lobe, Dir o) {
 
 /* The slots together, with the points of one D. o and the polygon, which is above the horizon, are in the
  * frame of the slots. */
-FN Rgb area_slots(Stack m, Slots only, AreaDensity d, Dir o, Polygon p) {
+FN Rgb area_slots(const Stack *m, Slots only, AreaDensity d, Dir o, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) {
         Dir v = ltc_inverse(d.m, o, p.corners[k]);
@@ -128,7 +128,7 @@ FN Rgb area_slots(Stack m, Slots only, AreaDensity d, Dir o, Polygon p) {
     return rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL));
 }
 
-FN Polygon area_to_coat(Stack m, Polygon p) {
+FN Polygon area_to_coat(const Stack *m, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) q.corners[k] = stack_to_coat(m, p.corners[k]);
     return polygon_clip(q);
@@ -136,12 +136,12 @@ FN Polygon area_to_coat(Stack m, Polygon p) {
 
 /* The stack seen from wo (shading frame) under a polygon of radiance 1 from all of its points. Of layer rule
  * stochastic it is the first pass. */
-FN Rgb stack_polygon(Stack m, Dir o, Polygon p) {
+FN Rgb stack_polygon(const Stack *m, Dir o, Polygon p) {
     Rgb sum = rgb_grey(0.0f);
     Polygon q = polygon_clip(p);
     if (q.count < 3 || o.z <= 0.0f) return sum;
-    AreaDensity specular = area_density(m.specular.lobe, o), sheen = area_density(m.sheen.lobe, o);
-    AreaDensity dust = area_density(m.dust.lobe, o);
+    AreaDensity specular = area_density(m->specular.lobe, o), sheen = area_density(m->sheen.lobe, o);
+    AreaDensity dust = area_density(m->dust.lobe, o);
     for (int pass = 0; pass < 5; pass++) {
         Slots only = slots_of(SHOWS_DIFFUSE && HAS_DIFFUSE(m) && pass == 0,
                               SHOWS_SPECULAR && HAS_SPECULAR(m) && pass == (specular.narrow ? 1 : 0),
@@ -156,7 +156,7 @@ FN Rgb stack_polygon(Stack m, Dir o, Polygon p) {
         if (only.coat) {
             from = stack_to_coat(m, o);
             q = area_to_coat(m, q);
-            d = area_density(m.coat.lobe, from);
+            d = area_density(m->coat.lobe, from);
         }
         if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
             if (from.z > 0.0f) sum = rgb_add(sum, area_slots(m, only, d, from, q));

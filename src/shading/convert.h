@@ -24,7 +24,7 @@
 #define WORKFLOW_SPECULAR 1
 
 FN Rgb metallic_diffuse(Surface s) { return rgb_scale(s.base_color, 1.0f - s.metallic); }
-FN Rgb metallic_normal_f(Surface s) { return rgb_mix(metallic_f0(s), s.base_color, s.metallic); }
+FN Rgb metallic_normal_f(Surface s) { return rgb_mix(metallic_f0(&s), s.base_color, s.metallic); }
 
 FN Rgb specular_normal_f(Surface s) { return rgb_min(rgb_scale(s.specular_color, s.specular), 1.0f); }
 FN Rgb specular_diffuse(Surface s) { return rgb_scale(s.base_color, 1.0f - rgb_max3(specular_normal_f(s))); }
@@ -49,7 +49,7 @@ FN float convert_metallic(float d, float f, float f_d) {
 FN Surface convert_to_metallic(Surface s) {
     Surface t = s;
     Rgb d = specular_diffuse(s), f = specular_normal_f(s);
-    float f_d = dielectric_f0(s), m = convert_metallic(rgb_mean(d), rgb_mean(f), f_d);
+    float f_d = dielectric_f0(&s), m = convert_metallic(rgb_mean(d), rgb_mean(f), f_d);
     Rgb as_diffuse = rgb_scale(d, 1.0f / max(1.0f - m, 1e-6f)), as_metal = d;
     if (m > 0.0f) as_metal = rgb_scale(rgb_add(f, rgb_grey(-f_d * (1.0f - m))), 1.0f / m);
     Rgb base = rgb_min(rgb_mix(as_diffuse, as_metal, m), 1.0f);

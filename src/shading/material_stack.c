@@ -1,7 +1,7 @@
 #include "shading/material_stack.h"
 
 void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e, Dir o) {
-    *stack = surface_stack(*surface, *choices, e, o);
+    surface_stack(stack, surface, *choices, e, o);
 }
 
 static Dir from_coat(const Stack *s, Dir w) {
@@ -11,20 +11,20 @@ static Dir from_coat(const Stack *s, Dir w) {
 }
 
 static Angles coat_angles(const Stack *stack, Dir o, Dir i, Angles a) {
-    return stack->coat.pick > 0.0f ? angles_between(stack_to_coat(*stack, o), stack_to_coat(*stack, i)) : a;
+    return stack->coat.pick > 0.0f ? angles_between(stack_to_coat(stack, o), stack_to_coat(stack, i)) : a;
 }
 
 StackValue stack_eval_of(const Stack *stack, Slots only, Dir o, Dir i) {
     if (o.z <= 0.0f || i.z <= 0.0f) return (StackValue){0};
     Angles a = angles_between(o, i);
-    return stack_value_of(*stack, only, a, coat_angles(stack, o, i, a));
+    return stack_value_of(stack, only, a, coat_angles(stack, o, i, a));
 }
 
 StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed) {
     StackValue value = {0};
     if (o.z <= 0.0f || i.z <= 0.0f) return value; /* whatever the coat's own normal may see */
     Angles a = angles_between(o, i);
-    value = stack_value(*stack, a, coat_angles(stack, o, i, a));
+    value = stack_value(stack, a, coat_angles(stack, o, i, a));
     Rgb more = sheet_bounces(stack, slots_all(), o, i, seed);
     value.f_cos = rgb_add(value.f_cos, more);
     return value;
@@ -51,7 +51,7 @@ Dir stack_sample(const Stack *stack, Dir o, float u, float v) {
     Dir none = dir(0.0f, 0.0f, -1.0f);
     if (!slot) return none;
     if (slot != &stack->coat) return lobe_sample(&slot->lobe, o, u, v);
-    Dir oc = stack_to_coat(*stack, o), ic = none;
+    Dir oc = stack_to_coat(stack, o), ic = none;
     if (oc.z > 0.0f) ic = lobe_sample(&slot->lobe, oc, u, v);
     return ic.z > 0.0f ? from_coat(stack, ic) : none;
 }

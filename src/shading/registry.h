@@ -35,10 +35,15 @@ const LobeNames *lobe_names(int id);
 LOBE_COPY Lobe lobe_default(int id);
 LOBE_COPY Lobe lobe_rough(int id, float roughness);
 LOBE_COPY Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth);
-LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
+LOBE_COPY void lobe_value_to(const Lobe *m, const Angles *a, LobeValue *v);
 LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY float lobe_second(const Lobe *m, float f0, float f90);
 
+static inline LobeValue lobe_value(const Lobe *m, Angles a) {
+    LobeValue v;
+    lobe_value_to(m, &a, &v);
+    return v;
+}
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 

@@ -29,7 +29,7 @@ static bool walk_on(uint32_t *walk, const Stack *layer, Dir *o, Rgb *weight) {
 }
 
 static Rgb let_through(const Stack *stack, Dir w) {
-    SheenE e = stack_albedo(*stack, w);
+    SheenE e = stack_albedo(stack, w);
     Rgb c = stack->by == LAYER_BY_CHANNEL ? stack->color : rgb_grey(rgb_max3(stack->color));
     return rgb(max(1.0f - c.r * sheen_e_in(e, c.r), 0.0f), max(1.0f - c.g * sheen_e_in(e, c.g), 0.0f),
                max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));

@@ -6,9 +6,9 @@
 
 #include "shading/registry.h"
 
-FN LobeValue diffuse_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
-FN LobeValue specular_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
-FN LobeValue sheen_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
-FN LobeValue coat_at(const Lobe *m, Angles a) { return lobe_value(m, a); }
+FN void diffuse_at(const Lobe *m, const Angles *a, LobeValue *v) { lobe_value_to(m, a, v); }
+FN void specular_at(const Lobe *m, const Angles *a, LobeValue *v) { lobe_value_to(m, a, v); }
+FN void sheen_at(const Lobe *m, const Angles *a, LobeValue *v) { lobe_value_to(m, a, v); }
+FN void coat_at(const Lobe *m, const Angles *a, LobeValue *v) { lobe_value_to(m, a, v); }
 
 #endif

@@ -11,49 +11,46 @@
 #define DIELECTRIC_HIGH 0.067f
 
 /* F0 = ((ior - 1) / (ior + 1))^2, or from the slider where no ior is given. */
-FN float dielectric_f0(Surface s) {
-    float r = (s.ior - 1.0f) / (s.ior + 1.0f);
-    return s.ior > 0.0f
+FN float dielectric_f0(const Surface *s) {
+    float r = (s->ior - 1.0f) / (s->ior + 1.0f);
+    return s->ior > 0.0f
                ? r * r
-               : clamp(DIELECTRIC_LOW + (DIELECTRIC_HIGH - DIELECTRIC_LOW) * s.reflectance, 0.0f, 1.0f);
+               : clamp(DIELECTRIC_LOW + (DIELECTRIC_HIGH - DIELECTRIC_LOW) * s->reflectance, 0.0f, 1.0f);
 }
 
 /* The coat of glTF: GGX of ior 1.5 with its own normal, which dims all below it by 1 - F(cos_o).
  * Khronos Group, KHR_materials_clearcoat, 2020. */
-FN Stack workflow_coat(Stack m, Surface s, Dir o) {
-    float coat_o = dir_dot(o, s.clearcoat_normal);
-    if (s.clearcoat <= 0.0f || coat_o <= 1e-4f)
-        return m; /* a coat turned away by its normal map is not seen */
-    m = stack_coat_frame(m, s.clearcoat_normal);
-    float f = s.clearcoat * mix(0.04f, 1.0f, schlick_s(coat_o));
-    Lobe lobe = lobe_rough(LOBE_GGX, s.clearcoat_roughness);
-    m.coat = slot_make(lobe, rgb_grey(1.0f), rgb_grey(1.0f), f, f);
-    m.left = 1.0f - f;
-    return m;
+FN void workflow_coat(Stack *m, const Surface *s, Dir o) {
+    float coat_o = dir_dot(o, s->clearcoat_normal);
+    if (s->clearcoat <= 0.0f || coat_o <= 1e-4f)
+        return; /* a coat turned away by its normal map is not seen */
+    stack_coat_frame(m, s->clearcoat_normal);
+    float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(coat_o));
+    Lobe lobe = lobe_rough(LOBE_GGX, s->clearcoat_roughness);
+    slot_make(&m->coat, lobe, rgb_grey(1.0f), rgb_grey(1.0f), f, f);
+    m->left = 1.0f - f;
 }
 
 /* The sheen: any lobe of the catalogue in a colour, under a layer rule. Its E is asked of the table of that
  * lobe, by the lobe's first parameter. */
-FN Stack workflow_sheen(Stack m, Lobe lobe, Rgb color, Rgb second, int layer) {
-    m.layer = layer;
-    m.color = color;
-    m.sheen_color = color;
-    m.at = lobe.params[0];
-    m.sheen = slot_make(lobe, color, second, m.left, m.left * rgb_mean(color));
-    return m;
+FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
+    m->layer = layer;
+    m->color = color;
+    m->sheen_color = color;
+    m->at = lobe.params[0];
+    slot_make(&m->sheen, lobe, color, second, m->left, m->left * rgb_mean(color));
 }
 
 /* The base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
-FN Stack workflow_base(Stack m, Surface s, Rgb diffuse, Rgb f0, float f90, Dir o) {
+FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90, Dir o) {
     float s_o = schlick_s(o.z);
     if (rgb_max3(f0) > 0.0f || f90 > 0.0f) {
-        Lobe lobe = lobe_rough(LOBE_GGX, s.roughness);
-        lobe.params[GGX_ANISOTROPY] = s.anisotropy;
-        m.specular = slot_make(lobe, f0, rgb_grey(f90), m.left, m.left * mix(rgb_mean(f0), f90, s_o));
+        Lobe lobe = lobe_rough(LOBE_GGX, s->roughness);
+        lobe.params[GGX_ANISOTROPY] = s->anisotropy;
+        slot_make(&m->specular, lobe, f0, rgb_grey(f90), m->left, m->left * mix(rgb_mean(f0), f90, s_o));
     }
-    m.diffuse = slot_make(lobe_default(LOBE_LAMBERT), diffuse, diffuse, m.left,
-                          m.left * rgb_mean(diffuse) * (1.0f - mix(rgb_max3(m.under_f0), m.under_f90, s_o)));
-    return m;
+    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, m->left,
+              m->left * rgb_mean(diffuse) * (1.0f - mix(rgb_max3(m->under_f0), m->under_f90, s_o)));
 }
 
 #endif

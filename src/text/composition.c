@@ -73,10 +73,11 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         Surface s = composition_surface(0.5f * (float)(x % 3), zero);
         if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
+        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(&m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
         const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
         for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
-        found.worn &= !IS_BELOW_F(m);
+        const Stack *made = &m;
+        found.worn &= !IS_BELOW_F(made);
     }
     return found;
 }
@@ -129,14 +130,18 @@ void text_composition(Text *text, const Choices *choices) {
         if (file[k] == '-') file[k] = '_';
     const bool none[INPUT_COUNT] = {false};
     Surface s = composition_surface(0.5f, none);
-    int albedo = compose_begin(s, *choices, dir(0.0f, 0.0f, 1.0f)).albedo;
+    Stack m;
+    compose_begin(&m, &s, *choices, dir(0.0f, 0.0f, 1.0f));
     for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
-        if (formulas[k].albedo == albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
+        if (formulas[k].albedo == m.albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
     put_engines(text, file + strlen("shading/"), rows);
     text_provide(text, "shading/profile.h");
     text_include(text, "shading/workflow.h");
     text_include(text, file);
-    text_line(text, "\nStack compose_begin(Surface s, Choices c, Dir o) { return %s; }", c->stack);
+    text_line(
+        text,
+        "\nvoid compose_begin(inout Stack m, Surface s, Choices c, Dir o) {\n    stack_clear(m);\n    %s;\n}",
+        c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
     text_include(text, "shading/compose.h");
 }

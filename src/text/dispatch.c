@@ -72,9 +72,9 @@ void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
     for (int k = 0; k < TEXT_SLOTS; k++) {
         bool there[LOBE_COUNT] = {false};
         for (int j = 0; j < slots[k].count; j++) there[slots[k].lobes[j]] = true;
-        text_define(text, "lobe_value", functions[k]);
-        put_lines(text, "shading/dispatch.gen.h", "LOBE_FN LobeValue lobe_value(", "/* A wi for", there);
-        text_undefine(text, "lobe_value");
+        text_define(text, "lobe_value_to", functions[k]);
+        put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_value_to(", "/* A wi for", there);
+        text_undefine(text, "lobe_value_to");
     }
 }
 
@@ -100,8 +100,10 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     text_provide(text, "shading/lobes.gen.h");
     put_lines(text, "shading/dispatch.gen.h", NULL, NULL, there);
     text_provide(text, "shading/registry.h");
-    text_line(text, "\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
-                    "float lobe_share(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
-                    "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
+    text_line(text,
+              "\nLobeValue lobe_value(Lobe m, Angles a) {\n    LobeValue v;\n    lobe_value_to(m, a, v);\n"
+              "    return v;\n}\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
+              "float lobe_share(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
+              "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
     if (!there[LOBE_LTC_FIBRE]) put_no_dust(text);
 }

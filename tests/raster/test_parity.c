@@ -543,8 +543,8 @@ static void answer_stack(int which, const float *row, float *answers) {
     SURFACE_CHOICES(ANSWER_CHOICE)
     Angles a = row_angles(row);
     stack_make(&m, &s, &c, lobe_table_charlie_neubelt(), a.o);
-    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));
-    StackValue v = stack_value(m, a, coat);
+    Angles coat = angles_between(stack_to_coat(&m, a.o), stack_to_coat(&m, a.i));
+    StackValue v = stack_value(&m, a, coat);
     const float all[ANSWERS] = {v.f_cos.r,      v.f_cos.g,       v.f_cos.b,    v.pdf,
                                 m.diffuse.pick, m.specular.pick, m.sheen.pick, m.coat.pick};
     memcpy(answers, all, sizeof all);
@@ -559,7 +559,7 @@ static void stacks_agree(void **state) {
     static const Subject subject = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
             ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19)
-                ROW(20) "    }\n" ANGLES "    Stack m = surface_stack(row_surface(), row_choices(), "
+                ROW(20) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
                         "lobe_table_charlie_neubelt(), o);\n"
                         "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
                         "    StackValue v = stack_value(m, a, coat);\n"

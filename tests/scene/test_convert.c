@@ -86,7 +86,7 @@ static void the_way_back_is_the_way(void **state) {
     (void)state;
     for (int k = 0; k < 20000; k++) {
         Surface s = random_surface(), t = convert_surface(convert_surface(s, to_specular), to_metallic);
-        if (rgb_mean(s.base_color) <= dielectric_f0(s)) continue;
+        if (rgb_mean(s.base_color) <= dielectric_f0(&s)) continue;
         double loss = apart(metallic_colors(&s), metallic_colors(&t));
         if (!(loss < 2e-5)) fail_msg("%g at metallic %g", loss, (double)s.metallic);
     }

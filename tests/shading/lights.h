@@ -192,8 +192,10 @@ static inline int any_polygon(uint64_t *state, double far, Point corners[8]) {
 
 /* A stack of one lobe, white: as the base's diffuse or specular lobe, or as a sheen. */
 static inline Stack light_lone(Lobe lobe) {
-    Stack m = stack_empty();
-    Slot slot = slot_make(lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f, 1.0f);
+    Stack m;
+    stack_clear(&m);
+    Slot slot;
+    slot_make(&slot, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f, 1.0f);
     slot.pick = 1.0f;
     unsigned traits = weft_lobe_info(lobe.id)->traits;
     if (traits & TRAIT_DIFFUSE)
@@ -207,7 +209,7 @@ static inline Stack light_lone(Lobe lobe) {
 
 /* One copy: stack_polygon is long once all in it is inlined. */
 static __attribute__((noinline, unused)) Rgb light_on(const Stack *m, Dir o, Polygon p) {
-    return stack_polygon(*m, o, p);
+    return stack_polygon(m, o, p);
 }
 
 #endif

@@ -194,12 +194,13 @@ static const int gpu_lobes[] = {LOBE_LAMBERT, LOBE_GGX, LOBE_CHARLIE_NEUBELT, LO
 enum { GPU_LOBES = sizeof gpu_lobes / sizeof *gpu_lobes, GPU_INPUTS = 8, GPU_SAMPLES = 4096 };
 
 static Stack row_stack(int sheen, float roughness, Dir n, Dir o) {
-    Stack m = stack_empty();
-    m.diffuse = slot_make(lobe_default(LOBE_LAMBERT), rgb(0.7f, 0.5f, 0.3f), rgb_grey(0.0f), 1.0f, 0.3f);
-    m.specular = slot_make(lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04f), rgb_grey(1.0f), 1.0f, 0.2f);
-    m.sheen = slot_make(lobe_rough(sheen, roughness), rgb(0.2f, 0.4f, 0.6f), rgb_grey(1.0f), 1.0f, 0.3f);
-    m.coat = slot_make(lobe_rough(LOBE_GGX, 0.3f), rgb_grey(0.1f), rgb_grey(0.2f), 1.0f, 0.2f);
-    m = stack_coat_frame(m, n);
+    Stack m;
+    stack_clear(&m);
+    slot_make(&m.diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7f, 0.5f, 0.3f), rgb_grey(0.0f), 1.0f, 0.3f);
+    slot_make(&m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04f), rgb_grey(1.0f), 1.0f, 0.2f);
+    slot_make(&m.sheen, lobe_rough(sheen, roughness), rgb(0.2f, 0.4f, 0.6f), rgb_grey(1.0f), 1.0f, 0.3f);
+    slot_make(&m.coat, lobe_rough(LOBE_GGX, 0.3f), rgb_grey(0.1f), rgb_grey(0.2f), 1.0f, 0.2f);
+    stack_coat_frame(&m, n);
     m.under = UNDER_LEAST;
     m.under_f0 = rgb_grey(0.04f);
     m.under_f90 = 1.0f;
@@ -207,18 +208,18 @@ static Stack row_stack(int sheen, float roughness, Dir n, Dir o) {
     m.color = rgb(0.2f, 0.4f, 0.6f);
     m.table = lobe_table_charlie_neubelt();
     m.at = 0.3f;
-    m.e_o = stack_albedo(m, o);
+    m.e_o = stack_albedo(&m, o);
     return m;
 }
 
 static const char stack_text[] =
-    "\nStack row_stack(int sheen, float roughness, Dir n, Dir o) {\n    Stack m = stack_empty();\n"
+    "\nStack row_stack(int sheen, float roughness, Dir n, Dir o) {\n    Stack m;\n    stack_clear(m);\n"
     "    Rgb blue = rgb(0.2, 0.4, 0.6), white = rgb_grey(1.0);\n"
-    "    m.diffuse = slot_make(lobe_default(LOBE_LAMBERT), rgb(0.7, 0.5, 0.3), rgb_grey(0.0), 1.0, 0.3);\n"
-    "    m.specular = slot_make(lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04), white, 1.0, 0.2);\n"
-    "    m.sheen = slot_make(lobe_rough(sheen, roughness), blue, white, 1.0, 0.3);\n"
-    "    m.coat = slot_make(lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0, 0.2);\n"
-    "    m = stack_coat_frame(m, n);\n    m.under = UNDER_LEAST;\n    m.under_f0 = rgb_grey(0.04);\n"
+    "    slot_make(m.diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7, 0.5, 0.3), rgb_grey(0.0), 1.0, 0.3);\n"
+    "    slot_make(m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04), white, 1.0, 0.2);\n"
+    "    slot_make(m.sheen, lobe_rough(sheen, roughness), blue, white, 1.0, 0.3);\n"
+    "    slot_make(m.coat, lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0, 0.2);\n"
+    "    stack_coat_frame(m, n);\n    m.under = UNDER_LEAST;\n    m.under_f0 = rgb_grey(0.04);\n"
     "    m.under_f90 = 1.0;\n    m.layer = LAYER_ALBEDO_MAX;\n    m.color = blue;\n"
     "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    m.e_o = stack_albedo(m, o);\n"
     "    return m;\n}";

@@ -172,7 +172,7 @@ static void a_sheen_is_made_of_free_terms(void **state) {
         Stack stack = made(&s, c, o);
         Angles a = angles_between(o, i);
         float alpha = s.sheen_roughness * s.sheen_roughness,
-              share = term_f(c.sheen_f, compose_ior(s), 0.0f, a.d);
+              share = term_f(c.sheen_f, compose_ior(&s), 0.0f, a.d);
         float dv = term_d(c.sheen_d, alpha, alpha, alpha, a.h) * term_v(c.sheen_v, alpha, alpha, alpha, a);
         float expected = dv * share_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
         assert_float_equal(stack_eval(&stack, o, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);

@@ -198,10 +198,11 @@ static void a_surface_is_glsl(void **state) {
         for (const CatalogueFile *file = catalogue_files; file->name; file++)
             if (is_below(file->name, "shading/workflows/") || is_below(file->name, "shading/profiles/"))
                 text_include(&text, file->name);
-        put_main(&text, "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
-                        "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
-                        "    StackValue v = stack_value(surface_stack(s, c, e, o), a, a);\n"
-                        "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
+        put_main(&text,
+                 "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
+                 "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
+                 "    Stack m;\n    surface_stack(m, s, c, e, o);\n    StackValue v = stack_value(m, a, a);\n"
+                 "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
         end_clean(&text, "surface");
         batch_add(&batch, "surface", languages[l], text.bytes);
         text_free(&text);

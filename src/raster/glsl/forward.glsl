@@ -82,7 +82,8 @@ void main() {
         sum = rgb_scale(s.emission, SHOWS_EMISSION * shines);
         Dir o = frame_to(f, wo);
         s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
-        Stack m = surface_stack(s, material_choices(), material_table(), o);
+        Stack m;
+        surface_stack(m, s, material_choices(), material_table(), o);
         sum = rgb_add(sum, punctual_light(m, at, f, o));
         sum = rgb_add(sum, polygon_light(m, at, f, o));
         sum = rgb_add(sum, ambient_light_of(m, f, o, s.occlusion));

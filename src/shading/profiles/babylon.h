@@ -21,24 +21,21 @@
 
 FN float babylon_alpha(float r) { return r * r + 0.0005f; }
 
-FN Stack babylon_stack(Surface s, Dir o) {
-    float r = clamp(s.roughness, 0.0f, 1.0f), r_s = clamp(s.sheen_roughness, 0.0f, 1.0f);
+FN void babylon_stack(Stack *m, const Surface *s, Dir o) {
+    float r = clamp(s->roughness, 0.0f, 1.0f), r_s = clamp(s->sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
     sheen.params[CHARLIE_NEUBELT_ALPHA] = max(babylon_alpha(r_s), 0.005f);
-    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
-                             LAYER_ALBEDO_VIEW);
-    m.albedo = ALBEDO_BABYLON;
-    m.at = r_s;
-    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s.base_color, s.metallic);
-    float dielectric = 1.0f - s.metallic;
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
+    m->albedo = ALBEDO_BABYLON;
+    m->at = r_s;
+    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s->base_color, s->metallic);
+    float dielectric = 1.0f - s->metallic;
     Rgb below = rgb(max(1.0f - f0.r, 0.0f) * dielectric, max(1.0f - f0.g, 0.0f) * dielectric,
                     max(1.0f - f0.b, 0.0f) * dielectric);
-    m = workflow_base(m, s, rgb_mul(s.base_color, below), mixed, s.specular, o);
-    m.specular.lobe = lobe_default(LOBE_GGX);
-    m.specular.lobe.params[GGX_ALPHA] = max(babylon_alpha(r), 0.001f);
-    m.specular =
-        filament_compensate(m.specular, mixed, table_albedo(engine_table(ENGINE_BABYLON_GGX), o.z, r));
-    return m;
+    workflow_base(m, s, rgb_mul(s->base_color, below), mixed, s->specular, o);
+    m->specular.lobe = lobe_default(LOBE_GGX);
+    m->specular.lobe.params[GGX_ALPHA] = max(babylon_alpha(r), 0.001f);
+    filament_compensate(&m->specular, mixed, table_albedo(engine_table(ENGINE_BABYLON_GGX), o.z, r));
 }
 
 #endif

@@ -18,6 +18,8 @@ FN Rgb disney_2012_tint(Rgb base) {
     return rgb_grey(1.0f);
 }
 
-FN Stack disney_2012_stack(Surface s, Dir o) { return disney_tinted(s, disney_2012_tint(s.base_color), o); }
+FN void disney_2012_stack(Stack *m, const Surface *s, Dir o) {
+    disney_tinted(m, s, disney_2012_tint(s->base_color), o);
+}
 
 #endif

@@ -16,12 +16,11 @@
 
 #include "shading/profiles/filament_sheen.h"
 
-FN Stack filament_cloth_stack(Surface s, Dir o) {
-    float r = filament_roughness(s.sheen_roughness);
-    Stack m = filament_fuzz(stack_empty(), r, rgb_scale(s.sheen_color, s.sheen), LAYER_ADDITIVE);
-    m.diffuse =
-        slot_make(lobe_default(LOBE_LAMBERT), s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
-    return m;
+FN void filament_cloth_stack(Stack *m, const Surface *s, Dir o) {
+    float r = filament_roughness(s->sheen_roughness);
+    filament_fuzz(m, r, rgb_scale(s->sheen_color, s->sheen), LAYER_ADDITIVE);
+    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
+              rgb_mean(s->base_color));
 }
 
 #endif

@@ -34,33 +34,30 @@ FN Lobe filament_charlie(float r) {
 }
 
 /* Its slot in a colour, with what d_charlie_floored's norm took. */
-FN Stack filament_fuzz(Stack m, float r, Rgb color, int layer) {
+FN void filament_fuzz(Stack *m, float r, Rgb color, int layer) {
     Lobe lobe = filament_charlie(r);
-    m = workflow_sheen(m, lobe, color, color, layer);
-    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(lobe.params[COOK_TORRANCE_ALPHA]));
-    m.sheen.f90 = m.sheen.f0;
-    return m;
+    workflow_sheen(m, lobe, color, color, layer);
+    m->sheen.f0 = rgb_scale(m->sheen.f0, charlie_floored_gain(lobe.params[COOK_TORRANCE_ALPHA]));
+    m->sheen.f90 = m->sheen.f0;
 }
 
 /* 1 + f0 (1 / Ess - 1) on what a slot reflects. */
-FN Slot filament_compensate(Slot slot, Rgb f0, float ess) {
+FN void filament_compensate(Slot *slot, Rgb f0, float ess) {
     Rgb gain = rgb_add(rgb_grey(1.0f), rgb_scale(f0, 1.0f / max(ess, 1e-3f) - 1.0f));
-    slot.f0 = rgb_mul(slot.f0, gain);
-    slot.f90 = rgb_mul(slot.f90, gain);
-    return slot;
+    slot->f0 = rgb_mul(slot->f0, gain);
+    slot->f90 = rgb_mul(slot->f90, gain);
 }
 
-FN Stack filament_sheen_stack(Surface s, Dir o) {
-    float r = filament_roughness(s.roughness), r_s = filament_roughness(s.sheen_roughness);
-    Stack m = filament_fuzz(stack_empty(), r_s, rgb_scale(s.sheen_color, s.sheen), LAYER_ALBEDO_VIEW);
-    m.albedo = ALBEDO_FILAMENT;
-    m.at = r_s;
-    Rgb f0 = rgb_mix(metallic_f0(s), s.base_color, s.metallic);
+FN void filament_sheen_stack(Stack *m, const Surface *s, Dir o) {
+    float r = filament_roughness(s->roughness), r_s = filament_roughness(s->sheen_roughness);
+    filament_fuzz(m, r_s, rgb_scale(s->sheen_color, s->sheen), LAYER_ALBEDO_VIEW);
+    m->albedo = ALBEDO_FILAMENT;
+    m->at = r_s;
+    Rgb f0 = rgb_mix(metallic_f0(s), s->base_color, s->metallic);
     float f90 = min(16.5f * (f0.r + f0.g + f0.b), 1.0f);
-    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), f0, f90, o);
-    m.specular.lobe = lobe_rough(LOBE_GGX, r);
-    m.specular = filament_compensate(m.specular, f0, table_albedo(engine_table(ENGINE_FILAMENT_GGX), o.z, r));
-    return m;
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, f90, o);
+    m->specular.lobe = lobe_rough(LOBE_GGX, r);
+    filament_compensate(&m->specular, f0, table_albedo(engine_table(ENGINE_FILAMENT_GGX), o.z, r));
 }
 
 #endif

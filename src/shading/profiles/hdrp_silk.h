@@ -17,16 +17,14 @@
 
 #include "shading/workflows/metallic.h"
 
-FN Stack hdrp_silk_stack(Surface s, Dir o) {
-    Stack m = stack_empty();
-    float r = clamp(s.roughness, 0.0f, 1.0f);
+FN void hdrp_silk_stack(Stack *m, const Surface *s, Dir o) {
+    float r = clamp(s->roughness, 0.0f, 1.0f);
     Lobe silk = lobe_rough(LOBE_SILK, r), diffuse = lobe_default(LOBE_BURLEY);
-    silk.params[SILK_ANISOTROPY] = clamp(s.anisotropy, 0.0f, 0.9f);
+    silk.params[SILK_ANISOTROPY] = clamp(s->anisotropy, 0.0f, 0.9f);
     diffuse.params[BURLEY_ROUGHNESS] = r;
-    Rgb f0 = metallic_f0(s), color = rgb_scale(s.base_color, 1.0f / 1.03571f);
-    m.specular = slot_make(silk, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, schlick_s(o.z)));
-    m.diffuse = slot_make(diffuse, color, color, 1.0f, rgb_mean(color));
-    return m;
+    Rgb f0 = metallic_f0(s), color = rgb_scale(s->base_color, 1.0f / 1.03571f);
+    slot_make(&m->specular, silk, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, schlick_s(o.z)));
+    slot_make(&m->diffuse, diffuse, color, color, 1.0f, rgb_mean(color));
 }
 
 #endif

@@ -27,11 +27,10 @@ FN float khronos_albedo(TableRef lobe, float cosine, float alpha) {
     return min(table_albedo(lobe, cosine, alpha), 1.0f);
 }
 
-FN Stack khronos_stack(Surface s, Dir o) {
-    Stack m = metallic_with(s, lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness), LAYER_ALBEDO_MAX,
-                            UNDER_HALF, o);
-    m.albedo = ALBEDO_KHRONOS;
-    return m;
+FN void khronos_stack(Stack *m, const Surface *s, Dir o) {
+    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX, UNDER_HALF,
+                  o);
+    m->albedo = ALBEDO_KHRONOS;
 }
 
 #endif

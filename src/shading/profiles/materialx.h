@@ -58,29 +58,27 @@ FN Rgb materialx_square(Rgb f0, float f90) {
     return rgb_mul(d, d);
 }
 
-FN Stack materialx_stack(Surface s, Dir o) {
-    float rho = s.sheen_roughness * s.sheen_roughness;
+FN void materialx_stack(Stack *m, const Surface *s, Dir o) {
+    float rho = s->sheen_roughness * s->sheen_roughness;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
     sheen.params[CHARLIE_NEUBELT_ALPHA] = clamp(rho, 0.005f, 4.0f);
-    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
-                             LAYER_ALBEDO_VIEW);
-    m.albedo = ALBEDO_MATERIALX;
-    m.at = rho;
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
+    m->albedo = ALBEDO_MATERIALX;
+    m->at = rho;
 
-    float alpha = clamp(s.roughness * s.roughness, 0.001f, 1.0f), f90 = s.specular;
+    float alpha = clamp(s->roughness * s->roughness, 0.001f, 1.0f), f90 = s->specular;
     float a = materialx_a(o.z, alpha), b = materialx_b(o.z, alpha), k = 1.0f / max(a + b, 1e-3f) - 1.0f;
     Rgb f0 = metallic_f0(s), e = rgb_add(rgb_scale(f0, a), rgb_grey(b * f90));
-    m.under = UNDER_HALF;
-    m.under_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, f0)));
-    m.under_f90 = rgb_mean(e) * (1.0f + k * f90);
-    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), f0, max(f90, s.metallic), o);
-    m.specular.lobe = lobe_default(LOBE_GGX);
-    m.specular.lobe.params[GGX_ALPHA] = alpha;
-    m.specular.f0 = rgb_mix(materialx_twice(f0, k), materialx_twice(s.base_color, k), s.metallic);
-    m.specular.f90 = rgb_grey(mix(f90 * (1.0f + k * f90), 1.0f + k, s.metallic));
-    m.specular.sag =
-        rgb_scale(rgb_mix(materialx_square(f0, f90), materialx_square(s.base_color, 1.0f), s.metallic), k);
-    return m;
+    m->under = UNDER_HALF;
+    m->under_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, f0)));
+    m->under_f90 = rgb_mean(e) * (1.0f + k * f90);
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, max(f90, s->metallic), o);
+    m->specular.lobe = lobe_default(LOBE_GGX);
+    m->specular.lobe.params[GGX_ALPHA] = alpha;
+    m->specular.f0 = rgb_mix(materialx_twice(f0, k), materialx_twice(s->base_color, k), s->metallic);
+    m->specular.f90 = rgb_grey(mix(f90 * (1.0f + k * f90), 1.0f + k, s->metallic));
+    m->specular.sag =
+        rgb_scale(rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic), k);
 }
 
 #endif

@@ -18,24 +18,22 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflow.h"
 
-FN Stack order_1886_stack(Surface s, Dir o) {
-    float r = clamp(s.sheen_roughness, 0.0f, 1.0f);
+FN void order_1886_stack(Stack *m, const Surface *s, Dir o) {
+    float r = clamp(s->sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);
     sheen.params[COOK_TORRANCE_ALPHA] = max(r * r, 0.005f);
     sheen.params[COOK_TORRANCE_D] = to_float(D_ASHIKHMIN);
     sheen.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
     sheen.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);
-    Stack m = stack_empty();
-    Rgb color = rgb_scale(s.sheen_color, s.sheen);
+    Rgb color = rgb_scale(s->sheen_color, s->sheen);
     if (rgb_max3(color) > 0.0f) {
-        m = workflow_sheen(m, sheen, color, rgb_grey(1.0f), LAYER_ADDITIVE);
-        m.under = UNDER_HALF;
-        m.under_f0 = color;
-        m.under_f90 = 1.0f;
+        workflow_sheen(m, sheen, color, rgb_grey(1.0f), LAYER_ADDITIVE);
+        m->under = UNDER_HALF;
+        m->under_f0 = color;
+        m->under_f90 = 1.0f;
     }
-    m.diffuse =
-        slot_make(lobe_default(LOBE_LAMBERT), s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
-    return m;
+    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
+              rgb_mean(s->base_color));
 }
 
 #endif

@@ -48,15 +48,14 @@ FN Lobe three_ggx(float roughness, float anisotropy) {
     return lobe;
 }
 
-FN Stack three_coat(Stack m, Surface s, Dir o) {
-    float coat_o = dir_dot(o, s.clearcoat_normal);
-    if (s.clearcoat <= 0.0f || coat_o <= 1e-4f) return m;
-    m = stack_coat_frame(m, s.clearcoat_normal);
-    float f = s.clearcoat * mix(0.04f, 1.0f, schlick_gaussian_s(coat_o));
-    m.coat =
-        slot_make(three_ggx(s.clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f), s.clearcoat, f);
-    m.left = 1.0f - f;
-    return m;
+FN void three_coat(Stack *m, const Surface *s, Dir o) {
+    float coat_o = dir_dot(o, s->clearcoat_normal);
+    if (s->clearcoat <= 0.0f || coat_o <= 1e-4f) return;
+    stack_coat_frame(m, s->clearcoat_normal);
+    float f = s->clearcoat * mix(0.04f, 1.0f, schlick_gaussian_s(coat_o));
+    slot_make(&m->coat, three_ggx(s->clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f),
+              s->clearcoat, f);
+    m->left = 1.0f - f;
 }
 
 FN Lobe three_charlie(float alpha) {
@@ -68,28 +67,27 @@ FN Lobe three_charlie(float alpha) {
     return lobe;
 }
 
-FN Stack three_stack(Surface s, Dir o) {
-    Stack m = three_coat(stack_empty(), s, o);
-    float r = clamp(s.roughness, THREE_ROUGHNESS_LEAST, 1.0f), r_s = clamp(s.sheen_roughness, 1e-4f, 1.0f);
+FN void three_stack(Stack *m, const Surface *s, Dir o) {
+    three_coat(m, s, o);
+    float r = clamp(s->roughness, THREE_ROUGHNESS_LEAST, 1.0f), r_s = clamp(s->sheen_roughness, 1e-4f, 1.0f);
     Lobe sheen = three_charlie(r_s * r_s);
-    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, LAYER_ALBEDO_MAX);
-    m.sheen.f0 = rgb_scale(m.sheen.f0, charlie_floored_gain(sheen.params[COOK_TORRANCE_ALPHA]));
-    m.sheen.f90 = m.sheen.f0;
-    m.albedo = ALBEDO_THREE;
-    m.at = r_s;
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_MAX);
+    m->sheen.f0 = rgb_scale(m->sheen.f0, charlie_floored_gain(sheen.params[COOK_TORRANCE_ALPHA]));
+    m->sheen.f90 = m->sheen.f0;
+    m->albedo = ALBEDO_THREE;
+    m->at = r_s;
 
-    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s.base_color, s.metallic);
-    float f90 = mix(s.specular, 1.0f, s.metallic);
-    m.under = UNDER_GAUSSIAN;
-    m.under_f0 = f0;
-    m.under_f90 = f90;
-    m = workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic), mixed, f90, o);
-    m.specular.lobe = three_ggx(s.roughness, s.anisotropy);
+    Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s->base_color, s->metallic);
+    float f90 = mix(s->specular, 1.0f, s->metallic);
+    m->under = UNDER_GAUSSIAN;
+    m->under_f0 = f0;
+    m->under_f90 = f90;
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), mixed, f90, o);
+    m->specular.lobe = three_ggx(s->roughness, s->anisotropy);
     float again = 1.0f / table_albedo(engine_table(ENGINE_THREE_GGX), o.z, r) - 1.0f;
     Rgb gain = rgb(1.0f + mixed.r * again, 1.0f + mixed.g * again, 1.0f + mixed.b * again);
-    m.specular.f0 = rgb_mul(m.specular.f0, gain);
-    m.specular.f90 = rgb_mul(m.specular.f90, gain);
-    return m;
+    m->specular.f0 = rgb_mul(m->specular.f0, gain);
+    m->specular.f90 = rgb_mul(m->specular.f90, gain);
 }
 
 #endif

@@ -10,13 +10,11 @@
 
 #include "shading/workflow.h"
 
-FN Stack cloth_stack(Surface s, Dir o) {
-    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s.sheen_roughness);
-    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
-                             LAYER_ALBEDO_VIEW);
-    m.diffuse =
-        slot_make(lobe_default(LOBE_LAMBERT), s.base_color, s.base_color, 1.0f, rgb_mean(s.base_color));
-    return m;
+FN void cloth_stack(Stack *m, const Surface *s, Dir o) {
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
+    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
+              rgb_mean(s->base_color));
 }
 
 #endif

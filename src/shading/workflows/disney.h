@@ -25,16 +25,15 @@ FN Rgb disney_tint(Rgb base) {
     return rgb_grey(1.0f);
 }
 
-FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
-    Stack m = stack_empty();
-    float s_o = schlick_s(o.z), below = 1.0f - s.metallic;
-    Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s.specular_tint), 0.08f * s.specular),
-                     s.base_color, s.metallic);
+FN void disney_tinted(Stack *m, const Surface *s, Rgb tint, Dir o) {
+    float s_o = schlick_s(o.z), below = 1.0f - s->metallic;
+    Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->specular_tint), 0.08f * s->specular),
+                     s->base_color, s->metallic);
 
-    Rgb sheen = rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s.sheen_tint), s.sheen * below);
-    m = workflow_sheen(m, lobe_default(LOBE_BURLEY_SHEEN), sheen, sheen, LAYER_ADDITIVE);
+    Rgb sheen = rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->sheen_tint), s->sheen * below);
+    workflow_sheen(m, lobe_default(LOBE_BURLEY_SHEEN), sheen, sheen, LAYER_ADDITIVE);
 
-    float aspect = sqrt(1.0f - 0.9f * s.anisotropy), alpha = s.roughness * s.roughness;
+    float aspect = sqrt(1.0f - 0.9f * s->anisotropy), alpha = s->roughness * s->roughness;
     Lobe specular = lobe_default(LOBE_COOK_TORRANCE);
     float ax = max(alpha / aspect, 0.001f), ay = max(alpha * aspect, 0.001f);
     specular.params[COOK_TORRANCE_ALPHA] = ay;
@@ -42,20 +41,21 @@ FN Stack disney_tinted(Surface s, Rgb tint, Dir o) {
     specular.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
     specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO_SEPARATE);
     specular.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);
-    m.specular = slot_make(specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
+    slot_make(&m->specular, specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
 
-    Lobe diffuse = lobe_rough(LOBE_BURLEY_SUBSURFACE, s.roughness);
-    diffuse.params[BURLEY_SUBSURFACE_SUBSURFACE] = s.subsurface;
-    m.diffuse = slot_make(diffuse, s.base_color, s.base_color, below, below * rgb_mean(s.base_color));
+    Lobe diffuse = lobe_rough(LOBE_BURLEY_SUBSURFACE, s->roughness);
+    diffuse.params[BURLEY_SUBSURFACE_SUBSURFACE] = s->subsurface;
+    slot_make(&m->diffuse, diffuse, s->base_color, s->base_color, below, below * rgb_mean(s->base_color));
 
     Lobe coat = lobe_default(LOBE_BURLEY_COAT);
-    coat.params[BURLEY_COAT_ALPHA] = mix(0.1f, 0.001f, s.clearcoat_gloss);
-    m = stack_coat_frame(m, s.clearcoat_normal);
-    float amount = 0.25f * s.clearcoat;
-    m.coat = slot_make(coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));
-    return m;
+    coat.params[BURLEY_COAT_ALPHA] = mix(0.1f, 0.001f, s->clearcoat_gloss);
+    stack_coat_frame(m, s->clearcoat_normal);
+    float amount = 0.25f * s->clearcoat;
+    slot_make(&m->coat, coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));
 }
 
-FN Stack disney_stack(Surface s, Dir o) { return disney_tinted(s, disney_tint(s.base_color), o); }
+FN void disney_stack(Stack *m, const Surface *s, Dir o) {
+    disney_tinted(m, s, disney_tint(s->base_color), o);
+}
 
 #endif

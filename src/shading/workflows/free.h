@@ -10,11 +10,10 @@
 
 #include "shading/workflow.h"
 
-FN Stack free_stack(Surface s, Dir o) {
-    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s.sheen_roughness);
-    Stack m = workflow_sheen(stack_empty(), sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second,
-                             LAYER_ADDITIVE);
-    return workflow_base(m, s, s.base_color, rgb_scale(s.specular_color, s.specular), 1.0f, o);
+FN void free_stack(Stack *m, const Surface *s, Dir o) {
+    Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
+    workflow_base(m, s, s->base_color, rgb_scale(s->specular_color, s->specular), 1.0f, o);
 }
 
 #endif

@@ -17,25 +17,25 @@
 
 #include "shading/workflow.h"
 
-FN Rgb metallic_f0(Surface s) {
-    return rgb_scale(rgb_min(rgb_scale(s.specular_color, dielectric_f0(s)), 1.0f), s.specular);
+FN Rgb metallic_f0(const Surface *s) {
+    return rgb_scale(rgb_min(rgb_scale(s->specular_color, dielectric_f0(s)), 1.0f), s->specular);
 }
 
 /* All of it but for its sheen lobe, layer rule and UNDER_ rule. */
-FN Stack metallic_with(Surface s, Lobe sheen, int layer, int under, Dir o) {
-    Stack m = workflow_coat(stack_empty(), s, o);
-    m = workflow_sheen(m, sheen, rgb_scale(s.sheen_color, s.sheen), s.sheen_second, layer);
+FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int under, Dir o) {
+    workflow_coat(m, s, o);
+    workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, layer);
     Rgb f0 = metallic_f0(s);
-    m.under = under;
-    m.under_f0 = f0;
-    m.under_f90 = s.specular;
-    return workflow_base(m, s, rgb_scale(s.base_color, 1.0f - s.metallic),
-                         rgb_mix(f0, s.base_color, s.metallic), mix(s.specular, 1.0f, s.metallic), o);
+    m->under = under;
+    m->under_f0 = f0;
+    m->under_f90 = s->specular;
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), rgb_mix(f0, s->base_color, s->metallic),
+                  mix(s->specular, 1.0f, s->metallic), o);
 }
 
-FN Stack metallic_stack(Surface s, Dir o) {
-    return metallic_with(s, lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s.sheen_roughness), LAYER_ALBEDO_VIEW,
-                         UNDER_LEAST, o);
+FN void metallic_stack(Stack *m, const Surface *s, Dir o) {
+    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s->sheen_roughness), LAYER_ALBEDO_VIEW,
+                  UNDER_LEAST, o);
 }
 
 #endif
