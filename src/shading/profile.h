@@ -65,7 +65,7 @@
         return;                                                                                              \
     }
 #define WORKFLOW_CASE(id, index, fill, help)                                                                 \
-    if (c.workflow == index) {                                                                               \
+    if (workflow == index) {                                                                                 \
         fill;                                                                                                \
         return;                                                                                              \
     }
@@ -74,8 +74,8 @@ FN void compose_begin(Stack *m, const Surface *s, Choices c, Dir o) {
     if (c.profile > 0) {
         WEFT_PROFILES(PROFILE_CASE)
     }
+    int workflow = c.workflow > 0 ? c.workflow : 0; /* of the list's first where none is chosen */
     WEFT_WORKFLOWS(WORKFLOW_CASE)
-    metallic_stack(m, s, o);
 }
 
 #endif

@@ -318,7 +318,7 @@ static void lobes_are_told_apart(void **state) {
     (void)state;
     static const Subject subject = {
         .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
-                       "    LobeValue v = lobe_value(m, a), w = lobe_at(lobe_rough(m.id, in1.w), a);\n"
+                       "    LobeValue v = lobe_value(m, a), w = lobe_value(lobe_rough(m.id, in1.w), a);\n"
                        "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
                        "    out1 = vec4(w.f, w.s, w.pdf, w.f * lobe_color(w, 0.25, out0.w));\n",
         .inputs = 3,
