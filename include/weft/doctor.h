@@ -14,7 +14,7 @@
 
 #include <stddef.h>
 
-#include "weft/result.h"
+#include "weft/scene.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -116,7 +116,13 @@ typedef struct WeftDoctor WeftDoctor;
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);
 
-/* The same of size bytes, which must outlive the doctor. */
+/* The same with progress (may be NULL), told of the share of materials and meshes that was looked at, which
+ * can stop it: WEFT_INTERRUPTED. weft_doctor_fix, which examines what it wrote, asks it too: user must
+ * outlive the doctor. */
+WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user,
+                                             WeftDoctor **out, const WeftLog *log, WeftError *error);
+
+/* weft_doctor_open of size bytes, which must outlive the doctor. */
 WEFT_API WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
                                             const WeftLog *log, WeftError *error);
 

@@ -98,22 +98,28 @@ WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart met
 /* What became of one material of an asset. Numbers are those of its factors: with textures, `matched` is
  * made for what texel and factor are on average, and the factor scaled as that was. */
 typedef struct WeftAssetMatch {
-    char name[64];                /* of the material, cut where it is long */
-    int changed;                  /* 0: it has no sheen, or is unlit, and stays as it is */
-    int clipped;                  /* not 0: a factor would have passed 1, where glTF ends */
-    WeftMatch found;              /* the errors of copy and match */
+    char name[64];   /* of the material, cut where it is long */
+    int changed;     /* 0: it has no sheen, or is unlit, and stays as it is */
+    int clipped;     /* not 0: a factor would have passed 1, where glTF ends */
+    int search;      /* which search it is of, counted from 1: equal averages share one; 0: none */
+    WeftMatch found; /* the errors of copy and match */
     WeftMaterial copied, matched; /* under profile `to`: with the numbers as they were, and as they are now */
 } WeftAssetMatch;
 
 /* Writes the glTF file at `path` again for another engine, as `out`: the factors base_color, roughness,
  * sheen_color, sheen_roughness and specular of materials that have a sheen, so that under profile `to` they
  * come closest to what they are under profile `from` (indices of weft_profile_id); all else stays as it is,
- * byte for byte. report (may be NULL) must hold `room` records and receives as many as there are materials;
- * *count is their number. Fails with WEFT_MESSAGE_DESC (a profile that there is not), and with what reading
- * and writing the file can fail with. */
+ * byte for byte. Materials that are the same on average share one search; these run on all processors.
+ * progress (may be NULL) is told how many are done, reading being none of it, and can stop it, in the midst
+ * of a search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of
+ * each of *count materials; on success it is owned by the caller: release it with weft_match_report_free.
+ * Fails with WEFT_MESSAGE_DESC (a profile that there is not), and with what reading and writing the file can
+ * fail with. */
 WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
-                                     WeftAssetMatch *report, int room, int *count, const WeftLog *log,
-                                     WeftError *error);
+                                     WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
+                                     const WeftLog *log, WeftError *error);
+
+WEFT_API void weft_match_report_free(WeftAssetMatch *report); /* may be NULL */
 
 #ifdef __cplusplus
 }

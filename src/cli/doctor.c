@@ -4,10 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "interrupt.h"
 #include "json.h"
 #include "layout.h"
 #include "output.h"
 #include "path.h"
+#include "progress.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -18,6 +20,7 @@ typedef struct Visit {
     const Options *options;
     const char *path, *output; /* output: NULL: nothing is to be fixed */
     WeftDoctor *doctor;
+    Progress progress;
     bool no_notes;
     int counts[3], fixable,
         left; /* left: errors and warnings that are there, or are there still after --fix */
@@ -56,7 +59,9 @@ static void count_all(Visit *visit) {
 static WeftResult fix(Visit *visit, WeftError *error) {
     WeftDoctor *again;
     WeftResult result = weft_doctor_fix(visit->doctor, visit->output, error);
-    if (result == WEFT_OK) result = weft_doctor_open(visit->output, &again, NULL, error);
+    if (result == WEFT_OK)
+        result =
+            weft_doctor_open_watched(visit->output, progress_heed, &visit->progress, &again, NULL, error);
     if (result != WEFT_OK) return result;
     visit->left = 0;
     for (int k = 0; k < weft_doctor_count(again); k++)
@@ -235,16 +240,30 @@ static int output_check(const Visit *visit) {
     return output_probe(visit->output);
 }
 
-static int visit_make(Visit *visit) {
+/* Looks at the asset, and mends it where that is asked for. */
+static int examine(Visit *visit) {
     WeftError error;
+    visit->progress = progress_start_count(false, "of the materials and meshes", 0.0);
+    interrupt_watch();
+    WeftResult result =
+        weft_doctor_open_watched(visit->path, progress_heed, &visit->progress, &visit->doctor, NULL, &error);
+    if (result == WEFT_OK) {
+        count_all(visit);
+        if (visit->output) result = fix(visit, &error);
+    }
+    progress_finish(&visit->progress);
+    if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "%s: interrupted", visit->path);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+static int visit_make(Visit *visit) {
     int result = output_check(visit);
     if (result != 0) return result;
     if (strncmp(visit->path, "builtin:", 8) == 0)
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
-    if (weft_doctor_open(visit->path, &visit->doctor, NULL, &error) != WEFT_OK) return report_error(&error);
-    count_all(visit);
-    if (visit->output && fix(visit, &error) != WEFT_OK) return report_error(&error);
+    result = examine(visit);
+    if (result != 0) return result;
     if (option_given(visit->options, "--json"))
         json_write(visit);
     else

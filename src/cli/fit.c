@@ -95,11 +95,6 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, '}');
 }
 
-static int on_progress(void *progress, double fraction) {
-    progress_draw(progress, fraction);
-    return interrupt_seen();
-}
-
 /* How many lobes are fitted, the baseline's among them. */
 static int fits_count(const char *only) {
     int count = 2;
@@ -176,7 +171,7 @@ static int fit_make(Fitting *fitting) {
                               .chosen = 1,
                               .base = fitting->base,
                               .only = only,
-                              .progress = on_progress,
+                              .progress = progress_heed,
                               .user = &progress};
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
     progress_finish(&progress);

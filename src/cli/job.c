@@ -49,11 +49,6 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     return result;
 }
 
-static int on_progress(void *user, double fraction) {
-    progress_draw(user, fraction);
-    return interrupt_seen();
-}
-
 static double job_pixels(const Job *job) { return (double)job->width * job->height; }
 
 static WeftResult nothing_gathered(WeftError *error) {
@@ -69,7 +64,7 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     if (request_count(request) > 1)
         snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
     Progress progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(job), limit);
-    WeftResult result = weft_render_run(render, spp, limit, on_progress, &progress);
+    WeftResult result = weft_render_run(render, spp, limit, progress_heed, &progress);
     progress_finish(&progress);
     job->info = weft_render_info(render);
     job->interrupted = result == WEFT_INTERRUPTED;

@@ -3,11 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "interrupt.h"
 #include "json.h"
 #include "match.h"
 #include "names.h"
 #include "output.h"
 #include "path.h"
+#include "progress.h"
 #include "report.h"
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
@@ -84,24 +86,28 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metri
 }
 
 static int to_engine(const Options *options, const char *out, WeftApart metric) {
-    enum { ROOM = 4096 };
+    const char *path = options->operands[0];
     const WeftLog log = {.fn = on_warning};
     WeftError error;
+    WeftAssetMatch *matches;
     int count = 0;
     int from = kind_named(kind_of("profile"), option_text(options, "--from"));
     int to = from < 0 ? -1 : kind_named(kind_of("profile"), option_text(options, "--to"));
     if (to < 0) return WEFT_USAGE;
-    WeftAssetMatch *matches = calloc(ROOM, sizeof *matches);
-    if (!matches) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
-    WeftResult result =
-        weft_match_asset(options->operands[0], out, from, to, metric, matches, ROOM, &count, &log, &error);
-    if (count > ROOM) count = ROOM;
-    if (result == WEFT_OK && option_given(options, "--json"))
+    Progress progress = progress_start_count(false, "of the searches", 0.0);
+    interrupt_watch();
+    WeftResult result = weft_match_asset(path, out, from, to, metric, progress_heed, &progress, &matches,
+                                         &count, &log, &error);
+    progress_finish(&progress);
+    if (result == WEFT_INTERRUPTED)
+        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", path);
+    if (result != WEFT_OK) return report_error(&error);
+    if (option_given(options, "--json"))
         asset_json(matches, count, metric, out);
-    else if (result == WEFT_OK)
+    else
         asset_text(matches, count, metric);
-    free(matches);
-    return result == WEFT_OK ? 0 : report_error(&error);
+    weft_match_report_free(matches);
+    return 0;
 }
 
 static void losses_write(const WeftScene *scene, const float *losses, int count, bool as_json,

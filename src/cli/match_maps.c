@@ -174,17 +174,12 @@ static int write_all(const Maps *maps, WeftApart metric, bool as_json) {
     return result;
 }
 
-static int on_progress(void *progress, double fraction) {
-    progress_draw(progress, fraction);
-    return interrupt_seen();
-}
-
 static int match_all(Maps *maps, WeftApart metric) {
     WeftError error;
     int count = maps->count * maps->count * SWEEP;
     Progress progress = progress_start_count(false, "matches", count);
     interrupt_watch();
-    WeftResult result = weft_match_many(maps->jobs, count, metric, 0, on_progress, &progress, &error);
+    WeftResult result = weft_match_many(maps->jobs, count, metric, 0, progress_heed, &progress, &error);
     progress_finish(&progress);
     if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted");
     return result == WEFT_OK ? 0 : report_error(&error);

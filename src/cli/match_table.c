@@ -92,17 +92,12 @@ static void json_write(const Table *table, WeftApart metric) {
     json_close(&json, '}');
 }
 
-static int on_progress(void *progress, double fraction) {
-    progress_draw(progress, fraction);
-    return interrupt_seen();
-}
-
 static int match_all(Table *table, WeftApart metric) {
     WeftError error;
     int count = table->count * table->count;
     Progress progress = progress_start_count(false, "matches", count);
     interrupt_watch();
-    WeftResult result = weft_match_many(table->jobs, count, metric, 0, on_progress, &progress, &error);
+    WeftResult result = weft_match_many(table->jobs, count, metric, 0, progress_heed, &progress, &error);
     progress_finish(&progress);
     if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted");
     return result == WEFT_OK ? 0 : report_error(&error);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "clock.h"
+#include "interrupt.h"
 
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit) {
     Progress progress = {.shown = !quiet && isatty(STDERR_FILENO),
@@ -52,7 +53,10 @@ void progress_draw(Progress *progress, double fraction) {
     memset(bar, '#', (size_t)(done * (double)(sizeof bar - 1)));
     clock_text(elapsed, past);
     if (done > 0.0) clock_text(elapsed * (1.0 - done) / done, left);
-    if (progress->unit) {
+    if (progress->unit && !(progress->count > 0.0)) {
+        snprintf(line, sizeof line, "%3.0f%% %s %s  %s elapsed, %s left", floor(100.0 * done), bar,
+                 progress->unit, past, left);
+    } else if (progress->unit) {
         double made = fraction * progress->count, rate = elapsed > 0.0 ? made / elapsed : 0.0;
         snprintf(line, sizeof line, "%3.0f%% %s %.0f/%.0f %s  %s elapsed, %s left  %.3g %s/s",
                  floor(100.0 * done), bar, made, progress->count, progress->unit, past, left, rate,
@@ -67,6 +71,11 @@ void progress_draw(Progress *progress, double fraction) {
     }
     fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
     fflush(stderr);
+}
+
+int progress_heed(void *progress, double fraction) {
+    progress_draw(progress, fraction);
+    return interrupt_seen();
 }
 
 void progress_finish(Progress *progress) {

@@ -13,7 +13,7 @@ typedef struct Progress {
     double pixels;      /* in the picture */
     double limit;       /* s; 0: none */
     const char *unit;   /* of what is counted, "texels"; NULL: samples of a render */
-    double count;       /* of these in all */
+    double count;       /* of these in all; 0: not known */
     double started, drawn;
     int width; /* of the terminal, characters */
 } Progress;
@@ -22,11 +22,15 @@ typedef struct Progress {
  * outlive the line. */
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit);
 
-/* The same for so many things of another kind: texels, say. unit must outlive the line. */
+/* The same for so many things of another kind: texels, say. count may be 0, not known; unit must outlive the
+ * line. */
 Progress progress_start_count(bool quiet, const char *unit, double count);
 
 /* Redraws the line, at most ten times a second. fraction is of the samples or things asked for. */
 void progress_draw(Progress *progress, double fraction);
+
+/* A WeftProgress of a Progress: redraws the line, and stops where a signal asks for it. */
+int progress_heed(void *progress, double fraction);
 
 /* Erases the line. */
 void progress_finish(Progress *progress);

@@ -149,17 +149,32 @@ static void hear(void *user, WeftMessage message, const char *text) {
     if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }
 
+/* Reading is short beside what comes after, and is no part of it. */
+static int tell(void *user, double fraction) {
+    const WeftDoctor *doctor = user;
+    return doctor->progress ? doctor->progress(doctor->user, doctor->examining ? fraction : 0.0) : 0;
+}
+
+/* False where the caller wants no more. */
+static bool goes_on(WeftDoctor *doctor, size_t done) {
+    Asset *asset = &doctor->asset;
+    return asset_progress(asset, 0.0, 1.0, done, asset->material_count + asset->mesh_count);
+}
+
 static void examine(WeftDoctor *doctor) {
     static void (*const of_asset[])(WeftDoctor *) = {check_extensions, check_glass, check_spaces};
     static void (*const of_material[])(WeftDoctor *, const Cloth *) = {
         check_ranges,  check_factors, check_transforms, check_black,
         check_channel, check_energy,  check_neighbours, check_plausible};
     for (size_t k = 0; k < sizeof of_asset / sizeof *of_asset; k++) of_asset[k](doctor);
-    for (int m = 0; m < (int)doctor->asset.material_count; m++) {
+    doctor->examining = true;
+    int materials = (int)doctor->asset.material_count;
+    for (int m = 0; m < materials && goes_on(doctor, (size_t)m); m++) {
         Cloth cloth = doctor_cloth(doctor, m);
         for (size_t k = 0; k < sizeof of_material / sizeof *of_material; k++) of_material[k](doctor, &cloth);
     }
-    for (int m = 0; m < (int)doctor->asset.mesh_count; m++) check_mesh(doctor, m);
+    for (int m = 0; m < (int)doctor->asset.mesh_count && goes_on(doctor, (size_t)(materials + m)); m++)
+        check_mesh(doctor, m);
 }
 
 /* A finding on its way to its place. */
@@ -193,8 +208,8 @@ static void sort(WeftDoctor *doctor) {
     free(found);
 }
 
-static WeftResult open_any(const char *path, const void *data, size_t size, WeftDoctor **out,
-                           const WeftLog *log, WeftError *error) {
+static WeftResult open_any(const char *path, const void *data, size_t size, WeftProgress progress, void *user,
+                           WeftDoctor **out, const WeftLog *log, WeftError *error) {
     WeftDoctor *doctor = alloc_array(1, sizeof *doctor);
     *out = NULL;
     if (!doctor) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
@@ -204,10 +219,16 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
         return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     }
     if (log) doctor->log = *log;
+    doctor->progress = progress;
+    doctor->user = user;
     doctor->scene->srgb = srgb_table();
     doctor->own = (WeftLog){hear, doctor};
-    doctor->asset =
-        (Asset){.error = &doctor->error, .scene = doctor->scene, .examined = true, .log = &doctor->own};
+    doctor->asset = (Asset){.error = &doctor->error,
+                            .scene = doctor->scene,
+                            .examined = true,
+                            .log = &doctor->own,
+                            .progress = tell,
+                            .user = doctor};
     gltf_open(&doctor->asset, path, data, size);
     gltf_read_parts(&doctor->asset);
     if (doctor->asset.result == WEFT_OK)
@@ -227,12 +248,17 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
 }
 
 WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log, WeftError *error) {
-    return open_any(path, NULL, 0, out, log, error);
+    return open_any(path, NULL, 0, NULL, NULL, out, log, error);
+}
+
+WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user, WeftDoctor **out,
+                                    const WeftLog *log, WeftError *error) {
+    return open_any(path, NULL, 0, progress, user, out, log, error);
 }
 
 WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
                                    const WeftLog *log, WeftError *error) {
-    return open_any(name, data ? data : "", data ? size : 0, out, log, error);
+    return open_any(name, data ? data : "", data ? size : 0, NULL, NULL, out, log, error);
 }
 
 void weft_doctor_free(WeftDoctor *doctor) {
@@ -287,7 +313,7 @@ WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError
     bool more = can_fix(doctor);
     for (int round = 1; round < ROUNDS && more && result == WEFT_OK; round++) {
         WeftDoctor *again;
-        result = weft_doctor_open(path, &again, NULL, error);
+        result = weft_doctor_open_watched(path, doctor->progress, doctor->user, &again, NULL, error);
         if (result != WEFT_OK) break;
         more = can_fix(again);
         if (more) result = fix_once(again, path, error);

@@ -35,8 +35,11 @@ typedef struct EnergyTables EnergyTables;
 struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
-    WeftLog log; /* of the caller, behind the doctor's own */
-    WeftLog own; /* that of the asset */
+    WeftLog log;           /* of the caller, behind the doctor's own */
+    WeftLog own;           /* that of the asset */
+    WeftProgress progress; /* of the caller; NULL: nobody watches */
+    void *user;
+    bool examining; /* before, the file is read */
     WeftError error;
     WeftFinding *items;
     Repair *repairs;

@@ -16,6 +16,7 @@
 
 #include "measure/doctor.h"
 #include "measure/halton.h"
+#include "measure/material_key.h"
 #include "scene/material_numbers.h"
 #include "scene/shade.h"
 #include "shading/albedo.h"
@@ -35,15 +36,9 @@ typedef struct Answer {
     float alone[COSINES]; /* E of the white sheen by itself */
 } Answer;
 
-/* What a material is to a reflection: its numbers, without its textures. */
-typedef struct Key {
-    float values[WEFT_INPUTS_MAX][3];
-    int choices[WEFT_CHOICES_MAX];
-} Key;
-
 /* What was measured of a material: it holds for all that have the same numbers. */
 struct Energy {
-    Key key;
+    MaterialKey key;
     Answer answers[READERS];
     float least; /* the roughness from which no engine gains, as least_roughness has it; < 0: not asked */
 };
@@ -399,22 +394,18 @@ static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const Answer an
         doctor_readers[highest], doctor_readers[lowest]);
 }
 
-static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, Key *key) {
+static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, MaterialKey *key) {
     WeftMaterial material;
     if (!numbers_of(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material))
         return false;
-    memset(key, 0, sizeof *key);
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++)
-        memcpy(key->values[k], material.inputs[k].value, sizeof key->values[k]);
-    memcpy(key->choices, material.choices, sizeof key->choices);
+    *key = material_key(&material);
     return true;
 }
 
 /* What is known of a material with these numbers; NULL: nothing yet. */
-static Energy *energy_find(const WeftDoctor *doctor, const Key *key) {
+static Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *key) {
     for (int k = 0; k < doctor->energy_count; k++)
-        if (memcmp((const char *)&doctor->energies[k].key, (const char *)key, sizeof *key) == 0)
-            return &doctor->energies[k];
+        if (material_key_same(&doctor->energies[k].key, key)) return &doctor->energies[k];
     return NULL;
 }
 
@@ -433,7 +424,7 @@ static Energy *energy_add(WeftDoctor *doctor) {
 
 /* Measured once for all that have the same numbers. */
 static Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
-    Key key;
+    MaterialKey key;
     if (!key_of(doctor, cloth, &key)) return NULL;
     Energy *energy = energy_find(doctor, &key);
     if (energy) return energy;

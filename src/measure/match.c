@@ -1,4 +1,4 @@
-#include "weft/match.h"
+#include "measure/match.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,8 +122,8 @@ static WeftResult material_matched(const Samples *samples, const int *held, Shar
     return WEFT_OK;
 }
 
-static WeftResult match_material(const WeftReflection *from, WeftApart metric, const int *held, Share *share,
-                                 WeftMaterial *material, WeftMatch *out, WeftError *error) {
+WeftResult match_material(const WeftReflection *from, WeftApart metric, const int *held, Share *share,
+                          WeftMaterial *material, WeftMatch *out, WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
     if (reflection_walks(from)) return walks(reflection_walks(from), error);

@@ -5,10 +5,13 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "gltf/gltf.h"
 #include "gltf/rewrite.h"
+#include "measure/match.h"
+#include "measure/material_key.h"
+#include "scene/scene.h"
 #include "shading/choice.h"
-#include "weft/match.h"
 
 /* Where a factor stands in a material's JSON, and what it is where it is not there. */
 typedef struct Factor {
@@ -52,17 +55,54 @@ static double texture_mean(WeftImage image, int channel, bool color) {
     return sum / (double)pixels;
 }
 
-/* What the textures of the factors are on average; 1 without one. */
-static void means_of(const WeftScene *scene, const WeftMaterial *material, double means[FACTORS][3]) {
+/* A mean of a texture, kept for all materials that read it. */
+typedef struct Mean {
+    bool known;
+    double mean;
+} Mean;
+
+/* One material of the asset. */
+typedef struct Job {
+    double means[FACTORS][3]; /* what the textures of its factors are on average; 1 without one */
+    int search;               /* of its average; -1: it has no sheen */
+} Job;
+
+/* One search, for all materials whose averages are the same numbers. */
+typedef struct Search {
+    MaterialKey key;      /* of the average */
+    WeftMaterial average; /* then the match */
+    WeftMatch found;
+    WeftResult result;
+    WeftError error;
+} Search;
+
+typedef struct AssetSearch {
+    WeftScene *scene;
+    int from, to, held[WEFT_INPUTS_MAX];
+    WeftApart metric;
+    WeftProgress progress; /* NULL: nobody */
+    void *user;
+    Watch watch;
+    Mean (*means)[2][4]; /* of a texture, as numbers and as a colour, by channel */
+    Job *jobs;           /* of `count` materials */
+    Search *searches;    /* at most as many */
+    WeftAssetMatch *matches;
+    int count, search_count;
+} AssetSearch;
+
+static double mean_of(AssetSearch *self, const WeftInput *input, int channel, bool color) {
+    if (!input->texture) return 1.0;
+    Mean *kept = &self->means[input->texture - 1][color][channel];
+    if (!kept->known)
+        *kept = (Mean){true, texture_mean(weft_scene_texture(self->scene, input->texture), channel, color)};
+    return kept->mean;
+}
+
+static void means_of(AssetSearch *self, const WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++) {
         const WeftInput *input = &material->inputs[factors[f].input];
         bool color = factors[f].numbers > 1;
-        for (int c = 0; c < 3; c++) {
-            means[f][c] = 1.0;
-            if (input->texture)
-                means[f][c] = texture_mean(weft_scene_texture(scene, input->texture),
-                                           color ? c : input->channel, color);
-        }
+        for (int c = 0; c < 3; c++) means[f][c] = mean_of(self, input, color ? c : input->channel, color);
     }
 }
 
@@ -150,68 +190,154 @@ static void hold_rest(int held[WEFT_INPUTS_MAX]) {
     }
 }
 
-static WeftResult material_match(const WeftScene *scene, int index, int from, int to, WeftApart metric,
-                                 WeftAssetMatch *out, WeftError *error) {
-    double means[FACTORS][3];
-    int held[WEFT_INPUTS_MAX];
+/* The number of the search for what is so on average: one that there is, or a new one. */
+static int search_for(AssetSearch *self, const WeftMaterial *average) {
+    const MaterialKey key = material_key(average);
+    int k = 0;
+    while (k < self->search_count && !material_key_same(&self->searches[k].key, &key)) k++;
+    if (k == self->search_count) {
+        self->searches[k].key = key;
+        self->searches[k].average = *average;
+        self->search_count++;
+    }
+    return k;
+}
+
+/* The materials, and the searches that they need. */
+static WeftResult plan(AssetSearch *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < self->count && result == WEFT_OK; k++) {
+        Job *job = &self->jobs[k];
+        WeftAssetMatch *match = &self->matches[k];
+        snprintf(match->name, sizeof match->name, "%s", weft_scene_material_name(self->scene, k));
+        job->search = -1;
+        result = weft_scene_material(self->scene, k, &match->copied, error);
+        match->matched = match->copied;
+        if (result != WEFT_OK || !has_sheen(&match->copied)) continue;
+        if (self->progress && self->progress(self->user, 0.0)) return WEFT_INTERRUPTED;
+        WeftMaterial average = match->copied;
+        means_of(self, &match->copied, job->means);
+        to_average(&average, job->means);
+        job->search = search_for(self, &average);
+    }
+    return result;
+}
+
+static void search_run(void *user, int item, int thread) {
+    (void)thread;
+    AssetSearch *self = user;
+    Search *search = &self->searches[item];
+    Share share = {.watch = &self->watch};
     WeftReflection *original = NULL;
-    memset(out, 0, sizeof *out);
-    snprintf(out->name, sizeof out->name, "%s", weft_scene_material_name(scene, index));
-    WeftResult result = weft_scene_material(scene, index, &out->copied, error);
-    out->matched = out->copied;
-    if (result != WEFT_OK || !has_sheen(&out->copied)) return result;
-    WeftMaterial average = out->copied;
-    means_of(scene, &out->copied, means);
-    to_average(&average, means);
-    weft_material_choose(&average, CHOICE_profile, from);
-    result = weft_reflection_create(&average, &original, error);
-    if (result != WEFT_OK) return result;
-    weft_material_choose(&average, CHOICE_profile, to);
-    hold_rest(held);
-    result = weft_match_material(original, metric, held, &average, &out->found, error);
+    search->result = WEFT_INTERRUPTED;
+    if (!share_tell(&share, 0.0)) return;
+    weft_material_choose(&search->average, CHOICE_profile, self->from);
+    search->result = weft_reflection_create(&search->average, &original, &search->error);
+    if (search->result != WEFT_OK) return;
+    weft_material_choose(&search->average, CHOICE_profile, self->to);
+    search->result = match_material(original, self->metric, self->held, &share, &search->average,
+                                    &search->found, &search->error);
     weft_reflection_free(original);
-    if (result != WEFT_OK) return result;
-    out->clipped = to_factors(&average, means);
-    for (int f = 0; f < FACTORS; f++)
-        memcpy(out->matched.inputs[factors[f].input].value, average.inputs[factors[f].input].value,
-               sizeof average.inputs->value);
-    out->changed = 1;
+    share_tell(&share, 1.0);
+}
+
+static WeftResult search_all(AssetSearch *self, WeftError *error) {
+    hold_rest(self->held);
+    if (!watch_loop(&self->watch, 0, self->search_count, search_run, self, self->progress, self->user))
+        return WEFT_INTERRUPTED;
+    for (int k = 0; k < self->search_count; k++) {
+        const Search *search = &self->searches[k];
+        if (search->result != WEFT_OK && error) *error = search->error;
+        if (search->result != WEFT_OK) return search->result;
+    }
     return WEFT_OK;
 }
 
-static WeftResult asset_write(Asset *asset, const WeftScene *scene, const char *out, int from, int to,
-                              WeftApart metric, WeftAssetMatch *report, int room, WeftError *error) {
+/* What was found, as factors of each material. */
+static void hand_out(AssetSearch *self) {
+    for (int k = 0; k < self->count; k++) {
+        WeftAssetMatch *match = &self->matches[k];
+        Job *job = &self->jobs[k];
+        if (job->search < 0) continue;
+        const Search *search = &self->searches[job->search];
+        WeftMaterial found = search->average;
+        match->found = search->found;
+        match->clipped = to_factors(&found, job->means);
+        for (int f = 0; f < FACTORS; f++)
+            memcpy(match->matched.inputs[factors[f].input].value, found.inputs[factors[f].input].value,
+                   sizeof found.inputs->value);
+        match->changed = 1;
+        match->search = job->search + 1;
+    }
+}
+
+static WeftResult asset_match(AssetSearch *self, WeftError *error) {
+    self->count = self->scene->material_count;
+    size_t count = (size_t)self->count;
+    self->means = alloc_array((size_t)self->scene->texture_count, sizeof *self->means);
+    self->jobs = alloc_array(count, sizeof *self->jobs);
+    self->searches = alloc_array(count, sizeof *self->searches);
+    self->matches = alloc_array(count, sizeof *self->matches);
+    if (!self->means || !self->jobs || !self->searches || !self->matches)
+        return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
+    WeftResult result = plan(self, error);
+    if (result == WEFT_OK) result = search_all(self, error);
+    if (result == WEFT_OK) hand_out(self);
+    return result;
+}
+
+static WeftResult asset_write(const AssetSearch *self, Asset *asset, const char *out, WeftError *error) {
     Rewrite rewrite;
     WeftResult result = rewrite_begin(&rewrite, asset, error);
-    int count = weft_scene_info(scene).material_count;
-    for (int k = 0; k < count && result == WEFT_OK; k++) {
-        WeftAssetMatch match;
-        result = material_match(scene, k, from, to, metric, &match, error);
-        if (result == WEFT_OK && match.changed) result = material_write(&rewrite, k, &match, error);
-        if (report && k < room) report[k] = match;
-    }
+    for (int k = 0; k < self->count && result == WEFT_OK; k++)
+        if (self->matches[k].changed) result = material_write(&rewrite, k, &self->matches[k], error);
     if (result == WEFT_OK) result = rewrite_save(&rewrite, out, error);
     rewrite_end(&rewrite);
     return result;
 }
 
-WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
-                            WeftAssetMatch *report, int room, int *count, const WeftLog *log,
-                            WeftError *error) {
-    WeftScene *scene;
+/* Reading is short beside what comes after, and is no part of it. */
+static int while_reading(void *user, double fraction) {
+    AssetSearch *self = user;
+    (void)fraction;
+    return self->progress ? self->progress(self->user, 0.0) : 0;
+}
+
+static WeftResult asset_rewrite(AssetSearch *self, const char *path, const char *out, const WeftLog *log,
+                                WeftError *error) {
     WeftError own;
-    char number[32];
-    *count = 0;
-    snprintf(number, sizeof number, "%d, %d", from, to);
-    if (!weft_profile_id(from) || !weft_profile_id(to)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
-    WeftResult result = weft_scene_load(path, &scene, log, error);
+    WeftResult result = weft_scene_load_watched(path, while_reading, self, &self->scene, log, error);
+    if (result == WEFT_OK) result = asset_match(self, error);
     if (result != WEFT_OK) return result;
-    *count = weft_scene_info(scene).material_count;
     Asset asset = {.error = error ? error : &own};
     gltf_open(&asset, path, NULL, 0);
     result = asset.result;
-    if (result == WEFT_OK) result = asset_write(&asset, scene, out, from, to, metric, report, room, error);
+    if (result == WEFT_OK) result = asset_write(self, &asset, out, error);
     gltf_close(&asset);
-    weft_scene_free(scene);
     return result;
 }
+
+WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
+                            WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
+                            const WeftLog *log, WeftError *error) {
+    AssetSearch self = {.from = from, .to = to, .metric = metric, .progress = progress, .user = user};
+    char number[32];
+    *count = 0;
+    if (report) *report = NULL;
+    snprintf(number, sizeof number, "%d, %d", from, to);
+    if (!weft_profile_id(from) || !weft_profile_id(to)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
+    WeftResult result = asset_rewrite(&self, path, out, log, error);
+    *count = self.count;
+    if (result == WEFT_OK && report) {
+        *report = self.matches;
+        self.matches = NULL;
+    }
+    free(self.matches);
+    free(self.searches);
+    free(self.jobs);
+    free(self.means);
+    weft_scene_free(self.scene);
+    return result;
+}
+
+void weft_match_report_free(WeftAssetMatch *report) { free(report); }

@@ -184,4 +184,19 @@ static inline int scene_begin(void **state) {
     return 0;
 }
 
+/* Waits until a program handles SIGINT: the bit of SigCgt in /proc/PID/status, proc(5). */
+static inline void await_handler(pid_t child) {
+    char path[64], text[4096];
+    unsigned long long caught = 0;
+    snprintf(path, sizeof path, "/proc/%d/status", (int)child);
+    for (double start = seconds_now(); !(caught >> (SIGINT - 1) & 1u) && seconds_now() < start + 60.0;) {
+        FILE *stream = fopen(path, "r");
+        size_t size = stream ? fread(text, 1, sizeof text - 1, stream) : 0;
+        if (stream) fclose(stream);
+        text[size] = '\0';
+        const char *line = strstr(text, "SigCgt:");
+        caught = line ? strtoull(line + strlen("SigCgt:"), NULL, 16) : 0;
+    }
+}
+
 #endif

@@ -115,6 +115,42 @@ static void an_asset_is_rewritten(void **state) {
     json_decref(json);
 }
 
+/* "many.gltf": materials with a sheen, each its own. */
+static void many_make(int count) {
+    FILE *stream = fopen("many.gltf", "w");
+    assert_non_null(stream);
+    fputs("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\"],\"materials\":[",
+          stream);
+    for (int k = 0; k < count; k++)
+        fprintf(stream,
+                "%s{\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,%.4f],"
+                "\"sheenRoughnessFactor\":%.4f}}}",
+                k ? "," : "", 0.5 + 0.4 * k / count, 0.2 + 0.7 * k / count);
+    fputs("]}", stream);
+    fclose(stream);
+}
+
+/* Either would take minutes. */
+static void ctrl_c_ends_many_materials(void **state) {
+    (void)state;
+    const char *const *const verbs[] = {
+        LIST("match", "many.gltf", "--from", "khronos", "--to", "three", "-o", "never.gltf"),
+        LIST("doctor", "many.gltf", "--fix", "-o", "never.gltf")};
+    many_make(5000);
+    for (int k = 0; k < 2; k++) {
+        pid_t child = program_start(WEFT_PROGRAM, NULL, verbs[k]);
+        await_handler(child);
+        sleep_seconds(0.5);
+        kill(child, SIGINT);
+        Ran ran = program_end(child);
+        if (ran.code != 130 || !one_complaint(ran.err) || !strstr(ran.err, "many.gltf: interrupted") ||
+            ran.out[0])
+            fail_msg("%d: %s", ran.code, ran.err);
+        assert_int_equal(access("never.gltf", F_OK), -1);
+        ran_free(&ran);
+    }
+}
+
 static WeftImage drawn(const char *scene, const char *profile) {
     Ran ran = RUN("render", scene, "--profile", profile, "--width", "160", "--height", "120", "--spp", "16",
                   "-o", "drawn.exr");
@@ -190,9 +226,12 @@ static void complaints(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lobe_is_itself),          cmocka_unit_test(a_match_is_closer),
-        cmocka_unit_test(pictures_are_written),      cmocka_unit_test(an_asset_is_rewritten),
-        cmocka_unit_test(the_chair_looks_as_it_did), cmocka_unit_test(complaints)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_itself),
+                                       cmocka_unit_test(a_match_is_closer),
+                                       cmocka_unit_test(pictures_are_written),
+                                       cmocka_unit_test(an_asset_is_rewritten),
+                                       cmocka_unit_test(ctrl_c_ends_many_materials),
+                                       cmocka_unit_test(the_chair_looks_as_it_did),
+                                       cmocka_unit_test(complaints)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

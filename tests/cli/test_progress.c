@@ -71,6 +71,21 @@ static void texels_are_counted(void **state) {
     free(text);
 }
 
+/* Of work whose amount only the file says. */
+static void shares_are_drawn(void **state) {
+    (void)state;
+    int code;
+    char *text = on_terminal(
+        100, LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "a.gltf"), &code);
+    assert_int_equal(code, 0);
+    assert_non_null(strstr(text, " of the searches  0:0"));
+    free(text);
+    text = on_terminal(100, LIST("doctor", "scene.gltf", "--no-notes"), &code);
+    assert_non_null(strstr(text, " of the materials and meshes  0:0"));
+    assert_string_equal(strrchr(text, '\r'), "\r\033[K");
+    free(text);
+}
+
 static void quiet_is_quiet(void **state) {
     (void)state;
     int code;
@@ -84,6 +99,6 @@ static void quiet_is_quiet(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(line_is_drawn_and_erased),
                                        cmocka_unit_test(texels_are_counted),
-                                       cmocka_unit_test(quiet_is_quiet)};
+                                       cmocka_unit_test(shares_are_drawn), cmocka_unit_test(quiet_is_quiet)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

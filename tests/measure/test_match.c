@@ -387,10 +387,13 @@ static void channels_change_nothing(void **state) {
         WeftError error;
         int count;
         picture_write(picture, k + 1);
+        WeftAssetMatch *report;
         if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"), WEFT_APART_COSINE,
-                             &found[k], 1, &count, NULL, &error) != WEFT_OK)
+                             NULL, NULL, &report, &count, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
-        assert_true(count == 1 && found[k].changed);
+        assert_true(count == 1 && report->changed);
+        found[k] = *report;
+        weft_match_report_free(report);
         for (int n = 0; n < WEFT_INPUTS_MAX; n++)
             for (int c = 0; c < 3; c++)
                 assert_true(fabsf(found[k].matched.inputs[n].value[c] -
@@ -403,8 +406,89 @@ static void channels_change_nothing(void **state) {
     rmdir(folder);
 }
 
+/* An asset of a velvet, a wool and a wall, one letter each. */
+static void cloths_write(const char *path, const char *letters) {
+    char text[4096];
+    int used = snprintf(text, sizeof text,
+                        "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\"],"
+                        "\"materials\":[");
+    for (const char *letter = letters; *letter; letter++) {
+        used += snprintf(text + used, sizeof text - (size_t)used, "%s{\"name\":\"%c%d\"",
+                         letter > letters ? "," : "", *letter, (int)(letter - letters));
+        if (*letter != '-')
+            used += snprintf(text + used, sizeof text - (size_t)used,
+                             ",\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,0.8],"
+                             "\"sheenRoughnessFactor\":%s}}",
+                             *letter == 'v' ? "0.3" : "0.7");
+        used += snprintf(text + used, sizeof text - (size_t)used, "}");
+    }
+    snprintf(text + used, sizeof text - (size_t)used, "]}");
+    text_write(path, text);
+}
+
+typedef struct Asked {
+    int times, most; /* most: it stops at */
+    double least, last;
+} Asked;
+
+static int note_asked(void *user, double fraction) {
+    Asked *asked = user;
+    asked->least = fmin(asked->least, fraction - asked->last);
+    asked->last = fraction;
+    return ++asked->times > asked->most;
+}
+
+static WeftResult cloths_match(const char *letters, Asked *asked, WeftAssetMatch **report) {
+    WeftError error;
+    int count;
+    cloths_write("cloths.gltf", letters);
+    WeftResult result =
+        weft_match_asset("cloths.gltf", "cloths-out.gltf", profile_named("khronos"), profile_named("three"),
+                         WEFT_APART_COSINE, note_asked, asked, report, &count, NULL, &error);
+    if (result == WEFT_OK) assert_int_equal(count, strlen(letters));
+    unlink("cloths.gltf");
+    return result;
+}
+
+/* Each has the match that it has alone. */
+static void equal_materials_share_a_search(void **state) {
+    (void)state;
+    static const int searches[] = {1, 2, 1, 0, 2, 1, 1};
+    WeftAssetMatch *together, *alone[2];
+    Asked asked = {.most = 1 << 30};
+    assert_int_equal(cloths_match("vwv-wvv", &asked, &together), WEFT_OK);
+    assert_true(asked.times > 0 && asked.least >= 0.0 && asked.last <= 1.0);
+    assert_int_equal(cloths_match("v", &asked, &alone[0]), WEFT_OK);
+    assert_int_equal(cloths_match("w", &asked, &alone[1]), WEFT_OK);
+    for (int k = 0; k < 7; k++) {
+        assert_int_equal(together[k].search, searches[k]);
+        assert_int_equal(together[k].changed, searches[k] != 0);
+        if (!searches[k]) continue;
+        const WeftAssetMatch *same = alone[searches[k] - 1];
+        assert_memory_equal(&together[k].matched, &same->matched, sizeof same->matched);
+        assert_memory_equal(&together[k].found, &same->found, sizeof same->found);
+        assert_true(same->found.matched < same->found.copied);
+    }
+    weft_match_report_free(together);
+    for (int k = 0; k < 2; k++) weft_match_report_free(alone[k]);
+    unlink("cloths-out.gltf");
+}
+
+static void a_stopped_asset_is_not_written(void **state) {
+    (void)state;
+    for (int most = 0; most < 12; most += 3) {
+        WeftAssetMatch *report;
+        Asked asked = {.most = most};
+        assert_int_equal(cloths_match("vwv", &asked, &report), WEFT_INTERRUPTED);
+        assert_null(report);
+        assert_int_equal(access("cloths-out.gltf", F_OK), -1);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(half_is_half),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_materials_share_a_search),
+                                       cmocka_unit_test(a_stopped_asset_is_not_written),
+                                       cmocka_unit_test(half_is_half),
                                        cmocka_unit_test(the_sum_is_the_integral),
                                        cmocka_unit_test(itself_stays),
                                        cmocka_unit_test(lobes_come_back),
