@@ -141,14 +141,22 @@ static void print_row(const char *id, const char *what, const TruthSet *slabs, d
 }
 
 /* Alphas between those of the fits, which are even in the logarithm. */
-static void between(double low, int n, double *alpha) {
-    for (int k = 0; k < n; k++) alpha[k] = (exp)(log(low) * (1.0 - (k + 0.5) / n));
+static void alphas_from(double low, double high, int n, double *alpha) {
+    for (int k = 0; k < n; k++) alpha[k] = low * (pow)(high / low, (k + 0.5) / n);
 }
+static void between(double low, int n, double *alpha) { alphas_from(low, 1.0, n, alpha); }
 
 static void make(const TruthGrid *grid, TruthSet *slabs) {
     if (truth_make(grid, 0, NULL, NULL, slabs)) return;
     fputs("bench_fibre: out of memory\n", stderr);
     exit(1);
+}
+
+static void print_slabs(const char *what, const TruthGrid *grid, double low, double high) {
+    TruthSet slabs;
+    make(grid, &slabs);
+    print_row("fibre", what, &slabs, low, high);
+    truth_free(&slabs);
 }
 
 static void print_models(void) {
@@ -172,17 +180,16 @@ static void print_models(void) {
     truth_free(&slabs);
     between(0.19, 9, alpha);
     grid.alphas = 9, grid.kept = 4, grid.depth = 2.8;
-    make(&grid, &slabs);
-    print_row("fibre", "density .35 .. 2.8", &slabs, 0.0, 1.0);
-    truth_free(&slabs);
+    print_slabs("density .35 .. 2.8, alpha 0.19 .. 1", &grid, 0.0, 1.0);
     grid.albedos = 7, grid.albedo = colors, grid.kept = 1, grid.depth = 1.0, grid.rings = 25, grid.spokes = 5;
-    make(&grid, &slabs);
-    print_row("fibre", "colour .2 .. 1", &slabs, 0.0, 1.0);
-    truth_free(&slabs);
+    print_slabs("colour .2 .. 1, alpha 0.19 .. 1", &grid, 0.0, 1.0);
     grid.kept = 4, grid.depth = 2.8;
-    make(&grid, &slabs);
-    print_row("fibre", "colour and density", &slabs, 0.0, 1.0);
-    truth_free(&slabs);
+    print_slabs("colour, density, alpha 0.19 .. 1", &grid, 0.0, 1.0);
+    alphas_from(0.05, 0.19, 9, alpha);
+    grid.kept = 1, grid.depth = 1.0;
+    print_slabs("colour, alpha 0.05 .. 0.19", &grid, 0.0, 1.0);
+    grid.kept = 4, grid.depth = 2.8;
+    print_slabs("colour, density, alpha .05 .. .19", &grid, 0.0, 1.0);
     between(0.3, 6, alpha);
     grid = (TruthGrid){6, 1, 3, 1, 9, 9, alpha, white, tilts, 1.0};
     make(&grid, &slabs);
@@ -190,13 +197,11 @@ static void print_models(void) {
     print_row("fibre", "tilt 7.5 .. 40, alpha 0.3 .. 0.45", &slabs, 0.0, 0.45);
     truth_free(&slabs);
     grid.kept = 4, grid.depth = 2.8;
-    make(&grid, &slabs);
-    print_row("fibre", "tilt and density, alpha 0.45 .. 1", &slabs, 0.45, 1.0);
-    truth_free(&slabs);
+    print_slabs("tilt and density, alpha 0.45 .. 1", &grid, 0.45, 1.0);
     grid.albedos = 3, grid.albedo = few, grid.kept = 1, grid.depth = 1.0;
-    make(&grid, &slabs);
-    print_row("fibre", "tilt and colour .2, .5, .9", &slabs, 0.45, 1.0);
-    truth_free(&slabs);
+    print_slabs("tilt, colour, alpha 0.45 .. 1", &grid, 0.45, 1.0);
+    grid.kept = 4, grid.depth = 2.8;
+    print_slabs("all three, alpha 0.45 .. 1", &grid, 0.45, 1.0);
 }
 
 /* ---- sampling ---- */

@@ -46,6 +46,10 @@ static const Group groups[] = {
     {PART_V, UPRIGHT, 0, 4, {{3, 2, 1}}},
     {PART_U, UPRIGHT, 0, 4, {{3, 2, 1}}},
     {PART_C, UPRIGHT, 0, 3, {{3, 2}}},
+    {PART_Q, THIN, 0, 7, {{4, 3, 2}}},
+    {PART_V, THIN, 0, 5, {{3, 2, 1}}},
+    {PART_U, THIN, 0, 5, {{3, 2, 1}}},
+    {PART_C, THIN, 0, 3, {{3, 2}}},
 };
 enum {
     GROUPS = sizeof groups / sizeof groups[0],
@@ -56,7 +60,7 @@ enum {
 };
 
 static FibreStage stage_of(const Group *g, int c) {
-    if (g->part >= PART_Q) return FIBRE_COLOR;
+    if (g->part >= PART_Q) return g->kind == THIN ? FIBRE_THIN_COLOR : FIBRE_COLOR;
     if (g->kind == NAP) return FIBRE_NAP;
     if (c) return FIBRE_DENSITY;
     return g->kind == THIN ? FIBRE_THIN : FIBRE_WHITE;
@@ -226,6 +230,9 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
     sides_free(&s);
 }
 
+/* The law of shading/tint.h, with its bounds: q is 0.999 at the most, and light that met two flakes or more
+ * keeps no more than w^2. */
+static const double q_most = 6.9; /* log(0.999 / 0.001) */
 static void tint(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
                  double *slope) {
     (void)user;
@@ -236,7 +243,7 @@ static void tint(void *user, int slab, const Truth *truth, const double *theta, 
     if (sides_make(truth, theta, PART_Q, PART_C, &s)) {
         double *r = s.part[PART_A], *r_slope = s.part[PART_H]; /* these parts are idle here */
         for (int k = 0; k < truth->sides; k++) {
-            double q = 1.0 / (1.0 + exp(-fmin(fmax(s.part[PART_Q][k], -30.0), 12.0)));
+            double q = 1.0 / (1.0 + exp(-fmin(fmax(s.part[PART_Q][k], -30.0), q_most)));
             r[k] = log1p(-q) - log1p(-w * q);
             r_slope[k] = -q * (1.0 - w) / (1.0 - w * q);
         }
@@ -244,10 +251,14 @@ static void tint(void *user, int slab, const Truth *truth, const double *theta, 
             int i = truth->i[p], j = truth->j[p];
             double v = s.part[PART_V][i], u = s.part[PART_U][i], c = s.part[PART_C][i], x = truth->x[p];
             double v2 = s.part[PART_V][j], u2 = s.part[PART_U][j], c2 = s.part[PART_C][j];
-            log_f[p] = log(fmax(w * w * truth->white[p], 1e-14)) + r[i] + r[j] +
-                       (1.0 - w) * (v * v2 - u * u2 - c * c2 * x);
+            double more = r[i] + r[j] + (1.0 - w) * (v * v2 - u * u2 - c * c2 * x);
+            log_f[p] = log(fmax(w * w * truth->white[p], 1e-14)) + fmin(more, 0.0);
             if (!slope) continue;
             double *row = slope + (size_t)p * (size_t)n;
+            if (more > 0.0) {
+                memset(row, 0, (size_t)n * sizeof *row);
+                continue;
+            }
             const Side *a = &s.side[i], *b = &s.side[j];
             part_slope(PART_Q, 1.0, a, b, r_slope[j], r_slope[i], row);
             part_slope(PART_V, 1.0 - w, a, b, v, v2, row);
@@ -307,7 +318,7 @@ typedef struct Staged {
 static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient *list, int n,
                         const double *values, Staged *out) {
     size_t slabs = (size_t)set->count;
-    bool color = stage == FIBRE_COLOR;
+    bool color = stage >= FIBRE_COLOR;
     int locals = locals_of(color);
     *out = (Staged){0};
     out->terms = arena_array(&out->arena, slabs, sizeof(FitTerm *));
@@ -409,6 +420,11 @@ static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, v
     case FIBRE_COLOR:
         alphas_fill(0.19, 10, alpha);
         grid.alphas = 10, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0,
+        grid.rings = 24;
+        break;
+    case FIBRE_THIN_COLOR:
+        alphas_fill(alpha_low, 24, alpha); /* the first 11: 0.045 to 0.17 */
+        grid.alphas = 11, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0,
         grid.rings = 24;
         break;
     case FIBRE_STAGES: break;
@@ -587,9 +603,10 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
           "square of the\n"
           " * tilt's sine. Errors over what they were fitted to:\n *\n",
           file);
-    static const char *const names[FIBRE_STAGES] = {"white", "thin", "density", "nap", "colour"};
+    static const char *const names[FIBRE_STAGES] = {"white", "thin",   "density",
+                                                    "nap",   "colour", "thin colour"};
     for (int k = 0; k < FIBRE_STAGES; k++)
-        fprintf(file, " *   %-8s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n",
+        fprintf(file, " *   %-11s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n",
                 names[k], fibre_model_count((FibreStage)k), 100.0 * model->errors[k].mean,
                 100.0 * model->errors[k].worst, model->errors[k].albedo);
     fputs(" */\n/* clang-format off */\n#ifndef WEFT_TABLES_FIBRE_MODEL_H\n#define "

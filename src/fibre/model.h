@@ -8,7 +8,7 @@
  * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/fibre_model.h) times numbers that
  * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
  * are found in stages, each on top of the last and without touching it: white of
- * alpha 0.19 and up, white of thinner fibres, density, nap, colour. */
+ * alpha 0.19 and up, white of thinner fibres, density, nap, colour, colour of thinner fibres. */
 #ifndef WEFT_FIBRE_MODEL_H
 #define WEFT_FIBRE_MODEL_H
 
@@ -22,6 +22,7 @@ typedef enum FibreStage {
     FIBRE_DENSITY,
     FIBRE_NAP,
     FIBRE_COLOR,
+    FIBRE_THIN_COLOR,
     FIBRE_STAGES
 } FibreStage;
 

@@ -29,7 +29,7 @@ WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *com
     *text = NULL;
     if (desc->rounds < 0 || desc->rounds > 1000 || desc->threads < 0)
         return fail(error, WEFT_MESSAGE_DESC, "rounds", "%d", desc->rounds);
-    if (!fibre_model_fit(FIBRE_COLOR, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter,
+    if (!fibre_model_fit(FIBRE_STAGES - 1, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter,
                          &model))
         return counter.stopped ? WEFT_INTERRUPTED : fail(error, WEFT_MESSAGE_MEMORY, "fibre-model", NULL);
     FILE *stream = open_memstream(text, &size);

@@ -79,6 +79,10 @@ FN FibreSide fibre_thin(FibreNumbers n, FibreSide r, float u) {
     r.h = r.h + n.th0 + n.th1 * u + n.th2 * t2 + n.th3 * t3 + n.th4 * t4 + n.th5 * t5 + n.th6 * t6;
     r.g = r.g + n.tg0 + n.tg1 * u + n.tg2 * t2 + n.tg3 * t3 + n.tg4 * t4 + n.tg5 * t5 + n.tg6 * t6;
     r.k = r.k + n.tk0 + n.tk1 * u + n.tk2 * t2 + n.tk3 * t3 + n.tk4 * t4;
+    r.q = r.q + n.tq0 + n.tq1 * u + n.tq2 * t2 + n.tq3 * t3 + n.tq4 * t4 + n.tq5 * t5 + n.tq6 * t6;
+    r.v = r.v + n.tv0 + n.tv1 * u + n.tv2 * t2 + n.tv3 * t3 + n.tv4 * t4;
+    r.u = r.u + n.tu0 + n.tu1 * u + n.tu2 * t2 + n.tu3 * t3 + n.tu4 * t4;
+    r.c = r.c + n.tc0 + n.tc1 * u + n.tc2 * t2;
     return r;
 }
 
@@ -94,12 +98,12 @@ FN FibreSide fibre_side(FibreModel m, float mu, float nu) {
     r.h = n.h0 + u * (n.h1 + u * (n.h2 + u * (n.h3 + u * n.h4)));
     r.g = n.g0 + u * (n.g1 + u * (n.g2 + u * (n.g3 + u * (n.g4 + u * (n.g5 + u * n.g6)))));
     r.k = n.k0 + u * (n.k1 + u * (n.k2 + u * n.k3));
-    if (n.thin > 0.0f) r = fibre_thin(n, r, u);
-    float again = n.q0 + u * (n.q1 + u * (n.q2 + u * (n.q3 + u * n.q4)));
-    r.q = 1.0f / (1.0f + exp2(clamp(-again, -17.0f, 40.0f)));
+    r.q = n.q0 + u * (n.q1 + u * (n.q2 + u * (n.q3 + u * n.q4)));
     r.v = n.v0 + u * (n.v1 + u * (n.v2 + u * n.v3));
     r.u = n.u0 + u * (n.u1 + u * (n.u2 + u * n.u3));
     r.c = n.c0 + u * (n.c1 + u * n.c2);
+    if (n.thin > 0.0f) r = fibre_thin(n, r, u);
+    r.q = 1.0f / (1.0f + exp2(clamp(-r.q, -17.0f, 40.0f)));
     if (m.s > 0.0f) r = fibre_nap(m, r, mu, nu, u);
     return r;
 }
