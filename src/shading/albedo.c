@@ -1,12 +1,13 @@
 #include "shading/albedo.h"
 
 #include "base/thread.h"
+#include "shading/lobe_tables.h"
 
-/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o and at the plane of incidence. Each
- * piece is integrated by the double-exponential rule, whose nodes crowd towards the ends of an interval: that
- * is where the lobes have their peaks (mirror direction, horizon, backscatter), however narrow. x = 1 / (1 +
- * exp(-pi sinh t)),  dx/dt = pi cosh t x (1 - x) Hidetosi Takahasi, Masatake Mori, "Double Exponential
- * Formulas for Numerical Integration", 1974. */
+/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the creases of a table that f is
+ * mixed from, and at the plane of incidence. Each piece is integrated by the double-exponential rule, whose
+ * nodes crowd towards the ends of an interval: that is where the lobes have their peaks (mirror direction,
+ * horizon, backscatter), however narrow. x = 1 / (1 + exp(-pi sinh t)),  dx/dt = pi cosh t x (1 - x) Hidetosi
+ * Takahasi, Masatake Mori, "Double Exponential Formulas for Numerical Integration", 1974. */
 enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
 
 typedef struct Rule {
@@ -94,16 +95,39 @@ static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, doub
     return sum;
 }
 
+/* Angles from the horizon, rising, between which f is smooth in theta_i: 0, those of the columns of a table
+ * that is read by cos_i, the mirror angle and pi / 2. */
+enum { PIECES_MOST = LOBE_CREASES_MOST + 2 };
+typedef struct Pieces {
+    int count;
+    double edge[PIECES_MOST + 1];
+} Pieces;
+
+static Pieces pieces_of(const Lobe *lobe, Dir wo) {
+    float creases[LOBE_CREASES_MOST];
+    int count = lobe_creases(lobe->id, creases);
+    double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
+    Pieces p = {.count = 0, .edge = {0.0}};
+    for (int k = 0; k < count && asin((double)creases[k]) < mirror; k++)
+        p.edge[++p.count] = asin((double)creases[k]);
+    p.edge[++p.count] = mirror;
+    for (int k = 0; k < count; k++)
+        if (asin((double)creases[k]) > mirror) p.edge[++p.count] = asin((double)creases[k]);
+    p.edge[++p.count] = 1.57079632679490;
+    return p;
+}
+
 static Sum hemisphere(const Asked *asked, Dir wo, const Rule *rule) {
-    double theta_o = atan2(hypot((double)wo.x, (double)wo.y), (double)wo.z), half_pi = 1.57079632679490;
+    const Pieces pieces = pieces_of(asked->lobe, wo);
     Sum sum = {0};
-    for (int piece = 0; piece < 2; piece++) {
-        double width = piece ? half_pi - theta_o : theta_o;
+    for (int piece = pieces.count; piece > 0; piece--) {
+        double low = pieces.edge[piece - 1], width = pieces.edge[piece] - low;
         if (width < 1e-9) continue;
         for (int k = 0; k < rule->count; k++) {
-            /* the second piece measures from the horizon, where the cosine needs its digits */
-            double a = piece ? width * rule->rest[k] : width * rule->x[k];
-            double sin_i = piece ? (cos)(a) : (sin)(a), cos_i = piece ? (sin)(a) : (cos)(a);
+            /* from the horizon, where the cosine needs its digits; the last piece from the normal */
+            bool steep = piece == pieces.count;
+            double a = steep ? width * rule->x[k] : low + width * rule->rest[k];
+            double sin_i = steep ? (sin)(a) : (cos)(a), cos_i = steep ? (cos)(a) : (sin)(a);
             Sum part = ring(asked, wo, rule, sin_i, cos_i);
             add(&sum, rule->w[k] * width * sin_i * cos_i, &part);
         }

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "shading/albedo.h"
+#include "shading/lobes/fibre_table.h"
 #include "shading/tables/fibre_table.h"
 #include "shading/tables/ltc_fibre.h"
 #include "shading/tables/ltc_ggx.h"
@@ -44,6 +45,13 @@ static TableRef make_fibre(void) {
     const WeftParamInfo *alpha = &weft_lobe_info(LOBE_FIBRE_TABLE)->params[0];
     return make_planes(table_fibre_table, PLANES(table_fibre_table), log2(alpha->hard_low),
                        log2(alpha->hard_high), planes);
+}
+
+int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]) {
+    if (id != LOBE_FIBRE_TABLE) return 0;
+    int last = table_fibre_table_width - 1;
+    for (int k = 1; k < last; k++) cosines[k - 1] = fibre_table_cosine((float)k / (float)last);
+    return last - 1;
 }
 
 static void make_baked(void) {

@@ -43,6 +43,12 @@ STRUCT(FibreTableSpot) {
 /* Where in [0, 1] of the columns, which are uniform in the root of mu + 0.001, from the horizon on. */
 FN float fibre_table_column(float mu) { return (sqrt(mu + 1e-3f) - 0.0316227766f) * 1.03212265f; }
 
+/* The other way. */
+FN float fibre_table_cosine(float column) {
+    float root = column / 1.03212265f + 0.0316227766f;
+    return root * root - 1e-3f;
+}
+
 /* Rows are uniform in the logarithm of alpha. */
 FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
     FibreTableSpot s;
