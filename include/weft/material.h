@@ -94,6 +94,10 @@ WEFT_API void weft_material_choose(WeftMaterial *material, int choice, int value
 /* Says what is hardly real in it, as weft_scene_set does; name is the subject of the messages. */
 WEFT_API void weft_material_plausible(const WeftMaterial *material, const char *name, const WeftLog *log);
 
+/* Says where the lobe of its sheen takes another number than it was given, as weft_lobe_fitted does; a
+ * texture counts as reaching down to 0. weft_material_plausible says this too. */
+WEFT_API void weft_material_fitted(const WeftMaterial *material, const char *name, const WeftLog *log);
+
 /* Whether an input has any influence on it: whether its workflow or profile reads it, and no other input
  * hides it, as a sheen that is black hides its roughness. */
 WEFT_API int weft_material_reads(const WeftMaterial *material, int input);

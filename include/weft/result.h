@@ -64,6 +64,7 @@ typedef enum WeftResult {
     M(PARAM_NAME, USAGE, "is not a parameter")                                                               \
     M(PARAM_VALUE, USAGE, "is not a value that the parameter takes")                                         \
     M(PARAM_RANGE, WARNING, "is out of range")                                                               \
+    M(PARAM_FITTED, WARNING, "is outside the range that was fitted")                                         \
     M(PLAUSIBLE, WARNING, "is not plausible")                                                                \
     M(LOBE_NAME, USAGE, "is not a lobe")                                                                     \
     M(EXPORT_LOBE, USAGE, "is a random walk, for the path tracer only: export fibre, which stands for it")   \

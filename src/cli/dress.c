@@ -414,5 +414,12 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
         if (result == WEFT_OK) result = apply_sets(dress, k, scene, to, error);
     }
     if (result == WEFT_OK && workflow) result = convert(workflow, scene, log, error);
+    for (int m = 0; m < weft_scene_info(scene).material_count && result == WEFT_OK; m++) {
+        WeftMaterial material;
+        char name[96];
+        snprintf(name, sizeof name, "material %.79s", weft_scene_material_name(scene, m));
+        result = weft_scene_material(scene, m, &material, error);
+        if (result == WEFT_OK) weft_material_fitted(&material, name, log);
+    }
     return result;
 }

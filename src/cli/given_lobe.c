@@ -36,5 +36,10 @@ int given_lobe(const Options *options, const char *id, bool rows_run, WeftLobe *
     int cursor = 0, result = 0;
     for (const char *text; result == 0 && (text = option_next(options, "-p", &cursor));)
         result = set_param(lobe, text, taken);
+    WeftLobe sharpest = *lobe; /* of the rows */
+    WeftError warned = {0};
+    const WeftLog log = {.fn = warning, .user = &warned};
+    if (taken) sharpest.params[0] = first->low;
+    if (result == 0) weft_lobe_fitted(&sharpest, id, &log);
     return result;
 }

@@ -121,7 +121,9 @@ int match_search(Match *match) {
     else
         found = weft_match_material(match->from.reflection, match->metric, held, &match->to.material,
                                     &match->found, &error);
-    return found == WEFT_OK ? subject_prepare(&match->to) : report_error(&error);
+    if (found != WEFT_OK) return report_error(&error);
+    subject_warn(&match->to);
+    return subject_prepare(&match->to);
 }
 
 void match_free(Match *match) {

@@ -217,7 +217,18 @@ static int parse(const char *typed, bool bare, Subject *out) {
     snprintf(out->words, sizeof out->words, "%s", typed);
     name_after(out, parts.name);
     result = of_name(out, &parts);
-    return result == 0 && parts.settings ? set_all(out, parts.settings) : result;
+    if (result == 0 && parts.settings) result = set_all(out, parts.settings);
+    if (result == 0) subject_warn(out);
+    return result;
+}
+
+void subject_warn(const Subject *subject) {
+    WeftError last = {0};
+    const WeftLog log = {.fn = warned, .user = last.text};
+    if (subject->kind == SUBJECT_LOBE)
+        weft_lobe_fitted(&subject->lobe, subject->name, &log);
+    else if (subject_is_material(subject))
+        weft_material_fitted(&subject->material, subject->name, &log);
 }
 
 int subject_parse(const char *typed, Subject *out) { return parse(typed, false, out); }

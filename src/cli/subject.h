@@ -54,6 +54,9 @@ int subject_parse_bare(const char *typed, Subject *out);
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */
 int subject_prepare(Subject *subject);
 
+/* Says on standard error where it takes another number than it was given. */
+void subject_warn(const Subject *subject);
+
 /* Whether it has a material: a profile and a workflow have one too. */
 bool subject_is_material(const Subject *subject);
 

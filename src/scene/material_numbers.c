@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "scene/set.h"
+#include "scene/shade.h"
 #include "scene/tangents.h"
 #include "shading/choice.h"
 
@@ -176,8 +177,23 @@ void weft_material_choose(WeftMaterial *numbers, int choice, int value) {
         memcpy(numbers->inputs[k].value, material.inputs[k].value, sizeof material.inputs[k].value);
 }
 
+static void check_fitted(const Material *material, const char *name, const WeftLog *log) {
+    const Choices choices = material_choices(material);
+    Surface surface = material_plain(material);
+    Stack stack;
+    if (material->inputs[INPUT_sheen_roughness].texture) surface.sheen_roughness = 0.0f;
+    stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    if (IS_WORN(stack)) lobe_fitted(&stack.sheen.lobe, name, log);
+}
+
+void weft_material_fitted(const WeftMaterial *numbers, const char *name, const WeftLog *log) {
+    const Material material = material_of_numbers(numbers);
+    check_fitted(&material, name, log);
+}
+
 void weft_material_plausible(const WeftMaterial *numbers, const char *name, const WeftLog *log) {
     Material material = material_of_numbers(numbers);
+    check_fitted(&material, name, log);
     plausible_check_all(&material, name, log);
     for (int k = 0; k < INPUT_COUNT; k++) {
         const InputInfo *info = &input_infos[k];

@@ -14,8 +14,8 @@ int material_choice(const char *name);
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 
 /* What a number given for an input becomes: clamped to the hard range, with a warning about target where it
- * is beyond the plausible one, and of angles, which are given in degrees, in radians. Any DIRECTION is
- * plausible.
+ * is beyond the plausible one or the limit, and of angles, which are given in degrees, in radians. Any
+ * DIRECTION is plausible.
  */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
 

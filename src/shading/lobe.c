@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "shading/albedo.h"
 #include "shading/choice.h"
+#include "shading/lobes/fibre.h"
 
 bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(public_lobe->lobe);
@@ -79,6 +80,21 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
     if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", param);
     lobe->params[k] = ranged(v[0], row, param, log);
     return WEFT_OK;
+}
+
+void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log) {
+    if (lobe->id != LOBE_FIBRE) return;
+    const float *p = lobe->params;
+    float taken = fibre_nap_of(p[0], p[2], p[3]).alpha;
+    if (taken > p[0])
+        warn(log, WEFT_MESSAGE_PARAM_FITTED, name,
+             "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk knows no such bound",
+             (double)p[0], (double)taken);
+}
+
+void weft_lobe_fitted(const WeftLobe *lobe, const char *name, const WeftLog *log) {
+    Lobe inner;
+    if (lobe_of(lobe, &inner)) lobe_fitted(&inner, name, log);
 }
 
 void weft_lobe_eval(const WeftLobe *lobe, const float wo[3], const float wi[3], float f[3]) {

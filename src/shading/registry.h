@@ -56,6 +56,9 @@ void lobe_set(Lobe *lobe, int k, float value);
 /* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
 bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
 
+/* Says where a lobe computes with another number than it has: weft_lobe_fitted. */
+void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log);
+
 /* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
 LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
 

@@ -293,6 +293,33 @@ static void implausible_parameters_are_warned_of(void **state) {
     ran_free(&ran);
 }
 
+/* A number that the lobe does not compute with is told, once, whichever verb it is given to. */
+static void what_was_not_fitted_is_told(void **state) {
+    (void)state;
+    static const char words[] =
+        "fibre: is outside the range that was fitted: alpha 0.105 of fibres that lean "
+        "counts as 0.38";
+    Ran ran = run_with("30 0 60 180\n", LIST("eval", "fibre", "-p", "alpha=0.105", "-p", "tilt=0.5"));
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.err, words));
+    assert_null(strchr(strchr(ran.err, '\n') + 1, '\n'));
+    ran_free(&ran);
+    ran = run_with("30 0 60 180\n", LIST("eval", "fibre", "-p", "alpha=0.105"));
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    ran_free(&ran);
+    ran = RUN("plot", "polar", "fibre:alpha=0.105,tilt=0.5", "-o", "lean.svg");
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.err, words));
+    ran_free(&ran);
+    ran =
+        RUN("render", "builtin:cloth", "--sheen", "fibre", "--set", "*.sheen_roughness=0.3", "--set",
+            "*.nap=30", "--set", "*.sheen_color=1", "--width=16", "--height=12", "--spp=1", "-o", "lean.png");
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.err, "is outside the range that was fitted: alpha 0.09 of"));
+    ran_free(&ran);
+}
+
 int main(void) {
     make_angles();
     const struct CMUnitTest tests[] = {
@@ -310,6 +337,7 @@ int main(void) {
         cmocka_unit_test(terms_make_a_lobe),
         cmocka_unit_test(names_that_say_too_little_are_refused),
         cmocka_unit_test(implausible_parameters_are_warned_of),
+        cmocka_unit_test(what_was_not_fitted_is_told),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

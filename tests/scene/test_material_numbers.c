@@ -296,12 +296,50 @@ static void reading_is_asked_in_no_time(void **state) {
     print_message("[  FIGURES ] whether an input is read: %.0f us\n", each / (10.0 * INPUT_COUNT));
 }
 
+static void count_fitted(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_PARAM_FITTED);
+    assert_non_null(strstr(text, "cloth"));
+    assert_non_null(strstr(text, "0.38"));
+    ++*(int *)user;
+}
+
+/* Fibres that lean were not fitted below alpha 0.38: a material that asks for them is named, whatever makes
+ * it do so; a texture may be as dark as it likes. */
+static void sharp_fibres_that_lean_are_told(void **state) {
+    (void)state;
+    int told = 0;
+    const WeftLog log = {.fn = count_fitted, .user = &told};
+    WeftMaterial m = plain();
+    set_choice(&m, "sheen_lobe", "fibre");
+    set_value(&m, "sheen_color", 0.8f);
+    set_value(&m, "sheen_roughness", 0.4f);
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 0); /* upright */
+    set_value(&m, "nap", 0.4f);
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 1);
+    set_value(&m, "sheen_roughness", 0.7f);
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 1); /* rough enough */
+    m.inputs[input_of("sheen_roughness")].texture = 1;
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 2);
+    set_value(&m, "sheen_color", 0.0f);
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 2); /* no sheen */
+    set_choice(&m, "sheen_lobe", "fibre-walk");
+    set_value(&m, "sheen_color", 0.8f);
+    weft_material_fitted(&m, "cloth", &log);
+    assert_int_equal(told, 2);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(infos_are_those_of_the_inputs),    cmocka_unit_test(numbers_go_out_and_back),
         cmocka_unit_test(what_cannot_be_is_refused),        cmocka_unit_test(choosing_moves_defaults),
         cmocka_unit_test(what_is_hardly_real_is_said_once), cmocka_unit_test(workflows_read_their_own),
         cmocka_unit_test(profiles_read_their_own),          cmocka_unit_test(reading_is_asked_in_no_time),
+        cmocka_unit_test(sharp_fibres_that_lean_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

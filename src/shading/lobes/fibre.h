@@ -8,9 +8,10 @@
  * Using Linearly Transformed Cosines", SIGGRAPH Talks 2022, of flakes of Eric Heitz, Jonathan Dupuy, Cyril
  * Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015. f1 is exact: light
  * that met one flake (fibre_medium.h). Departures: M, what met more, is a closed form instead of a table.
- *   color: the albedo of the fibres; light that met n of them has its n-th power (tint.h).
- *   roughness: alpha = roughness^2; where fibres lean by two degrees or more, alpha below 0.38 counts as
- *     0.38.
+ *   color: the albedo of the fibres; light that met n of them has its n-th power (tint.h). Fitted for alpha
+ *     0.045 to 1.
+ *   roughness: alpha = roughness^2. Where fibres lean by two degrees or more, alpha below 0.38 counts as
+ *     0.38, and a warning says so: nothing was fitted there. fibre-walk has no such bound.
  *   reciprocal: yes.
  *   energy: E <= 1; what is missing goes through.
  *   sampling: by a linearly transformed cosine with A and b closed forms in alpha and mu_o; where it falls
@@ -37,7 +38,8 @@
 STRUCT(Fibre){FIBRE_PARAMS(FIELD)};
 
 /* How fibres lie: how sharp and how they lean. The model of leaning fibres was fitted from alpha 0.38 up;
- * sharper ones that lean ever so little would reflect more than they receive. */
+ * sharper ones that lean ever so little would reflect more than they receive. lobe_fitted says where this
+ * takes another alpha. */
 STRUCT(FibreNap) {
     float alpha, s;     /* s = alpha^2 */
     float sin_t, cos_t; /* of the tilt */
