@@ -1,8 +1,9 @@
 /* fit.h - measured reflectance, and the lobes of the catalogue that come closest to it
  *
- * A candidate is a lobe over a diffuse base: f = base color * white base + lobe, with all parameters of the
- * lobe that are numbers, its colours and that of the base free, within plausible ranges. Candidates are all
- * lobes but diffuse ones and WEFT_LOBE_REFERENCE.
+ * A candidate is a lobe over a diffuse base: f = base color * white base + lobe. Free are all parameters of
+ * the lobe that are numbers, within their plausible ranges; its choices, of which all that may be put
+ * together are looked at and the best searched; its colours and that of the base, which are at least 0 and
+ * may pass 1 (weft_fitted_notes says so). Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
  *
  * The error is that of match.h over the samples of the data, each of which counts alike:
  *
@@ -56,6 +57,14 @@ typedef struct WeftFitted {
     double error;          /* by the metric that was chosen */
     long long evaluations; /* of the error, that it took */
 } WeftFitted;
+
+/* What to know of a fit beside its error. */
+enum {
+    WEFT_FITTED_NOTHING = 1 << 0, /* its colours are 0: it is the base alone */
+    WEFT_FITTED_BRIGHT = 1 << 1,  /* a colour, of the base, f0 or f90, is above 1 */
+    WEFT_FITTED_EDGE = 1 << 2     /* a number ends where its plausible range does */
+};
+WEFT_API unsigned weft_fitted_notes(const WeftFitted *fitted);
 
 /* As many candidates as a ranking has room for. */
 enum { WEFT_FITTED_MOST = 64 };

@@ -11,6 +11,7 @@
 #include "path.h"
 #include "progress.h"
 #include "report.h"
+#include "subject.h"
 #include "verbs.h"
 #include "weft/weft.h"
 
@@ -22,44 +23,71 @@ typedef struct Fitting {
     WeftFit fit;
 } Fitting;
 
-/* "alpha 0.31, density 1.2": the parameters that are numbers. */
+/* "f90 0.1,0.1,0.2, d charlie, alpha 0.31": all but the colour. */
 static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     size_t used = 0;
     text[0] = '\0';
-    for (int k = 0; k < info->param_count && used < size; k++)
-        if (!info->params[k].choices)
-            used += (size_t)snprintf(text + used, size - used, "%s%s %.3g", used ? ", " : "",
-                                     info->params[k].name, (double)lobe->params[k]);
+    if (info->traits & WEFT_LOBE_TWO_COLORS)
+        used += (size_t)snprintf(text, size, "f90 %.3g,%.3g,%.3g", (double)lobe->f90[0], (double)lobe->f90[1],
+                                 (double)lobe->f90[2]);
+    for (int k = 0; k < info->param_count && used < size; k++) {
+        const WeftParamInfo *p = &info->params[k];
+        used += (size_t)snprintf(text + used, size - used, "%s%s ", used ? ", " : "", p->name);
+        if (used < size && p->choices)
+            used += (size_t)snprintf(text + used, size - used, "%s", p->choices[(int)lobe->params[k]]);
+        else if (used < size)
+            used += (size_t)snprintf(text + used, size - used, "%.3g", (double)lobe->params[k]);
+    }
     return text;
 }
 
+/* What there is to say of a row, as words at its end. */
+static const struct {
+    unsigned note;
+    const char *words;
+} notes[] = {
+    {WEFT_FITTED_NOTHING, "adds nothing"},
+    {WEFT_FITTED_BRIGHT, "a colour above 1"},
+    {WEFT_FITTED_EDGE, "at an end of its range"},
+};
+enum { NOTES = sizeof notes / sizeof *notes };
+
 static void row_write(const char *rank, const char *name, const WeftFitted *fitted) {
-    char params[160], base[64], color[64];
+    char params[256], base[64], color[64];
     snprintf(base, sizeof base, "%.3f,%.3f,%.3f", (double)fitted->base[0], (double)fitted->base[1],
              (double)fitted->base[2]);
     snprintf(color, sizeof color, "%.3g,%.3g,%.3g", (double)fitted->lobe.f0[0], (double)fitted->lobe.f0[1],
              (double)fitted->lobe.f0[2]);
-    printf("%4s  %-27s %7.4f  %-19s  %-24s %s\n", rank, name, fitted->error, base, color,
+    printf("%4s  %-27s %7.4f  %-19s  %-24s %s", rank, name, fitted->error, base, color,
            params_text(&fitted->lobe, params, sizeof params));
+    for (int k = 0; k < NOTES; k++)
+        if (weft_fitted_notes(fitted) & notes[k].note) printf("  (%s)", notes[k].words);
+    putchar('\n');
 }
 
 static void text_write(const Fitting *fitting) {
     const WeftFit *fit = &fitting->fit;
-    int all = 0, count = weft_data_count(fitting->data, &all), better = 0;
+    int all = 0, count = weft_data_count(fitting->data, &all), better = 0, idle = 0;
     printf("%s: %d samples of %d; error is %s, relative; base %s\n\n", fitting->path, count, all,
            weft_apart_name(fitting->metric), fitting->base);
     printf("%4s  %-27s %7s  %-19s  %-24s %s\n", "", "lobe over the base", "error", "base color", "lobe color",
            "parameters");
     for (int k = 0; k < fit->count; k++) {
-        char rank[8];
+        const WeftLobeInfo *info = weft_lobe_info(fit->fitted[k].lobe.lobe);
+        char rank[8], name[64];
         snprintf(rank, sizeof rank, "%d", k + 1);
-        row_write(rank, weft_lobe_info(fit->fitted[k].lobe.lobe)->id, &fit->fitted[k]);
+        snprintf(name, sizeof name, "%s%s", info->id,
+                 info->traits & WEFT_LOBE_TWO_COLORS ? ", f90 free" : "");
+        row_write(rank, name, &fit->fitted[k]);
         better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
+        idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
-    row_write("", "baseline: ggx over lambert", &fit->baseline);
-    printf("%4s  %-27s %7.4f\n\n%d of %d are closer than the baseline\n", "", "the base alone",
-           fit->base_alone, better, fit->count);
+    row_write("", "baseline: ggx, f90 = 1", &fit->baseline);
+    printf("%4s  %-27s %7.4f\n\n", "", "the base alone", fit->base_alone);
+    printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better,
+           fit->count);
+    if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
 }
 
 static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
@@ -72,8 +100,15 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     if (info->traits & WEFT_LOBE_TWO_COLORS) json_floats(json, "f90", fitted->lobe.f90, 3);
     json_open(json, "params", '{');
     for (int k = 0; k < info->param_count; k++)
-        if (!info->params[k].choices) json_float(json, info->params[k].name, fitted->lobe.params[k]);
+        if (info->params[k].choices)
+            json_text(json, info->params[k].name, info->params[k].choices[(int)fitted->lobe.params[k]]);
+        else
+            json_float(json, info->params[k].name, fitted->lobe.params[k]);
     json_close(json, '}');
+    json_open(json, "notes", '[');
+    for (int k = 0; k < NOTES; k++)
+        if (weft_fitted_notes(fitted) & notes[k].note) json_text(json, NULL, notes[k].words);
+    json_close(json, ']');
     json_whole(json, "evaluations", fitted->evaluations);
     json_close(json, '}');
 }
@@ -118,6 +153,8 @@ static int material_write(const Fitting *fitting) {
         report(0, "warning: %s: is %s, number %d, since a material has no inputs for all of %s",
                fitting->material, weft_lobe_info(fitting->fit.fitted[best].lobe.lobe)->id, best + 1,
                weft_lobe_info(fitting->fit.fitted[0].lobe.lobe)->id);
+    if (weft_fitted_notes(&fitting->fit.fitted[best]) & WEFT_FITTED_BRIGHT)
+        report(0, "warning: %s: a colour is above 1: more light may leave than came", fitting->material);
     WeftResult result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_put_material(scene, 0, &material, &error);
     if (result == WEFT_OK) result = weft_scene_save_material(scene, 0, fitting->material, &error);
@@ -175,6 +212,11 @@ static int fit_make(Fitting *fitting) {
                               .user = &progress};
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
     progress_finish(&progress);
+    for (int k = 0; result == WEFT_OK && k < fitting->fit.count; k++) {
+        Subject found = {.kind = SUBJECT_LOBE, .lobe = fitting->fit.fitted[k].lobe};
+        snprintf(found.name, sizeof found.name, "%s", weft_lobe_info(found.lobe.lobe)->id);
+        subject_warn(&found);
+    }
     if (result == WEFT_INTERRUPTED) return interrupted(fitting);
     return result == WEFT_OK ? 0 : report_error(&error);
 }

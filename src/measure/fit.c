@@ -234,6 +234,69 @@ static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
     return true;
 }
 
+/* The lobes that deserve a search, the best first. */
+enum { FINALISTS = 4 };
+typedef struct Finalists {
+    int count;
+    LobeFound found[FINALISTS];
+} Finalists;
+
+static void finalists_add(Finalists *self, const LobeFound *found) {
+    int at = self->count;
+    while (at > 0 && found->error < self->found[at - 1].error) at--;
+    if (at == FINALISTS) return;
+    if (self->count < FINALISTS) self->count++;
+    memmove(&self->found[at + 1], &self->found[at], (size_t)(self->count - 1 - at) * sizeof *found);
+    self->found[at] = *found;
+}
+
+/* The next of all that choices may be put together to; false after the last. */
+static bool next_choices(WeftLobe *lobe) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    for (int k = 0; k < info->param_count; k++) {
+        const char *const *choices = info->params[k].choices;
+        if (!choices) continue;
+        int next = (int)lobe->params[k] + 1;
+        lobe->params[k] = choices[next] ? (float)next : 0.0f;
+        if (choices[next]) return true;
+    }
+    return false;
+}
+
+/* What a lobe may be put together of: D, V and F. */
+static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, Finalists *best) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    LobeFound found = {.lobe = *lobe};
+    WeftResult result = WEFT_OK;
+    *best = (Finalists){.count = 0};
+    bool more = false;
+    for (int k = 0; k < info->param_count; k++) {
+        if (!info->params[k].choices) continue;
+        found.lobe.params[k] = 0.0f;
+        more = true;
+    }
+    while (more && result == WEFT_OK) {
+        result = lobe_search_glance(search, &found);
+        finalists_add(best, &found);
+        more = next_choices(&found.lobe);
+    }
+    return result;
+}
+
+/* The best that a lobe can do, with its choices as they are or as others. */
+static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
+    Finalists best;
+    WeftResult result = pick_choices(search, &out->lobe, &best);
+    if (result == WEFT_OK) result = lobe_search_run(search, out);
+    for (int k = 0; k < best.count && result == WEFT_OK; k++) {
+        LobeFound found = {.lobe = best.found[k].lobe, .evaluations = out->evaluations};
+        result = lobe_search_run(search, &found);
+        if (found.error < out->error) *out = found;
+        out->evaluations = found.evaluations;
+    }
+    return result;
+}
+
 /* Of an item of work: the last is the baseline. */
 static WeftResult fit_item(Work *work, int item, Share *share) {
     WeftFitted *fitted = &work->fitted[item];
@@ -247,7 +310,7 @@ static WeftResult fit_item(Work *work, int item, Share *share) {
     } else {
         found.lobe = work->lobes[item];
     }
-    WeftResult result = lobe_search_run(&search, &found);
+    WeftResult result = fit_lobe(&search, &found);
     *fitted = (WeftFitted){.lobe = found.lobe, .error = found.error, .evaluations = found.evaluations};
     memcpy(fitted->base, found.base, sizeof fitted->base);
     return result;
@@ -335,6 +398,28 @@ WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out,
     samples_free(&work->samples);
     free(work);
     return result;
+}
+
+unsigned weft_fitted_notes(const WeftFitted *fitted) {
+    const WeftLobe *lobe = &fitted->lobe;
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    float most = 0.0f, base = 0.0f;
+    unsigned notes = 0;
+    for (int c = 0; c < 3; c++) {
+        most = fmaxf(most, lobe->f0[c]);
+        base = fmaxf(base, fitted->base[c]);
+        if (info->traits & TRAIT_TWO_COLORS) most = fmaxf(most, lobe->f90[c]);
+    }
+    if (!(most > 1e-6f)) notes |= WEFT_FITTED_NOTHING;
+    if (fmaxf(most, base) > 1.0f) notes |= WEFT_FITTED_BRIGHT;
+    for (int k = 0; k < info->param_count; k++) {
+        const WeftParamInfo *p = &info->params[k];
+        float value = lobe->params[k], near = 1e-3f * (p->high - p->low);
+        bool moved = value < p->def || value > p->def;
+        if (!p->choices && moved && (value <= p->low + near || value >= p->high - near))
+            notes |= WEFT_FITTED_EDGE;
+    }
+    return notes;
 }
 
 /* The material. */

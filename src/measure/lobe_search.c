@@ -275,3 +275,14 @@ WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
     bool whole = share_tell(search->share, 0.0);
     return whole ? WEFT_OK : WEFT_INTERRUPTED;
 }
+
+WeftResult lobe_search_glance(const LobeSearch *search, LobeFound *out) {
+    enum { POINTS = 8 }; /* an axis */
+    Walker self;
+    double x[SEARCH_MOST] = {0.0};
+    if (!walker_make(&self, search, &out->lobe)) return WEFT_RESOURCES;
+    const Search walk = make_search(&self, x);
+    out->error = search_glance(&walk, walk.axes > 0 ? POINTS * walk.axes : 1, &out->evaluations);
+    free(self.block);
+    return share_tell(search->share, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
+}

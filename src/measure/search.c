@@ -174,3 +174,14 @@ double search_run(const Search *search, double *x, long long *evaluations) {
     if (evaluations) *evaluations += walk.evaluations;
     return better ? best.error : start.error;
 }
+
+double search_glance(const Search *search, int points, long long *evaluations) {
+    Walk walk = {.search = search};
+    double least = 1e30, at[SEARCH_MOST], x[SEARCH_MOST];
+    for (int k = 0; k < points && !walk.stopped; k++) {
+        for (int a = 0; a < search->axes; a++) at[a] = halton(k + 1, primes[a]);
+        least = fmin(least, error_at(&walk, at, SEARCH_ROUGH, x));
+    }
+    if (evaluations) *evaluations += walk.evaluations;
+    return least;
+}

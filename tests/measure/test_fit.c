@@ -169,6 +169,45 @@ static void lobes_are_found_in_noise(void **state) {
     recovered(0.05);
 }
 
+/* A lobe of free terms is found with the terms it was made of, not with those it begins with. */
+static void free_terms_are_found(void **state) {
+    (void)state;
+    WeftLobe lobe;
+    WeftError error;
+    WeftFit fit;
+    static const char *const terms[][2] = {
+        {"d", "inverse-ggx"}, {"v", "neubelt"}, {"f", "schlick"}, {"alpha", "0.3"}};
+    assert_int_equal(weft_lobe_create("cook-torrance", &lobe, NULL), WEFT_OK);
+    for (int k = 0; k < 4; k++)
+        assert_int_equal(weft_lobe_set(&lobe, terms[k][0], terms[k][1], NULL, &error), WEFT_OK);
+    const float f0[3] = {0.4f, 0.2f, 0.1f}, f90[3] = {0.9f, 0.6f, 0.7f};
+    memcpy(lobe.f0, f0, sizeof f0);
+    memcpy(lobe.f90, f90, sizeof f90);
+    WeftData *data = synthesised(&lobe, 0.0);
+    assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "cook-torrance"}, &fit, &error), WEFT_OK);
+    const WeftFitted *found = &fit.fitted[0];
+    print_message("free terms: error %.5f, of the baseline %.5f\n", found->error, fit.baseline.error);
+    assert_true(found->error < 1e-3 && fit.baseline.error > 0.01);
+    assert_float_equal(found->lobe.params[0], 0.3f, 0.006f);
+    for (int k = 1; k < 3; k++) assert_float_equal(found->lobe.params[k], lobe.params[k], 0.0f);
+    weft_data_free(data);
+}
+
+/* What there is to say of a fit beside its error. */
+static void notes_say_what_a_number_hides(void **state) {
+    (void)state;
+    WeftFitted fitted = {.lobe = coloured(weft_lobe_find("ggx"))};
+    assert_int_equal(weft_fitted_notes(&fitted), 0);
+    fitted.lobe.f90[1] = 3.9f;
+    assert_int_equal(weft_fitted_notes(&fitted), WEFT_FITTED_BRIGHT);
+    fitted.lobe.params[0] = weft_lobe_info(fitted.lobe.lobe)->params[0].high;
+    assert_int_equal(weft_fitted_notes(&fitted), WEFT_FITTED_BRIGHT | WEFT_FITTED_EDGE);
+    memset(fitted.lobe.f0, 0, sizeof fitted.lobe.f0);
+    assert_int_equal(weft_fitted_notes(&fitted), WEFT_FITTED_BRIGHT | WEFT_FITTED_EDGE); /* f90 is left */
+    memset(fitted.lobe.f90, 0, sizeof fitted.lobe.f90);
+    assert_int_equal(weft_fitted_notes(&fitted), WEFT_FITTED_NOTHING | WEFT_FITTED_EDGE);
+}
+
 /* The material that is written reflects as the fit does. */
 static void a_material_says_it(void **state) {
     (void)state;
@@ -376,6 +415,8 @@ static void fabrics_are_ranked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lobes_are_found_without_noise),
                                        cmocka_unit_test(lobes_are_found_in_noise),
+                                       cmocka_unit_test(free_terms_are_found),
+                                       cmocka_unit_test(notes_say_what_a_number_hides),
                                        cmocka_unit_test(a_material_says_it),
                                        cmocka_unit_test(bad_tables_end_in_one_line),
                                        cmocka_unit_test(a_table_is_read),
