@@ -447,6 +447,18 @@ static void input_set(WeftMaterial *material, InputId input, const float *values
     material->inputs[input].given = 1;
 }
 
+/* The terms of a lobe that is put together. */
+static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
+    static const struct {
+        const char *param;
+        ChoiceId choice;
+    } terms[] = {{"d", CHOICE_sheen_d}, {"v", CHOICE_sheen_v}, {"f", CHOICE_sheen_f}};
+    for (size_t t = 0; t < sizeof terms / sizeof *terms; t++) {
+        int k = lobe_param(lobe->lobe, terms[t].param);
+        if (k >= 0) weft_material_choose(out, terms[t].choice, (int)lobe->params[k]);
+    }
+}
+
 int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMaterial *out) {
     const WeftLobe *lobe = &fitted->lobe;
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -456,6 +468,8 @@ int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMateria
     Lobe said = lobe_fibres(lobe_rough(lobe->lobe, roughness), density, tilt, azimuth);
     bool same = true;
     for (int k = 0; k < info->param_count; k++)
+        if (info->params[k].choices) said.params[k] = lobe->params[k]; /* as choices of the material */
+    for (int k = 0; k < info->param_count; k++)
         same &= fabsf(said.params[k] - lobe->params[k]) <= 1e-4f * (fabsf(lobe->params[k]) + 1e-3f);
     for (int c = 0; c < 3; c++) same &= fitted->base[c] <= 1.0f && lobe->f0[c] <= 1000.0f;
     weft_material_default(out);
@@ -463,6 +477,7 @@ int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMateria
     weft_material_choose(out, CHOICE_diffuse, choice_find(CHOICE_diffuse, base ? base : "lambert"));
     weft_material_choose(out, CHOICE_sheen_lobe, choice_find(CHOICE_sheen_lobe, info->id));
     weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
+    choose_terms(lobe, out);
     input_set(out, INPUT_base_color, fitted->base, 3);
     input_set(out, INPUT_sheen_color, lobe->f0, 3);
     input_set(out, INPUT_sheen_second, lobe->f90, 3);
