@@ -131,7 +131,8 @@ WEFT_API int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftErro
 
 /* Reads the maps in a folder onto material MAT as weft_scene_dress has it (NULL: the cloth of the scene): by
  * file name, in any case, with any of the suffixes .tga .png .jpg .jpeg .exr .hdr: docs/materials.md has the
- * names. count (may be NULL) receives how many there were; none is WEFT_MESSAGE_FILE_OPEN. */
+ * names. An input that has its map already keeps the number beside it, so that a folder can be read again.
+ * count (may be NULL) receives how many there were; none is WEFT_MESSAGE_FILE_OPEN. */
 WEFT_API WeftResult weft_scene_wear_folder(WeftScene *scene, const char *material, const char *folder,
                                            int *count, const WeftLog *log, WeftError *error);
 

@@ -296,12 +296,19 @@ static int workflow_of(Wardrobe *wardrobe) {
                                                                                            : -1;
 }
 
+/* What has the map already keeps the number that it is multiplied by; a folder that holds nothing new leaves
+ * the workflow too. */
 static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
-    if (workflow >= 0) material_choose(material, CHOICE_workflow, workflow);
-    for (int k = 0; k < INPUT_COUNT; k++)
-        if (wardrobe->of_input[k])
-            put_on_input(material, (InputId)k, wardrobe->pictures[wardrobe->of_input[k] - 1].texture,
-                         wardrobe->channel[k]);
+    bool any = false;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        if (!wardrobe->of_input[k]) continue;
+        int texture = wardrobe->pictures[wardrobe->of_input[k] - 1].texture, channel = wardrobe->channel[k];
+        const Input *input = &material->inputs[k];
+        if (input->texture == texture && input->channel == channel) continue;
+        put_on_input(material, (InputId)k, texture, channel);
+        any = true;
+    }
+    if (any && workflow >= 0) material_choose(material, CHOICE_workflow, workflow);
 }
 
 WeftResult weft_scene_wear_folder(WeftScene *scene, const char *material, const char *folder, int *count,

@@ -32,12 +32,16 @@ void painter_tell(Painter *self, News *news) {
 
 /* ---- scenes ---- */
 
+enum { FOLDERS = 1 << 24 }; /* what the watchman calls the first folder; below it are textures */
+
 void painter_watch(Painter *self) {
     watchman_forget(self->watchman);
     for (int k = 1; weft_scene_texture(self->scene, k).pixels; k++) {
         const char *path = weft_scene_texture_path(self->scene, k);
         if (path) watchman_watch(self->watchman, path, k);
     }
+    for (int k = 0; k < self->folder_count; k++)
+        watchman_watch(self->watchman, self->folders[k].path, FOLDERS + k);
 }
 
 static void drop_scene(Painter *self) {
@@ -69,6 +73,7 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned num
         self->scene_number = number;
         pthread_mutex_unlock(&self->lock);
         self->is = *look;
+        self->folder_count = 0;
         self->worn = (LookWorn){0};
         self->refusal[0] = '\0';
         self->started = false;
@@ -91,8 +96,13 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned num
 /* ---- the thread ---- */
 
 static bool reload_changed(Painter *self) {
-    int texture = watchman_look(self->watchman, now());
+    int texture = self->started ? watchman_look(self->watchman, now()) : -1;
     if (texture < 0) return false;
+    if (texture >= FOLDERS) {
+        const Task wear = self->folders[texture - FOLDERS];
+        tasks_do(self, &wear, &self->done);
+        return true;
+    }
     WeftError error = {0};
     News news = {.kind = TASK_DRESS};
     news.failed = tasks_reload(self, texture, &error) != WEFT_OK;

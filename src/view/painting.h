@@ -9,7 +9,7 @@
 #include "view/watchman.h"
 #include "weft/pick.h"
 
-enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096 };
+enum { RING = 3, TASKS = 32, WORN = 16, NEWS = 64, SAID = 4096 };
 
 struct Painter {
     Window *window;
@@ -47,7 +47,9 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Watchman *watchman; /* of the files of textures */
+    Task folders[WORN]; /* of maps that were worn, the latest of each material */
+    int folder_count;
+    Watchman *watchman; /* of the files of textures, and of those folders */
     int coarse;         /* pixels a side that become one while the hand moves */
     double coarse_seconds, whole_seconds, smooth_seconds; /* that pictures take */
     bool smooth_known, surprised;
@@ -59,7 +61,7 @@ struct Painter {
 /* painter.c */
 WeftLog painter_log(Painter *painter);           /* of warnings, for painter_said */
 void painter_tell(Painter *painter, News *news); /* takes them over */
-void painter_watch(Painter *painter);            /* the files of the scene's textures, and no others */
+void painter_watch(Painter *painter); /* the files of the scene's textures, the folders worn, no others */
 
 /* painting.c: brings the scene to a look, and draws an order into the next texture. A light from a file that
  * cannot be had leaves the one before; painting_refuses then tells why, and the file is left alone until it

@@ -87,6 +87,15 @@ static float *survey(Painter *self, const Order *order) {
                        (float)order->view.width / (float)order->view.height);
 }
 
+/* Its maps that are added later are put on too. */
+static void keep_folder(Painter *self, const Task *task) {
+    int k = 0;
+    while (k < self->folder_count && self->folders[k].index != task->index) k++;
+    if (k == WORN) return;
+    self->folders[k] = *task;
+    if (k == self->folder_count) self->folder_count++;
+}
+
 static WeftResult dress(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
     const WeftLog log = painter_log(self);
     char target[64];
@@ -103,6 +112,7 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
         result = weft_scene_wear_folder(self->scene, task->index < 0 ? NULL : target, task->path,
                                         &news->index, &log, error);
         snprintf(news->text, sizeof news->text, "%d maps of %.400s", news->index, task->path);
+        if (result == WEFT_OK) keep_folder(self, task);
         break;
     default:
         if (task->input >= 0) {

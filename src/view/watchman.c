@@ -1,6 +1,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/watchman.h"
 
+#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,9 +35,32 @@ void watchman_stop(Watchman *self) {
     free(self);
 }
 
+static bool is_watched(const Watchman *self, const char *path) {
+    for (int k = 0; k < self->count; k++)
+        if (strcmp(self->files[k].path, path) == 0) return true;
+    return false;
+}
+
+/* Of a folder that of the files in it that are not watched by themselves, in any order. */
+static unsigned long long stamp_of(const Watchman *self, const char *path) {
+    size_t length = strlen(path);
+    const char *slash = length && path[length - 1] == '/' ? "" : "/";
+    DIR *folder = path_kind(path) == PATH_FOLDER ? opendir(path) : NULL;
+    if (!folder) return path_stamp(path);
+    unsigned long long sum = 1;
+    for (const struct dirent *entry; (entry = readdir(folder));) {
+        char file[2048];
+        if (entry->d_name[0] == '.') continue;
+        int size = snprintf(file, sizeof file, "%s%s%s", path, slash, entry->d_name);
+        if (size < (int)sizeof file && !is_watched(self, file)) sum += path_stamp(file);
+    }
+    closedir(folder);
+    return sum;
+}
+
 void watchman_watch(Watchman *self, const char *path, int id) {
     if (self->count == FILES) return;
-    unsigned long long stamp = path_stamp(path);
+    unsigned long long stamp = stamp_of(self, path);
     char *copy = strdup(path);
     if (copy) self->files[self->count++] = (File){copy, id, stamp, stamp, 0.0};
 }
@@ -45,7 +70,7 @@ int watchman_look(Watchman *self, double seconds) {
     self->looked = seconds;
     for (int k = 0; k < self->count; k++) {
         File *file = &self->files[k];
-        unsigned long long stamp = path_stamp(file->path);
+        unsigned long long stamp = stamp_of(self, file->path);
         if (stamp != file->seen) {
             file->seen = stamp;
             file->since = seconds;

@@ -14,7 +14,9 @@ void watchman_stop(Watchman *watchman); /* may be NULL */
 /* Watches no file any more. */
 void watchman_forget(Watchman *watchman);
 
-/* Watches a file, which need not be there, under a number. Too many, or a lack of memory, goes unnoticed. */
+/* Watches a file, which need not be there, under a number. A folder has changed where a file in it has that
+ * is not watched by itself; those that are, are named before it. Too many, or a lack of memory, goes
+ * unnoticed. */
 void watchman_watch(Watchman *watchman, const char *path, int id);
 
 /* The number of a file that has changed; -1: none has. Looks at the disk at most four times a second.

@@ -350,6 +350,34 @@ static void write_file(const char *text) {
     assert_int_equal(fclose(stream), 0);
 }
 
+/* A file that is watched by itself is not told of twice. */
+static void a_file_that_is_added_to_a_folder_is_seen(void **state) {
+    (void)state;
+    Watchman *man = watchman_start();
+    assert_non_null(man);
+    write_file("one");
+    assert_int_equal(mkdir("maps", 0700), 0);
+    assert_int_equal(rename("file", "maps/a"), 0);
+    watchman_watch(man, "maps/a", 7);
+    watchman_watch(man, "maps", 8);
+    assert_int_equal(watchman_look(man, 100.0), -1);
+    write_file("two");
+    assert_int_equal(rename("file", "maps/b"), 0);
+    assert_int_equal(watchman_look(man, 101.0), -1);
+    write_file("two, and written on");
+    assert_int_equal(rename("file", "maps/b"), 0);
+    assert_int_equal(watchman_look(man, 102.0), -1); /* it does not stand still */
+    assert_int_equal(watchman_look(man, 103.0), 8);
+    assert_int_equal(watchman_look(man, 104.0), -1);
+    write_file("one and a half");
+    assert_int_equal(rename("file", "maps/a"), 0);
+    assert_int_equal(watchman_look(man, 105.0), -1);
+    assert_int_equal(watchman_look(man, 106.0), 7);
+    assert_int_equal(watchman_look(man, 107.0), -1);
+    watchman_stop(man);
+    assert_int_equal(unlink("maps/a") + unlink("maps/b") + rmdir("maps"), 0);
+}
+
 static void a_half_written_file_is_waited_for(void **state) {
     (void)state;
     Watchman *man = watchman_start();
@@ -535,6 +563,7 @@ int main(void) {
                                        cmocka_unit_test(an_order_is_copied_whole_or_not_at_all),
                                        cmocka_unit_test(a_key_keeps_its_modifiers_in_a_slow_frame),
                                        cmocka_unit_test(a_half_written_file_is_waited_for),
+                                       cmocka_unit_test(a_file_that_is_added_to_a_folder_is_seen),
                                        cmocka_unit_test(kinds_of_files_are_told_by_name),
                                        cmocka_unit_test(strokes_turn_what_lies_beneath),
                                        cmocka_unit_test(strokes_of_nothing_do_nothing),

@@ -289,6 +289,33 @@ static void a_texture_is_read_again(void **state) {
     assert_true(pictures_most("1.png", "4.png") < 0.5 / 255.0);
 }
 
+/* The number by which a map is multiplied stays as it was set. */
+static void a_map_added_to_a_worn_folder_is_put_on(void **state) {
+    (void)state;
+    need_gl();
+    if (mkdir("maps", 0700) != 0) assert_int_equal(access("maps", F_OK), 0);
+    write_texture("maps/cloth_roughness.png", 200, 200);
+    script_begin();
+    say("wait rest\ndrop maps\nwait message 1 maps of maps\nwait rest\n");
+    say("set \"Material/roughness\" 0.5\nwait rest\n");
+    say_picture("1.png");
+    say("wait message 2 maps of maps\n");
+    say_picture("2.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *before = drive_until(&drive, "message", "wrote 1.png");
+    write_texture("maps/cloth_basecolor.png", 60, 220);
+    json_t *after = drive_until(&drive, "message", "wrote 2.png");
+    drive_finish(&drive);
+    assert_true(fabs(roughness_of(before) - 0.5) < 1e-6 && fabs(roughness_of(after) - 0.5) < 1e-6);
+    assert_true(pictures_most("1.png", "2.png") > 0.05);
+    json_decref(before);
+    json_decref(after);
+    unlink("maps/cloth_roughness.png");
+    unlink("maps/cloth_basecolor.png");
+    rmdir("maps");
+}
+
 static void write_lobe(const char *with) {
     static const char from[] = "1.0f / PI";
     const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
@@ -495,6 +522,7 @@ int main(void) {
                                        cmocka_unit_test(its_command_line_has_the_folder_that_it_found),
                                        cmocka_unit_test(two_settings_and_the_difference),
                                        cmocka_unit_test(a_texture_is_read_again),
+                                       cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
                                        cmocka_unit_test(shader_text_is_compiled_again),
                                        cmocka_unit_test(a_brushed_nap_is_kept),
                                        cmocka_unit_test(a_stroke_naps_what_it_touches_or_nothing),
