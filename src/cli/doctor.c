@@ -74,7 +74,7 @@ static WeftResult fix(Visit *visit, WeftError *error) {
 
 /* Returns true if a finding says the very same of another thing. */
 static bool says_the_same(const WeftFinding *a, const WeftFinding *b) {
-    return a->kind == b->kind && a->of == b->of && a->fixable == b->fixable &&
+    return a->kind == b->kind && a->severity == b->severity && a->of == b->of && a->fixable == b->fixable &&
            strcmp(a->words, b->words) == 0;
 }
 

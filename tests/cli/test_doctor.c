@@ -92,6 +92,25 @@ static void says_so_when_all_is_well(void **state) {
     json_decref(report);
 }
 
+/* Of two materials with a coloured reflectance the first has no sheen, which makes of it a note. */
+static void warning_is_told_though_a_note_says_the_same(void **state) {
+    (void)state;
+    static const char colored[] = "\"KHR_materials_specular\":{\"specularColorFactor\":[1,0.2,0.2]}",
+                      pbr[] = "\"pbrMetallicRoughness\":{\"metallicFactor\":0}";
+    char text[1024];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\","
+             "\"KHR_materials_specular\"],\"materials\":[{\"name\":\"plain\",%s,\"extensions\":{%s}},"
+             "{\"name\":\"cloth\",%s,\"extensions\":{%s,\"KHR_materials_sheen\":{\"sheenColorFactor\":"
+             "[0.1,0.1,0.1],\"sheenRoughnessFactor\":0.8}}}]}",
+             pbr, colored, pbr, colored);
+    file_make("colored.gltf", text, strlen(text));
+    Ran ran = RUN("doctor", "colored.gltf", "--no-notes");
+    const char *cloth = strstr(ran.out, "\nmaterial cloth\n");
+    if (!cloth || !strstr(cloth, "implausible: coloured reflectance")) fail_msg("%s%s", ran.out, ran.err);
+    ran_free(&ran);
+}
+
 static void mends_and_keeps_the_rest(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "sick.gltf", "--fix", "-o", "mended.gltf");
@@ -156,9 +175,13 @@ static void refuses_what_makes_no_sense(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tells_what_is_wrong),      cmocka_unit_test(says_so_when_all_is_well),
-        cmocka_unit_test(mends_and_keeps_the_rest), cmocka_unit_test(lists_what_there_is),
-        cmocka_unit_test(page_has_every_finding),   cmocka_unit_test(refuses_what_makes_no_sense),
+        cmocka_unit_test(tells_what_is_wrong),
+        cmocka_unit_test(says_so_when_all_is_well),
+        cmocka_unit_test(warning_is_told_though_a_note_says_the_same),
+        cmocka_unit_test(mends_and_keeps_the_rest),
+        cmocka_unit_test(lists_what_there_is),
+        cmocka_unit_test(page_has_every_finding),
+        cmocka_unit_test(refuses_what_makes_no_sense),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
 }
