@@ -69,7 +69,7 @@ WEFT_API WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, Wef
 /* Releases a draft. draft may be NULL. */
 WEFT_API void weft_draft_free(WeftDraft *draft);
 
-/* The figures of a draft. */
+/* The figures of a draft; shafts and treadles are 0 where memory is short. */
 WEFT_API WeftDraftInfo weft_draft_info(const WeftDraft *draft);
 
 /* Returns 1 where that warp thread lies on top of that pick, else 0. Indices wrap around: a cloth repeats. */

@@ -63,6 +63,8 @@ static int draft_make(Weaving *weaving) {
     }
     const int result = sett_apply(weaving);
     weaving->info = weft_draft_info(weaving->draft);
+    if (result == 0 && !weaving->info.shafts)
+        return report(WEFT_RESOURCES, "%.300s: %s", weaving->what, weft_message_text(WEFT_MESSAGE_MEMORY));
     return result;
 }
 

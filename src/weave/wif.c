@@ -1,10 +1,13 @@
 /* wif.c - reads WIF, the Weaving Information File
  *
  * Ralph Nielsen et al., "Weaving Information File Version", 1.1, 20 April 1997. A shaft is a number in
- * THREADING and TIEUP, a treadle one in TREADLING: up(warp, pick) = THREADING[warp] and LIFTPLAN[pick] share
- * a shaft, LIFTPLAN[pick] = all TIEUP[treadle] of TREADLING[pick]                         where it is not
- * given; "Rising Shed=no" says that shafts sink, which inverts it. Programs leave out much that the format
- * asks for; docs/weave.md lists what is completed and how. */
+ * THREADING and TIEUP, a treadle one in TREADLING:
+ *
+ *   up(warp, pick) = THREADING[warp] and LIFTPLAN[pick] share a shaft
+ *   LIFTPLAN[pick] = all TIEUP[treadle] of TREADLING[pick], where it is not given
+ *
+ * "Rising Shed=no" says that shafts sink, which inverts it. Programs leave out much that the format asks for;
+ * docs/weave.md lists what is completed and how. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -296,7 +299,7 @@ static bool color_of(const Palette *palette, const char *text, float color[3]) {
 }
 
 /* A thread without a line has the colour of [WARP] or [WEFT], or else that of the thread before. */
-static void read_colors(const Wif *wif, WeftDraft *draft, WeftThreads threads, const Palette *palette) {
+static WeftResult read_colors(const Wif *wif, WeftDraft *draft, WeftThreads threads, const Palette *palette) {
     static const char *const sections[] = {"WARP COLORS", "WEFT COLORS"};
     const IniLine *common = ini_find(&wif->ini, thread_sections[threads], "Color");
     float color[3];
@@ -305,15 +308,16 @@ static void read_colors(const Wif *wif, WeftDraft *draft, WeftThreads threads, c
     const int count = draft->count[threads];
     unsigned char *given = alloc_array((size_t)count, 1);
     int missing = 0;
+    if (!given) return memory_short(wif);
     for (int k = 0; has_common && k < count; k++) memcpy(of[k].color, color, sizeof color);
-    for (int k = 0; given && k < wif->ini.count; k++) {
+    for (int k = 0; k < wif->ini.count; k++) {
         const IniLine *line = &wif->ini.lines[k];
         const long index = strcasecmp(line->section, sections[threads]) == 0 ? ini_index(line) : 0;
         if (index < 1 || index > count || !color_of(palette, line->value, color)) continue;
         memcpy(of[index - 1].color, color, sizeof color);
         given[index - 1] = 1;
     }
-    for (int k = 0; given && !has_common && k < count; k++) {
+    for (int k = 0; !has_common && k < count; k++) {
         if (!given[k] && k > 0) memcpy(of[k].color, of[k - 1].color, sizeof color);
         missing += !given[k];
     }
@@ -322,6 +326,7 @@ static void read_colors(const Wif *wif, WeftDraft *draft, WeftThreads threads, c
              "%d of %d threads of [%s] have no colour and take that of the thread before", missing, count,
              thread_sections[threads]);
     free(given);
+    return WEFT_OK;
 }
 
 /* Lengths. */
@@ -375,7 +380,7 @@ static WeftResult read_draft(const Wif *wif, WeftDraft **out) {
     if (result == WEFT_OK) result = read_shed(wif, *out, &shed);
     if (result == WEFT_OK) result = read_palette(wif, &palette);
     for (int t = 0; result == WEFT_OK && t < 2; t++) {
-        read_colors(wif, *out, (WeftThreads)t, &palette);
+        result = read_colors(wif, *out, (WeftThreads)t, &palette);
         read_lengths(wif, *out, (WeftThreads)t);
     }
     const IniLine *title = ini_find(&wif->ini, "TEXT", "Title");

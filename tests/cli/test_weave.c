@@ -9,6 +9,8 @@ static void assert_ends(const char *const *arguments, int code, const char *said
     ran_free(&ran);
 }
 
+static void wif_make(const char *path, const char *text) { file_make(path, text, strlen(text)); }
+
 static void figures_are_printed_as_json(void **state) {
     (void)state;
     Ran ran = run_with(NULL, LIST("weave", "satin 8/3; sett 40 20", "--json"));
@@ -42,7 +44,7 @@ static void drafts_pass_from_form_to_form(void **state) {
 
 static void what_cannot_be_done_ends_in_one_line(void **state) {
     (void)state;
-    file_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n", 35);
+    wif_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n");
     assert_ends(LIST("weave", "broken.wif"), 3, "line 4");
     assert_ends(LIST("weave", "none.wif"), 3, "none.wif: cannot be opened");
     assert_ends(LIST("weave", "velvet"), 2, "is not a weave");
@@ -50,7 +52,7 @@ static void what_cannot_be_done_ends_in_one_line(void **state) {
     assert_ends(LIST("weave", "plain", "--sett", "0"), 2, "sett");
     assert_ends(LIST("weave", "plain", "--sett", "a,b"), 2, "threads per centimetre");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.wif"), 2, "");
-    file_make("float.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n", 50);
+    wif_make("float.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n");
     assert_ends(LIST("weave", "float.wif"), 0, "never change sides");
 }
 
