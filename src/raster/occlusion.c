@@ -188,10 +188,13 @@ static size_t values_count(const Occlusion *self) {
     return OCCLUSION_VALUES * (size_t)self->first[self->scene.mesh_count];
 }
 
+/* The sums of fit_ramp are greatest where V is 1 on the side they point to and 0 on the other: 3/4 along the
+ * horizon and 3/2 upwards, which is less than 1.7 together, before it makes them up to three times as steep. */
 static bool in_range(const float *values, size_t count) {
+    static const float steepest = 3.0f * 1.7f;
     bool good = true;
     for (size_t k = 0; k < count; k++)
-        good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? 4.0f : 1.0f);
+        good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? steepest : 1.0f);
     return good;
 }
 
