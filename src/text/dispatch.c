@@ -91,8 +91,9 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     for (int k = 0; k < lobe_count; k++) {
         there[lobes[k]] = true;
         lobe_tables_make_for(lobes[k]); /* before the first asks for all there are */
-        if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);
     }
+    for (int k = 0; k < lobe_count; k++)
+        if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);
     if (!there[LOBE_COOK_TORRANCE]) text_define(text, "SHARE_IS_COSINE(s)", "false");
     text_include(text, "shading/lobe.h");
     put_lines(text, "shading/lobe_ids.gen.h", NULL, NULL, there);
