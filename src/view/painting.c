@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/painting.h"
 
-#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -280,8 +279,6 @@ void painting_draw(Painter *self, const Order *order, unsigned number) {
         if (done == WEFT_OK && order->compare) hand_linear(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
-        if (weft_raster_info(self->raster).compiled != compiled)
-            malloc_trim(0); /* compilers leave much behind */
         if (fair) learn(self, order, effort, now() - start);
     }
     if (!whole) return; /* another order came between */
