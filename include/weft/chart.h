@@ -37,8 +37,7 @@ typedef struct WeftChartEntry {
 } WeftChartEntry;
 
 /* The entry at index, by kind and then from dark to bright; NULL out of range. It lives as long as the
- * program.
- */
+ * program. */
 WEFT_API const WeftChartEntry *weft_chart(int index);
 
 #ifdef __cplusplus

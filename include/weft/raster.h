@@ -133,7 +133,7 @@ typedef struct WeftRasterView {
  * _GL_COMPILE, _TEXT_DIALECT, _GL_MEMORY, _GL_CONTEXT. */
 WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *view, WeftError *error);
 
-/* Whether a picture can be drawn with the programs that there are: 0 where weft_raster_draw would compile
+/* Returns 1 if a picture can be drawn with the programs that there are, 0 if weft_raster_draw would compile
  * first, which on a driver without a GPU may take many seconds. What can be shown meanwhile had better be. A
  * view that would be refused counts as ready. Asks no driver; the floor counts though it may not be seen. */
 WEFT_API int weft_raster_ready(WeftRaster *raster, const WeftRasterView *view);

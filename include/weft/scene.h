@@ -55,8 +55,8 @@ WEFT_API const char *weft_scene_material_name(const WeftScene *scene, int index)
 WEFT_API const char *weft_scene_camera_name(const WeftScene *scene, int index);
 WEFT_API const char *weft_scene_variant_name(const WeftScene *scene, int index);
 
-/* Whether any surface wears material index, as the scene is now: what only a variant that is not chosen has
- * is worn by none. */
+/* Returns 1 if any surface wears material index as the scene is now, else 0: what only a variant that is not
+ * chosen has is worn by none. */
 WEFT_API int weft_scene_material_worn(const WeftScene *scene, int index);
 
 /* Switches to a variant of KHR_materials_variants by name. */

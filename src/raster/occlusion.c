@@ -189,7 +189,8 @@ static size_t values_count(const Occlusion *self) {
 }
 
 /* The sums of fit_ramp are greatest where V is 1 on the side they point to and 0 on the other: 3/4 along the
- * horizon and 3/2 upwards, which is less than 1.7 together, before it makes them up to three times as steep. */
+ * horizon and 3/2 upwards, which is less than 1.7 together, before it makes them up to three times as steep.
+ */
 static bool in_range(const float *values, size_t count) {
     static const float steepest = 3.0f * 1.7f;
     bool good = true;

@@ -8,7 +8,8 @@
  * write,
  * `&x` to pass; text/reference.h says how GLSL has them. Pointers serve nothing else, and no two references
  * of one call name the same object. `?:` chooses between numbers, never between records, which WebGL does not
- * take. */
+ * take.
+ */
 #ifndef WEFT_LANG_H
 #define WEFT_LANG_H
 

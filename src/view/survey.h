@@ -1,5 +1,4 @@
-/* survey.h - how much of a picture each material has
- */
+/* survey.h - how much of a picture each material has */
 #ifndef WEFT_VIEW_SURVEY_H
 #define WEFT_VIEW_SURVEY_H
 
