@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "raster/check.h"
+#include "shading/rgb.h"
 #include "trace/sky.h"
 
 enum { SIDE = 96, RAYS = 256 };
@@ -31,7 +32,7 @@ static bool find_lamps(Lamps *lamps, const WeftScene *scene) {
     for (int k = 0; made && k < RAYS; k++) {
         float turn = (float)k * 0.618033989f;
         SkyPoint p = sky_sample(&sky, ((float)k + 0.5f) / RAYS, turn - floorf(turn));
-        float light = 0.2126f * p.radiance.r + 0.7152f * p.radiance.g + 0.0722f * p.radiance.b;
+        float light = rgb_luminance(p.radiance);
         bool shines = p.pdf > 0.0f && p.direction.y > 0.0f && light > 0.0f;
         lamps->wi[k] = p.direction;
         lamps->w[k] = shines ? light * p.direction.y / (p.pdf * RAYS) : 0.0f;

@@ -5,11 +5,9 @@
  * directions. This is the only file that knows which language it is in.
  *
  * Large records travel by reference: `const T *m` and `T *m` as parameters, `m->x` and `*m` to read and
- * write,
- * `&x` to pass; text/reference.h says how GLSL has them. Pointers serve nothing else, and no two references
- * of one call name the same object. `?:` chooses between numbers, never between records, which WebGL does not
- * take.
- */
+ * write, `&x` to pass; text/reference.h says how GLSL has them. Pointers serve nothing else, and no two
+ * references of one call name the same object. `?:` chooses between numbers, never between records, which
+ * WebGL does not take. */
 #ifndef WEFT_LANG_H
 #define WEFT_LANG_H
 

@@ -2,14 +2,12 @@
 
 #include "shading/terms/d_ggx.h"
 
-static float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-
 /* One light sample at a point of a white floor. */
 static void add_light(const PathContext *context, Vec3 point, float share, Point uv, uint32_t key,
                       Caught *caught, long long *rays) {
     LightSample light = lights_sample(context->lights, point, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || !(light.wi.y > 0.0f)) return;
-    float whole = luminance(light.radiance) * light.wi.y / light.pdf;
+    float whole = rgb_luminance(light.radiance) * light.wi.y / light.pdf;
     if (!(whole > 0.0f && whole < INFINITY)) return;
     Ray shadow = {point, light.wi, 0.0f, light.distance * (1.0f - 1e-4f), key, false};
     *rays += context->shadows;

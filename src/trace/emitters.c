@@ -21,8 +21,6 @@ static Rgb emission(const WeftScene *scene, const Material *material, const Attr
     return (Rgb){s.emission.r * k, s.emission.g * k, s.emission.b * k};
 }
 
-static float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-
 static bool emits(const Material *material) {
     const float *e = material->inputs[INPUT_emission].value;
     return !material->unlit && (e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f) &&
@@ -48,13 +46,13 @@ static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t t
     static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
     const Material *material = &scene->materials[mesh->material];
     const float *value = material->inputs[INPUT_emission].value;
-    float factor =
-        luminance((Rgb){value[0], value[1], value[2]}) * material->inputs[INPUT_emission_strength].value[0];
+    float factor = rgb_luminance((Rgb){value[0], value[1], value[2]}) *
+                   material->inputs[INPUT_emission_strength].value[0];
     float mean = 0.0f;
     for (int k = 0; k < 4; k++) {
         Hit hit = {.triangle = triangle, .u = points[k][0], .v = points[k][1]};
         Attributes at = geometry_attributes(mesh, &hit);
-        mean += 0.25f * luminance(emission(scene, material, &at));
+        mean += 0.25f * rgb_luminance(emission(scene, material, &at));
     }
     return PI * area * (0.1f * factor + 0.9f * mean) * (material->double_sided ? 2.0f : 1.0f);
 }

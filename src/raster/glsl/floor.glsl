@@ -13,8 +13,6 @@ uniform highp sampler2D floor_sky;    /* part of the environment's light that ar
 uniform highp sampler2D floor_mirror; /* the scene from below, premultiplied, with smaller copies */
 uniform highp sampler2D floor_depth;  /* of that */
 
-float luminance(Rgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
-
 float whole = 0.0, reached = 0.0;
 void add_light(float light, float reaches) {
     whole += light;
@@ -23,7 +21,7 @@ void add_light(float light, float reaches) {
 
 #define ONE_LIGHT(k, kind, map)                                                                              \
     beam = light_beam(k, kind);                                                                              \
-    add_light(luminance(beam.radiance) * max(beam.wi.y, 0.0), light_reaches(map, vec3(0.0, 1.0, 0.0), beam.wi.y));
+    add_light(rgb_luminance(beam.radiance) * max(beam.wi.y, 0.0), light_reaches(map, vec3(0.0, 1.0, 0.0), beam.wi.y));
 void add_lights() {
     Beam beam;
     EACH_LIGHT(ONE_LIGHT)
@@ -41,7 +39,7 @@ void add_polygon(int k, int corners, bool two_sided, int map) {
     }
     float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0));
     bool shines = two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0;
-    add_light(shines ? luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p) : 0.0, reaches);
+    add_light(shines ? rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p) : 0.0, reaches);
 }
 #define ONE_POLYGON(k, corners, two_sided, map) add_polygon(k, corners, two_sided, map);
 void add_polygons() { EACH_POLYGON(ONE_POLYGON) }
