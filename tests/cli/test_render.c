@@ -159,8 +159,9 @@ static void scenes_are_saved(void **state) {
 static void json_holds_the_figures(void **state) {
     (void)state;
     static const char odd[] = "o\"\\\n\xc3\xa4\xff.png"; /* quote, backslash, newline, UTF-8 and not */
-    Ran ran = done(LIST("render", "scene.gltf", TINY, "--json", "-o", odd, "-o", "a.exr", "--set=cloth.ior=3",
-                        "--camera", "0,0,4;0,0,0;40"));
+    Ran ran =
+        done(LIST("render", "scene.gltf", TINY, "--json", "-o", odd, "-o", "a.exr", "--set=cloth.ior=3",
+                  "--set=cloth.metallic=0", "--set=cloth.base_color=0.5", "--camera", "0,0,4;0,0,0;40"));
     assert_non_null(strstr(ran.err, "weft: warning: "));
     json_t *all = parsed(ran.out), *camera = json_object_get(all, "camera"),
            *seconds = json_object_get(all, "seconds");
@@ -290,9 +291,9 @@ static void failures_keep_the_old_picture(void **state) {
     file_make("a.png", "old", 3);
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
     assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
-                     "builtin:none: is not a built-in scene: there is cloth, sewing, spheres\n");
+                     "builtin:none: is not a built-in scene: there is ball, cloth, sewing, spheres\n");
     assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
-                     "there is cloth, sewing, spheres; did you mean spheres?");
+                     "there is ball, cloth, sewing, spheres; did you mean spheres?");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2,
                      "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,

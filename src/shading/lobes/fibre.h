@@ -19,7 +19,7 @@
  *   Not for: fibres spun into yarn, which are threads.
  *   measured by weft check fibre: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
- *     half precision: finite for cosines >= 2^-13 and alpha >= 0.088. */
+ *     half precision: finite for cosines >= 2^-11. */
 #ifndef WEFT_LOBES_FIBRE_H
 #define WEFT_LOBES_FIBRE_H
 
