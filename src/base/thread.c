@@ -51,3 +51,23 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
     work(&workers[0]);
     for (int t = 1; t <= started; t++) pthread_join(workers[t].handle, NULL);
 }
+
+typedef struct Apart {
+    void (*body)(void *);
+    void *user;
+} Apart;
+
+static void *do_apart(void *argument) {
+    const Apart *apart = argument;
+    apart->body(apart->user);
+    return NULL;
+}
+
+void run_apart(void (*body)(void *user), void *user) {
+    Apart apart = {body, user};
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, do_apart, &apart) == 0)
+        pthread_join(thread, NULL);
+    else
+        body(user);
+}

@@ -1,4 +1,4 @@
-/* thread.h - a loop over independent items on several cores */
+/* thread.h - a loop over independent items on several cores, and work in a thread of its own */
 #ifndef WEFT_BASE_THREAD_H
 #define WEFT_BASE_THREAD_H
 
@@ -9,5 +9,9 @@ int thread_count(void);
  * thread_count()), the caller's among them; returns when all are done. thread is in [0, threads). Items start
  * in order. More than WEFT_THREADS_MAX threads are not used. */
 void parallel_for(int threads, int items, void (*body)(void *user, int item, int thread), void *user);
+
+/* Calls body(user) in a thread of its own and returns when that is done; in the caller's where none can be
+ * started. */
+void run_apart(void (*body)(void *user), void *user);
 
 #endif

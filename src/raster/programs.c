@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "base/thread.h"
 #include "raster/program.h"
 #include "raster/tables.h"
@@ -89,7 +90,8 @@ typedef struct Job {
 
 typedef struct Batch {
     Job *jobs;
-    GlContext *contexts[WEFT_THREADS_MAX]; /* a thread; NULL for the caller's, which has one */
+    int count, threads;
+    GlContext *contexts[WEFT_THREADS_MAX]; /* a thread */
 } Batch;
 
 static void write_text(Programs *programs, Job *job) {
@@ -108,14 +110,11 @@ static void compile_in_thread(void *user, int item, int thread) {
     const Batch *batch = user;
     GlContext *context = batch->contexts[thread];
     GlOuter outer;
-    if (!context) {
-        compile(&batch->jobs[item]);
-    } else if (context_enter(context, &outer)) {
-        compile(&batch->jobs[item]);
-        glFinish();
-        context_leave(context, &outer);
-        context_thread_ends();
-    }
+    if (!context_enter(context, &outer)) return;
+    compile(&batch->jobs[item]);
+    glFinish();
+    context_leave(context, &outer);
+    context_thread_ends();
 }
 
 /* What was there before stays where compiling failed. */
@@ -169,28 +168,34 @@ static GlContext *share_context(const GlContext *context) {
     return NULL;
 }
 
-/* As many contexts as there are other threads to use, beside the caller's. */
-static int share_contexts(Batch *batch, const GlContext *context, int threads, int count) {
-    int made = 1;
+/* As many contexts as there are threads to use. */
+static void share_contexts(Batch *batch, const GlContext *context, int threads) {
     if (threads <= 0) threads = thread_count();
-    if (threads > count) threads = count;
-    while (made < threads && (batch->contexts[made] = share_context(context))) made++;
-    return made;
+    if (threads > batch->count) threads = batch->count;
+    while (batch->threads < threads && (batch->contexts[batch->threads] = share_context(context)))
+        batch->threads++;
+}
+
+static void compile_all(void *user) {
+    Batch *batch = user;
+    parallel_for(batch->threads, batch->count, compile_in_thread, batch);
 }
 
 /* Drivers compile and link in the thread that asks, for as long as all else takes together; so several ask.
- */
+ * None of them is the caller's: a thread has its part of the heap for itself, so that the little that a
+ * compiler keeps of much does not lie strewn among all else, where it would hold whole pages. */
 static void build(Programs *programs, const GlContext *context, Job *jobs, int count) {
-    Batch batch = {.jobs = jobs};
+    Batch batch = {.jobs = jobs, .count = count};
     for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
-    int threads = share_contexts(&batch, context, programs->fits.threads, count);
-    parallel_for(threads, count, compile_in_thread, &batch);
-    for (int k = 1; k < threads; k++) context_destroy(batch.contexts[k]);
+    share_contexts(&batch, context, programs->fits.threads);
+    if (batch.threads) run_apart(compile_all, &batch);
+    for (int k = 0; k < batch.threads; k++) context_destroy(batch.contexts[k]);
     for (int k = 0; k < count; k++) {
-        /* a thread that could not enter its context has left its job */
+        /* where no context is shared, or a thread could not enter its own */
         if (!jobs[k].made) compile(&jobs[k]);
         take(programs, &jobs[k]);
     }
+    memory_return();
 }
 
 /* NULL where there is none. */

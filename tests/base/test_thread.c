@@ -1,4 +1,5 @@
-/* parallel_for does every item once, whatever the number of threads */
+/* parallel_for does every item once, whatever the number of threads; run_apart is past when it returns */
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -71,11 +72,21 @@ static void loops_nest(void **state) {
     for (int n = 0; n < 100; n++) assert_int_equal(atomic_load(&work.done[n]), 10);
 }
 
+static void note_thread(void *user) { *(pthread_t *)user = pthread_self(); }
+
+static void work_apart_is_done_in_another_thread(void **state) {
+    (void)state;
+    pthread_t thread = pthread_self();
+    run_apart(note_thread, &thread);
+    assert_false(pthread_equal(thread, pthread_self()));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_item_is_done_once),
         cmocka_unit_test(odd_counts_are_fine),
         cmocka_unit_test(loops_nest),
+        cmocka_unit_test(work_apart_is_done_in_another_thread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

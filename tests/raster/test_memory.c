@@ -13,7 +13,16 @@
 #include "gl.h"
 #include "weft/weft.h"
 
-/* MiB; with the sanitizers, which keep what is freed, nothing is measured. */
+/* The sanitizers keep what is freed. */
+#if defined(__SANITIZE_ADDRESS__)
+enum { SANITIZED = 1 };
+#elif defined(__has_feature)
+enum { SANITIZED = __has_feature(address_sanitizer) };
+#else
+enum { SANITIZED = 0 };
+#endif
+
+/* MiB. */
 static double resident(void) {
     long pages = 0, held = 0;
     FILE *file = fopen("/proc/self/statm", "r");
@@ -75,6 +84,13 @@ static void end(Switches *self) {
     weft_scene_free(self->scene);
 }
 
+static void holds_at_most(const Switches *self, double most) {
+    weft_raster_finish(self->raster);
+    double held = resident();
+    print_message("%.0f MiB after %d switches\n", held, self->done);
+    if (!SANITIZED && held > most) fail_msg("more than %.0f", most);
+}
+
 static void programs_in_use_stay_few(void **state) {
     (void)state;
     need_gl();
@@ -83,6 +99,7 @@ static void programs_in_use_stay_few(void **state) {
     WeftRasterInfo info = weft_raster_info(self.raster);
     if (!(info.compiled > 11 && info.programs <= 11))
         fail_msg("%d programs of %d compiled", info.programs, info.compiled);
+    holds_at_most(&self, 250.0); /* 211 by llvmpipe, unoptimised and with its cache empty */
     end(&self);
 }
 
@@ -111,10 +128,7 @@ static void two_hundred_switches_stay_within_300_mib(void **state) {
     switch_choices(&self, "Cloth");
     switch_presets(&self);
     for (int k = 0; self.done < self.wanted && k < 8; k++) switch_choices(&self, "Cloth");
-    weft_raster_finish(self.raster);
-    double held = resident();
-    print_message("%.0f MiB after %d switches\n", held, self.done);
-    assert_true(held < 300.0);
+    holds_at_most(&self, 300.0);
     end(&self);
 }
 
