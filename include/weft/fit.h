@@ -64,6 +64,8 @@ enum {
     WEFT_FITTED_BRIGHT = 1 << 1,  /* a colour, of the base, f0 or f90, is above 1 */
     WEFT_FITTED_EDGE = 1 << 2     /* a number ends where its plausible range does */
 };
+
+/* Returns the notes that hold of a fit, or-ed together; 0 without any. */
 WEFT_API unsigned weft_fitted_notes(const WeftFitted *fitted);
 
 /* As many candidates as a ranking has room for. */
