@@ -455,7 +455,7 @@ static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
     } terms[] = {{"d", CHOICE_sheen_d}, {"v", CHOICE_sheen_v}, {"f", CHOICE_sheen_f}};
     for (size_t t = 0; t < sizeof terms / sizeof *terms; t++) {
         int k = lobe_param(lobe->lobe, terms[t].param);
-        if (k >= 0) weft_material_choose(out, terms[t].choice, (int)lobe->params[k]);
+        if (k >= 0) weft_material_choose(out, (int)terms[t].choice, (int)lobe->params[k]);
     }
 }
 

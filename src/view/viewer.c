@@ -196,7 +196,7 @@ static int run(Viewer *v, char why[512]) {
         any |= orders_finer(v) && v->mode == MODE_LIVE;
         if (!v->has_scene && v->opened != WEFT_OK) {
             snprintf(why, 512, "%s", v->message);
-            return v->opened;
+            return (int)v->opened;
         }
         if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
         if (any || inspection_busy(v->panel == 3 ? v->inspection : NULL)) due = 3;

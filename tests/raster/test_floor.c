@@ -45,7 +45,7 @@ static WeftImage traced(const WeftScene *scene, const WeftRasterView *view) {
 
 static WeftImage drawn(const WeftScene *scene, WeftGl gl, const WeftRasterView *view) {
     WeftRaster *raster;
-    WeftImage image;
+    WeftImage image = {0};
     WeftError error;
     if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .no_cache = 1}, &raster, NULL, &error) !=
             WEFT_OK ||

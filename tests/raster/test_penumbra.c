@@ -17,7 +17,7 @@ enum { SIDE = 64 };
 static WeftImage edge(void) {
     WeftScene *scene = test_scene();
     WeftRaster *raster;
-    WeftImage image;
+    WeftImage image = {0};
     WeftError error;
     const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
                             .position = {0.0f, 2.0f, 0.0f},

@@ -159,8 +159,8 @@ static void hidden_light_is_looked_through_and_shines(void **state) {
     for (int hide = 0; hide < 2; hide++) {
         through.hide_lights = onto.hide_lights = hide;
         WeftImage light = test_render(scene, through, 4), lit = test_render(scene, onto, 64);
-        assert_float_equal(pixel(&light, 4, 4)[0], hide ? 0.0f : 5.0f, 1e-3f);
-        assert_float_equal(pixel(&light, 4, 4)[3], hide ? 0.0f : 1.0f, 1e-6f);
+        assert_float_equal(pixel(&light, 4, 4)[0], (hide ? 0.0f : 5.0f), 1e-3f);
+        assert_float_equal(pixel(&light, 4, 4)[3], (hide ? 0.0f : 1.0f), 1e-6f);
         assert_true(pixel(&lit, 4, 4)[0] > 0.2f);
         weft_image_free(&light);
         weft_image_free(&lit);

@@ -373,7 +373,7 @@ static void broken_files_end_in_one_line(void **state) {
         HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n70000=1,2,3\n",
         HEAD "[THREADING]\n1=1\n" WOVEN "[COLOR TABLE]\n1=1,2,nan\n",
         HEAD "[THREADING\n1=1\n[LIFT\n1=1\n",
-        "[WIF]\nVersion=1.1\n[THREADING]\n1=1,,x\n" WOVEN,
+        HEAD "[THREADING]\n1=1,,x\n" WOVEN,
         "{\"asset\": {\"version\": \"2.0\"}}",
     };
     const size_t count = sizeof bad / sizeof *bad;
