@@ -59,8 +59,8 @@ static WeftResult read_handle(int handle, size_t expected, size_t limit, FileByt
 
 /* Reads up to limit bytes; what lies beyond is cut off or an error. */
 static WeftResult read_limited(const char *path, size_t limit, bool cut, FileBytes *out, WeftError *error) {
-    struct stat status;
-    int handle;
+    struct stat status = {0};
+    int handle = -1;
     *out = (FileBytes){0};
     WeftResult result = open_plain(path, &handle, &status, error);
     if (result != WEFT_OK) return result;

@@ -58,7 +58,7 @@ static void lobe_words(const WeftLobeInfo *info, char *line, size_t size) {
 
 static void append_color(char *line, size_t size, const char *key, const float color[3]) {
     char text[64];
-    bool grey = memcmp(color, color + 1, 2 * sizeof *color) == 0;
+    bool grey = color[0] <= color[1] && color[1] <= color[2] && color[2] <= color[0];
     if (grey)
         snprintf(text, sizeof text, "%s %.3g", key, (double)color[0]);
     else

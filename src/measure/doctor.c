@@ -173,7 +173,7 @@ static void examine(WeftDoctor *doctor) {
         Cloth cloth = doctor_cloth(doctor, m);
         for (size_t k = 0; k < sizeof of_material / sizeof *of_material; k++) of_material[k](doctor, &cloth);
     }
-    for (int m = 0; m < (int)doctor->asset.mesh_count && goes_on(doctor, (size_t)(materials + m)); m++)
+    for (int m = 0; m < (int)doctor->asset.mesh_count && goes_on(doctor, (size_t)materials + (size_t)m); m++)
         check_mesh(doctor, m);
 }
 

@@ -173,7 +173,8 @@ static float metal_luminance(WeftDoctor *doctor, const Cloth *cloth) {
     doctor_numbers(cloth->json, PBR("metallicFactor"), &metallic, 1);
     doctor_numbers(cloth->json, PBR("baseColorFactor"), factors, 3);
     for (int k = 0; k < SIDE * SIDE; k++) {
-        const float u = ((float)(k % SIDE) + 0.5f) / SIDE, v = ((float)(k / SIDE) + 0.5f) / SIDE;
+        const int column = k % SIDE, row = k / SIDE;
+        const float u = ((float)column + 0.5f) / SIDE, v = ((float)row + 0.5f) / SIDE;
         float color[3] = {1.0f, 1.0f, 1.0f};
         doctor_texel(metal, u, v, color);
         if (!((double)color[2] * metallic > 0.5)) continue;

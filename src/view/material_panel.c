@@ -278,7 +278,7 @@ static void draw_plausible(Viewer *v, const WeftMaterial *m) {
 
 /* Those that have any influence; then, folded away, the others. */
 static void draw_inputs(Viewer *v, WeftMaterial *m, int group) {
-    bool reads[WEFT_INPUTS_MAX];
+    bool reads[WEFT_INPUTS_MAX] = {false};
     int idle = 0;
     char label[64];
     for (int k = 0; weft_material_input_name(k); k++) {

@@ -69,11 +69,11 @@ bool loom_of(const WeftDraft *draft, Loom *out) {
         out->shafts = kinds_of(&columns, out->threading, first_warp);
         out->treadles = kinds_of(&rows, out->treadling, first_pick);
         out->tieup = alloc_array((size_t)out->shafts * (size_t)out->treadles, 1);
+        for (int treadle = 0; out->tieup && treadle < out->treadles; treadle++)
+            for (int shaft = 0; shaft < out->shafts; shaft++)
+                out->tieup[treadle * out->shafts + shaft] =
+                    draft->up[(size_t)first_pick[treadle] * (size_t)warps + (size_t)first_warp[shaft]];
     }
-    for (int treadle = 0; out->tieup && treadle < out->treadles; treadle++)
-        for (int shaft = 0; shaft < out->shafts; shaft++)
-            out->tieup[treadle * out->shafts + shaft] =
-                draft->up[(size_t)first_pick[treadle] * (size_t)warps + (size_t)first_warp[shaft]];
     free(first_warp);
     free(first_pick);
     return out->tieup && out->shafts && out->treadles;

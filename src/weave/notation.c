@@ -295,7 +295,8 @@ static WeftResult parse(const Notation *notation, char *text, WeftDraft **out) {
     if (!fits) return REFUSE(notation, "a clause has more than %d words", WORDS_MAX);
     const bool checks = !next && clause.count == 1 && strcmp(clause.words[0], "houndstooth") == 0;
     WeftResult result = make_weave(notation, &clause, out);
-    if (result == WEFT_OK && checks) {
+    if (!*out) return result;
+    if (checks) {
         const Clause fours = {.words = {"both", "4k", "4w"}, .count = 3};
         result = apply_clause(notation, &fours, out);
     }

@@ -160,7 +160,7 @@ WeftDraftInfo weft_draft_info(const WeftDraft *draft) {
 WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error) {
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
     WeftResult result = draft_create(draft->title[0] ? draft->title : "draft", warps, picks, out, error);
-    if (result != WEFT_OK) return result;
+    if (!*out) return result;
     memcpy((*out)->title, draft->title, sizeof draft->title);
     memcpy((*out)->threads[WEFT_WEFT], draft->threads[WEFT_WEFT], (size_t)picks * sizeof(WeftThread));
     for (int warp = 0; warp < warps; warp++) {
