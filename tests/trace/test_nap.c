@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "scene/tangents.h"
 #include "scenes.h"
+#include "shading/layer.h"
 #include "weft/weft.h"
 
 #define DEGREES (3.14159265f / 180.0f)
@@ -19,7 +20,7 @@ static WeftScene *square(const float *texel) {
     test_environment(scene, 0.0f);
     Material *material = test_material(scene, 0.0f);
     material->choices[CHOICE_sheen_lobe] = weft_lobe_find("fibre-walk");
-    material->choices[CHOICE_layer] = 0; /* additive */
+    material->choices[CHOICE_layer] = LAYER_ADDITIVE;
     test_color(material, INPUT_sheen_color, 1.0f);
     material->inputs[INPUT_sheen_roughness].value[0] = 0.8f;
     material->inputs[INPUT_sheen_density].value[0] = 2.0f;
@@ -176,7 +177,7 @@ static void a_white_base_stays_white(void **state) {
         test_environment(scene, 1.0f);
         Material *material = lean(scene, map ? 80.0f : 40.0f, 60.0f * (float)k - (map ? 90.0f : 0.0f));
         material->choices[CHOICE_sheen_lobe] = weft_lobe_find("fibre");
-        material->choices[CHOICE_layer] = 3; /* albedo-view */
+        material->choices[CHOICE_layer] = LAYER_ALBEDO_VIEW;
         material->inputs[INPUT_sheen_roughness].value[0] = 0.71f;
         material->inputs[INPUT_sheen_density].value[0] = 1.0f;
         test_color(material, INPUT_base_color, 1.0f);
