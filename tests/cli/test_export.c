@@ -185,22 +185,33 @@ static void surface_of(const char *model, char lines[8192]) {
     free(text);
 }
 
-/* What is set behind a workflow or a profile is all that differs from its defaults. */
+/* Every line of `plain` but the one that begins with `changed` stands in `with` as it is. */
+static void assert_defaults_stay(const char *plain, const char *with, const char *changed) {
+    char line[512];
+    for (const char *c = plain; *c; c += strcspn(c, "\n"), c += *c == '\n') {
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(c, "\n"), c);
+        if (strncmp(line + strspn(line, " "), changed, strlen(changed)) == 0) continue;
+        if (!strstr(with, line)) fail_msg("differs: %s", line);
+    }
+}
+
+/* A setting behind a workflow or a profile changes no other default. A rule may read inputs that the model
+ * alone does not, so that more lines are there. */
 static void a_setting_leaves_other_defaults(void **state) {
     (void)state;
     static char plain[8192], with[8192];
+    static const char none[] = "no line";
     surface_of("metallic", plain);
     surface_of("metallic:layer=additive", with);
-    assert_string_equal(plain, with);
+    assert_defaults_stay(plain, with, none);
     surface_of("khronos", plain);
     surface_of("khronos:layer=seed", with);
-    assert_string_equal(plain, with);
+    assert_defaults_stay(plain, with, none);
     surface_of("disney", plain);
     surface_of("disney:subsurface=0.5", with);
-    char *was = strstr(plain, "s.subsurface = 0.0"), *is = strstr(with, "s.subsurface = 0.5");
-    assert_true(was && is && was - plain == is - with);
-    is[strlen("s.subsurface = 0.")] = '0';
-    assert_string_equal(plain, with);
+    assert_defaults_stay(plain, with, "s.subsurface");
+    assert_non_null(strstr(plain, "s.subsurface = 0.0"));
+    assert_non_null(strstr(with, "s.subsurface = 0.5"));
 }
 
 static void nonsense_is_refused(void **state) {

@@ -49,9 +49,10 @@ static void write_broken(const char *from, const char *to, char place[64]) {
 
 static void broken_text_ends_with_its_line(void **state) {
     (void)state;
-    static const char *const changes[][2] = {{"1.0f / PI", "1.0f +"},
-                                             {"1.0f / PI", "\"one\""},
-                                             {"FN float lambert_eval", "#pragma\nFN float lambert_eval"}};
+    static const char *const changes[][2] = {
+        {"1.0f / PI", "1.0f +"},
+        {"1.0f / PI", "\"one\""},
+        {"FN LobeValue lambert_value", "#pragma\nFN LobeValue lambert_value"}};
     char place[64];
     need_gl();
     file_make("a.png", "old", 3);
