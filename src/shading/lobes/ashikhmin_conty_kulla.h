@@ -21,7 +21,7 @@
 #include "shading/terms/v_conty_kulla.h"
 
 #define ASHIKHMIN_CONTY_KULLA_PARAMS(P)                                                                      \
-    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.01f, 1.0f, "width of the rise at the horizon; low is a thin rim")
+    P(float, alpha, 0.25f, 0.05f, 1.0f, 0.02f, 1.0f, "width of the rise at the horizon; low is a thin rim")
 #define ASHIKHMIN_CONTY_KULLA_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
 STRUCT(AshikhminContyKulla){ASHIKHMIN_CONTY_KULLA_PARAMS(FIELD)};

@@ -22,7 +22,7 @@
 #include "shading/terms/v_neubelt.h"
 
 #define ASHIKHMIN_NEUBELT_PARAMS(P)                                                                          \
-    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.01f, 4.0f, "width of the rise at the horizon; low is a thin rim")
+    P(float, alpha, 0.25f, 0.05f, 1.0f, 0.02f, 4.0f, "width of the rise at the horizon; low is a thin rim")
 #define ASHIKHMIN_NEUBELT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
 STRUCT(AshikhminNeubelt){ASHIKHMIN_NEUBELT_PARAMS(FIELD)};
