@@ -24,10 +24,17 @@ static void rename_own(Text *text, const char *name) {
     text_define(text, from, to);
 }
 
-/* What a lobe without a tint is asked for. */
+/* Returns the traits of the lobe and of that on the right of it, which share one record of values. */
+static unsigned traits_of_both(const Draft *draft) {
+    const WeftLobe *right = draft->desc->right;
+    return weft_lobe_info(draft->desc->lobe->lobe)->traits |
+           (right ? weft_lobe_info(right->lobe)->traits : 0u);
+}
+
+/* Puts the record of values that lobes without a tint need, once in a text. */
 static void put_plain_value(Text *text, bool two) {
     const char *share = two ? " float s;" : "";
-    text_provide(text, "shading/lobe_value.h");
+    if (!text_provide(text, "shading/lobe_value.h")) return;
     text_line(text,
               "\nstruct LobeValue { float f;%s float pdf; };\n"
               "LobeValue lobe_value_of(float f, float s, float pdf) {\n    LobeValue v;\n    v.f = f;\n%s"
@@ -165,7 +172,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     const LobeNames *own = lobe_names(lobe->lobe);
     Text *text = &draft->text;
     rename_own(text, own->prefix);
-    unsigned traits = weft_lobe_info(lobe->lobe)->traits;
+    unsigned traits = traits_of_both(draft);
     text_include(text, "shading/angles.h");
     if (lobe->lobe != LOBE_COOK_TORRANCE) text_define(text, "SHARE_IS_COSINE(s)", "false");
     if (!(traits & TRAIT_TINTED)) put_plain_value(text, traits & TRAIT_TWO_COLORS);

@@ -214,6 +214,27 @@ static void a_setting_leaves_other_defaults(void **state) {
     assert_non_null(strstr(with, "s.subsurface = 0.5"));
 }
 
+/* Two lobes beside each other, with and without second colours and tints, are one text that names no record
+ * twice. */
+static void two_lobes_share_one_record_of_values(void **state) {
+    (void)state;
+    static const char *const pairs[][2] = {{"ashikhmin-neubelt", "charlie-neubelt"},
+                                           {"charlie-neubelt", "ggx"},
+                                           {"fibre", "charlie-neubelt"},
+                                           {"charlie-neubelt", "fibre"}};
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+        Ran ran = RUN("export", pairs[k][0], pairs[k][1], "--target", "shadertoy", "-o", "s.glsl", "--quiet");
+        if (ran.code != 0) fail_msg("%s: %s", pairs[k][0], ran.err);
+        ran_free(&ran);
+        size_t size;
+        char *text = file_bytes("s.glsl", &size),
+             *first = text ? strstr(text, "struct WeftLobeValue {") : NULL;
+        assert_non_null(first);
+        assert_null(strstr(first + 1, "struct WeftLobeValue {"));
+        free(text);
+    }
+}
+
 static void nonsense_is_refused(void **state) {
     (void)state;
     const struct {
@@ -261,6 +282,7 @@ int main(void) {
         cmocka_unit_test(png_is_scaled),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(a_setting_leaves_other_defaults),
+        cmocka_unit_test(two_lobes_share_one_record_of_values),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }
