@@ -40,14 +40,9 @@ static int output_check(Diff *diff) {
     return report(WEFT_USAGE, "%s: how pictures differ is a .png, .exr or .npy", path);
 }
 
-static void on_warning(void *user, WeftMessage message, const char *text) {
-    (void)user, (void)message;
-    report(0, "warning: %s", text);
-}
-
 static int images_read(Diff *diff) {
     WeftError error;
-    const WeftLog log = {.fn = on_warning};
+    const WeftLog log = {.fn = report_warning};
     for (int k = 0; k < 2; k++)
         if (weft_image_read(diff->paths[k], &diff->images[k], &log, &error) != WEFT_OK)
             return report_error(&error);

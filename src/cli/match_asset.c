@@ -12,11 +12,6 @@
 #include "progress.h"
 #include "report.h"
 
-static void on_warning(void *user, WeftMessage message, const char *text) {
-    (void)user, (void)message;
-    report(0, "warning: %s", text);
-}
-
 static int needs(const Options *options, const char **out) {
     *out = option_text(options, "-o");
     if (!*out) return report(WEFT_USAGE, "%.200s: -o says where it goes", options->operands[0]);
@@ -87,7 +82,7 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metri
 
 static int to_engine(const Options *options, const char *out, WeftApart metric) {
     const char *path = options->operands[0];
-    const WeftLog log = {.fn = on_warning};
+    const WeftLog log = {.fn = report_warning};
     WeftError error;
     WeftAssetMatch *matches;
     int count = 0;
@@ -140,7 +135,7 @@ static void losses_write(const WeftScene *scene, const float *losses, int count,
 
 /* weft_scene_convert, saved: metallic to specular and back. */
 static int to_workflow(const Options *options, const char *out) {
-    const WeftLog log = {.fn = on_warning};
+    const WeftLog log = {.fn = report_warning};
     WeftError error;
     WeftScene *scene;
     WeftResult result = weft_scene_load(options->operands[0], &scene, &log, &error);

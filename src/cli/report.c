@@ -16,3 +16,8 @@ int report(int result, const char *format, ...) {
 }
 
 int report_error(const WeftError *error) { return report((int)error->result, "%s", error->text); }
+
+void report_warning(void *user, WeftMessage message, const char *text) {
+    (void)user, (void)message;
+    report(0, "warning: %s", text);
+}

@@ -11,4 +11,7 @@ __attribute__((format(printf, 2, 3))) int report(int result, const char *format,
 /* The same for a failure of the library. */
 int report_error(const WeftError *error);
 
+/* Prints a warning in the same form: the fn of a WeftLog. user is not read. */
+void report_warning(void *user, WeftMessage message, const char *text);
+
 #endif

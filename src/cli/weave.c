@@ -16,11 +16,6 @@ typedef struct Weaving {
     WeftDraftInfo info;
 } Weaving;
 
-static void on_warning(void *user, WeftMessage message, const char *text) {
-    (void)user, (void)message;
-    report(0, "warning: %s", text);
-}
-
 static int output_check(Weaving *weaving) {
     const char *path = weaving->output = option_text(weaving->options, "-o");
     if (!path) return 0;
@@ -52,7 +47,7 @@ static int sett_apply(Weaving *weaving) {
 }
 
 static int draft_make(Weaving *weaving) {
-    const WeftLog log = {.fn = on_warning};
+    const WeftLog log = {.fn = report_warning};
     WeftError error;
     if (weft_draft_read(weaving->what, &weaving->draft, &log, &error) != WEFT_OK) return report_error(&error);
     if (option_given(weaving->options, "--back")) {
