@@ -97,7 +97,7 @@ static int make_plan(Plan *plan) {
     return most;
 }
 
-static GLenum wrap_of(Wrap wrap) {
+static GLenum wrap_of(TextureWrap wrap) {
     return wrap == WRAP_CLAMP ? GL_CLAMP_TO_EDGE : wrap == WRAP_MIRROR ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 

@@ -21,7 +21,7 @@ typedef struct TexturePlace {
 typedef struct TextureGroup {
     int width, height;
     unsigned format; /* of the driver's texels */
-    Wrap wrap_u, wrap_v;
+    TextureWrap wrap_u, wrap_v;
     bool nearest;
     int layers;
 } TextureGroup;

@@ -69,14 +69,8 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     put_word(line, word);
 }
 
-/* Whether the folder of maps beside the scene was put on it without being asked for. */
-static bool wears_folder(const Viewer *v) {
-    return v->desc->materials && strcmp(v->dressed, v->facts.path) == 0;
-}
-
 /* What was changed in a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
-    bool maps_said = wears_folder(v); /* by --materials */
     WeftMaterial was = *look_material(&v->first, index);
     const WeftMaterial *is = look_material(&v->look, index);
     for (int k = 0; weft_material_choice_name(k); k++) {
@@ -93,8 +87,7 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
         bool changed = differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) ||
                        differs(a->value[2], b->value[2]);
-        if (a->texture != b->texture && b->texture && !maps_said) *lost = true;
-        if (changed && b->texture && !maps_said) *lost = true; /* --set would drop the map */
+        *lost |= b->texture && (changed || a->texture != b->texture); /* --set would drop the map */
         if ((changed || a->texture != b->texture) && !b->texture) put_input(line, index, k, b);
     }
 }
@@ -179,13 +172,14 @@ char *command_line(const Viewer *v, bool *lost) {
     put_word(&line, v->facts.path);
     if (v->desc->options && v->desc->options[0] && strcmp(v->dressed, v->facts.path) == 0)
         put(&line, " %s", v->desc->options);
-    if (wears_folder(v)) {
+    if (v->desc->materials && strcmp(v->dressed, v->facts.path) == 0) { /* which the first look wears */
         put(&line, " --materials");
         put_word(&line, v->desc->materials);
     }
-    if (v->variant >= 0 && v->variant < v->facts.info.variant_count) {
+    gone |= v->look.variant < 0 && v->first.variant >= 0;
+    if (v->look.variant != v->first.variant && v->look.variant >= 0) {
         put(&line, " --variant");
-        put_word(&line, v->facts.variants[v->variant]);
+        put_word(&line, v->facts.variants[v->look.variant]);
     }
     for (int k = 0; k < v->look.material_count && k < v->first.material_count; k++)
         put_material(&line, v, k, &gone);

@@ -27,7 +27,7 @@ static void plain(Viewer *v, const UiPress *p) {
     case 'x': viewer_swap(v); break;
     case 'p':
         v->tool = v->tool == TOOL_PROBE ? TOOL_ORBIT : TOOL_PROBE;
-        if (v->tool == TOOL_PROBE) v->panel = 3;
+        if (v->tool == TOOL_PROBE) v->panel = PANEL_INSPECT;
         break;
     case 'g': v->floor.on = !v->floor.on; break;
     case 'h': v->hide_lights = !v->hide_lights; break;

@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/loader.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -61,6 +62,47 @@ static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, con
     return names;
 }
 
+/* A texel as it is shown; of one number grey. */
+static void texel_shown(const WeftImage *image, int x, int y, unsigned char out[3]) {
+    size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+    for (int c = 0; c < 3; c++) {
+        size_t k = at + (size_t)(image->channels >= 3 ? c : 0);
+        float value = image->type == WEFT_PIXEL_F32 ? ((const float *)image->pixels)[k] : 0.0f;
+        out[c] = image->type == WEFT_PIXEL_U8    ? ((const unsigned char *)image->pixels)[k]
+                 : image->type == WEFT_PIXEL_U16 ? (unsigned char)(((const uint16_t *)image->pixels)[k] >> 8)
+                                                 : (unsigned char)(255.0f * fminf(fmaxf(value, 0.0f), 1.0f));
+    }
+}
+
+/* The mean of a few texels that lie in each of its own. */
+static void make_thumb(const WeftImage *image, unsigned char *out) {
+    enum { SIDE = FACTS_THUMB, FINER = 4 };
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++, out += 3) {
+            int sum[3] = {0};
+            for (int k = 0; k < FINER * FINER; k++) {
+                unsigned char texel[3];
+                int across = (FINER * x + k % FINER) * 2 + 1, down = (FINER * y + k / FINER) * 2 + 1;
+                texel_shown(image, (int)((long long)across * image->width / (2 * SIDE * FINER)),
+                            (int)((long long)down * image->height / (2 * SIDE * FINER)), texel);
+                for (int c = 0; c < 3; c++) sum[c] += texel[c];
+            }
+            for (int c = 0; c < 3; c++) out[c] = (unsigned char)(sum[c] / (FINER * FINER));
+        }
+}
+
+/* Where memory is short there are none. */
+static void read_thumbs(Facts *facts, const WeftScene *scene) {
+    int count = facts->map_count < FACTS_THUMBS ? facts->map_count : FACTS_THUMBS;
+    if (!count || weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs,
+                                    NULL) != WEFT_OK)
+        return;
+    for (int k = 0; k < count; k++) {
+        WeftImage image = weft_scene_texture(scene, k + 1);
+        make_thumb(&image, (unsigned char *)facts->thumbs.pixels + (size_t)k * FACTS_THUMB * FACTS_THUMB * 3);
+    }
+}
+
 void facts_read_maps(Facts *facts, const WeftScene *scene) {
     int count = 0;
     while (weft_scene_texture(scene, count + 1).pixels) count++;
@@ -69,6 +111,8 @@ void facts_read_maps(Facts *facts, const WeftScene *scene) {
     free(facts->maps);
     facts->maps = names;
     facts->map_count = count;
+    weft_image_free(&facts->thumbs);
+    read_thumbs(facts, scene);
 }
 
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
@@ -77,7 +121,6 @@ bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
     facts->materials = copy_names(scene, facts->info.material_count, weft_scene_material_name, "material");
     facts->cameras = copy_names(scene, facts->info.camera_count, weft_scene_camera_name, "camera");
     facts->variants = copy_names(scene, facts->info.variant_count, weft_scene_variant_name, "variant");
-    facts->presets = calloc((size_t)facts->info.material_count + 1, sizeof *facts->presets);
     facts_read_maps(facts, scene);
     if (facts->materials && facts->cameras && facts->variants) return true;
     facts_free(facts);
@@ -89,7 +132,7 @@ void facts_free(Facts *facts) {
     free(facts->cameras);
     free(facts->variants);
     free(facts->maps);
-    free(facts->presets);
+    weft_image_free(&facts->thumbs);
     free(facts->shares);
     *facts = (Facts){0};
 }
@@ -128,6 +171,24 @@ static void survey(Loader *self) {
     weft_pick_free(pick);
 }
 
+/* A folder that is gone since, or has no maps, keeps no scene from being shown. */
+static void wear_folders(Loaded *loaded, const WeftLog *log) {
+    Folders *folders = &loaded->folders;
+    int kept = 0;
+    for (int k = 0; k < folders->count; k++) {
+        char target[16];
+        WeftError error = {0};
+        snprintf(target, sizeof target, "%d", folders->materials[k]);
+        WeftResult result = weft_scene_wear_folder(loaded->scene, folders->materials[k] < 0 ? NULL : target,
+                                                   folders->paths[k], NULL, log, &error);
+        if (result != WEFT_OK) log->fn(log->user, error.message, error.text);
+        if (result != WEFT_OK) continue;
+        memmove(folders->paths[kept], folders->paths[k], LOOK_PATH);
+        folders->materials[kept++] = folders->materials[k];
+    }
+    folders->count = kept;
+}
+
 static WeftResult load(Loader *self, WeftError *error) {
     Loaded *loaded = &self->loaded;
     const WeftLog log = {on_said, loaded};
@@ -138,6 +199,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     if (result == WEFT_OK && self->dressed && desc->dress)
         result = desc->dress(desc->user, loaded->scene, &around, &log, error);
     if (result != WEFT_OK) return result;
+    wear_folders(loaded, &log);
     if (!look_read(&loaded->look, loaded->scene) ||
         !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
         snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
@@ -163,16 +225,16 @@ static void *work(void *user) {
     return NULL;
 }
 
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed,
-                     float aspect) {
+Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading) {
     Loader *self = calloc(1, sizeof *self);
     if (!self) return NULL;
     self->window = window;
     self->desc = desc;
-    self->dressed = dressed;
-    self->aspect = aspect;
-    self->loaded.again = again;
-    snprintf(self->loaded.path, sizeof self->loaded.path, "%s", path);
+    self->dressed = reading->dressed;
+    self->aspect = reading->aspect;
+    self->loaded.again = reading->again;
+    self->loaded.folders = *reading->folders;
+    snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
     atomic_init(&self->thousandths, -1);
     atomic_init(&self->done, false);
     atomic_init(&self->stop, false);

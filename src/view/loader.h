@@ -6,7 +6,7 @@
 #include "view/view.h"
 #include "view/window.h"
 
-enum { FACTS_NAME = 64, FACTS_MOST = 512 };
+enum { FACTS_NAME = 64, FACTS_MOST = 512, FACTS_THUMB = 32, FACTS_THUMBS = 128 };
 
 typedef char FactName[FACTS_NAME];
 
@@ -16,7 +16,7 @@ typedef struct Facts {
     FactName *materials, *cameras, *variants; /* owned */
     FactName *maps;                           /* files of textures, as it was read; owned */
     int map_count;
-    int *presets;  /* that each material was dressed in last, counted from 1; owned, may be NULL */
+    WeftImage thumbs; /* of those in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
     float *shares; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
@@ -40,12 +40,20 @@ typedef struct Loaded {
     char *said;         /* warnings, one a line; owned, may be NULL */
     const char *camera; /* through which it is seen first; a constant, or the command line's */
     bool again;         /* it is the scene that was there, read anew */
+    Folders folders;    /* that it wears */
 } Loaded;
 
-/* dressed: desc.dress is called, in that thread. aspect: width / height of the picture that it will be seen
- * in. NULL where memory is short. */
-Loader *loader_start(Window *window, const ViewDesc *desc, const char *path, bool again, bool dressed,
-                     float aspect);
+/* What is to be read. */
+typedef struct Reading {
+    const char *path;
+    bool again;             /* the scene that is there */
+    bool dressed;           /* desc.dress is called, in that thread */
+    const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */
+    float aspect;           /* width / height of the picture that it will be seen in */
+} Reading;
+
+/* NULL where memory is short. */
+Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading);
 
 /* The finished share, or -1 while it is not known. */
 float loader_share(Loader *loader);

@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/look.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 struct LookMaterial {
     atomic_int users;
     WeftMaterial is;
+    int preset;
 };
 
 struct Nap {
@@ -29,12 +31,22 @@ void nap_free(Nap *nap) {
     free(nap);
 }
 
-static LookMaterial *material_make(const WeftMaterial *is) {
+static LookMaterial *material_make(const WeftMaterial *is, int preset) {
     LookMaterial *m = calloc(1, sizeof *m);
     if (!m) return NULL;
     atomic_init(&m->users, 1);
     m->is = *is;
+    m->preset = preset;
     return m;
+}
+
+void folders_keep(Folders *self, const char *path, int material) {
+    int k = 0;
+    while (k < self->count && self->materials[k] != material) k++;
+    if (k == LOOK_FOLDERS) return;
+    snprintf(self->paths[k], LOOK_PATH, "%s", path);
+    self->materials[k] = material;
+    if (k == self->count) self->count++;
 }
 
 static bool read_lights(Look *look, const WeftScene *scene) {
@@ -49,13 +61,13 @@ Around around_studio(void) { return (Around){.strength = 1.0f, .ambient = 1.0f, 
 
 bool look_read(Look *look, const WeftScene *scene) {
     int count = weft_scene_info(scene).material_count;
-    *look = (Look){.around = around_studio()};
+    *look = (Look){.around = around_studio(), .variant = weft_scene_variant(scene)};
     look->materials = calloc((size_t)count + 1, sizeof(void *));
     bool whole = look->materials != NULL;
     for (int k = 0; k < count && whole; k++) {
         WeftMaterial is;
         whole = weft_scene_material(scene, k, &is, NULL) == WEFT_OK &&
-                (look->materials[k] = material_make(&is)) != NULL;
+                (look->materials[k] = material_make(&is, 0)) != NULL;
         look->material_count += whole;
     }
     if (whole) whole = read_lights(look, scene);
@@ -116,7 +128,7 @@ static bool same_around(const Around *a, const Around *b) {
 }
 
 bool look_same(const Look *a, const Look *b) {
-    bool same = a->material_count == b->material_count && same_lights(a, b) &&
+    bool same = a->material_count == b->material_count && a->variant == b->variant && same_lights(a, b) &&
                 same_around(&a->around, &b->around) && memcmp(a->naps, b->naps, sizeof a->naps) == 0;
     for (int k = 0; same && k < a->material_count; k++) same = look_same_material(a, b, k);
     return same;
@@ -124,13 +136,31 @@ bool look_same(const Look *a, const Look *b) {
 
 const WeftMaterial *look_material(const Look *look, int k) { return &look->materials[k]->is; }
 
-bool look_set_material(Look *look, int k, const WeftMaterial *material) {
-    if (same_bytes(&look->materials[k]->is, material, sizeof *material)) return true;
-    LookMaterial *made = material_make(material);
+static bool put_material(Look *look, int k, const WeftMaterial *material, int preset) {
+    LookMaterial *made = material_make(material, preset);
     if (!made) return false;
     material_drop(look->materials[k]);
     look->materials[k] = made;
     return true;
+}
+
+bool look_set_material(Look *look, int k, const WeftMaterial *material) {
+    const LookMaterial *was = look->materials[k];
+    return same_bytes(&was->is, material, sizeof *material) || put_material(look, k, material, was->preset);
+}
+
+int look_preset(const Look *look, int k) { return look->materials[k]->preset; }
+
+bool look_set_preset(Look *look, int k, int preset) {
+    const WeftMaterial is = look->materials[k]->is;
+    return look_preset(look, k) == preset || put_material(look, k, &is, preset);
+}
+
+bool look_take_presets(Look *look, const Look *from) {
+    bool all = true;
+    for (int k = 0; k < look->material_count && k < from->material_count && all; k++)
+        all = look_set_preset(look, k, look_preset(from, k));
+    return all;
 }
 
 static Nap *find_nap(const Look *look, int material) {
@@ -144,21 +174,63 @@ const WeftImage *look_nap(const Look *look, int material) {
     return nap ? &nap->image : NULL;
 }
 
-Nap *nap_copy(const Look *look, int material, WeftImage **image) {
+/* The nearest texel, from 0 to 1, of a map that is repeated. */
+static float texel_of(const WeftImage *image, float u, float v, int channel) {
+    int x = (int)((u - floorf(u)) * (float)image->width), y = (int)((v - floorf(v)) * (float)image->height);
+    x = x < image->width ? x : image->width - 1;
+    y = y < image->height ? y : image->height - 1;
+    int c = channel < image->channels ? channel : 0;
+    size_t k = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels + (size_t)c;
+    return image->type == WEFT_PIXEL_U8    ? (float)((const unsigned char *)image->pixels)[k] / 255.0f
+           : image->type == WEFT_PIXEL_U16 ? (float)((const uint16_t *)image->pixels)[k] / 65535.0f
+                                           : ((const float *)image->pixels)[k];
+}
+
+/* The map of an input; without pixels where it has none that the brush can go over. */
+static WeftImage map_of(const WeftScene *scene, const WeftInput *input) {
+    return input->texture && input->texcoord == 0 ? weft_scene_texture(scene, input->texture)
+                                                  : (WeftImage){0};
+}
+
+static unsigned char coded(float x) { return (unsigned char)(fminf(fmaxf(x, 0.0f), 1.0f) * 255.0f + 0.5f); }
+
+bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out) {
+    const WeftInput *way = &material->inputs[input_number("nap_direction")],
+                    *lean = &material->inputs[input_number("nap")];
+    const WeftImage ways = map_of(scene, way), leans = map_of(scene, lean);
+    if (weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, out, NULL) != WEFT_OK) return false;
+    unsigned char *p = out->pixels;
+    float c = cosf(way->value[0]), s = sinf(way->value[0]);
+    for (int k = 0; k < NAP_SIDE * NAP_SIDE; k++, p += 3) {
+        int column = k % NAP_SIDE, row = k / NAP_SIDE;
+        float u = ((float)column + 0.5f) / NAP_SIDE, v = ((float)row + 0.5f) / NAP_SIDE;
+        const float *m = way->transform, *n = lean->transform;
+        float x = 1.0f, y = 0.0f, much = lean->value[0] > 0.0f ? 1.0f : 0.0f;
+        if (ways.pixels) {
+            float at = m[0] * u + m[1] * v + m[2], down = m[3] * u + m[4] * v + m[5];
+            x = 2.0f * texel_of(&ways, at, down, 0) - 1.0f;
+            y = 2.0f * texel_of(&ways, at, down, 1) - 1.0f;
+        }
+        if (leans.pixels)
+            much *= texel_of(&leans, n[0] * u + n[1] * v + n[2], n[3] * u + n[4] * v + n[5], lean->channel);
+        p[0] = coded(0.5f + 0.5f * (c * x - s * y));
+        p[1] = coded(0.5f + 0.5f * (s * x + c * y));
+        p[2] = coded(much);
+    }
+    return true;
+}
+
+Nap *nap_copy(const Look *look, int material, const WeftImage *own, WeftImage **image) {
     const Nap *old = find_nap(look, material);
-    Nap *nap = calloc(1, sizeof *nap);
+    const WeftImage *from = old ? &old->image : own;
+    Nap *nap = from ? calloc(1, sizeof *nap) : NULL;
     if (!nap || weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, &nap->image, NULL) != WEFT_OK) {
         free(nap);
         return NULL;
     }
     atomic_init(&nap->users, 1);
     nap->material = material;
-    unsigned char *p = nap->image.pixels;
-    bool leans = material < look->material_count &&
-                 look_material(look, material)->inputs[input_number("nap")].value[0] > 0.0f;
-    for (int k = 0; k < NAP_SIDE * NAP_SIDE && !old; k++, p += 3)
-        p[0] = 255, p[1] = 128, p[2] = leans ? 255 : 0; /* along +u */
-    if (old) memcpy(p, old->image.pixels, (size_t)3 * NAP_SIDE * NAP_SIDE);
+    memcpy(nap->image.pixels, from->pixels, (size_t)3 * NAP_SIDE * NAP_SIDE);
     *image = &nap->image;
     return nap;
 }
@@ -229,7 +301,11 @@ static WeftResult apply_materials(const Look *look, const Look *is, LookWorn *wo
         if (nap) {
             WeftInput *direction = &m.inputs[input_number("nap_direction")],
                       *angle = &m.inputs[input_number("nap")];
+            static const float plain[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
             direction->texture = angle->texture = texture_of(worn, k);
+            direction->texcoord = angle->texcoord = 0;
+            memcpy(direction->transform, plain, sizeof plain);
+            memcpy(angle->transform, plain, sizeof plain);
             direction->value[0] = 0.0f;
             angle->channel = 2;
         }
@@ -278,8 +354,16 @@ WeftResult around_apply(const Around *a, const Around *is, WeftScene *scene, uns
                              : result;
 }
 
+static WeftResult apply_variant(const Look *look, const Look *is, WeftScene *scene, unsigned *changed,
+                                WeftError *error) {
+    if (look->variant == is->variant) return WEFT_OK;
+    *changed |= ~0u;
+    return weft_scene_set_variant(scene, weft_scene_variant_name(scene, look->variant), error);
+}
+
 WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
                       WeftError *error) {
-    WeftResult result = apply_materials(look, is, worn, scene, changed, error);
+    WeftResult result = apply_variant(look, is, scene, changed, error);
+    if (result == WEFT_OK) result = apply_materials(look, is, worn, scene, changed, error);
     return result == WEFT_OK ? apply_lights(look, is, scene, changed, error) : result;
 }

@@ -11,7 +11,14 @@
 #include "weft/material.h"
 #include "weft/render.h"
 
-enum { LOOK_LIGHTS = 64, LOOK_PATH = 1024, LOOK_NAPS = 16, NAP_SIDE = 512 };
+enum { LOOK_LIGHTS = 64, LOOK_PATH = 1024, LOOK_NAPS = 16, LOOK_FOLDERS = 16, NAP_SIDE = 512 };
+
+/* Folders of maps that materials wear, the latest of each; of index -1 the cloth of the scene. */
+typedef struct Folders {
+    char paths[LOOK_FOLDERS][LOOK_PATH];
+    int materials[LOOK_FOLDERS];
+    int count;
+} Folders;
 
 /* The light from far away. */
 typedef enum AroundKind { AROUND_STUDIO = 0, AROUND_FILE, AROUND_COLOR } AroundKind;
@@ -35,9 +42,13 @@ typedef struct Look {
     int material_count;
     WeftLight lights[LOOK_LIGHTS];
     int light_count;
+    int variant; /* of the scene's; -1: none */
     Around around;
     Nap *naps[LOOK_NAPS]; /* NULL: none */
 } Look;
+
+/* Takes the place of the one that the material wore. */
+void folders_keep(Folders *folders, const char *path, int material);
 
 /* The built-in studio, as it is. */
 Around around_studio(void);
@@ -57,11 +68,21 @@ const WeftMaterial *look_material(const Look *look, int index);
 bool look_set_material(Look *look, int index, const WeftMaterial *material);
 bool look_same_material(const Look *a, const Look *b, int index);
 
+/* The preset that a material was dressed in last, counted from 1; 0: none. What else is done to it leaves
+ * that as it is, and a look that differs in it alone is the same. */
+int look_preset(const Look *look, int index);
+bool look_set_preset(Look *look, int index, int preset);
+/* Those of another look of the same scene. */
+bool look_take_presets(Look *look, const Look *from);
+
 /* The nap brushed onto a material; NULL: none. */
 const WeftImage *look_nap(const Look *look, int material);
-/* A copy of it, or a plain one that leans everywhere or, where the material's nap stands upright, nowhere: to
- * be changed and then taken over by look_set_nap. */
-Nap *nap_copy(const Look *look, int material, WeftImage **image);
+/* A copy of it, or of `own` where there is none yet: to be changed and then taken over by look_set_nap. NULL
+ * where there is neither, or memory is short. */
+Nap *nap_copy(const Look *look, int material, const WeftImage *own, WeftImage **image);
+/* The nap that a material has by its numbers and maps, before anything was brushed; maps of the second UV set
+ * are not in it. Release with weft_image_free; false where memory is short. */
+bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out);
 bool look_set_nap(Look *look, Nap *nap);
 /* Shares the naps of another look of the same scene. */
 void look_take_naps(Look *look, const Look *from);
@@ -73,8 +94,8 @@ typedef struct LookWorn {
     int count;
 } LookWorn;
 
-/* Brings materials and lights of a scene that is dressed as `is` to `look`; both of that scene. changed
- * receives, beside what it holds, what changed (WEFT_CHANGED_MATERIALS ...). On failure the scene is
+/* Brings materials, variant and lights of a scene that is dressed as `is` to `look`; both of that scene.
+ * changed receives, beside what it holds, what changed (WEFT_CHANGED_MATERIALS ...). On failure the scene is
  * somewhere between. */
 WeftResult look_apply(const Look *look, const Look *is, LookWorn *worn, WeftScene *scene, unsigned *changed,
                       WeftError *error);

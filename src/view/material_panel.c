@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/chart.h"
 #include "view/help.h"
 #include "view/inputs.h"
 #include "view/viewer.h"
@@ -54,7 +55,7 @@ static const char *choice_help(const void *user, int row) {
 /* Words of artists, with the term beside them where it is another one; all others are called as they are. */
 static const char *const words[][2] = {{"base_color", "colour"},
                                        {"metallic", "metalness"},
-                                       {"normal", "bumps, normal map"},
+                                       {"normal", "bumps, normal"},
                                        {"occlusion", "creases, occlusion"},
                                        {"ior", "refraction, ior"},
                                        {"extinction", "extinction k"},
@@ -123,28 +124,45 @@ static bool is_beyond(const WeftInputInfo *info, const WeftInput *input) {
     return false;
 }
 
-/* The map that multiplies a value: its name, and what to do with it. */
-static void draw_map(Viewer *v, WeftInput *input, int k) {
+/* Below the name of every input, at the end of its column. */
+static void draw_chooser(Viewer *v, int k, bool has_map) {
     char label[96];
-    const char *name = weft_material_input_name(k);
-    int texture = input->texture;
-    ui_indent();
-    snprintf(label, sizeof label, "...###%s choose", name);
+    snprintf(label, sizeof label, "...###%s choose", weft_material_input_name(k));
+    ui_beside();
     if (ui_small_button(label)) {
         v->dropped_input = k;
         viewer_dialog(v, "Choose a map");
     }
-    ui_tip(texture ? "Another picture in the place of this map." : "A picture that multiplies the value.");
-    if (texture) {
-        ui_same_line();
-        snprintf(label, sizeof label, "x###%s map", name);
-        if (ui_small_button(label)) input->texture = 0;
-        ui_tip("Takes the map away.");
-        ui_same_line();
-        snprintf(label, sizeof label, "times %.60s",
-                 texture <= v->facts.map_count ? v->facts.maps[texture - 1] : "a map");
-        ui_text(label);
-    }
+    ui_tip(has_map ? "Another picture in the place of this map." : "A picture that multiplies the value.");
+}
+
+static void draw_thumb(const Viewer *v, int texture, const char *name) {
+    int count = v->facts.thumbs.height / FACTS_THUMB;
+    char label[96];
+    UiBox box;
+    float side = ui_line_height() - 5.0f * ui_scale();
+    if (texture > count || !v->thumbs) return;
+    snprintf(label, sizeof label, "##%s thumb", name);
+    ui_canvas(label, side, side, &box);
+    ui_tip(v->facts.maps[texture - 1]);
+    ui_picture_part(v->thumbs, box, 0.0f, (float)(texture - 1) / (float)count, 1.0f,
+                    (float)texture / (float)count);
+    ui_same_line();
+}
+
+/* The map that multiplies a value: what it looks like and its name. */
+static void draw_map(const Viewer *v, WeftInput *input, const char *name) {
+    char label[96];
+    int texture = input->texture;
+    ui_indent();
+    draw_thumb(v, texture, name);
+    snprintf(label, sizeof label, "x###%s map", name);
+    if (ui_small_button(label)) input->texture = 0;
+    ui_tip("Takes the map away.");
+    ui_same_line();
+    snprintf(label, sizeof label, "times %.60s",
+             texture <= v->facts.map_count ? v->facts.maps[texture - 1] : "a map");
+    ui_text(label);
     ui_indent_end();
 }
 
@@ -167,7 +185,9 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
                       info.kind == WEFT_INPUT_COLOR ? info.hard_high : input->value[c]);
         input->given = 1;
     }
-    if (input->texture || info.kind == WEFT_INPUT_COLOR) draw_map(v, input, k);
+    draw_chooser(v, k, input->texture != 0);
+    if (input->texture) draw_map(v, input, info.name);
+    chart_swatches(m, info.name);
     if (is_beyond(&info, input)) {
         char text[96];
         snprintf(text, sizeof text, "beyond what is plausible: %g .. %g", (double)info.low,
@@ -200,7 +220,7 @@ static const char *material_help(const void *user, int k) {
     return text;
 }
 static const char *variant_name(const void *user, int k) {
-    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "choose ...";
+    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "none";
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
 static const char *preset_help(const void *user, int k) {
@@ -210,21 +230,17 @@ static const char *preset_help(const void *user, int k) {
 static void draw_which(Viewer *v) {
     const UiChoices materials = {v->look.material_count, material_name, material_help, v};
     const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
-    int count = 0, variant = v->variant + 1;
-    int none = 0, *preset = v->facts.presets ? &v->facts.presets[v->material] : &none;
+    int count = 0, variant = v->look.variant + 1, preset = look_preset(&v->look, v->material);
     while (weft_preset_name(count)) count++;
     const UiChoices presets = {count + 1, preset_name, preset_help, v};
     ui_choice("material", &materials, &v->material);
     if (v->facts.info.variant_count) {
-        if (ui_choice("variant", &variants, &variant) && variant > 0) {
-            v->variant = variant - 1;
-            viewer_task(v, TASK_VARIANT, NULL, v->variant, -1);
-        }
+        if (ui_choice("variant", &variants, &variant)) v->look.variant = variant - 1;
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
-    if (ui_choice("preset", &presets, preset) && *preset > 0) {
+    if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
-        snprintf(path, sizeof path, "preset:%s", weft_preset_name(*preset - 1));
+        snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
         viewer_task(v, TASK_DRESS, path, v->material, -1);
     }
 }
@@ -240,7 +256,7 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_same_line();
     if (ui_button("Reset") && v->material < v->first.material_count) {
         *m = *look_material(&v->first, v->material);
-        if (v->facts.presets) v->facts.presets[v->material] = 0;
+        look_set_preset(&v->look, v->material, 0);
     }
     ui_tip("Back to what the file says.");
     ui_same_line();

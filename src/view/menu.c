@@ -112,7 +112,7 @@ static void draw_modes(Viewer *v) {
     bool probe = v->tool == TOOL_PROBE, brush = v->tool == TOOL_BRUSH;
     if (ui_checkbox("Probe", &probe)) {
         v->tool = probe ? TOOL_PROBE : TOOL_ORBIT;
-        if (probe) v->panel = 3;
+        if (probe) v->panel = PANEL_INSPECT;
     }
     ui_tip("A click tells what a pixel is made of (P).");
     ui_same_line();
@@ -147,6 +147,16 @@ static int lines_of(const char *text) {
     return count;
 }
 
+/* A picture of before that is shown while shaders compile is named as such. */
+static const char *goes_on(const Viewer *v) {
+    bool instead = v->mode == MODE_LIVE && viewer_shows(v) == SHOWS_TRACED;
+    return v->has_pending    ? "preparing"
+           : instead         ? "compiling, path traced meanwhile"
+           : v->late         ? "compiling, picture of before"
+           : v->painted.busy ? "looking"
+                             : "ready";
+}
+
 void status_draw(Viewer *v) {
     int width, height;
     char text[200], right[200];
@@ -157,10 +167,7 @@ void status_draw(Viewer *v) {
     ui_fill(bar, 0xFF1C1B1Au);
     snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
              v->frame_seconds > 0.0 ? 1.0 / v->frame_seconds : 0.0, 1e3 * v->picture_seconds,
-             v->painted.width, v->painted.height,
-             v->late           ? "compiling"
-             : v->painted.busy ? "looking"
-                               : "ready");
+             v->painted.width, v->painted.height, goes_on(v));
     float room = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->warnings);
     text[0] = '\0';

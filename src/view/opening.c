@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "view/examine.h"
 #include "view/inputs.h"
 #include "view/paths.h"
 #include "view/survey.h"
@@ -23,7 +24,10 @@ void opening_start(Viewer *v, const char *path, bool again) {
     if (v->loader) let_go(v);
     bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
     if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
-    v->loader = loader_start(v->window, v->desc, path, again, dressed, viewer_aspect(v));
+    Folders folders = {0};
+    if (dressed && !v->has_scene && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
+    const Reading reading = {path, again, dressed, again ? &v->folders : &folders, viewer_aspect(v)};
+    v->loader = loader_start(v->window, v->desc, &reading);
     if (v->loader) return;
     v->opened = WEFT_RESOURCES;
     viewer_say(v, true, "%.300s: out of memory", path);
@@ -94,7 +98,9 @@ static void keep_edits(const Viewer *v, Look *look) {
         for (int i = 0; i < WEFT_INPUTS_MAX; i++)
             if (m.inputs[i].texture) m.inputs[i].texture = look_material(look, k)->inputs[i].texture;
         look_set_material(look, k, &m);
+        look_set_preset(look, k, look_preset(&v->look, k));
     }
+    look->variant = v->look.variant;
     look->light_count = v->look.light_count;
     memcpy(look->lights, v->look.lights, sizeof look->lights);
     look->around = v->look.around;
@@ -129,7 +135,6 @@ static int largest_seen(const Look *look, const float *shares) {
 static void choose_first(Viewer *v, const Look *look) {
     v->material = largest_seen(look, v->facts.shares);
     v->light = 0;
-    v->variant = -1;
     v->has_probe = v->has_copied = false;
     v->save_path[0] = v->shot_path[0] = '\0';
 }
@@ -172,7 +177,7 @@ bool opening_watch(Viewer *v, double seconds) {
 static void hand_over(Viewer *v, Loaded *loaded) {
     if (v->has_pending) loaded_free(&v->pending);
     if (!loaded->again || !v->has_scene) start_seeing(v, loaded);
-    painter_give(v->painter, loaded->scene, &loaded->look, ++v->scenes);
+    painter_give(v->painter, loaded->scene, &loaded->look, &loaded->folders, ++v->scenes);
     loaded->scene = NULL;
     v->pending = *loaded;
     v->has_pending = true;
@@ -190,10 +195,14 @@ static void show_scene(Viewer *v, Loaded *loaded) {
         return;
     }
     opening_forget(v);
+    examination_free(v->examination); /* of the file as it was */
+    v->examination = NULL;
     v->look = look;
     v->before = before;
     v->first = loaded->look;
     v->facts = loaded->facts;
+    v->folders = loaded->folders;
+    viewer_show_maps(v);
     loaded->look = (Look){0};
     loaded->facts = (Facts){0};
     v->split = SPLIT_NONE;
@@ -212,15 +221,14 @@ void opening_take(Viewer *v, const News *news) {
     Loaded loaded = v->pending;
     v->has_pending = false;
     if (!news->failed) {
-        bool first = !v->has_scene;
         char title[300];
         show_scene(v, &loaded);
         v->scene = news->scene;
-        viewer_say(v, false, "%.200s: %lld triangles, %d materials", v->facts.path,
-                   v->facts.info.triangle_count, v->facts.info.material_count);
+        viewer_say(v, false, "%.200s: %lld triangles, %d materials%s%.200s", v->facts.path,
+                   v->facts.info.triangle_count, v->facts.info.material_count,
+                   v->folders.count ? ", maps of " : "", v->folders.count ? v->folders.paths[0] : "");
         snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
         window_title(v->window, title);
-        if (first && v->desc->materials) viewer_task(v, TASK_WEAR, v->desc->materials, -1, -1);
     }
     v->opened = news->result;
     loaded_free(&loaded);

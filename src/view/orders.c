@@ -74,7 +74,8 @@ static void order_truth(Viewer *v, const Order *order) {
     t.samples = TRACE_SAMPLES;
     truth_order(v->truth, &t);
     bool moved = strcmp(v->order.camera, order->camera) != 0 || v->order.view.width != order->view.width ||
-                 v->order.view.height != order->view.height || !look_same(&v->look, &v->sent);
+                 v->order.view.height != order->view.height || v->order.truth != order->truth ||
+                 !look_same(&v->look, &v->sent);
     if (moved) v->traced.samples = 0.0; /* until there are some of this view */
 }
 
@@ -161,12 +162,18 @@ static void take_light(Viewer *v, const Around *around) {
     viewer_settle(v);
 }
 
+/* News keep what was there, to be released with them. */
+static void take_maps(Viewer *v, News *news) {
+    const Facts was = v->facts;
+    v->facts.maps = news->maps.maps, v->facts.map_count = news->maps.map_count;
+    v->facts.thumbs = news->maps.thumbs;
+    news->maps.maps = was.maps, news->maps.thumbs = was.thumbs;
+    viewer_show_maps(v);
+}
+
 static void take_dressed(Viewer *v, News *news) {
     Around around = v->look.around;
-    FactName *maps = v->facts.maps;
-    v->facts.maps = news->maps.maps, v->facts.map_count = news->maps.map_count;
-    news->maps.maps = maps;
-    if (!look_same(&v->look, &news->look)) keep_step(v); /* a variant changes who wears what, not the look */
+    if (!look_same(&v->look, &news->look)) keep_step(v);
     look_free(&v->look);
     v->look = news->look;
     v->look.around = around;
@@ -183,16 +190,18 @@ void orders_news(Viewer *v) {
             news_free(&news);
             continue;
         }
+        if (news.maps.maps) take_maps(v, &news);
         if (news.look_changed && news.kind == TASK_LIGHT)
             take_light(v, &news.look.around);
         else if (news.look_changed)
             take_dressed(v, &news);
+        if (news.kind == TASK_WEAR && !news.failed) folders_keep(&v->folders, news.path, -1);
         if (news.shares) opening_varied(v, &news.shares);
         if (news.kind == TASK_PROBE && !news.failed) {
             v->probe = news.probe;
             v->has_probe = news.probe.hit;
         }
-        if (news.kind == TASK_PICK && !news.failed && news.stamp) stage_picked(v, &news.probe, news.stamp);
+        if (news.kind == TASK_PICK && !news.failed && news.stamp) stage_picked(v, &news);
         if (news.kind == TASK_PROFILES && news.image.pixels) {
             viewer_upload(&v->profiles_texture, &news.image);
             v->profiles_width = news.image.width, v->profiles_height = news.image.height;

@@ -40,8 +40,8 @@ void painter_watch(Painter *self) {
         const char *path = weft_scene_texture_path(self->scene, k);
         if (path) watchman_watch(self->watchman, path, k);
     }
-    for (int k = 0; k < self->folder_count; k++)
-        watchman_watch(self->watchman, self->folders[k].path, FOLDERS + k);
+    for (int k = 0; k < self->folders.count; k++)
+        watchman_watch(self->watchman, self->folders.paths[k], FOLDERS + k);
 }
 
 static void drop_scene(Painter *self) {
@@ -55,7 +55,7 @@ static void drop_scene(Painter *self) {
 }
 
 /* The scene before stays where this one cannot be drawn. */
-static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned number) {
+static void take_scene(Painter *self, WeftScene *scene, Look *look, const Folders *folders, unsigned number) {
     const WeftRasterDesc desc = {.adopt = 1, .shader_dir = self->shader_dir, .occlusion = self->occlusion};
     const WeftLog log = painter_log(self);
     WeftError error = {0};
@@ -73,7 +73,8 @@ static void take_scene(Painter *self, WeftScene *scene, Look *look, unsigned num
         self->scene_number = number;
         pthread_mutex_unlock(&self->lock);
         self->is = *look;
-        self->folder_count = 0;
+        self->folders = *folders;
+        self->surveyed = look->variant;
         self->worn = (LookWorn){0};
         self->refusal[0] = '\0';
         self->started = false;
@@ -99,18 +100,21 @@ static bool reload_changed(Painter *self) {
     int texture = self->started ? watchman_look(self->watchman, now()) : -1;
     if (texture < 0) return false;
     if (texture >= FOLDERS) {
-        const Task wear = self->folders[texture - FOLDERS];
+        Task wear = {.kind = TASK_WEAR, .scene = self->scene_number};
+        wear.index = self->folders.materials[texture - FOLDERS];
+        snprintf(wear.path, sizeof wear.path, "%s", self->folders.paths[texture - FOLDERS]);
         tasks_do(self, &wear, &self->done);
         return true;
     }
     WeftError error = {0};
-    News news = {.kind = TASK_DRESS};
+    News news = {.kind = TASK_DRESS, .scene = self->scene_number};
     news.failed = tasks_reload(self, texture, &error) != WEFT_OK;
     if (news.failed)
         snprintf(news.text, sizeof news.text, "%s", error.text);
     else
         snprintf(news.text, sizeof news.text, "read again: %.400s",
                  weft_scene_texture_path(self->scene, texture));
+    if (!news.failed) facts_read_maps(&news.maps, self->scene);
     painter_tell(self, &news);
     return true;
 }
@@ -156,10 +160,11 @@ static bool step(Painter *self) {
     if (self->gift) {
         WeftScene *scene = self->gift;
         Look look = self->gift_look;
+        const Folders folders = self->gift_folders;
         unsigned number = self->gift_number;
         self->gift = NULL;
         pthread_mutex_unlock(&self->lock);
-        take_scene(self, scene, &look, number);
+        take_scene(self, scene, &look, &folders, number);
     } else if (ordered && (self->number != self->done_number || self->stale || !self->started)) {
         unsigned number = self->number;
         if (number != self->done_number) {
@@ -252,7 +257,8 @@ void painter_stop(Painter *self) {
     free(self);
 }
 
-void painter_give(Painter *self, WeftScene *scene, const Look *look, unsigned number) {
+void painter_give(Painter *self, WeftScene *scene, const Look *look, const Folders *folders,
+                  unsigned number) {
     pthread_mutex_lock(&self->lock);
     if (self->gift) {
         weft_scene_free(self->gift);
@@ -260,6 +266,7 @@ void painter_give(Painter *self, WeftScene *scene, const Look *look, unsigned nu
     }
     self->gift = scene;
     if (!look_copy(&self->gift_look, look)) self->gift_look = (Look){0};
+    self->gift_folders = *folders;
     self->gift_number = number;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);

@@ -55,7 +55,7 @@ typedef enum TaskKind {
     TASK_WEAR,     /* the maps of folder `path` on material `index`, -1: the cloth */
     TASK_LIGHT,    /* `path` is a picture, or the folder of a cubemap, that lights the scene from far away */
     TASK_SCENE,    /* news alone: another scene was taken, or could not be */
-    TASK_VARIANT   /* `index` of the scene's */
+    TASK_SURVEY    /* news alone: a variant has others wear the scene's materials */
 } TaskKind;
 
 typedef struct Task {
@@ -66,6 +66,7 @@ typedef struct Task {
     float x, y;
     int width, height;
     bool transparent, truth;
+    bool nap;       /* TASK_PICK: with the nap that the material has by itself */
     unsigned stamp; /* comes back with its news */
 } Task;
 
@@ -82,15 +83,16 @@ typedef struct News {
     TaskKind kind;
     unsigned scene; /* that it is of */
     bool failed;
-    WeftResult result; /* TASK_SCENE */
-    char text[512];    /* a line for people */
+    WeftResult result;    /* TASK_SCENE */
+    char text[512];       /* a line for people */
+    char path[LOOK_PATH]; /* TASK_WEAR: the folder */
     unsigned stamp;
     Probe probe;
-    WeftImage image;   /* TASK_PROFILES: U8 RGB, owned */
+    WeftImage image;   /* TASK_PROFILES: U8 RGB; TASK_PICK: a nap, where none was brushed; owned */
     bool look_changed; /* and `look` is what the scene is dressed as now; owned */
     Look look;
-    Facts maps;    /* with a look: the maps alone; owned */
-    float *shares; /* TASK_VARIANT: survey.h; owned, may be NULL */
+    Facts maps;    /* where they are others: the maps alone; owned */
+    float *shares; /* TASK_SURVEY: survey.h; owned, may be NULL */
     int index;
 } News;
 
@@ -98,6 +100,7 @@ typedef struct News {
 typedef struct Painted {
     unsigned texture; /* 0: nothing yet */
     int width, height;
+    unsigned scene;      /* that it shows */
     unsigned number;     /* of the order it shows */
     bool focused;        /* `target` is what is in the middle of the picture */
     Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
@@ -116,8 +119,10 @@ Painter *painter_start(Window *window, Truth *truth, const char *shader_dir, int
 void painter_stop(Painter *painter);
 
 /* Takes the scene over, with the look it has; the old one is released once the new one can be drawn, and news
- * of TASK_SCENE tell. number is the scene's own: orders and tasks of another one are dropped. */
-void painter_give(Painter *painter, WeftScene *scene, const Look *look, unsigned number);
+ * of TASK_SCENE tell. number is the scene's own: orders and tasks of another one are dropped. Folders that it
+ * wears are watched. */
+void painter_give(Painter *painter, WeftScene *scene, const Look *look, const Folders *folders,
+                  unsigned number);
 
 /* Copies the order; returns its number. */
 unsigned painter_order(Painter *painter, const Order *order);

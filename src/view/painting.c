@@ -236,6 +236,7 @@ static void publish(Painter *self, const Order *order, Effort effort, unsigned n
     Painted *p = &self->painted;
     if (target >= 0) {
         p->texture = self->textures[target];
+        p->scene = order->scene;
         p->width = order->view.width, p->height = order->view.height;
         p->seconds = (float)seconds;
         p->whole_seconds = (float)self->whole_seconds;
@@ -262,7 +263,27 @@ static void hand_linear(Painter *self) {
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK) truth_compare(self->truth, &linear);
 }
 
-void painting_draw(Painter *self, const Order *order, unsigned number) {
+/* Whether the path tracer is to show meanwhile what waits for a compiler. */
+static bool waits(Painter *self, const Order *order) {
+    WeftRasterView view = order->view;
+    view.camera = order->camera;
+    bool whole = order->split == SPLIT_NONE && view.part == WEFT_PART_ALL && !order->truth;
+    return whole && !weft_raster_ready(self->raster, &view);
+}
+
+const Look *painting_edited(const Order *order) {
+    return order->edited && order->split != SPLIT_NONE ? &order->other : &order->look;
+}
+
+/* Where the look that is edited is worn in another variant than before. */
+static void survey(Painter *self, const Order *order) {
+    int variant = self->is.variant;
+    if (self->surveyed == variant || painting_edited(order)->variant != variant) return;
+    self->surveyed = variant;
+    tasks_survey(self, order);
+}
+
+static void draw(Painter *self, const Order *order, unsigned number) {
     WeftError error = {0};
     int target = -1, compiled = weft_raster_info(self->raster).compiled;
     bool whole = true;
@@ -270,7 +291,12 @@ void painting_draw(Painter *self, const Order *order, unsigned number) {
     Order drawn = with_effort(self, order, effort);
     double expected = *seconds_of(self, effort);
     WeftResult result = painting_wear(self, &order->look, &error);
+    survey(self, order);
     double start = now();
+    if (waits(self, &drawn)) {
+        truth_stand_in(self->truth, number);
+        truth_await(self->truth, number, 1.0); /* a compiler leaves it little of the processors */
+    }
     if (!order->truth || order->compare) {
         target = take_target(self, drawn.view.width, drawn.view.height);
         WeftResult done =
@@ -288,4 +314,10 @@ void painting_draw(Painter *self, const Order *order, unsigned number) {
     publish(self, order, best || order->truth ? EFFORT_SMOOTH : effort, number, target, now() - start,
             &error);
     focus(self, order);
+}
+
+void painting_draw(Painter *self, const Order *order, unsigned number) {
+    draw(self, order, number);
+    truth_stand_in(self->truth, 0);
+    survey(self, order);
 }

@@ -9,7 +9,7 @@
 #include "view/watchman.h"
 #include "weft/pick.h"
 
-enum { RING = 3, TASKS = 32, WORN = 16, NEWS = 64, SAID = 4096 };
+enum { RING = 3, TASKS = 32, NEWS = 64, SAID = 4096 };
 
 struct Painter {
     Window *window;
@@ -26,6 +26,7 @@ struct Painter {
     WeftScene *gift;                    /* that is to be taken over */
     unsigned gift_number, scene_number; /* of it, and of the one at hand */
     Look gift_look;
+    Folders gift_folders;
     Task tasks[TASKS];
     int task_count;
     News news[NEWS];
@@ -47,8 +48,8 @@ struct Painter {
     unsigned done_number;
     bool stale; /* a picture of the same order would be another one */
     bool started;
-    Task folders[WORN]; /* of maps that were worn, the latest of each material */
-    int folder_count;
+    Folders folders;    /* that are worn, and watched */
+    int surveyed;       /* variant of which the window knows who wears what */
     Watchman *watchman; /* of the files of textures, and of those folders */
     int coarse;         /* pixels a side that become one while the hand moves */
     double coarse_seconds, whole_seconds, smooth_seconds; /* that pictures take */
@@ -68,9 +69,12 @@ void painter_watch(Painter *painter); /* the files of the scene's textures, the 
  * has changed. */
 WeftResult painting_wear(Painter *painter, const Look *look, WeftError *error);
 const char *painting_refuses(const Painter *painter, const Look *look); /* NULL: it does not */
+/* The look that the panels show. */
+const Look *painting_edited(const Order *order);
 void painting_draw(Painter *painter, const Order *order, unsigned number);
 
 /* tasks.c */
+void tasks_survey(Painter *painter, const Order *order); /* of who wears what, to the window */
 void tasks_do(Painter *painter, const Task *task, const Order *order);
 void tasks_study(Painter *painter); /* one more picture of the sheet that is under way */
 /* A file whose picture does not come whole leaves the one before, until it changes again. */

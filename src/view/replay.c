@@ -208,6 +208,7 @@ static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = now());
     bool done = is(what, "rest")                    ? viewer_at_rest(v) && v->has_scene && ++self->tries > 4
                 : strncmp(what, "samples ", 8) == 0 ? v->traced.samples >= atof(what + 8)
+                : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(viewer_shows(v)))
                 : strncmp(what, "message ", 8) == 0 ? strstr(v->message, what + 8) != NULL
                 : strncmp(what, "seconds ", 8) == 0 ? now() - start > atof(what + 8)
                                                     : ++self->tries > atoi(what);

@@ -21,7 +21,9 @@ static double resident(void) {
 static json_t *material_json(const Viewer *v, int index) {
     const WeftMaterial *m = look_material(&v->look, index);
     json_t *object = json_object();
+    int preset = look_preset(&v->look, index);
     json_object_set_new(object, "name", json_string(v->facts.materials[index]));
+    json_object_set_new(object, "preset", json_string(preset ? weft_preset_name(preset - 1) : ""));
     for (int k = 0; weft_material_choice_name(k); k++) {
         const char *id = m->choices[k] < 0 ? "auto" : weft_material_choice_value(k, m->choices[k]);
         json_object_set_new(object, weft_material_choice_name(k), json_string(id ? id : ""));
@@ -72,6 +74,7 @@ void report_state(Viewer *v, bool settled) {
         root, "eye",
         json_pack("[f,f,f]", (double)v->orbit.eye[0], (double)v->orbit.eye[1], (double)v->orbit.eye[2]));
     json_object_set_new(root, "mode", json_string(modes[v->mode]));
+    json_object_set_new(root, "shows", json_string(shows_name(viewer_shows(v))));
     json_object_set_new(root, "split", json_integer((int)v->split));
     json_object_set_new(root, "part", json_string(weft_part_name((int)v->part)));
     json_object_set_new(root, "material", json_integer(v->material));
@@ -82,6 +85,8 @@ void report_state(Viewer *v, bool settled) {
     json_object_set_new(root, "relmse", json_real(v->traced.compared ? v->traced.difference.relmse : -1.0));
     json_object_set_new(root, "message", json_string(v->message));
     json_object_set_new(root, "complaint", json_string(v->shader_complaint));
+    json_object_set_new(root, "variant", json_integer(v->has_scene ? v->look.variant : -1));
+    json_object_set_new(root, "lost", json_boolean(lost));
     json_object_set_new(root, "command", json_string(command ? command : ""));
     json_object_set_new(root, "driver", json_string(v->painted.driver));
     json_object_set_new(root, "picture", json_integer((json_int_t)v->painted.number));

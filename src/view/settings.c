@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/settings.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,8 @@
 #include <unistd.h>
 
 #include <jansson.h>
+
+enum { SIZE_MOST = 1 << 20 };
 
 Settings settings_default(void) {
     return (Settings){.width = 1280, .height = 720, .panel = 372.0f, .speed = 1.0f};
@@ -33,10 +36,28 @@ static void read_number(const json_t *root, const char *key, double low, double 
     if (json_is_number(v) && x >= low && x <= high) *value = (float)x;
 }
 
+/* A plain file of a sensible size, or nothing: a pipe would keep it waiting. */
+static json_t *read_plain(const char *path) {
+    struct stat s;
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    bool plain = file >= 0 && fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_size <= SIZE_MOST;
+    json_t *root = plain ? json_loadfd(file, 0, NULL) : NULL;
+    if (file >= 0) close(file);
+    return root;
+}
+
+/* A file of its own: what has that name is not opened. */
+static bool write_new(const char *path, const json_t *root) {
+    unlink(path);
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    bool good = file >= 0 && json_dumpfd(root, file, JSON_INDENT(2)) == 0;
+    return file >= 0 && close(file) == 0 && good;
+}
+
 void settings_read(Settings *self) {
     char path[RECENT_PATH];
     if (!place(path, false)) return;
-    json_t *root = json_load_file(path, 0, NULL);
+    json_t *root = read_plain(path);
     float width = (float)self->width, height = (float)self->height;
     read_number(root, "width", 320.0, 16384.0, &width);
     read_number(root, "height", 240.0, 16384.0, &height);
@@ -72,7 +93,7 @@ bool settings_write(const Settings *self) {
     if (!place(path, true)) return false;
     json_t *root = as_json(self);
     snprintf(part, sizeof part, "%s.part", path);
-    bool good = root && json_dump_file(root, part, JSON_INDENT(2)) == 0 && rename(part, path) == 0;
+    bool good = root && write_new(part, root) && rename(part, path) == 0;
     if (!good) unlink(part);
     json_decref(root);
     return good;

@@ -59,7 +59,7 @@ static bool handle_at(const Viewer *v, int light, float at[2]) {
     return true;
 }
 
-static bool handles_shown(const Viewer *v) { return v->panel == 1 && v->mode == MODE_LIVE; }
+static bool handles_shown(const Viewer *v) { return v->panel == PANEL_LIGHT && v->mode == MODE_LIVE; }
 
 static int handle_under(const Viewer *v) {
     float at[2], most = 12.0f * ui_scale();
@@ -101,6 +101,7 @@ enum { ASK_SELECT = 1, ASK_BRUSH = 2, ASK_KINDS = 4 };
 
 static void ask(Viewer *v, TaskKind kind, unsigned why) {
     Task task = {.kind = kind, .scene = v->scene, .x = v->input.x - v->stage.x, .y = v->input.y - v->stage.y};
+    task.nap = why == ASK_BRUSH;
     task.stamp = ++v->stamps * ASK_KINDS + why;
     painter_task(v->painter, &task);
 }
@@ -137,7 +138,7 @@ static void lay_along(const Brush *brush, WeftImage *image, const Probe *at, con
     }
 }
 
-static void brush_at(Viewer *v, const Probe *at) {
+static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     float d[2] = {0.0f, 0.0f};
     Brush *brush = &v->brush;
     bool goes_on = brush->known && brush->material == at->material;
@@ -150,7 +151,7 @@ static void brush_at(Viewer *v, const Probe *at) {
     }
     bool moved = goes_on && hypotf(d[0], d[1]) > 0.05f * brush->radius;
     WeftImage *image;
-    Nap *nap = moved ? nap_copy(&v->look, at->material, &image) : NULL;
+    Nap *nap = moved ? nap_copy(&v->look, at->material, own->pixels ? own : NULL, &image) : NULL;
     if (nap) {
         lay_along(brush, image, at, d);
         begin_nap(v, at->material);
@@ -164,8 +165,9 @@ static void brush_at(Viewer *v, const Probe *at) {
     brush->material = at->material;
 }
 
-void stage_picked(Viewer *v, const Probe *at, unsigned stamp) {
-    unsigned why = stamp % ASK_KINDS;
+void stage_picked(Viewer *v, const News *news) {
+    const Probe *at = &news->probe;
+    unsigned why = news->stamp % ASK_KINDS;
     if (!at->hit || at->material < 0 || at->material >= v->look.material_count) {
         v->brush.known = false;
         return;
@@ -174,7 +176,7 @@ void stage_picked(Viewer *v, const Probe *at, unsigned stamp) {
         v->material = at->material;
         viewer_say(v, false, "%s", v->facts.materials[at->material]);
     }
-    if (why == ASK_BRUSH) brush_at(v, at);
+    if (why == ASK_BRUSH) brush_at(v, at, &news->image);
 }
 
 /* ---- what the mouse does ---- */
@@ -325,6 +327,10 @@ static void draw_tags(const Viewer *v) {
         snprintf(text, sizeof text, "path traced   %.0f of %d spp", v->traced.samples, TRACE_SAMPLES);
     else if (v->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "OpenGL less path traced");
+    else if (viewer_shows(v) == SHOWS_TRACED)
+        snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp", v->traced.samples);
+    else if (viewer_shows(v) == SHOWS_NOTHING && v->has_scene)
+        snprintf(text, sizeof text, "shaders compile");
     else if (v->part != WEFT_PART_ALL)
         snprintf(text, sizeof text, "%s alone", weft_part_name((int)v->part));
     if (text[0]) tag(s->x + 8.0f * ui_scale(), s->y + 8.0f * ui_scale(), text);
@@ -360,12 +366,11 @@ static void draw_brush(const Viewer *v) {
 
 void stage_draw(Viewer *v) {
     static const char welcome[] = "Drop a .glb or .gltf here, or File > Open ...";
-    unsigned live = v->painted.texture;
     ui_behind(true);
-    if (v->mode != MODE_LIVE && v->truth_texture)
+    if (viewer_shows(v) == SHOWS_TRACED)
         ui_picture(v->truth_texture, v->stage, false);
-    else if (live)
-        ui_picture(live, v->stage, true);
+    else if (viewer_shows(v) == SHOWS_DRAWN)
+        ui_picture(v->painted.texture, v->stage, true);
     ui_clip(&v->stage);
     draw_split(v);
     draw_handles(v);

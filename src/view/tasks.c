@@ -6,11 +6,6 @@
 #include "view/survey.h"
 #include "weft/save.h"
 
-/* The look that the panels show. */
-static const Look *edited(const Order *order) {
-    return order->edited && order->split != SPLIT_NONE ? &order->other : &order->look;
-}
-
 static WeftResult shot(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
     WeftImage linear = {0}, display = {0};
     WeftRasterView view = order->view;
@@ -24,7 +19,7 @@ static WeftResult shot(Painter *self, const Task *task, const Order *order, News
             return WEFT_INPUT;
         }
     } else {
-        result = painting_wear(self, edited(order), error);
+        result = painting_wear(self, painting_edited(order), error);
         if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
         if (result == WEFT_OK) result = weft_raster_image(self->raster, &linear, error);
     }
@@ -51,7 +46,7 @@ static bool ends_with(const char *text, const char *end) {
 }
 
 static WeftResult save(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
-    WeftResult result = painting_wear(self, edited(order), error);
+    WeftResult result = painting_wear(self, painting_edited(order), error);
     if (result != WEFT_OK) return result;
     snprintf(news->text, sizeof news->text, "wrote %.450s", task->path);
     if (ends_with(task->path, ".json"))
@@ -68,6 +63,7 @@ static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftErro
         if (!look_read(&look, self->scene)) return WEFT_RESOURCES;
         look.around = around;
         look_take_naps(&look, &self->is);
+        look_take_presets(&look, &self->is);
         look_free(&self->is);
         self->is = look;
         news->look_changed = look_copy(&news->look, &self->is);
@@ -87,32 +83,33 @@ static float *survey(Painter *self, const Order *order) {
                        (float)order->view.width / (float)order->view.height);
 }
 
-/* Its maps that are added later are put on too. */
-static void keep_folder(Painter *self, const Task *task) {
+void tasks_survey(Painter *self, const Order *order) {
+    News news = {.kind = TASK_SURVEY, .scene = self->scene_number, .shares = survey(self, order)};
+    painter_tell(self, &news);
+}
+
+/* The number of a preset of that name, counted from 1; 0: it is a file's. */
+static int preset_of(const char *path) {
     int k = 0;
-    while (k < self->folder_count && self->folders[k].index != task->index) k++;
-    if (k == WORN) return;
-    self->folders[k] = *task;
-    if (k == self->folder_count) self->folder_count++;
+    if (strncmp(path, "preset:", 7) != 0) return 0;
+    while (weft_preset_name(k) && strcmp(weft_preset_name(k), path + 7) != 0) k++;
+    return weft_preset_name(k) ? k + 1 : 0;
 }
 
 static WeftResult dress(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
     const WeftLog log = painter_log(self);
     char target[64];
     snprintf(target, sizeof target, "%d", task->index);
-    WeftResult result = painting_wear(self, edited(order), error);
+    WeftResult result = painting_wear(self, painting_edited(order), error);
     if (result != WEFT_OK) return result;
     truth_hold(self->truth);
     switch (task->kind) {
-    case TASK_VARIANT:
-        result =
-            weft_scene_set_variant(self->scene, weft_scene_variant_name(self->scene, task->index), error);
-        break;
     case TASK_WEAR:
         result = weft_scene_wear_folder(self->scene, task->index < 0 ? NULL : target, task->path,
                                         &news->index, &log, error);
         snprintf(news->text, sizeof news->text, "%d maps of %.400s", news->index, task->path);
-        if (result == WEFT_OK) keep_folder(self, task);
+        snprintf(news->path, sizeof news->path, "%s", task->path);
+        if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
         break;
     default:
         if (task->input >= 0) {
@@ -121,18 +118,18 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
             result = weft_scene_set_texture(self->scene, target, task->path, &log, error);
         } else {
             result = weft_scene_dress(self->scene, task->index < 0 ? NULL : target, task->path, &log, error);
+            if (result == WEFT_OK && task->index >= 0)
+                look_set_preset(&self->is, task->index, preset_of(task->path));
         }
         break;
     }
-    result = dressed(self, result, news, error);
-    if (task->kind == TASK_VARIANT && result == WEFT_OK) news->shares = survey(self, order);
-    return result;
+    return dressed(self, result, news, error);
 }
 
 /* A look names the file of a light once it has been read, not before. */
 static WeftResult light(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
     Look look;
-    if (!look_copy(&look, edited(order))) return WEFT_RESOURCES;
+    if (!look_copy(&look, painting_edited(order))) return WEFT_RESOURCES;
     look.around.kind = AROUND_FILE;
     snprintf(look.around.path, sizeof look.around.path, "%s", task->path);
     look.around.again = ++self->readings;
@@ -177,6 +174,9 @@ static WeftResult pick(Painter *self, const Task *task, const Order *order, News
     memcpy(probe->tangent, at.tangent, sizeof probe->tangent);
     memcpy(probe->bitangent, at.bitangent, sizeof probe->bitangent);
     memcpy(probe->texcoord, at.texcoord[0], sizeof probe->texcoord);
+    const Look *look = painting_edited(order);
+    if (task->nap && at.material < look->material_count && !look_nap(look, at.material))
+        nap_own(self->scene, look_material(look, at.material), &news->image);
     return WEFT_OK;
 }
 
@@ -186,7 +186,7 @@ static WeftResult probe(Painter *self, const Task *task, const Order *order, New
                                      WEFT_PART_SHEEN,    WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,
                                      WEFT_PART_ROUGHNESS};
     WeftResult result = pick(self, task, order, news, error);
-    if (result == WEFT_OK) result = painting_wear(self, edited(order), error);
+    if (result == WEFT_OK) result = painting_wear(self, painting_edited(order), error);
     int x = (int)task->x, y = (int)task->y;
     if (x < 0 || y < 0 || x >= order->view.width || y >= order->view.height) return result;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && result == WEFT_OK; k++) {
@@ -215,14 +215,14 @@ void tasks_do(Painter *self, const Task *task, const Order *order) {
     case TASK_PICK: result = pick(self, task, order, &news, &error); break;
     case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
     case TASK_LIGHT: result = light(self, task, order, &news, &error); break;
-    case TASK_SCENE: return;
+    case TASK_SCENE:
+    case TASK_SURVEY: return;
     case TASK_PROFILES:
-        study_start(&self->study, edited(order), task->index, &order->view, order->camera, order->tonemap,
-                    order->exposure, task->stamp);
+        study_start(&self->study, painting_edited(order), task->index, &order->view, order->camera,
+                    order->tonemap, order->exposure, task->stamp);
         return;
     case TASK_DRESS:
-    case TASK_WEAR:
-    case TASK_VARIANT: result = dress(self, task, order, &news, &error); break;
+    case TASK_WEAR: result = dress(self, task, order, &news, &error); break;
     }
     news.failed = result != WEFT_OK;
     if (news.failed)

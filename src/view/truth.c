@@ -23,6 +23,7 @@ struct Truth {
     unsigned changed;
     bool other; /* the scene is another one */
     bool held, running, quit, waiting;
+    unsigned number_for; /* the painter's order in whose place pictures are made; 0: none */
     WeftImage reference; /* to compare with, newest; taken by the thread */
     bool fresh;          /* `picture` was not taken yet */
     TruthPicture picture;
@@ -32,14 +33,17 @@ struct Truth {
     TruthOrder done;
     unsigned done_number;
     bool current; /* `render` is of the scene and of `done` */
+    bool finer;   /* what stands in has all its pixels */
     double samples;
     WeftImage compared;
 };
 
+static bool is_wanted(const Truth *self) { return self->order.wanted || self->number_for; }
+
 static int should_stop(void *user, double fraction) {
     Truth *self = user;
     pthread_mutex_lock(&self->lock);
-    bool stop = self->waiting || self->quit || self->number != self->done_number;
+    bool stop = self->waiting || self->quit || self->number != self->done_number || !is_wanted(self);
     pthread_mutex_unlock(&self->lock);
     return stop;
 }
@@ -96,8 +100,8 @@ static WeftResult compare(Truth *self, const TruthOrder *order, const WeftImage 
 }
 
 /* Shows what there is. */
-static void publish(Truth *self, const TruthOrder *order) {
-    TruthPicture picture = {.wanted_samples = order->samples};
+static void publish(Truth *self, const TruthOrder *order, unsigned number_for) {
+    TruthPicture picture = {.wanted_samples = order->samples, .number = number_for};
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
     WeftRenderInfo info = weft_render_info(self->render);
@@ -109,11 +113,15 @@ static void publish(Truth *self, const TruthOrder *order) {
                                        &picture.image, NULL) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear);
-    self->linear = linear;
+    if (number_for)
+        weft_image_free(&linear); /* what stands in is none to be kept */
+    else
+        self->linear = linear;
     if (made) {
         weft_image_free(&self->picture.image);
         self->picture = picture;
         self->fresh = true;
+        pthread_cond_broadcast(&self->change);
     }
     pthread_mutex_unlock(&self->lock);
     window_wake(self->window);
@@ -135,15 +143,27 @@ static void refine(Truth *self, const TruthOrder *order) {
 }
 
 static bool has_work(const Truth *self) {
-    if (!self->order.wanted || !self->scene || self->held || self->waiting) return false;
+    if (!is_wanted(self) || !self->scene || self->held || self->waiting) return false;
     if (self->picture.failure[0] && self->number == self->done_number && !self->changed) return false;
     return self->other || self->changed || self->number != self->done_number || self->reference.pixels ||
            (self->current && self->samples < (double)self->order.samples);
 }
 
+/* While programs compile it has little of the processors: fewer pixels, until there are as many samples as
+ * those stand for. */
+static void stand_in(Truth *self, TruthOrder *order, bool anew) {
+    enum { COARSE = 3 };
+    self->finer = !anew && (self->finer || self->samples >= COARSE * COARSE);
+    order->difference = false;
+    if (self->finer) return;
+    order->desc.width = order->desc.width > COARSE ? order->desc.width / COARSE : 1;
+    order->desc.height = order->desc.height > COARSE ? order->desc.height / COARSE : 1;
+}
+
 /* One round; the lock is held before and after, not during. */
 static void round_of_work(Truth *self) {
     TruthOrder order = self->order;
+    unsigned number_for = order.wanted ? 0 : self->number_for;
     const WeftScene *scene = self->scene;
     unsigned changed = self->changed;
     bool other = self->other, redraw = self->number != self->done_number;
@@ -158,6 +178,7 @@ static void round_of_work(Truth *self) {
         redraw = true;
     }
     pthread_mutex_unlock(&self->lock);
+    if (number_for) stand_in(self, &order, other || changed || redraw);
     bool begun = self->current || other || changed || !same_view(&order, &self->done) || !self->render;
     bool anew = other || changed || !self->current || !same_view(&order, &self->done);
     if (anew) begun = begin(self, &order, scene, changed, other);
@@ -165,9 +186,9 @@ static void round_of_work(Truth *self) {
     if (begun) {
         bool more = self->samples < (double)order.samples;
         if (redraw && !anew && self->samples >= 1.0)
-            publish(self, &order); /* the same samples, shown otherwise */
+            publish(self, &order, number_for); /* the same samples, shown otherwise */
         if (more) refine(self, &order);
-        if (more && self->samples >= 1.0) publish(self, &order);
+        if (more && self->samples >= 1.0) publish(self, &order, number_for);
     }
     pthread_mutex_lock(&self->lock);
     self->running = false;
@@ -192,7 +213,7 @@ Truth *truth_start(Window *window) {
     if (!self) return NULL;
     self->window = window;
     pthread_mutex_init(&self->lock, NULL);
-    pthread_cond_init(&self->change, NULL);
+    clock_condition(&self->change);
     if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
     free(self);
     return NULL;
@@ -242,6 +263,22 @@ void truth_order(Truth *self, const TruthOrder *order) {
         self->picture.failure[0] = '\0';
         pthread_cond_broadcast(&self->change);
     }
+    pthread_mutex_unlock(&self->lock);
+}
+
+void truth_stand_in(Truth *self, unsigned number) {
+    pthread_mutex_lock(&self->lock);
+    self->number_for = number;
+    pthread_cond_broadcast(&self->change);
+    pthread_mutex_unlock(&self->lock);
+}
+
+void truth_await(Truth *self, unsigned number, double seconds) {
+    struct timespec until = clock_after(seconds);
+    int late = 0;
+    pthread_mutex_lock(&self->lock);
+    while (self->number_for == number && self->picture.number != number && !self->picture.failure[0] && !late)
+        late = pthread_cond_timedwait(&self->change, &self->lock, &until);
     pthread_mutex_unlock(&self->lock);
 }
 

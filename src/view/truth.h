@@ -26,6 +26,7 @@ typedef struct TruthOrder {
 /* What there is to show: U8 RGBA. */
 typedef struct TruthPicture {
     WeftImage image;
+    unsigned number; /* of the painter's order in whose place it is; 0: it is wanted for itself */
     double samples, seconds;
     int wanted_samples;
     WeftDifference difference; /* where one was asked for and `compared` */
@@ -45,6 +46,12 @@ void truth_hold(Truth *truth);
 void truth_release(Truth *truth, const WeftScene *scene, unsigned changed);
 
 void truth_order(Truth *truth, const TruthOrder *order);
+
+/* From now on pictures are made though none is wanted, in the place of the one that the painter cannot draw
+ * yet, whose number they bear; coarse ones at first. 0: no more. */
+void truth_stand_in(Truth *truth, unsigned number);
+/* Waits for the first picture that bears the number, so long at most. */
+void truth_await(Truth *truth, unsigned number, double seconds);
 
 /* The picture to compare with: taken over and zeroed. */
 void truth_compare(Truth *truth, WeftImage *linear);

@@ -384,6 +384,11 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void) { ImGui::SameLine(); }
 void ui_column(float share) { ImGui::SameLine(share * ImGui::GetWindowContentRegionMax().x); }
+void ui_beside(void) {
+    float width = ImGui::CalcTextSize("...").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(0.40f * ImGui::GetWindowContentRegionMax().x - width -
+                    0.5f * ImGui::GetStyle().ItemSpacing.x);
+}
 void ui_rule(void) { ImGui::Separator(); }
 void ui_disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
 void ui_disabled_end(void) { ImGui::EndDisabled(); }
@@ -584,6 +589,15 @@ bool ui_color(const char *label, const float initial[3], float color[3]) {
         return true;
     }
     return swatch || typed;
+}
+
+bool ui_swatch(const char *label, const float color[3]) {
+    float side = 1.1f * ImGui::GetFontSize();
+    ImVec4 shown(encoded(color[0]), encoded(color[1]), encoded(color[2]), 1.0f);
+    bool pressed = ImGui::ColorButton(
+        label, shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, at(side, side));
+    note(label);
+    return pressed;
 }
 
 bool ui_input(const char *label, char *text, int size) {

@@ -112,6 +112,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void);
 void ui_column(float share); /* goes on in this row, from that share of the width on */
+void ui_beside(void);        /* the next, a small button, goes to the end of this row's column of names */
 void ui_rule(void);
 void ui_disabled(bool disabled);
 void ui_disabled_end(void);
@@ -157,6 +158,8 @@ bool ui_slider_int(const char *label, int low, int high, int *value);
 bool ui_numbers(const char *label, float step, float *values, int count);
 /* Linear Rec. 709, shown as sRGB; values beyond 1 stay. */
 bool ui_color(const char *label, const float initial[3], float color[3]);
+/* A small square of that colour, linear; true where it was clicked. */
+bool ui_swatch(const char *label, const float color[3]);
 bool ui_input(const char *label, char *text, int size);
 void ui_progress(float share, const char *text); /* share below 0: under way */
 

@@ -12,6 +12,7 @@
 
 #include "view/browser.h"
 #include "view/clock.h"
+#include "view/examine.h"
 #include "view/opening.h"
 #include "view/orders.h"
 #include "view/replay.h"
@@ -44,6 +45,21 @@ void viewer_upload(unsigned *texture, const WeftImage *image) {
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+Shows viewer_shows(const Viewer *v) {
+    bool asked = v->mode != MODE_LIVE, instead = v->traced.number > v->painted.number;
+    if (v->truth_texture && (asked || instead)) return SHOWS_TRACED;
+    return v->painted.texture && v->painted.scene == v->scene ? SHOWS_DRAWN : SHOWS_NOTHING;
+}
+
+const char *shows_name(Shows shows) {
+    static const char *const names[] = {"nothing", "drawn", "traced"};
+    return names[shows];
+}
+
+void viewer_show_maps(Viewer *v) {
+    if (v->facts.thumbs.pixels) viewer_upload(&v->thumbs, &v->facts.thumbs);
+}
+
 float viewer_aspect(const Viewer *v) {
     return v->stage.height >= 1.0f ? fmaxf(v->stage.width, 1.0f) / v->stage.height : 1.0f;
 }
@@ -72,11 +88,14 @@ static void lay_out(Viewer *v) {
 }
 
 static void draw_side(Viewer *v) {
-    static const char *const names[] = {"Material", "Light", "View", "Inspect", NULL};
+    static const char *const names[] = {"Material", "Light", "View", "Inspect", "Doctor", NULL};
     static const char *const tips[] = {"What surfaces are made of: models and numbers.",
                                        "Lights, and what shines from far away.",
                                        "Camera, exposure, comparison, tools.",
-                                       "What a material does with light, and what a pixel is made of."};
+                                       "What a material does with light, and what a pixel is made of.",
+                                       "What will go wrong with the file that is open, and in which engine."};
+    static void (*const panels[])(Viewer * v) = {material_panel, light_panel, view_panel, inspect_panel,
+                                                 doctor_panel};
     int width, height;
     window_size(v->window, &width, &height);
     float x = v->stage.width + 1.0f, y = v->stage.y, row = ui_line_height();
@@ -85,12 +104,7 @@ static void draw_side(Viewer *v) {
     if (ui_panel("Side", head, false)) ui_tabs("Panel", names, tips, &v->panel);
     ui_panel_end();
     ui_scope(names[v->panel]);
-    if (ui_panel(names[v->panel], body, true) && v->has_scene) {
-        if (v->panel == 0) material_panel(v);
-        if (v->panel == 1) light_panel(v);
-        if (v->panel == 2) view_panel(v);
-        if (v->panel == 3) inspect_panel(v);
-    }
+    if (ui_panel(names[v->panel], body, true) && v->has_scene) panels[v->panel](v);
     ui_panel_end();
     ui_scope_end();
 }
@@ -147,6 +161,7 @@ static bool start(Viewer *v, char why[512]) {
 }
 
 static void stop(Viewer *v) {
+    examination_free(v->examination);
     if (v->loader) loader_finish(v->loader, NULL);
     if (v->leaving) loader_finish(v->leaving, NULL);
     painter_stop(v->painter);
@@ -160,6 +175,7 @@ static void stop(Viewer *v) {
         if (v->has_scene && !v->desc->forget) settings_write(&v->settings);
         glDeleteTextures(1, &v->truth_texture);
         glDeleteTextures(1, &v->profiles_texture);
+        glDeleteTextures(1, &v->thumbs);
         ui_destroy();
     }
     window_close(v->window);
@@ -199,7 +215,8 @@ static int run(Viewer *v, char why[512]) {
             return (int)v->opened;
         }
         if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
-        if (any || inspection_busy(v->panel == 3 ? v->inspection : NULL)) due = 3;
+        if (any || doctor_busy(v) || inspection_busy(v->panel == PANEL_INSPECT ? v->inspection : NULL))
+            due = 3;
         bool settled = due <= 0;
         if (window_hidden(v->window) || (settled && !v->desc->frames)) { /* frames that are counted go on */
             v->clock = started;

@@ -16,6 +16,9 @@
 typedef enum Mode { MODE_LIVE, MODE_TRUTH, MODE_DIFFERENCE } Mode;
 typedef enum Tool { TOOL_ORBIT, TOOL_PROBE, TOOL_BRUSH } Tool;
 
+/* What of it is there to be seen. */
+typedef enum Shows { SHOWS_NOTHING, SHOWS_DRAWN, SHOWS_TRACED } Shows;
+
 enum { TRACE_SAMPLES = 1024, MESSAGE_SIZE = 512 };
 
 /* The brush that lays the nap. */
@@ -29,6 +32,10 @@ typedef struct Brush {
 } Brush;
 
 typedef struct Inspection Inspection;
+struct Examination;
+
+/* The panels at the side, in the order of their tabs. */
+enum { PANEL_MATERIAL, PANEL_LIGHT, PANEL_VIEW, PANEL_INSPECT, PANEL_DOCTOR };
 
 typedef struct Viewer {
     const ViewDesc *desc;
@@ -59,7 +66,8 @@ typedef struct Viewer {
     int side;                       /* which of them `look` is: 0 is A */
     History history, other_history;
     int material, light; /* that the panels show */
-    int variant;         /* -1: none was chosen */
+    Folders folders;     /* of maps that the scene wears */
+    unsigned thumbs;     /* texture: the pictures of its maps */
     WeftMaterial copied;
     bool has_copied;
 
@@ -82,7 +90,7 @@ typedef struct Viewer {
     Tool tool;
     Brush brush;
     UiBox stage; /* pixels of the window */
-    int panel;   /* that is open at the side */
+    int panel;   /* that is open at the side: PANEL_MATERIAL ... */
 
     /* what came back */
     Painted painted;
@@ -101,6 +109,7 @@ typedef struct Viewer {
     bool profiles_open, profiles_made;
     WeftImage profiles;
     Inspection *inspection;
+    struct Examination *examination; /* of the file that is open; NULL: it was not asked for */
 
     /* words */
     char message[MESSAGE_SIZE];
@@ -162,11 +171,19 @@ void viewer_dialog(Viewer *v, const char *name);
 /* Changes a material of the look. */
 void viewer_set_material(Viewer *v, int index, const WeftMaterial *material);
 
+/* The newest picture of the scene: the path traced one where it is asked for, or where OpenGL has none of
+ * that order yet. */
+Shows viewer_shows(const Viewer *v);
+const char *shows_name(Shows shows); /* "nothing", "drawn", "traced" */
+
 /* Whether all that was asked for is shown: nothing is being read, drawn or compiled. */
 bool viewer_at_rest(Viewer *v);
 
 /* "WxH" pixels of the stage. */
 float viewer_aspect(const Viewer *v);
+
+/* Shows the maps that the facts tell of. */
+void viewer_show_maps(Viewer *v);
 
 /* A texture from U8 RGB or RGBA. */
 void viewer_upload(unsigned *texture, const WeftImage *image);
@@ -174,8 +191,8 @@ void viewer_upload(unsigned *texture, const WeftImage *image);
 /* stage.c: the picture, and what the mouse does on it */
 void stage_input(Viewer *v);
 void stage_draw(Viewer *v);
-/* What lies where the mouse was: the answer to the question of that stamp. */
-void stage_picked(Viewer *v, const Probe *at, unsigned stamp);
+/* What lies where the mouse was: the answer to a question of the stage. */
+void stage_picked(Viewer *v, const News *news);
 
 /* panels, one file each */
 void menu_draw(Viewer *v);
@@ -184,6 +201,8 @@ void material_panel(Viewer *v);
 void light_panel(Viewer *v);
 void view_panel(Viewer *v);
 void inspect_panel(Viewer *v);
+void doctor_panel(Viewer *v);
+bool doctor_busy(const Viewer *v); /* it has more to show in a later frame */
 void dialogs_draw(Viewer *v);
 void keys_input(Viewer *v);
 void inspection_free(Inspection *inspection);

@@ -168,7 +168,7 @@ void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
 
 bool viewer_at_rest(Viewer *v) {
     return !v->loader && !v->has_pending && painter_idle(v->painter) &&
-           (!v->has_scene || v->painted.number == v->ordered) && !v->painted.busy &&
+           (!v->has_scene || v->painted.number == v->ordered) && !v->painted.busy && !doctor_busy(v) &&
            (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
            (v->mode == MODE_LIVE || truth_resting(v->truth));
 }

@@ -32,6 +32,47 @@ static void it_ends_after_its_frames_though_nothing_changes(void **state) {
     drive_finish_within(&drive, 60.0);
 }
 
+/* ---- while shaders compile ---- */
+
+/* Mean difference of two pictures of the window where both show the scene, of 1. */
+static double stages_differ(const char *a, const char *b) {
+    WeftImage x = picture_read(a), y = picture_read(b);
+    double sum = 0.0;
+    int count = 0;
+    assert_true(x.width == y.width && x.height == y.height && x.channels == y.channels);
+    for (int row = x.height / 4; row < x.height * 3 / 4; row++)
+        for (int k = 0; k < x.width / 4 * x.channels; k++, count++) {
+            size_t at = (size_t)(row * x.width * x.channels + k);
+            sum +=
+                fabs(((const unsigned char *)x.pixels)[at] - (double)((const unsigned char *)y.pixels)[at]);
+        }
+    weft_image_free(&x);
+    weft_image_free(&y);
+    return sum / (255.0 * count);
+}
+
+/* A driver that keeps what it compiles has nothing to wait for. */
+static void the_path_tracer_stands_in_while_shaders_compile(void **state) {
+    (void)state;
+    need_gl();
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    script_begin();
+    say("wait shows traced\nwindow traced.png\nwait shows drawn\nwait rest\nwindow drawn.png\n");
+    say("choose \"Material/sheen lobe\" ashikhmin-neubelt\nwait shows traced\nwait shows drawn\nwait rest\n");
+    say("key tab\nwait samples 1\npicture asked.png\nwait message wrote asked.png\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = drive_until(&drive, "shows", "drawn"); /* nothing that is asked for was traced */
+    assert_string_equal(word_of(now, "mode"), "live");
+    json_decref(now);
+    drive_finish(&drive);
+    unsetenv("MESA_SHADER_CACHE_DISABLE");
+    WeftImage asked = picture_read("asked.png"); /* what stood in has fewer pixels */
+    assert_int_equal(asked.width, 268);
+    weft_image_free(&asked);
+    double off = stages_differ("traced.png", "drawn.png");
+    if (!(off > 0.0 && off < 0.06)) fail_msg("%g off", off);
+}
+
 /* ---- light ---- */
 
 /* A picture of one colour, and the half of its file. */
@@ -207,6 +248,7 @@ int main(void) {
         cmocka_unit_test(a_first_scene_that_cannot_be_had_ends_it),
         cmocka_unit_test(it_rests_where_a_later_scene_has_nothing_to_render),
         cmocka_unit_test(it_ends_after_its_frames_though_nothing_changes),
+        cmocka_unit_test(the_path_tracer_stands_in_while_shaders_compile),
         cmocka_unit_test(a_light_that_cannot_be_read_leaves_the_one_before),
         cmocka_unit_test(a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole),
         cmocka_unit_test(undo_to_a_light_that_is_gone_leaves_what_is_there),

@@ -264,17 +264,99 @@ static void looks_share_and_part(void **state) {
     assert_true(look_same_material(&a, &b, 1));
     assert_true(look_set_material(&b, 0, look_material(&a, 0)));
     assert_true(look_same(&a, &b));
-    WeftImage *image;
-    Nap *nap = nap_copy(&b, 0, &image);
+    WeftImage own, *image;
+    assert_null(nap_copy(&b, 0, NULL, &image));
+    assert_true(nap_own(NULL, look_material(&b, 0), &own));
+    Nap *nap = nap_copy(&b, 0, &own, &image);
     assert_non_null(nap);
     assert_true(look_set_nap(&b, nap));
     assert_false(look_same(&a, &b));
     assert_ptr_equal(look_nap(&b, 0), image);
     assert_null(look_nap(&b, 1));
-    for (int k = 1; k < LOOK_NAPS; k++) assert_true(look_set_nap(&b, nap_copy(&b, k, &image)));
-    assert_false(look_set_nap(&b, nap_copy(&b, LOOK_NAPS, &image))); /* no more */
+    for (int k = 1; k < LOOK_NAPS; k++) assert_true(look_set_nap(&b, nap_copy(&b, k, &own, &image)));
+    assert_false(look_set_nap(&b, nap_copy(&b, LOOK_NAPS, &own, &image))); /* no more */
+    weft_image_free(&own);
     look_free(&a);
     look_free(&b);
+}
+
+static void a_preset_goes_with_its_look(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    Look a, b, read;
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(look_read(&a, scene) && look_copy(&b, &a) && look_read(&read, scene));
+    weft_scene_free(scene);
+    assert_true(look_set_preset(&b, 0, 3));
+    assert_int_equal(look_preset(&a, 0), 0);
+    assert_int_equal(look_preset(&b, 0), 3);
+    assert_true(look_same(&a, &b));
+    WeftMaterial m = *look_material(&b, 0);
+    m.inputs[input_number("roughness")].value[0] = 0.123f;
+    assert_true(look_set_material(&b, 0, &m));
+    assert_int_equal(look_preset(&b, 0), 3);
+    assert_true(look_take_presets(&read, &b));
+    assert_int_equal(look_preset(&read, 0), 3);
+    b.variant = 1;
+    assert_true(look_set_material(&b, 0, look_material(&a, 0)));
+    assert_false(look_same(&a, &b));
+    look_free(&a);
+    look_free(&b);
+    look_free(&read);
+}
+
+static void a_folder_takes_the_place_of_the_one_before(void **state) {
+    (void)state;
+    Folders folders = {.count = 0};
+    folders_keep(&folders, "a", -1);
+    folders_keep(&folders, "b", 2);
+    folders_keep(&folders, "c", -1);
+    assert_int_equal(folders.count, 2);
+    assert_string_equal(folders.paths[0], "c");
+    for (int k = 0; k < 2 * LOOK_FOLDERS; k++) folders_keep(&folders, "d", k);
+    assert_int_equal(folders.count, LOOK_FOLDERS);
+}
+
+/* A map that points along +v on its left half and leans on its right one alone. */
+static int add_own_map(WeftScene *scene) {
+    WeftImage image;
+    assert_int_equal(weft_image_create(8, 4, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    unsigned char *p = image.pixels;
+    for (int k = 0; k < 32; k++, p += 3)
+        p[0] = k % 8 < 4 ? 128 : 255, p[1] = k % 8 < 4 ? 255 : 128, p[2] = k % 8 < 4 ? 0 : 255;
+    int texture = weft_scene_add_texture(scene, &image, NULL);
+    assert_true(texture > 0);
+    return texture;
+}
+
+static void the_nap_begins_with_the_materials_own_map(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    WeftMaterial m;
+    WeftImage nap;
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
+    WeftInput *way = &m.inputs[input_number("nap_direction")], *lean = &m.inputs[input_number("nap")];
+    way->texture = lean->texture = add_own_map(scene);
+    lean->channel = 2, lean->value[0] = 0.4f, way->value[0] = 1.5707963f; /* a quarter turn more */
+    assert_true(nap_own(scene, &m, &nap));
+    const unsigned char *left = nap.pixels, *right = left + 3 * (NAP_SIDE - 1);
+    assert_in_range(left[0], 0, 1); /* +v and a quarter turn: -u */
+    assert_in_range(left[1], 127, 129);
+    assert_int_equal(left[2], 0);
+    assert_in_range(right[1], 254, 255);
+    assert_int_equal(right[2], 255);
+    weft_image_free(&nap);
+    for (int k = 0; k < 6; k++) way->transform[k] = 0.0f; /* all of it reads one texel */
+    way->transform[2] = 0.9f, way->value[0] = 0.0f, lean->texture = 0;
+    assert_true(nap_own(scene, &m, &nap));
+    left = nap.pixels;
+    assert_int_equal(left[0], 255);
+    assert_int_equal(left[2], 255);
+    weft_image_free(&nap);
+    weft_scene_free(scene);
 }
 
 /* ---- orders ---- */
@@ -510,7 +592,66 @@ static void strokes_of_nothing_do_nothing(void **state) {
     weft_image_free(&plain);
 }
 
+/* ---- what is remembered ---- */
+
+/* Nobody writes into the pipes: whoever opens one waits. */
+static void settings_do_not_wait_for_a_pipe(void **state) {
+    (void)state;
+    Settings settings = settings_default();
+    char config[256];
+    assert_true(snprintf(config, sizeof config, "%s/config", folder) > 0);
+    assert_int_equal(mkdir("config", 0700) | mkdir("config/weft", 0700), 0);
+    assert_int_equal(mkfifo("config/weft/view.json", 0600) | mkfifo("config/weft/view.json.part", 0600), 0);
+    setenv("XDG_CONFIG_HOME", config, 1);
+    alarm(20);
+    settings_read(&settings);
+    assert_int_equal(settings.width, 1280);
+    settings.width = 1000;
+    assert_true(settings_write(&settings));
+    settings.width = 1280;
+    settings_read(&settings);
+    alarm(0);
+    assert_int_equal(settings.width, 1000);
+    assert_int_equal(access("config/weft/view.json.part", F_OK), -1);
+    unsetenv("XDG_CONFIG_HOME");
+    unlink("config/weft/view.json");
+    assert_int_equal(rmdir("config/weft") | rmdir("config"), 0);
+}
+
 /* ---- the command line ---- */
+
+/* The maps of a folder are said by its name; one that was chosen since is not. */
+static void a_map_over_a_folders_is_no_part_of_the_line(void **state) {
+    (void)state;
+    static const ViewDesc desc = {.materials = "maps"};
+    WeftScene *scene;
+    WeftError error;
+    Viewer *v = calloc(1, sizeof *v);
+    assert_non_null(v);
+    if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    v->desc = &desc;
+    v->orbit = cameras[1];
+    WeftMaterial m;
+    assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
+    m.inputs[input_number("roughness")].texture = add_own_map(scene);
+    assert_int_equal(weft_scene_put_material(scene, 0, &m, NULL), WEFT_OK);
+    assert_true(look_read(&v->first, scene) && look_copy(&v->look, &v->first));
+    for (int k = 0; k < 3; k++) {
+        bool lost = false;
+        if (k == 1) m.inputs[input_number("roughness")].texture = add_own_map(scene);
+        if (k == 2) m.inputs[input_number("roughness")].texture = 0;
+        assert_true(look_set_material(&v->look, 0, &m));
+        char *line = command_line(v, &lost);
+        assert_non_null(strstr(line, " --materials maps "));
+        assert_int_equal(strstr(line, " --set 0.roughness=") != NULL, k == 2);
+        assert_int_equal(lost, k == 1);
+        free(line);
+    }
+    look_free(&v->first);
+    look_free(&v->look);
+    weft_scene_free(scene);
+    free(v);
+}
 
 static void a_shell_reads_what_was_meant(void **state) {
     (void)state;
@@ -560,6 +701,11 @@ int main(void) {
                                        cmocka_unit_test(what_was_done_is_undone),
                                        cmocka_unit_test(the_oldest_steps_are_forgotten),
                                        cmocka_unit_test(looks_share_and_part),
+                                       cmocka_unit_test(a_preset_goes_with_its_look),
+                                       cmocka_unit_test(a_folder_takes_the_place_of_the_one_before),
+                                       cmocka_unit_test(the_nap_begins_with_the_materials_own_map),
+                                       cmocka_unit_test(settings_do_not_wait_for_a_pipe),
+                                       cmocka_unit_test(a_map_over_a_folders_is_no_part_of_the_line),
                                        cmocka_unit_test(an_order_is_copied_whole_or_not_at_all),
                                        cmocka_unit_test(a_key_keeps_its_modifiers_in_a_slow_frame),
                                        cmocka_unit_test(a_half_written_file_is_waited_for),

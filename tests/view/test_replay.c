@@ -189,7 +189,7 @@ static void its_command_line_makes_its_picture(void **state) {
         "point\"\n");
     say("click Panel/View\nset View/exposure 0.5\nchoose View/show sheen\n");
     say_picture("1.exr");
-    say("command 1.txt\nkey tab\nwait samples 24\npicture 2.exr\nwait message wrote 2.exr\ncommand 2.txt\n");
+    say("command 1.txt\nkey tab\nwait samples 64\npicture 2.exr\nwait message wrote 2.exr\ncommand 2.txt\n");
     drive_through(script, LIST(UNSEEN, CHEAP));
     render_as("0.txt", "r0.exr");
     render_as("1.txt", "r1.exr");

@@ -1,67 +1,7 @@
 /* A real window, real events: on a display of its own, without a person. Skips where it cannot be had. */
-#include "drive.h"
-
-static pid_t server;
-static char display[32];
-static bool no_display;
-
-static bool has(const char *program) {
-    char line[96];
-    snprintf(line, sizeof line, "command -v %s >/dev/null 2>&1", program);
-    return system(line) == 0;
-}
-
-/* An X server on a display that is free. */
-static void start_server(void) {
-    int ends[2];
-    char number[16] = "";
-    assert_int_equal(pipe(ends), 0);
-    char word[16];
-    snprintf(word, sizeof word, "%d", ends[1]);
-    char *const vector[] = {"Xvfb",        "-displayfd", word,  "-screen",  "0",
-                            "1000x700x24", "-nolisten",  "tcp", "-noreset", NULL};
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addclose(&files, ends[0]);
-    assert_int_equal(posix_spawnp(&server, "Xvfb", &files, NULL, vector, environ), 0);
-    posix_spawn_file_actions_destroy(&files);
-    close(ends[1]);
-    FILE *stream = fdopen(ends[0], "rb");
-    no_display = !fgets(number, sizeof number, stream);
-    fclose(stream);
-    snprintf(display, sizeof display, ":%d", atoi(number));
-    setenv("DISPLAY", display, 1);
-    unsetenv("WAYLAND_DISPLAY");
-}
-
-static int begin(void **state) {
-    if (drive_begin(state) != 0) return -1;
-    static const char *const needed[] = {"Xvfb", "xdotool", "setxkbmap"};
-    for (int k = 0; k < 3; k++)
-        if (!has(needed[k])) {
-            print_message("there is no %s\n", needed[k]);
-            no_display = true;
-        }
-    if (!no_display) start_server();
-    return 0;
-}
-
-static int end(void **state) {
-    if (server) kill(server, SIGTERM), waitpid(server, NULL, 0);
-    return drive_end(state);
-}
+#include "display.h"
 
 /* ---- the hand ---- */
-
-static void hand(const char *format, ...) {
-    char line[512] = "xdotool ";
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line + 8, sizeof line - 8, format, list);
-    va_end(list);
-    if (system(line) != 0) fail_msg("%s", line);
-}
 
 static void layout(const char *name) {
     char line[64];
@@ -125,6 +65,9 @@ static bool is_charlie(const json_t *now, const json_t *before) {
 }
 static bool shows_slider(const json_t *now, const json_t *before) {
     return json_object_get(json_object_get(now, "controls"), "View/exposure") != NULL;
+}
+static bool shows_path(const json_t *now, const json_t *before) {
+    return json_object_get(json_object_get(now, "controls"), "Save the scene/file") != NULL;
 }
 static bool other_command(const json_t *now, const json_t *before) {
     return strcmp(word_of(now, "command"), word_of(before, "command")) != 0;
@@ -215,6 +158,15 @@ static void a_hand_drives_it(void **state) {
     rest_where(&drive, &now, other_command);
     assert_non_null(strstr(word_of(now, "command"), " --exposure "));
 
+    hand("key ctrl+s");
+    rest_where(&drive, &now, shows_path);
+    place_of(now, "Save the scene/file", 0.5, at);
+    hand("mousemove %d %d sleep 0.2 click 1 sleep 0.2", at[0], at[1]);
+    hand("key --delay 1 ctrl+a type --delay 30 mine.glb"); /* quicker than a frame: else it is appended */
+    hand("sleep 0.3 key Return");
+    json_decref(drive_until(&drive, "message", "wrote mine.glb"));
+    assert_int_equal(access("mine.glb", F_OK), 0);
+
     stage_place(now, 0.5, 0.5, at);
     hand("mousemove %d %d type '?'", at[0], at[1]);
     rest_where(&drive, &now, helps);
@@ -244,5 +196,5 @@ static void a_hand_drives_it(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_hand_drives_it)};
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, display_begin, display_end);
 }

@@ -1,0 +1,224 @@
+/* What the panels offer: variants and presets that undo brings back, folders that stay on a scene that is
+ * read again, maps for every number, reference materials, the doctor's findings. */
+#include "drive.h"
+
+static const char quads[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_variants\",\"KHR_materials_sheen\"]"
+    ","
+    "\"extensions\":{\"KHR_materials_variants\":{\"variants\":[{\"name\":\"red\"},{\"name\":\"blue\"}]}},"
+    "\"scenes\":[{\"nodes\":[0,1]}],"
+    "\"nodes\":[{\"mesh\":0,\"scale\":[3,3,3]},{\"mesh\":1,\"translation\":[0,-1.2,0]}],"
+    "\"materials\":[{\"name\":\"Spare\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,1,1]}},"
+    "{\"name\":\"Small\",\"extensions\":{\"KHR_materials_sheen\":{\"sheenRoughnessFactor\":0.5}}},"
+    "{\"name\":\"Large\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0,0,1]}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":2,"
+    "\"extensions\":"
+    "{\"KHR_materials_variants\":{\"mappings\":[{\"material\":0,\"variants\":[1]}]}}}]},"
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":1}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","
+    "\"min\":[-0.5,0,0],\"max\":[0.5,1,0]},"
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"type\":\"VEC2\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":48}],"
+    "\"buffers\":[{\"byteLength\":120,\"uri\":\"quad.bin\"}]}";
+
+#define FLAT "--env", "1,1,1", "--occlusion", "0"
+
+static void write_quads(void) {
+    static const float corners[30] = {-0.5f, 0, 0, 0.5f, 0, 0, 0.5f, 1, 0, -0.5f, 0, 0, 0.5f, 1, 0,
+                                      -0.5f, 1, 0, 0,    1, 1, 1,    1, 0, 0,     1, 1, 0,    0, 0};
+    file_make("quad.bin", (const char *)corners, sizeof corners);
+    file_make("quads.gltf", quads, sizeof quads - 1);
+}
+
+static void write_map(const char *path, int red) {
+    WeftImage image;
+    WeftError error;
+    assert_int_equal(weft_image_create(8, 8, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    unsigned char *p = image.pixels;
+    for (int k = 0; k < 64; k++, p += 3) p[0] = (unsigned char)red, p[1] = 60, p[2] = 20;
+    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(&image);
+}
+
+static double value_of(const json_t *state, int material, const char *input, int k) {
+    return json_number_value(json_array_get(json_object_get(material_of(state, material), input), (size_t)k));
+}
+
+/* A picture, and a rest in which it is told of. */
+static void shoot(const char *path) {
+    say_picture(path);
+    say("wait rest\n");
+}
+
+/* The state at rest that follows a picture of that name. */
+static json_t *at(Drive *drive, const char *picture) {
+    char wrote[80];
+    snprintf(wrote, sizeof wrote, "wrote %s", picture);
+    return drive_until(drive, "message", wrote);
+}
+
+static void undo_brings_back_a_variant(void **state) {
+    (void)state;
+    need_gl();
+    write_quads();
+    script_begin();
+    shoot("own.png");
+    say("choose Material/variant blue\nwait 3\n");
+    shoot("blue.png");
+    say("choose Material/variant red\nwait 3\n"); /* which says nothing of the quad */
+    shoot("red.png");
+    say("key control+z\nwait 3\n");
+    shoot("undone.png");
+    say("key control+z\nwait 3\n");
+    shoot("first.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
+    static const char *const pictures[] = {"own.png", "blue.png", "red.png", "undone.png", "first.png"};
+    static const int variants[] = {-1, 1, 0, 1, -1}, materials[] = {1, 0, 2, 0, 2};
+    for (int k = 0; k < 5; k++) {
+        json_t *now = at(&drive, pictures[k]);
+        assert_int_equal(number_of(now, "variant"), variants[k]);
+        if (k) assert_int_equal(number_of(now, "material"), materials[k]);
+        json_decref(now);
+    }
+    drive_finish(&drive);
+    assert_true(pictures_most("own.png", "blue.png") > 0.1);
+    assert_true(pictures_most("own.png", "red.png") < 0.5 / 255.0);
+    assert_true(pictures_most("blue.png", "undone.png") < 0.5 / 255.0);
+    assert_true(pictures_most("own.png", "first.png") < 0.5 / 255.0);
+}
+
+static void the_menu_of_presets_follows_undo(void **state) {
+    (void)state;
+    need_gl();
+    const char *preset = weft_preset_name(1);
+    script_begin();
+    say("wait rest\nchoose Material/preset %s\nwait 5\n", preset);
+    shoot("worn.png");
+    say("key control+z\nwait 3\n");
+    shoot("undone.png");
+    say("key control+shift+z\nwait 3\n");
+    shoot("again.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    static const char *const pictures[] = {"worn.png", "undone.png", "again.png"};
+    for (int k = 0; k < 3; k++) {
+        json_t *now = at(&drive, pictures[k]);
+        assert_string_equal(word_of(material_of(now, 0), "preset"), k == 1 ? "" : preset);
+        json_decref(now);
+    }
+    drive_finish(&drive);
+    assert_true(pictures_most("worn.png", "undone.png") > 0.02);
+    assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
+}
+
+static void a_scene_that_is_read_again_keeps_its_folder(void **state) {
+    (void)state;
+    need_gl();
+    write_quads();
+    assert_int_equal(mkdir("folder", 0700), 0);
+    write_map("folder/cloth_basecolor.png", 250);
+    script_begin();
+    say("wait rest\nmove 0.5 0.2\npress left\nrelease left\nwait rest\n");
+    say("drop folder\nwait message 1 maps of folder\nwait rest\nset Material/roughness 0.25\nwait rest\n");
+    shoot("worn.png");
+    say("wait message maps of folder\nwait 5\n");
+    shoot("again.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
+    json_t *now = at(&drive, "worn.png");
+    int material = (int)number_of(now, "material");
+    assert_true(value_of(now, 1, "base_color", 3) > 0.0); /* the cloth is what has a sheen */
+    json_decref(now);
+    sleep_seconds(0.1);
+    file_make("quads.gltf", quads, sizeof quads - 1);
+    now = at(&drive, "again.png");
+    assert_true(value_of(now, 1, "base_color", 3) > 0.0);
+    assert_true(fabs(value_of(now, material, "roughness", 0) - 0.25) < 1e-6);
+    json_decref(now);
+    drive_finish(&drive);
+    assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
+    unlink("folder/cloth_basecolor.png");
+    rmdir("folder");
+}
+
+static void every_number_takes_a_map_and_shows_it(void **state) {
+    (void)state;
+    need_gl();
+    write_map("fine.png", 128);
+    script_begin();
+    say("wait rest\nclick \"Material/roughness choose\"\nwait 3\nclick \"Choose a map/path\"\nkey "
+        "control+a\ntype fine.png\nkey enter\nwait 3\n");
+    shoot("mapped.png");
+    say("click \"Material/roughness map\"\nwait 3\n");
+    shoot("plain.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = at(&drive, "mapped.png");
+    assert_true(value_of(now, 0, "roughness", 3) > 0.0);
+    assert_non_null(json_object_get(json_object_get(now, "controls"), "Material/roughness thumb"));
+    assert_true(is_true(now, "lost")); /* no line says which file */
+    json_decref(now);
+    now = at(&drive, "plain.png");
+    assert_int_equal(value_of(now, 0, "roughness", 3), 0);
+    assert_null(json_object_get(json_object_get(now, "controls"), "Material/roughness thumb"));
+    json_decref(now);
+    drive_finish(&drive);
+}
+
+static void a_swatch_sets_what_the_chart_says(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nclick \"Material/known base_color\"\nwait 3\nclick \"Material/colour gold\"\nwait "
+        "rest\n");
+    shoot("gold.png");
+    say("click \"Material/colour brick\"\nwait 3\nclick \"Material/known ior\"\nwait 3\nclick \"Material/F0 "
+        "water\"\nwait rest\n");
+    shoot("brick.png");
+    say("click \"Material/Models\"\nwait 3\nchoose Material/workflow specular\nwait 3\nclick "
+        "\"Material/colour "
+        "gold\"\nwait rest\n");
+    shoot("specular.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = at(&drive, "gold.png");
+    assert_true(fabs(value_of(now, 0, "base_color", 1) - 0.782) < 1e-6);
+    assert_true(fabs(value_of(now, 0, "metallic", 0) - 1.0) < 1e-6);
+    json_decref(now);
+    now = at(&drive, "brick.png");
+    assert_true(fabs(value_of(now, 0, "base_color", 0) - 0.262) < 1e-6);
+    assert_true(fabs(value_of(now, 0, "metallic", 0)) < 1e-6);
+    assert_true(fabs(value_of(now, 0, "ior", 0) - 1.333) < 1e-6);
+    json_decref(now);
+    now = at(&drive, "specular.png");
+    assert_true(fabs(value_of(now, 0, "base_color", 0)) < 1e-6);
+    assert_true(fabs(value_of(now, 0, "specular_color", 2) - 0.344) < 1e-6);
+    json_decref(now);
+    drive_finish(&drive);
+}
+
+static void a_finding_of_the_doctor_chooses_its_material(void **state) {
+    (void)state;
+    need_gl();
+    write_quads();
+    script_begin();
+    say("wait rest\nkey m\nclick Panel/Doctor\nwait rest\nwait 3\nwindow doctor.png\nwait 3\n");
+    shoot("open.png");
+    say("open builtin:cloth\nwait message triangles\nwait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
+    json_t *now = at(&drive, "open.png");
+    assert_non_null(json_object_get(json_object_get(now, "controls"), "Doctor/finding 0"));
+    json_decref(now);
+    drive_finish(&drive);
+    script_begin();
+    say("wait rest\nclick Panel/Doctor\nwait rest\nclick \"Doctor/finding 0\"\nwait message Spare\nwait "
+        "rest\nclick \"Doctor/finding 1\"\nwait message Small\nwait "
+        "rest\n");
+    drive_through(script, LIST(UNSEEN, "quads.gltf", FLAT));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(undo_brings_back_a_variant),
+                                       cmocka_unit_test(the_menu_of_presets_follows_undo),
+                                       cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
+                                       cmocka_unit_test(every_number_takes_a_map_and_shows_it),
+                                       cmocka_unit_test(a_swatch_sets_what_the_chart_says),
+                                       cmocka_unit_test(a_finding_of_the_doctor_chooses_its_material)};
+    return cmocka_run_group_tests(tests, drive_begin, drive_end);
+}
