@@ -59,8 +59,7 @@ WEFT_API WeftResult weft_draft_read(const char *what, WeftDraft **out, const Wef
 WEFT_API WeftResult weft_draft_read_memory(const void *data, size_t size, const char *name, WeftDraft **out,
                                            const WeftLog *log, WeftError *error);
 
-/* A draft of notation alone. Fails with WEFT_MESSAGE_DRAFT_NOTATION, _DRAFT for too many threads, or _MEMORY.
- */
+/* A draft of notation alone. Fails with WEFT_MESSAGE_DRAFT_NOTATION, for too many threads too, or _MEMORY. */
 WEFT_API WeftResult weft_draft_parse(const char *notation, WeftDraft **out, WeftError *error);
 
 /* The cloth turned over about its warp: left and right change places, and what was on top lies below. Fails

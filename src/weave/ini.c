@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "base/mark.h"
 #include "base/memory.h"
 
 /* Cuts blanks off both ends of the string that ends at `end`. */
@@ -43,7 +44,7 @@ WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, W
     if (memchr(out->text, '\0', size))
         return fail(error, WEFT_MESSAGE_DRAFT, name, "it has zero bytes: it is not text");
     const char *section = "";
-    char *line = out->text + (strncmp(out->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
+    char *line = out->text + mark_size(data, size);
     for (int number = 1; *line; number++) {
         char *end = line + strcspn(line, "\r\n");
         char *next = end + (*end == '\r' && end[1] == '\n') + (*end != '\0');

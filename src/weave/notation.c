@@ -56,7 +56,8 @@ static int runs_of(const char *word, int runs[RUNS_MAX]) {
 /* The weave. */
 
 static WeftResult make_basket(const Notation *notation, int ends, int picks, WeftDraft **out) {
-    WeftResult result = draft_create(notation->text, 2L * ends, 2L * picks, out, notation->error);
+    WeftResult result = draft_create(notation->text, 2L * ends, 2L * picks, WEFT_MESSAGE_DRAFT_NOTATION, out,
+                                     notation->error);
     for (int j = 0; result == WEFT_OK && j < 2 * picks; j++)
         for (int i = 0; i < 2 * ends; i++) (*out)->up[j * 2 * ends + i] = (i / ends + j / picks) % 2 == 0;
     return result;
@@ -81,7 +82,8 @@ static WeftResult make_twill(const Notation *notation, const char *word, int slo
         return REFUSE(notation, "\"%.40s\" is no twill; 2/2 or 3/1/1/3 would be", word);
     for (int k = 0; k < count; k++) length += runs[k];
     const int warps = (int)(mirrored ? 2L * mirrored : length), turn = runs[0];
-    WeftResult result = draft_create(notation->text, mirrored ? warps : length, length, out, notation->error);
+    WeftResult result = draft_create(notation->text, mirrored ? warps : length, length,
+                                     WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < (int)length; j++)
         for (int i = 0; i < warps; i++) {
             const int line = mirrored && i >= mirrored ? mirrored - 1 + turn - (i - mirrored) : i;
@@ -108,7 +110,7 @@ static WeftResult make_satin(const Notation *notation, const char *word, bool wa
             notation,
             "a satin of %d threads cannot move by %d: that is 2 to %d, and shares no divisor with %d", n, c,
             n - 2, n);
-    WeftResult result = draft_create(notation->text, n, n, out, notation->error);
+    WeftResult result = draft_create(notation->text, n, n, WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < n; j++)
         for (int i = 0; i < n; i++) (*out)->up[j * n + i] = (i == (int)((long)c * j % n)) != warp_faced;
     return result;
@@ -224,7 +226,8 @@ static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftT
         return REFUSE(notation, "%ld threads are too many for one repeat", length);
     count[threads] *= length / divisor((int)length, (int)count[threads]);
     WeftDraft *wide;
-    WeftResult result = draft_create(notation->text, count[0], count[1], &wide, notation->error);
+    WeftResult result =
+        draft_create(notation->text, count[0], count[1], WEFT_MESSAGE_DRAFT_NOTATION, &wide, notation->error);
     if (result != WEFT_OK) return result;
     for (int j = 0; j < (int)count[1]; j++)
         for (int i = 0; i < (int)count[0]; i++)
@@ -248,7 +251,7 @@ static WeftResult set_sett(const Notation *notation, const Clause *clause, WeftD
     int sett[2] = {0, 0};
     if (clause->count < 2 || clause->count > 3 || !word_count(clause->words[1], 1000, &sett[WEFT_WARP]) ||
         !word_count(clause->words[clause->count - 1], 1000, &sett[WEFT_WEFT]))
-        return REFUSE(notation, "a sett is one or two numbers of threads per centimetre, 1 to 1000");
+        return REFUSE(notation, "a sett is one or two whole numbers of threads per centimetre, 1 to 1000");
     WeftResult result = WEFT_OK;
     for (int t = 0; result == WEFT_OK && t < 2; t++)
         result = weft_draft_set_sett(draft, (WeftThreads)t, 100.0f * (float)sett[t], notation->error);

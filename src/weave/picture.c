@@ -51,7 +51,7 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
                     "it has more than two colours, the third at pixel %zu, %zu; a draft has one for warp on "
                     "top and one for weft",
                     third % (size_t)image->width, third / (size_t)image->width);
-    WeftResult result = draft_create(path, image->width, image->height, out, error);
+    WeftResult result = draft_create(path, image->width, image->height, WEFT_MESSAGE_DRAFT, out, error);
     if (result != WEFT_OK) return result;
     const float first = brightness(image, 0), other = brightness(image, second);
     if (second && !(first < other) && !(first > other)) {
@@ -68,11 +68,23 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
     return WEFT_OK;
 }
 
-WeftResult draft_from_picture(const char *path, WeftDraft **out, const WeftLog *log, WeftError *error) {
+/* What a file is that is no picture that could be read: ": it is WebP", or nothing where that is not known.
+ */
+static const char *format_told(const WeftError *error) {
+    const char *text = weft_message_text(WEFT_MESSAGE_IMAGE_FORMAT), *at = strstr(error->text, text);
+    return at ? at + strlen(text) : "";
+}
+
+WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
+                              WeftError *error) {
     WeftImage image;
-    WeftResult result = weft_image_read(path, &image, log, error);
-    if (result != WEFT_OK && error && error->message == WEFT_MESSAGE_IMAGE_FORMAT)
-        return fail(error, WEFT_MESSAGE_DRAFT, path, "it is neither a WIF nor a picture");
+    WeftError why;
+    WeftResult result = weft_image_read(path, &image, log, &why);
+    if (result != WEFT_OK && why.message == WEFT_MESSAGE_IMAGE_FORMAT)
+        return fail(error, WEFT_MESSAGE_DRAFT, path, "%s%s",
+                    text ? "it is text that does not begin with [WIF]" : "it is neither a WIF nor a picture",
+                    format_told(&why));
+    if (result != WEFT_OK && error) *error = why;
     if (result != WEFT_OK) return result;
     result = from_image(path, &image, out, error);
     weft_image_free(&image);

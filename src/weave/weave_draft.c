@@ -7,16 +7,18 @@
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/mark.h"
 #include "base/memory.h"
 #include "weave/loom.h"
 
 enum { FILE_MAX = 16 << 20 }; /* bytes of a WIF */
 
-WeftResult draft_create(const char *name, long warps, long picks, WeftDraft **out, WeftError *error) {
+WeftResult draft_create(const char *name, long warps, long picks, WeftMessage refusal, WeftDraft **out,
+                        WeftError *error) {
     *out = NULL;
-    if (warps < 1 || picks < 1) return fail(error, WEFT_MESSAGE_DRAFT, name, "it has no threads");
+    if (warps < 1 || picks < 1) return fail(error, refusal, name, "it has no threads");
     if (warps > WEFT_DRAFT_SIDE_MAX || picks > WEFT_DRAFT_SIDE_MAX || warps * picks > WEFT_DRAFT_CELLS_MAX)
-        return fail(error, WEFT_MESSAGE_DRAFT, name,
+        return fail(error, refusal, name,
                     "%ld x %ld threads are too many: %d a side and %d crossings are the limit", warps, picks,
                     WEFT_DRAFT_SIDE_MAX, WEFT_DRAFT_CELLS_MAX);
     WeftDraft *draft = alloc_array(1, sizeof *draft);
@@ -60,7 +62,7 @@ void draft_title(WeftDraft *draft, const char *text) {
  * comment. */
 static bool is_wif(const unsigned char *data, size_t size) {
     static const char mark[] = "[wif]";
-    size_t at = size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t at = mark_size(data, size);
     while (at < size) {
         while (at < size && strchr(" \t\r\n", data[at]) && data[at]) at++;
         if (at == size || data[at] != ';') break;
@@ -82,11 +84,19 @@ static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log
     return result;
 }
 
-/* Returns true if the words can only be meant as a path: they end in a suffix, or are one word with a slash.
- */
+/* Returns true if the words can only be meant as a path: they end in a suffix, which is no fraction, or are
+ * one word with a slash. */
 static bool names_file(const char *what) {
     const char *dot = strrchr(what, '.');
+    if (dot && strspn(dot, ".0123456789") == strlen(dot)) return false;
     return dot ? !strpbrk(dot, " ;/") : strchr(what, '/') && !strchr(what, ' ');
+}
+
+static bool is_text(FileBytes bytes) {
+    size_t at = 0;
+    while (at < bytes.size && (bytes.data[at] >= ' ' || strchr("\t\r\n\f", bytes.data[at])) && bytes.data[at])
+        at++;
+    return at == bytes.size;
 }
 
 WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error) {
@@ -96,9 +106,9 @@ WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log
     FileBytes start;
     WeftResult result = file_read_start(what, 4096, &start, error);
     if (result != WEFT_OK) return result;
-    const bool wif = is_wif(start.data, start.size);
+    const bool wif = is_wif(start.data, start.size), text = is_text(start);
     free(start.data);
-    return wif ? read_wif(what, out, log, error) : draft_from_picture(what, out, log, error);
+    return wif ? read_wif(what, out, log, error) : draft_from_picture(what, text, out, log, error);
 }
 
 static int wrapped(int index, int count) {
@@ -159,7 +169,8 @@ WeftDraftInfo weft_draft_info(const WeftDraft *draft) {
 
 WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error) {
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
-    WeftResult result = draft_create(draft->title[0] ? draft->title : "draft", warps, picks, out, error);
+    WeftResult result =
+        draft_create(draft->title[0] ? draft->title : "draft", warps, picks, WEFT_MESSAGE_DRAFT, out, error);
     if (!*out) return result;
     memcpy((*out)->title, draft->title, sizeof draft->title);
     memcpy((*out)->threads[WEFT_WEFT], draft->threads[WEFT_WEFT], (size_t)picks * sizeof(WeftThread));

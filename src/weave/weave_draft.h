@@ -14,9 +14,10 @@ struct WeftDraft {
     WeftThread *threads[2]; /* of warp and weft */
 };
 
-/* Makes a draft without a warp on top anywhere: warp black, weft white, 20 threads a centimetre. Refuses more
- * threads or crossings than weave.h allows with WEFT_MESSAGE_DRAFT. */
-WeftResult draft_create(const char *name, long warps, long picks, WeftDraft **out, WeftError *error);
+/* Makes a draft without a warp on top anywhere: warp black, weft white, 20 threads a centimetre. More threads
+ * or crossings than weave.h allows, or none, fail with the message `refusal`. */
+WeftResult draft_create(const char *name, long warps, long picks, WeftMessage refusal, WeftDraft **out,
+                        WeftError *error);
 
 /* The metres from thread to thread, and the width of a thread, where nothing says otherwise. */
 #define DRAFT_SPACING   5e-4f
@@ -26,8 +27,9 @@ WeftResult draft_create(const char *name, long warps, long picks, WeftDraft **ou
  * characters. */
 void draft_title(WeftDraft *draft, const char *text);
 
-/* The readers of the other formats of weft_draft_read. */
-WeftResult draft_from_picture(const char *path, WeftDraft **out, const WeftLog *log, WeftError *error);
+/* The reader of pictures for weft_draft_read; text: all that its file begins with is text. */
+WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
+                              WeftError *error);
 
 /* Writes a WIF 1.1. WEFT_OK, or memory was short. */
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error);

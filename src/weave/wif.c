@@ -374,9 +374,11 @@ static WeftResult read_draft(const Wif *wif, WeftDraft **out) {
     Shed shed = {0};
     Palette palette = {0};
     if (!ini_find(&wif->ini, "WIF", NULL))
-        return fail(wif->error, WEFT_MESSAGE_DRAFT, wif->ini.name, "it has no section [WIF]");
+        return fail(wif->error, WEFT_MESSAGE_DRAFT, wif->ini.name,
+                    "it has no section [WIF], or nothing in it");
     WeftResult result = shed_extent(wif, &shed);
-    if (result == WEFT_OK) result = draft_create(wif->ini.name, shed.warps, shed.picks, out, wif->error);
+    if (result == WEFT_OK)
+        result = draft_create(wif->ini.name, shed.warps, shed.picks, WEFT_MESSAGE_DRAFT, out, wif->error);
     if (result == WEFT_OK) result = read_shed(wif, *out, &shed);
     if (result == WEFT_OK) result = read_palette(wif, &palette);
     for (int t = 0; result == WEFT_OK && t < 2; t++) {
