@@ -176,7 +176,7 @@ typedef struct WeftAudit {
     double beyond;        /* the share of texels whose |error| is above `most` */
     double together;      /* correlation of the errors of neighbouring texels, in [-1, 1]: 0 noise, 1 bias */
     double step;          /* between two values that the image's type can hold; 0: float */
-    double error;         /* the quadrature's largest estimate of its own error */
+    double error;         /* an estimate of how far E is off, by quadrature and between its samples */
     int faults;           /* found, at least 1: NONE is one */
     struct {
         WeftTableFault fault;

@@ -111,7 +111,8 @@ typedef struct WeftFinding {
 typedef struct WeftDoctor WeftDoctor;
 
 /* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, but for
- * an extension that is required and not known, which is a finding. log (may be NULL) receives the reader's
+ * an extension that is required and not known and an image that is missing or cannot be read, which are
+ * findings. log (may be NULL) receives the reader's
  * warnings. On success *out is owned by the caller: release it with weft_doctor_free. */
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);

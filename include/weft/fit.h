@@ -58,7 +58,7 @@ typedef struct WeftFitted {
     long long evaluations; /* of the error, that it took */
 } WeftFitted;
 
-/* What to know of a fit beside its error. */
+/* Notes on a fit beside its error. */
 enum {
     WEFT_FITTED_NOTHING = 1 << 0, /* its colours are 0: it is the base alone */
     WEFT_FITTED_BRIGHT = 1 << 1,  /* a colour, of the base, f0 or f90, is above 1 */

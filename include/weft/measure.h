@@ -99,7 +99,7 @@ typedef struct WeftPassport {
      * does; 0: there is none. */
     float half_parameter;
     int half_whole, half_cosine;
-    /* Of 4,096 ordinary pairs, both cosines at least 0.1, for each row: the share where f is 0 in half and
+    /* For each row, of 4,096 ordinary pairs, both cosines at least 0.1: the share where f is 0 in half and
      * not in single precision (underflow), and the share where it is off by more than 1 %. */
     float half_zero[WEFT_PASSPORT_ROWS], half_off[WEFT_PASSPORT_ROWS];
 

@@ -19,6 +19,8 @@ const char *weft_message_text(WeftMessage message) {
     return (unsigned)message < WEFT_MESSAGE_COUNT ? messages[message].text : "";
 }
 
+WeftResult message_result(WeftMessage message) { return messages[message].result; }
+
 const char *weft_version(void) { return WEFT_VERSION; }
 
 static void compose(char *line, size_t size, WeftMessage message, const char *subject, const char *detail,

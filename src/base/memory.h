@@ -16,9 +16,9 @@ void *realloc_array(void *block, size_t count, size_t size);
 /* Gives the system back what is free in between blocks that are not, where the C library can. */
 void memory_return(void);
 
-/* Libraries that decode fail without saying whether data were wrong or memory was short: jansson's parser,
- * OpenEXR, zlib. malloc does, in errno, which decoders in memory leave alone else. So: memory_begin, call,
- * memory_was_short. */
+/* Libraries that decode fail without saying whether data were wrong or memory was short: OpenEXR, zlib.
+ * malloc does, in errno, which decoders in memory leave alone else. So: memory_begin, call, memory_was_short.
+ */
 static inline void memory_begin(void) { errno = 0; }
 static inline bool memory_was_short(void) { return errno == ENOMEM; }
 

@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "weft/render.h"
 
@@ -62,6 +64,8 @@ static void *do_apart(void *argument) {
     apart->body(apart->user);
     return NULL;
 }
+
+void thread_step_back(void) { setpriority(PRIO_PROCESS, (id_t)gettid(), 10); } /* of the thread, in Linux */
 
 void run_apart(void (*body)(void *user), void *user) {
     Apart apart = {body, user};

@@ -14,4 +14,7 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
  * started. */
 void run_apart(void (*body)(void *user), void *user);
 
+/* From now on this thread, and those that it starts, take only what others leave of the processors. */
+void thread_step_back(void);
+
 #endif

@@ -157,7 +157,7 @@ static void text_write(const Audit *audit) {
                  found->left_out);
         layout_entry(stdout, COLUMN, "left out", text);
     }
-    snprintf(text, sizeof text, "E within %.2g", found->error);
+    snprintf(text, sizeof text, "E within about %.2g, an estimate", found->error);
     layout_entry(stdout, COLUMN, "quadrature", text);
     for (int k = 0; k < found->faults; k++)
         layout_entry(stdout, COLUMN, weft_table_fault_name(found->found[k].fault), found->found[k].text);

@@ -129,7 +129,7 @@ static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *er
     return weft_sheet_compose(&desc, sheet, error);
 }
 
-/* What makes picture k another one than the rest, by the names of what varies. */
+/* Writes what sets picture k apart from the rest, by the names of what varies. */
 static void json_variant(Json *json, const Request *request, int k) {
     const Dress *dress = &request->staging.dress;
     char value[DRESS_LABEL];

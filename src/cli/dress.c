@@ -184,14 +184,14 @@ static bool refuse_name(const char *text, const char *name) {
     return false;
 }
 
-/* What parts the values of a setting: ';' always may, ',' unless it is a colour, which has commas itself. */
+/* The character between the values of a setting: ';' always may be, ',' unless a colour has commas itself. */
 static char separator_of(int input, const char *values) {
     WeftInputInfo info = {.kind = WEFT_INPUT_SCALAR};
     if (input >= 0) weft_material_input_info(input, &info);
     return strchr(values, ';') || info.kind == WEFT_INPUT_COLOR ? ';' : ',';
 }
 
-/* Whether text has the form of a setting and names an input or a choice; values are for the library to judge.
+/* Returns true for text in the form of a setting of an input or a choice; the library judges its values.
  */
 static bool check_set(const char *text, Dress *dress) {
     char name[DRESS_LABEL], item[DRESS_LABEL];
@@ -399,6 +399,36 @@ static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog 
     return result;
 }
 
+/* What was heard of materials that are hardly real: one finding follows from several settings, and each
+ * tells. */
+typedef struct Heard {
+    const WeftLog *log;
+    char lines[32][256];
+    int count;
+} Heard;
+
+/* Returns true where two warnings are the same but for the input that follows the material's name. */
+static bool is_echo(const char *line, const char *other) {
+    const char *text = weft_message_text(WEFT_MESSAGE_PLAUSIBLE), *words = strstr(line, text),
+               *others = strstr(other, text);
+    if (!words || !others || strcmp(words, others) != 0) return false;
+    while (words > line && words[-1] != '.') words--;
+    while (others > other && others[-1] != '.') others--;
+    return words - line == others - other && strncmp(line, other, (size_t)(words - line)) == 0;
+}
+
+static void hear_once(void *user, WeftMessage message, const char *text) {
+    enum { LINES = sizeof((Heard *)NULL)->lines / sizeof *((Heard *)NULL)->lines };
+    Heard *heard = user;
+    char line[sizeof heard->lines[0]];
+    snprintf(line, sizeof line, "%s", text);
+    for (int k = 0; k < heard->count; k++)
+        if (is_echo(line, heard->lines[k])) return;
+    if (message == WEFT_MESSAGE_PLAUSIBLE && heard->count < LINES)
+        memcpy(heard->lines[heard->count++], line, sizeof line);
+    if (heard->log && heard->log->fn) heard->log->fn(heard->log->user, message, text);
+}
+
 WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLog *log, WeftError *error) {
     const char *variant = option_text(dress->options, "--variant"),
                *workflow = option_text(dress->options, "--convert");
@@ -407,8 +437,10 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
     if (result == WEFT_OK) result = apply_dressings(dress, scene, log, error);
     /* What is set warns of what it finds: so all of it twice, and only the second time, with the rest as it
      * will be, is anything heard. */
-    for (int heard = 0; heard < 2; heard++) {
-        const WeftLog *to = heard ? log : NULL;
+    Heard heard = {.log = log};
+    const WeftLog once = {hear_once, &heard};
+    for (int round = 0; round < 2; round++) {
+        const WeftLog *to = round ? &once : NULL;
         for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
             result = apply_axis(dress, axis, k, scene, to, error);
         if (result == WEFT_OK) result = apply_sets(dress, k, scene, to, error);

@@ -58,7 +58,7 @@ bool dress_read(const Options *options, Dress *dress);
 /* The value that picture number k has of varied number v. */
 void dress_value(const Dress *dress, int v, int k, char value[DRESS_LABEL]);
 
-/* What makes picture number k another one than the rest, "" where there is but one. */
+/* Labels picture number k by what sets it apart from the rest, "" where there is but one. */
 void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]);
 
 /* Does to a fresh scene what the options say of picture number k. log also hears what a conversion loses. */

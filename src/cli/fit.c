@@ -23,12 +23,27 @@ typedef struct Fitting {
     WeftFit fit;
 } Fitting;
 
+/* A Fresnel term that does not read f90 leaves it at what it is given. */
+static bool reads_f90(const WeftLobe *lobe) {
+    static const float ways[][3] = {{0.9f, 0.1f, 0.4243f}, {-0.8f, 0.2f, 0.5657f}, {0.3f, -0.6f, 0.7416f}};
+    WeftLobe other = *lobe;
+    bool reads = false;
+    for (int c = 0; c < 3; c++) other.f90[c] = lobe->f90[c] > 0.5f ? 0.0f : 1.0f;
+    for (int k = 0; k < 3; k++) {
+        float is[3], would[3];
+        weft_lobe_eval(lobe, ways[k], ways[(k + 1) % 3], is);
+        weft_lobe_eval(&other, ways[k], ways[(k + 1) % 3], would);
+        for (int c = 0; c < 3; c++) reads |= is[c] < would[c] || is[c] > would[c];
+    }
+    return reads;
+}
+
 /* "f90 0.1,0.1,0.2, d charlie, alpha 0.31": all but the colour. */
 static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     size_t used = 0;
     text[0] = '\0';
-    if (info->traits & WEFT_LOBE_TWO_COLORS)
+    if (reads_f90(lobe))
         used += (size_t)snprintf(text, size, "f90 %.3g,%.3g,%.3g", (double)lobe->f90[0], (double)lobe->f90[1],
                                  (double)lobe->f90[2]);
     for (int k = 0; k < info->param_count && used < size; k++) {
@@ -42,7 +57,7 @@ static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
     return text;
 }
 
-/* What there is to say of a row, as words at its end. */
+/* The remarks on a row, as words at its end. */
 static const struct {
     unsigned note;
     const char *words;
@@ -77,8 +92,7 @@ static void text_write(const Fitting *fitting) {
         const WeftLobeInfo *info = weft_lobe_info(fit->fitted[k].lobe.lobe);
         char rank[8], name[64];
         snprintf(rank, sizeof rank, "%d", k + 1);
-        snprintf(name, sizeof name, "%s%s", info->id,
-                 info->traits & WEFT_LOBE_TWO_COLORS ? ", f90 free" : "");
+        snprintf(name, sizeof name, "%s%s", info->id, reads_f90(&fit->fitted[k].lobe) ? ", f90 free" : "");
         row_write(rank, name, &fit->fitted[k]);
         better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
@@ -97,7 +111,7 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_number(json, "error", fitted->error);
     json_floats(json, "base_color", fitted->base, 3);
     json_floats(json, "color", fitted->lobe.f0, 3);
-    if (info->traits & WEFT_LOBE_TWO_COLORS) json_floats(json, "f90", fitted->lobe.f90, 3);
+    if (reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
     json_open(json, "params", '{');
     for (int k = 0; k < info->param_count; k++)
         if (info->params[k].choices)

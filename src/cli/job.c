@@ -167,8 +167,8 @@ static void lay_behind(WeftImage *linear, const float color[3]) {
     }
 }
 
-/* As displayed; a colour is laid behind what is displayed, where neither curve nor exposure changes it, and
- * behind what is linear. */
+/* Makes the picture as displayed; a colour is laid behind what is displayed, where neither curve nor exposure
+ * changes it, and behind what is linear. */
 static WeftResult finish(Job *job, WeftError *error) {
     const Staging *staging = &job->request->staging;
     bool color = staging->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;

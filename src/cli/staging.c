@@ -123,9 +123,16 @@ static bool check_scene(const char *scene) {
     return false;
 }
 
+static bool needs_floor(const Options *options, const char *name) {
+    if (!option_given(options, name) || option_given(options, "--floor")) return true;
+    report(WEFT_USAGE, "%s: needs --floor", name);
+    return false;
+}
+
 static bool read_floor(const Options *options, Staging *staging) {
     double reflection = 0.0, roughness = 0.0;
-    bool good = option_number(options, "--floor-reflection", &reflection) &&
+    bool good = needs_floor(options, "--floor-reflection") && needs_floor(options, "--floor-roughness") &&
+                option_number(options, "--floor-reflection", &reflection) &&
                 option_number(options, "--floor-roughness", &roughness);
     staging->floor = (WeftFloor){option_given(options, "--floor"), (float)reflection, (float)roughness};
     staging->hide_lights = option_given(options, "--hide-lights");

@@ -262,6 +262,7 @@ static bool bake_primitive(Bake *bake) {
     *mesh = (Mesh){.name = asset_text(asset, *source->name ? source->name : bake->node->name),
                    .vertex_count = (uint32_t)asset->accessors[p->position].count,
                    .material = p->material,
+                   .own_material = p->material,
                    .variant_material = p->variant_material};
     bake->pose = pose_prepare(asset, &bake->scratch, bake->node, p);
     static void (*const steps[])(Bake *) = {bake_positions, bake_triangles, bake_normals,

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/json.h"
+#include "base/mark.h"
 
 /* A parsed value takes up to some 150 bytes, and each but the first follows one of , [ { in the text: so this
  * bounds the memory of the tree. The largest real scenes have tens of thousands of nodes. */
@@ -19,9 +21,9 @@ static void json_read(Asset *asset, Span text) {
         return;
     }
     json_error_t error;
-    memory_begin();
-    asset->root = json_loadb((const char *)text.data, text.size, 0, &error);
-    if (memory_was_short())
+    bool starved;
+    asset->root = json_parse((const char *)text.data, text.size, 0, &error, &starved);
+    if (starved)
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
     else if (!asset->root)
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "line %d, column %d: %s", error.line, error.column,
@@ -89,7 +91,7 @@ void container_read(Asset *asset, Span data) {
         glb_read(asset, data);
         return;
     }
-    if (data.size >= 3 && memcmp(data.data, "\xef\xbb\xbf", 3) == 0) {
+    if (mark_size(data.data, data.size)) {
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "it begins with a byte order mark, which glTF forbids");
         return;
     }

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json.h"
+
 /* Text that is read through once, and what is written meanwhile. */
 typedef struct Patch {
     const char *at, *end;
@@ -110,7 +112,8 @@ static void put_gap(Patch *patch, const Setting *setting) {
 
 /* A key's value from the text of its string. */
 static json_t *key_read(Patch *patch, const char *from, const char *to) {
-    json_t *key = json_loadb(from, (size_t)(to - from), JSON_DECODE_ANY, NULL);
+    bool starved;
+    json_t *key = json_parse(from, (size_t)(to - from), JSON_DECODE_ANY, NULL, &starved);
     if (!key) patch->failed = true;
     return key;
 }

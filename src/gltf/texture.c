@@ -54,7 +54,7 @@ void textures_read(Asset *asset) {
     }
 }
 
-static Wrap wrap_read(const Field *field) {
+static TextureWrap wrap_read(const Field *field) {
     enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
     size_t value = field_size(field, REPEAT, 0, SIZE_MAX);
     switch (value) {
@@ -81,9 +81,9 @@ static void sampler_read(Asset *asset, int index, Texture *texture) {
 typedef struct Job {
     Span bytes;
     unsigned char *owned;
-    const char *name; /* subject of messages */
-    const char *path; /* NULL: no file of its own */
-    WeftResult result;
+    const char *name;  /* subject of messages */
+    const char *path;  /* NULL: no file of its own */
+    WeftResult result; /* first of finding its bytes, then of decoding them */
     WeftError error;
 } Job;
 
@@ -111,7 +111,7 @@ static void decode(void *user, int turn, int thread) {
     int item = jobs->order[turn];
     Job *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
-    if (atomic_load(&jobs->stopped)) return;
+    if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
     job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
                                          &jobs->asset->scene->images[item], &log, &job->error);
     size_t decoded = atomic_fetch_add(&jobs->decoded, job->bytes.size) + job->bytes.size;
@@ -171,6 +171,14 @@ static const char *image_name(Asset *asset, int index) {
     return name;
 }
 
+/* Who examines an asset is told of an image whose bytes are not to be had, and of all else in the asset. */
+static void image_excuse(Asset *asset, Job *job) {
+    if (!asset->examined || asset->result != WEFT_INPUT) return;
+    job->result = asset->result;
+    if (asset->error) job->error = *asset->error;
+    asset->result = WEFT_OK;
+}
+
 /* The scene's image for glTF image number index: that of its view or file where they have one already. */
 static int image_resolve(Jobs *jobs, int index) {
     Asset *asset = jobs->asset;
@@ -184,16 +192,18 @@ static int image_resolve(Jobs *jobs, int index) {
         job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
     } else if (uri) {
         AssetFile *file = file_refer(&asset->image_files, &uri_field, uri, SIZE_MAX);
-        if (!file) return 0;
-        job.bytes = file_bytes(&asset->image_files, asset, file);
-        job.name = job.path = file->path;
-        made = &file->image;
+        if (file) {
+            job.bytes = file_bytes(&asset->image_files, asset, file);
+            job.name = job.path = file->path;
+            made = &file->image;
+        }
     } else if (view >= 0) {
         job.bytes = view_bytes(asset, view);
         made = &asset->views[view].image;
     } else {
         field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "it has neither uri nor bufferView");
     }
+    image_excuse(asset, &job);
     if (!*made) {
         jobs->items[asset->scene->image_count] = job;
         *made = ++asset->scene->image_count;

@@ -45,7 +45,7 @@ static bool number_all(Saving *saving) {
 }
 
 static void sampler_put(Saving *saving, const Texture *texture, json_t *object) {
-    static const int wraps[] = {10497, 33648, 33071}; /* as Wrap; of the specification */
+    static const int wraps[] = {10497, 33648, 33071}; /* as TextureWrap; of the specification */
     enum { NEAREST = 9728 };
     if (texture->wrap_u == WRAP_REPEAT && texture->wrap_v == WRAP_REPEAT && !texture->nearest) return;
     json_t *list = saving_list(saving, "samplers"), *sampler = json_object(), *other;

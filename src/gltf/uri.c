@@ -51,8 +51,7 @@ static int hex_digit(char c) {
     return -1;
 }
 
-/* In place; false where a % is not followed by two hexadecimal digits or hides a zero byte. */
-static bool percent_decode(char *text) {
+bool uri_unescape(char *text) {
     char *out = text;
     for (const char *in = text; *in; in++) {
         if (*in != '%') {
@@ -104,7 +103,7 @@ char *uri_path(const Field *field, const char *uri) {
     const char *reason = NULL;
     if (has_scheme(uri))
         reason = "only files and data URIs can be read";
-    else if (!percent_decode(name))
+    else if (!uri_unescape(name))
         reason = "its percent-encoding is damaged";
     else if (!*name)
         reason = "it is empty";

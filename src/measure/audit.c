@@ -374,7 +374,7 @@ static WeftResult map_make(Work *work, WeftError *error) {
     result =
         bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
                     desc->threads, desc->progress, desc->user, map_cell, work);
-    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* by which a patch may be off between */
+    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* of patches, tested in nine places */
     return result;
 }
 

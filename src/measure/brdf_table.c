@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/mark.h"
 #include "base/memory.h"
 #include "base/number.h"
 
@@ -89,11 +90,6 @@ static size_t room_for(const char *text, size_t size) {
     return count;
 }
 
-/* Some programs begin a text with U+FEFF, in UTF-8. */
-static size_t mark_length(const char *text, size_t size) {
-    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-}
-
 static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, const char *name,
                              WeftError *error) {
     WeftResult result = WEFT_OK;
@@ -116,7 +112,7 @@ static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, co
 WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out,
                            WeftError *error) {
     *out = (BrdfTable){0};
-    size_t mark = mark_length(text, size), room = room_for(text, size);
+    size_t mark = mark_size(text, size), room = room_for(text, size);
     out->wo = alloc_array(room, sizeof *out->wo);
     out->wi = alloc_array(room, sizeof *out->wi);
     out->f = alloc_array(room, sizeof *out->f);

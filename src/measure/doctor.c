@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "gltf/gltf.h"
 #include "gltf/rewrite.h"
+#include "gltf/uri.h"
 
 static const struct {
     const char *name, *help;
@@ -118,33 +119,44 @@ void doctor_soften(WeftDoctor *doctor) {
     doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
 }
 
-/* The image of the file that a warning is about, -1 where it names none: "ASSET: images[3]: ...", or the path
- * of its own file. */
+/* Returns true where a warning begins with the path of an image's own file, of which fail.c gives so much. */
+static bool begins_with_path(const WeftDoctor *doctor, int image, const char *text) {
+    enum { GIVEN = 200 };
+    char path[GIVEN * 4];
+    const char *asset = doctor->asset.name, *slash = strrchr(asset, '/');
+    const char *uri = json_string_value(json_object_get(doctor_item(doctor, "images", image), "uri"));
+    int folder = slash ? (int)(slash - asset) + 1 : 0;
+    if (!uri || folder >= GIVEN) return false;
+    snprintf(path, sizeof path, "%.*s%s", folder, asset, uri);
+    if (!uri_unescape(path + folder)) return false;
+    size_t length = strnlen(path, GIVEN);
+    return strncmp(text, path, length) == 0 && text[length] == ':';
+}
+
+/* The image of the file that a warning is about, -1 where it names none: the path of its own file, or "ASSET:
+ * images[3]: ...". */
 static int image_named(const WeftDoctor *doctor, const char *text) {
+    for (int k = 0; k < (int)doctor->asset.image_count; k++)
+        if (begins_with_path(doctor, k, text)) return k;
     const char *images = strstr(text, "images[");
-    if (images) return atoi(images + strlen("images["));
-    for (int k = 0; k < (int)doctor->asset.image_count; k++) {
-        const char *uri = json_string_value(json_object_get(doctor_item(doctor, "images", k), "uri"));
-        const char *name = uri ? strrchr(uri, '/') : NULL,
-                   *at = uri ? strstr(text, name ? name + 1 : uri) : NULL;
-        if (at && at[strlen(name ? name + 1 : uri)] == ':') return k;
-    }
-    return -1;
+    return images ? atoi(images + strlen("images[")) : -1;
 }
 
 /* Warnings of the reader: those of an image become findings, all go on to the caller but of an image that was
  * not read, since that is all there is to say. */
 static void hear(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
-    bool unread = message == WEFT_MESSAGE_IMAGE_FORMAT || message == WEFT_MESSAGE_IMAGE_SIZE ||
-                  message == WEFT_MESSAGE_IMAGE_DAMAGED || message == WEFT_MESSAGE_IMAGE_UNSUPPORTED;
+    bool absent = message == WEFT_MESSAGE_FILE_OPEN || message == WEFT_MESSAGE_GLTF_URI,
+         unread = absent || message_result(message) == WEFT_INPUT;
     if (unread || message == WEFT_MESSAGE_IMAGE_REPAIRED) {
         int index = image_named(doctor, text);
         Place place = {index < 0 ? WEFT_OF_ASSET : WEFT_OF_IMAGE, index < 0 ? 0 : index, NULL};
         doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0,
                      (double)NAN, NULL, "%s", text);
-        doctor_advise(doctor, unread ? "write it as PNG or JPEG; what it would show was not looked at"
-                                     : "write the image again: other readers may refuse it");
+        doctor_advise(doctor, "%s",
+                      absent   ? "put the file where the asset names it; what it would show was not looked at"
+                      : unread ? "write it as PNG or JPEG; what it would show was not looked at"
+                               : "write the image again: other readers may refuse it");
     }
     if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }

@@ -40,7 +40,7 @@ typedef struct Answer {
 struct Energy {
     MaterialKey key;
     Answer answers[READERS];
-    float least; /* the roughness from which no engine gains, as least_roughness has it; < 0: not asked */
+    float least; /* the roughness from which no engine gains, as least_roughness has it */
 };
 
 static int input_of(const char *name) {
@@ -70,8 +70,8 @@ static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float
 
 enum { SLICES = 24, DRAWS = 128 };
 
-/* What a material returns towards one cosine below its sheen, by the cosine that the light comes in with, and
- * above. */
+/* The light that a material returns towards one cosine, below its sheen by the cosine that the light comes in
+ * with, and above it. */
 typedef struct Base {
     float over[3], below[SLICES][3], z[SLICES]; /* z: mean cosine */
 } Base;
@@ -84,8 +84,8 @@ typedef struct Case {
     Base base[COSINES];
 } Case;
 
-/* What all materials share: E of the white sheens by hundredths of roughness, and the table that a rule asks
- * for. */
+/* Tables that all materials share: E of the white sheens by hundredths of roughness, and the one that a rule
+ * asks for. */
 struct EnergyTables {
     float white[READERS][101][COSINES]; /* 0: not known yet */
     AlbedoTable keep;
@@ -104,28 +104,28 @@ static Surface dressed(const Case *self, const float color[3], float roughness) 
     return surface;
 }
 
-static void stack_of(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
-                     Stack *stack) {
+static void see(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
+                SeenStack *seen) {
     const Surface surface = dressed(self, color, roughness);
-    stack_make(stack, &surface, &self->choices, table, o);
+    seen_make(seen, &surface, &self->choices, table, o);
 }
 
 /* Samples what one slot reflects, each draw as that slot spreads its light. */
-static void base_add(const Stack *stack, int slot, Dir o, Base *base) {
-    Stack one = *stack;
-    Slot *const slots[] = {&one.diffuse, &one.specular, &one.coat};
+static void base_add(const SeenStack *whole, int slot, Base *base) {
+    SeenStack one = *whole;
+    float *const picks[] = {&one.view.pick.diffuse, &one.view.pick.specular, &one.view.pick.coat};
     const Slots only[] = {slots_of(true, false, false, false, false),
                           slots_of(false, true, false, false, false),
                           slots_of(false, false, false, true, false)};
-    if (!(slots[slot]->pick > 0.0f)) return;
-    one.diffuse.pick = one.specular.pick = one.sheen.pick = one.coat.pick = one.dust.pick = 0.0f;
-    slots[slot]->pick = 1.0f;
+    if (!(*picks[slot] > 0.0f)) return;
+    one.view.pick = (Scales){0};
+    *picks[slot] = 1.0f;
     int counts[SLICES] = {0};
     double heights[SLICES] = {0.0};
     for (int d = 0; d < DRAWS; d++) {
-        const Dir i = stack_sample(&one, o, ((float)d + 0.5f) / DRAWS, (float)halton(d, 2));
+        const Dir i = seen_sample(&one, ((float)d + 0.5f) / DRAWS, (float)halton(d, 2));
         if (!(i.z > 0.0f)) continue;
-        const StackValue value = stack_eval_of(&one, only[slot], o, i);
+        const StackValue value = stack_eval_of(&one.stack, &one.view, only[slot], i);
         if (!(value.pdf > 0.0f)) continue;
         const int slice = (int)fminf(i.z * SLICES, SLICES - 1);
         float *to = slot == 2 ? base->over : base->below[slice];
@@ -156,9 +156,9 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
                    .along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f)};
     for (int k = 0; k < COSINES; k++) {
         const Dir o = seen_from(self->along, k);
-        Stack stack;
-        stack_make(&stack, &self->bare, &self->choices, (TableRef){.kind = TABLE_NONE}, o);
-        for (int slot = 0; slot < 3; slot++) base_add(&stack, slot, o, &self->base[k]);
+        SeenStack bare;
+        seen_make(&bare, &self->bare, &self->choices, (TableRef){.kind = TABLE_NONE}, o);
+        for (int slot = 0; slot < 3; slot++) base_add(&bare, slot, &self->base[k]);
     }
     return true;
 }
@@ -168,13 +168,15 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
 static TableRef keep_table(EnergyTables *tables, const Case *self) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     const Dir n = dir(0.0f, 0.0f, 1.0f);
-    Stack stack, end;
-    stack_of(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &stack);
-    if (stack.albedo != ALBEDO_TABLE && stack.albedo != ALBEDO_KHRONOS) return (TableRef){.kind = TABLE_NONE};
-    stack_of(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
-    const float low = fminf(end.at, stack.at), high = fmaxf(end.at, stack.at);
-    if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack.sheen.lobe, low, high, false))
-        albedo_table_fill(&tables->keep, &stack.sheen.lobe, low, high, 0);
+    SeenStack most, end;
+    const Stack *stack = &most.stack;
+    see(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &most);
+    if (stack->albedo != ALBEDO_TABLE && stack->albedo != ALBEDO_KHRONOS)
+        return (TableRef){.kind = TABLE_NONE};
+    see(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
+    const float low = fminf(end.stack.at, stack->at), high = fmaxf(end.stack.at, stack->at);
+    if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack->sheen.lobe, low, high, false))
+        albedo_table_fill(&tables->keep, &stack->sheen.lobe, low, high, 0);
     return albedo_table_ref(&tables->keep);
 }
 
@@ -188,9 +190,9 @@ static float white_albedo(EnergyTables *tables, const Case *self, int reader, fl
     for (int end = 0; end < 2; end++) {
         if (*memory[end] > 0.0f) continue;
         const Dir o = seen_from(self->along, k);
-        Stack stack;
-        stack_of(self, white, (float)(low + end) / 100.0f, (TableRef){.kind = TABLE_NONE}, o, &stack);
-        *memory[end] = albedo_quadrature(&stack.sheen.lobe, o, 1e-4).f0;
+        SeenStack seen;
+        see(self, white, (float)(low + end) / 100.0f, (TableRef){.kind = TABLE_NONE}, o, &seen);
+        *memory[end] = albedo_quadrature(&seen.stack.sheen.lobe, o, 1e-4).f0;
     }
     return mix(*memory[0], *memory[1], at - (float)low);
 }
@@ -198,9 +200,9 @@ static float white_albedo(EnergyTables *tables, const Case *self, int reader, fl
 /* E of the white sheen by itself under an engine: the lobe's, times what the engine puts on it. */
 static float sheen_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
-    Stack stack;
-    stack_of(self, white, roughness, (TableRef){.kind = TABLE_NONE}, seen_from(self->along, k), &stack);
-    return white_albedo(tables, self, reader, roughness, k) * stack.sheen.f0.r;
+    SeenStack seen;
+    see(self, white, roughness, (TableRef){.kind = TABLE_NONE}, seen_from(self->along, k), &seen);
+    return white_albedo(tables, self, reader, roughness, k) * seen.view.scale.sheen * seen.stack.sheen.f0.r;
 }
 
 static float luminance_of(const float e[3]) { return 0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2]; }
@@ -215,16 +217,18 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
     for (int k = 0; k < COSINES; k++) {
         const Base *base = &self->base[k];
         const Dir o = seen_from(self->along, k);
-        Stack stack;
-        stack_of(self, color, roughness, table, o, &stack);
-        const float e = white_albedo(tables, self, reader, roughness, k);
-        float with[3] = {base->over[0] + e * stack.sheen.f0.r, base->over[1] + e * stack.sheen.f0.g,
-                         base->over[2] + e * stack.sheen.f0.b},
+        SeenStack seen;
+        see(self, color, roughness, table, o, &seen);
+        const Stack *stack = &seen.stack;
+        const float e = white_albedo(tables, self, reader, roughness, k) * seen.view.scale.sheen;
+        float with[3] = {base->over[0] + e * stack->sheen.f0.r, base->over[1] + e * stack->sheen.f0.g,
+                         base->over[2] + e * stack->sheen.f0.b},
               without[3] = {base->over[0], base->over[1], base->over[2]};
         for (int slice = 0; slice < SLICES; slice++) {
             const float z = base->z[slice], *below = base->below[slice];
             if (!(z > 0.0f)) continue;
-            const Rgb keep = stack_keep(&stack, stack_albedo(&stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
+            const Rgb keep =
+                stack_keep(stack, &seen.view, stack_albedo(stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
             with[0] += keep.r * below[0], with[1] += keep.g * below[1], with[2] += keep.b * below[2];
             for (int c = 0; c < 3; c++) without[c] += below[c];
         }
@@ -254,21 +258,21 @@ static bool gains(const Answer *answer) {
     return gain(answer, &where) > 0.0f;
 }
 
-/* The least roughness, in hundredths, from which no engine gains; 0 where even 1 does. An engine gains less
- * the rougher a sheen is, so that each is halved only above where those before it end. */
-static float least_roughness(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
+/* The least roughness, in hundredths, from which no engine gains; that of the sheen where none does now, and
+ * 0 where even 1 does. An engine gains less the rougher a sheen is, so that each is halved only above where
+ * those before it end. */
+static float least_roughness(EnergyTables *tables, const Cloth *cloth, const Case cases[READERS],
+                             const Answer answers[READERS]) {
     const int start = (int)(cloth->roughness * 100.0f);
     int least = start;
     for (int r = 0; r < READERS; r++) {
-        Case self;
-        if ((least == start && !gains(&answers[r])) || !case_make(doctor, cloth, r, &self)) continue;
-        const Answer first = answer_of(doctor->energy_tables, &self, r, cloth->color, (float)least / 100.0f);
+        if (least == start && !gains(&answers[r])) continue;
+        const Answer first = answer_of(tables, &cases[r], r, cloth->color, (float)least / 100.0f);
         if (least != start && !gains(&first)) continue;
         int low = least, high = 101;
         while (high - low > 1) {
             const int middle = high > 100 ? 100 : (low + high) / 2;
-            const Answer answer =
-                answer_of(doctor->energy_tables, &self, r, cloth->color, (float)middle / 100.0f);
+            const Answer answer = answer_of(tables, &cases[r], r, cloth->color, (float)middle / 100.0f);
             if (!gains(&answer))
                 high = middle;
             else if (middle == 100)
@@ -292,13 +296,12 @@ static const char *engine_names(unsigned engines, char text[128]) {
 
 static double degrees(float cosine) { return 57.2957795 * acos((double)cosine); }
 
-static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst, Energy *energy,
-                      int where) {
+static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
+                      const Energy *energy, int where) {
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
-    if (energy->least < 0.0f) energy->least = least_roughness(doctor, cloth, answers);
-    float least = energy->least;
+    const float least = energy->least;
     bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
     doctor_found(doctor, WEFT_FINDING_SHEEN_GAINS, (Place){WEFT_OF_MATERIAL, cloth->index, path}, engines,
@@ -323,7 +326,7 @@ static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, 
         doctor_advise(doctor, "darken sheenColorFactor: no roughness helps a sheen this bright on this base");
 }
 
-static void check_gain(WeftDoctor *doctor, const Cloth *cloth, Energy *energy) {
+static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Energy *energy) {
     const Answer *answers = energy->answers;
     unsigned engines = 0;
     int worst = -1, where = 0;
@@ -403,7 +406,7 @@ static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, MaterialKey *ke
 }
 
 /* What is known of a material with these numbers; NULL: nothing yet. */
-static Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *key) {
+static const Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *key) {
     for (int k = 0; k < doctor->energy_count; k++)
         if (material_key_same(&doctor->energies[k].key, key)) return &doctor->energies[k];
     return NULL;
@@ -422,23 +425,31 @@ static Energy *energy_add(WeftDoctor *doctor) {
     return &doctor->energies[doctor->energy_count++];
 }
 
+/* Returns false for a material without sound numbers. */
+static bool energy_measure(const WeftDoctor *doctor, const Cloth *cloth, Energy *energy) {
+    EnergyTables *tables = doctor->energy_tables;
+    Case cases[READERS];
+    for (int r = 0; r < READERS; r++) {
+        if (!case_make(doctor, cloth, r, &cases[r])) return false;
+        energy->answers[r] = answer_of(tables, &cases[r], r, cloth->color, cloth->roughness);
+    }
+    energy->least = least_roughness(tables, cloth, cases, energy->answers);
+    return true;
+}
+
 /* Measured once for all that have the same numbers. */
-static Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
+static const Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
     MaterialKey key;
     if (!key_of(doctor, cloth, &key)) return NULL;
-    Energy *energy = energy_find(doctor, &key);
-    if (energy) return energy;
+    const Energy *known = energy_find(doctor, &key);
+    if (known) return known;
     if (!doctor->energy_tables) doctor->energy_tables = alloc_array(1, sizeof *doctor->energy_tables);
     doctor->failed |= !doctor->energy_tables;
-    energy = doctor->energy_tables ? energy_add(doctor) : NULL;
-    if (!energy) return NULL;
-    *energy = (Energy){.key = key, .least = -1.0f};
-    for (int r = 0; r < READERS; r++) {
-        Case self;
-        if (!case_make(doctor, cloth, r, &self)) return NULL;
-        energy->answers[r] = answer_of(doctor->energy_tables, &self, r, cloth->color, cloth->roughness);
-    }
-    return energy;
+    Energy energy = {.key = key};
+    if (!doctor->energy_tables || !energy_measure(doctor, cloth, &energy)) return NULL;
+    Energy *kept = energy_add(doctor);
+    if (kept) *kept = energy;
+    return kept;
 }
 
 float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine) {
@@ -450,7 +461,7 @@ float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float co
 
 void check_energy(WeftDoctor *doctor, const Cloth *cloth) {
     if (!cloth_shows(cloth) || doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
-    Energy *energy = energy_of(doctor, cloth);
+    const Energy *energy = energy_of(doctor, cloth);
     if (!energy) return;
     check_gain(doctor, cloth, energy);
     check_dark(doctor, cloth, energy->answers);

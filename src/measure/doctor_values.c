@@ -232,7 +232,7 @@ typedef struct Hearing {
 
 static bool begins(const char *words, const char *with) { return strncmp(words, with, strlen(with)) == 0; }
 
-/* Whether another check of the doctor, which looks at textures too, says the same. */
+/* Returns true where another check of the doctor, which looks at textures too, says the same. */
 static bool said_elsewhere(const Cloth *cloth, const char *words) {
     double ior;
     if (begins(words, "between")) return cloth_shows(cloth);

@@ -263,7 +263,7 @@ static bool next_choices(WeftLobe *lobe) {
     return false;
 }
 
-/* What a lobe may be put together of: D, V and F. */
+/* Picks the terms that a lobe may be put together of: D, V and F. */
 static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, Finalists *best) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     LobeFound found = {.lobe = *lobe};

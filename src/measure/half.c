@@ -39,8 +39,7 @@ void half_eval(int lobe, const Single *params, size_t n, const Single *ox, const
     for (size_t k = 0; k < n; k++) {
         Dir o = {(Half)ox[k], (Half)oy[k], (Half)oz[k]}, i = {(Half)ix[k], (Half)iy[k], (Half)iz[k]};
         Angles a = angles_between(o, i);
-        LobeValue v;
-        lobe_value_to(&m, &a, &v);
+        LobeValue v = lobe_value(&m, a);
         f[k] = (Single)(v.f * lobe_color(v, first, second));
     }
 }

@@ -17,6 +17,9 @@
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \
     struct Name
+#define UNION(Name)                                                                                          \
+    typedef union Name Name;                                                                                 \
+    union Name
 
 typedef float Single;
 typedef _Float16 Half;

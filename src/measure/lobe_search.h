@@ -28,8 +28,8 @@ typedef struct LobeFound {
  * end. */
 WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
 
-/* Of out->lobe, about the error that a search would find, in far less time; evaluations are counted. It fails
- * as the search does. */
+/* Estimates the error that a search would find for out->lobe, in far less time; evaluations are counted. It
+ * fails as the search does. */
 WeftResult lobe_search_glance(const LobeSearch *search, LobeFound *out);
 
 #endif

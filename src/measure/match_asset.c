@@ -253,7 +253,7 @@ static WeftResult search_all(AssetSearch *self, WeftError *error) {
     return WEFT_OK;
 }
 
-/* What was found, as factors of each material. */
+/* Hands each material what was found for it, as factors. */
 static void hand_out(AssetSearch *self) {
     for (int k = 0; k < self->count; k++) {
         WeftAssetMatch *match = &self->matches[k];

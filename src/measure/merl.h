@@ -16,7 +16,7 @@
 
 enum { MERL_THETA_H = 90, MERL_THETA_D = 90, MERL_PHI_D = 180, MERL_BINS = 90 * 90 * 180 };
 
-/* How many bins there are of each angle. */
+/* The number of bins of each angle. */
 typedef struct MerlShape {
     int theta_h, theta_d, phi_d;
 } MerlShape;

@@ -39,8 +39,8 @@ struct WeftReflection {
 /* Whether E of the sheen is asked of a table of its lobe, and the stack that says so. Engines' own tables are
  * made before they are asked. */
 static bool asks_for_table(const Whole *self, Stack *stack) {
-    stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-    if (!(stack->sheen.pick > 0.0f) && stack->layer != LAYER_MULTIPLICATIVE) return false;
+    stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE});
+    if (!HAS_SHEEN(stack) && stack->layer != LAYER_MULTIPLICATIVE) return false;
     if (stack->albedo == ALBEDO_TABLE || stack->albedo == ALBEDO_KHRONOS) return true;
     stack_albedo(stack, dir(0.0f, 0.0f, 1.0f));
     return false;
@@ -151,7 +151,7 @@ const char *reflection_walks(const WeftReflection *self) {
     if (self->kind == REFLECTION_WHOLE) {
         Stack stack;
         asks_for_table(&self->whole, &stack);
-        if (stack.sheen.pick > 0.0f) lobe = stack.sheen.lobe.id;
+        if (HAS_SHEEN(&stack)) lobe = stack.sheen.lobe.id;
     }
     const WeftLobeInfo *info = weft_lobe_info(lobe);
     return info && info->traits & WEFT_LOBE_REFERENCE ? info->id : NULL;
@@ -170,25 +170,27 @@ static Slots slots_of_part(int part) {
 }
 
 /* Of what walks at random, the mean of some walks. */
-static StackValue value_of(const Stack *stack, int part, Dir o, Dir i, uint32_t first, uint32_t walks) {
-    StackValue sum = stack_eval_of(stack, slots_of_part(part), o, i);
-    bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && stack->sheen.pick > 0.0f;
-    for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++)
-        sum.f_cos = rgb_add(
-            sum.f_cos, rgb_scale(sheet_bounces(stack, slots_all(), o, i, first + k), 1.0f / (float)walks));
+static StackValue value_of(const SeenStack *seen, int part, Dir i, uint32_t first, uint32_t walks) {
+    const Stack *stack = &seen->stack;
+    StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part), i);
+    bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
+    for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++) {
+        Rgb bounces = sheet_bounces(stack, &seen->view, slots_all(), i, first + k);
+        sum.f_cos = rgb_add(sum.f_cos, rgb_scale(bounces, 1.0f / (float)walks));
+    }
     return sum;
 }
 
 static void whole_eval(const Whole *self, int part, const float wo[3], int count, const float (*wi)[3],
                        float (*f)[3]) {
-    Stack stack;
+    SeenStack seen;
     Dir o = to_frame(self, wo);
     if (!(o.z > 0.0f)) return;
-    stack_make(&stack, &self->surface, &self->choices, self->table, o);
+    seen_make(&seen, &self->surface, &self->choices, self->table, o);
     for (int k = 0; k < count; k++) {
         Dir i = to_frame(self, wi[k]);
         if (!(i.z > 0.0f)) continue;
-        Rgb c = rgb_scale(value_of(&stack, part, o, i, 0, WALKS).f_cos, 1.0f / i.z);
+        Rgb c = rgb_scale(value_of(&seen, part, i, 0, WALKS).f_cos, 1.0f / i.z);
         f[k][0] = c.r, f[k][1] = c.g, f[k][2] = c.b;
     }
 }
@@ -207,17 +209,17 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
 
 /* Directions as the lobes spread them: however narrow these are, few will do. */
 static void whole_albedo(const Whole *self, int part, const float wo[3], float albedo[3]) {
-    Stack stack;
+    SeenStack seen;
     Dir o = to_frame(self, wo);
     double sum[3] = {0.0};
-    stack_make(&stack, &self->surface, &self->choices, self->table, o);
+    seen_make(&seen, &self->surface, &self->choices, self->table, o);
     for (uint32_t k = 0; k < DRAWS; k++) {
-        Dir i = stack_sample(&stack, o, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));
+        Dir i = seen_sample(&seen, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));
         if (!(i.z > 0.0f)) continue;
-        StackValue value = value_of(&stack, WEFT_PART_ALL, o, i, k, 1);
+        StackValue value = value_of(&seen, WEFT_PART_ALL, i, k, 1);
         float pdf = value.pdf;
         if (!(pdf > 0.0f)) continue;
-        if (part != WEFT_PART_ALL) value = value_of(&stack, part, o, i, k, 1);
+        if (part != WEFT_PART_ALL) value = value_of(&seen, part, i, k, 1);
         Rgb c = rgb_scale(value.f_cos, 1.0f / (pdf * DRAWS));
         sum[0] += (double)c.r, sum[1] += (double)c.g, sum[2] += (double)c.b;
     }

@@ -166,25 +166,22 @@ static Surface extreme_velvet(int k) {
 static void whole_look(const Subject *subject, int setting, Dir o, View *view) {
     view->subject = subject;
     view->o = o;
-    stack_make(&view->stack, &subject->surfaces[setting], &subject->choices,
-               albedo_table_ref(&subject->tables[subject->table_of[setting]]), o);
+    seen_make(&view->whole, &subject->surfaces[setting], &subject->choices,
+              albedo_table_ref(&subject->tables[subject->table_of[setting]]), o);
 }
 
 static void whole_f(const View *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) {
-        StackValue value = stack_eval(&view->stack, view->o, dir(i.x[k], i.y[k], i.z[k]), 0);
+        StackValue value = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0);
         f[k] = i.z[k] > 0.0f ? rgb_max3(value.f_cos) / i.z[k] : rgb_max3(value.f_cos);
     }
 }
 
 static void whole_pdf(const View *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++)
-        pdf[k] = stack_eval(&view->stack, view->o, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
+    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
 
-static Dir whole_sample(const View *view, float u, float v) {
-    return stack_sample(&view->stack, view->o, u, v);
-}
+static Dir whole_sample(const View *view, float u, float v) { return seen_sample(&view->whole, u, v); }
 
 /* A sheen's lobe and the parameter with which E is asked for. */
 typedef struct Sheen {
@@ -201,8 +198,7 @@ static bool same_sheen(const Sheen *a, const Sheen *b) {
 
 static Sheen sheen_of(const Subject *subject, int setting) {
     Stack stack;
-    stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE},
-               dir(0.0f, 0.0f, 1.0f));
+    stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE});
     return (Sheen){stack.sheen.lobe, stack.at};
 }
 

@@ -16,7 +16,7 @@ typedef struct View {
     Dir o;
     Lobe lobe; /* of a lobe */
     float second;
-    Stack stack; /* of a material */
+    SeenStack whole; /* of a material */
 } View;
 
 /* Many directions: structures of arrays. */

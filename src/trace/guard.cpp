@@ -1,10 +1,15 @@
 #include "trace/guard.h"
 
-bool guarded(void (*call)(void *user), void *user) {
+#include <new>
+
+bool guarded(void (*call)(void *user), void *user, bool *starved) {
+    *starved = false;
     try {
         call(user);
         return true;
+    } catch (const std::bad_alloc &) {
+        *starved = true;
     } catch (...) {
-        return false;
     }
+    return false;
 }

@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 /* Calls call(user). Returns false if it threw, as Embree and TBB do where memory runs out in the middle of
- * their own handling of it; what they held is then lost. */
-bool guarded(void (*call)(void *user), void *user);
+ * their own handling of it; what they held is then lost. *starved (not NULL): it threw for want of memory. */
+bool guarded(void (*call)(void *user), void *user, bool *starved);
 
 #ifdef __cplusplus
 }

@@ -111,6 +111,34 @@ static void warning_is_told_though_a_note_says_the_same(void **state) {
     ran_free(&ran);
 }
 
+/* A picture that is not there, and one whose name is escaped and which is WebP, each in its place; the
+ * material is examined as ever. */
+static void missing_image_is_a_finding(void **state) {
+    (void)state;
+    static const char text[] = "{\"asset\":{\"version\":\"2.0\"},\"images\":[{\"uri\":\"not%20there.png\"},{"
+                               "\"uri\":\"dark%20wool.png\"}],"
+                               "\"textures\":[{\"source\":0},{\"source\":1}],\"materials\":[{"
+                               "\"pbrMetallicRoughness\":{\"metallicFactor\":"
+                               "3,\"baseColorTexture\":{\"index\":0}},\"normalTexture\":{\"index\":1}}]}";
+    file_make("missing.gltf", text, sizeof text - 1);
+    file_make("dark wool.png", "RIFF\x10\0\0\0WEBPVP8 and more", 24);
+    json_t *report = report_of(LIST("doctor", "missing.gltf", "--json"), 1),
+           *findings = json_object_get(report, "findings");
+    assert_int_equal(json_array_size(findings), 3);
+    static const char *const ids[] = {"value-range", "image-unread", "image-unread"},
+                             *const words[] = {"metallicFactor", "not there.png: cannot be opened",
+                                               "dark wool.png: is not an image"},
+                             *const places[] = {"/materials/0/pbrMetallicRoughness/metallicFactor",
+                                                "/images/0", "/images/1"};
+    for (size_t k = 0; k < 3; k++) {
+        const json_t *finding = json_array_get(findings, k);
+        assert_string_equal(json_string_value(json_object_get(finding, "id")), ids[k]);
+        assert_string_equal(json_string_value(json_object_get(finding, "place")), places[k]);
+        assert_non_null(strstr(json_string_value(json_object_get(finding, "words")), words[k]));
+    }
+    json_decref(report);
+}
+
 static void mends_and_keeps_the_rest(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "sick.gltf", "--fix", "-o", "mended.gltf");
@@ -178,6 +206,7 @@ int main(void) {
         cmocka_unit_test(tells_what_is_wrong),
         cmocka_unit_test(says_so_when_all_is_well),
         cmocka_unit_test(warning_is_told_though_a_note_says_the_same),
+        cmocka_unit_test(missing_image_is_a_finding),
         cmocka_unit_test(mends_and_keeps_the_rest),
         cmocka_unit_test(lists_what_there_is),
         cmocka_unit_test(page_has_every_finding),

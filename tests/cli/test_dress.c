@@ -222,6 +222,23 @@ static void the_whole_is_judged(void **state) {
     warns(LIST("--workflow=specular", "--set=*.specular_color=0.9"), "diffuse colour of a metal");
 }
 
+/* Three inputs make one reflectance. */
+static void finding_of_several_inputs_is_told_once(void **state) {
+    (void)state;
+    static const char text[] = "{\"metallic\": 0, \"ior\": 1.1, \"specular\": 0.9}";
+    file_make("dim.json", text, sizeof text - 1);
+    static const char *const dressed[][3] = {
+        {"--set=*.metallic=0", "--set=*.ior=1.1", "--set=*.specular=0.9"}, {"--material=dim.json"}};
+    for (int k = 0; k < 2; k++) {
+        Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+                      dressed[k][0], dressed[k][1], dressed[k][2]);
+        const char *first = strstr(ran.err, "reflectance of a dielectric");
+        if (ran.code != 0 || !first || strstr(first + 1, "reflectance of a dielectric"))
+            fail_msg("exit %d: %s", ran.code, ran.err);
+        ran_free(&ran);
+    }
+}
+
 static void conversion_says_what_it_loses(void **state) {
     (void)state;
     Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
@@ -399,6 +416,7 @@ int main(void) {
         cmocka_unit_test(profiles_are_not_converted),
         cmocka_unit_test(aliases_are_taken),
         cmocka_unit_test(mistakes_are_named),
+        cmocka_unit_test(finding_of_several_inputs_is_told_once),
         cmocka_unit_test(conversion_says_what_it_loses),
         cmocka_unit_test(a_sheet_holds_the_pictures),
         cmocka_unit_test(a_sweep_has_a_picture_for_each_value),

@@ -67,6 +67,20 @@ static void the_table_is_printed(void **state) {
     ran_free(&ran);
 }
 
+/* That of Schlick ends at white, whatever f90 is. */
+static void no_f90_is_told_of_where_none_is_read(void **state) {
+    (void)state;
+    Ran ran = run_shell("\"$0\" eval cook-torrance -p v=smith-ggx-correlated -p f=schlick -p alpha=0.3 -p "
+                        "color=0.8,0.5,0.2 angles.txt >f2.txt && paste -d' ' angles.txt f2.txt | cut -d' ' "
+                        "-f1-7 >plain.csv && \"$0\" fit plain.csv --lobe cook-torrance");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    const char *row = strstr(ran.out, "   1  cook-torrance "), *end = row ? strchr(row, '\n') : NULL;
+    if (!end || !strstr(row, ", f schlick,")) fail_msg("%s", ran.out);
+    const char *f90 = strstr(row, "f90");
+    assert_true(!f90 || f90 > end);
+    ran_free(&ran);
+}
+
 /* A cloth of a reddish ground and a white rim, as a file of the only size there is. */
 static void make_measured(const char *path) {
     enum { BINS = 90 * 90 * 180 };
@@ -142,8 +156,11 @@ static void ctrl_c_ends_it(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lobe_is_found), cmocka_unit_test(the_table_is_printed),
-        cmocka_unit_test(slices_are_drawn), cmocka_unit_test(ctrl_c_ends_it), cmocka_unit_test(complaints)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_found),
+                                       cmocka_unit_test(the_table_is_printed),
+                                       cmocka_unit_test(no_f90_is_told_of_where_none_is_read),
+                                       cmocka_unit_test(slices_are_drawn),
+                                       cmocka_unit_test(ctrl_c_ends_it),
+                                       cmocka_unit_test(complaints)};
     return cmocka_run_group_tests(tests, table_begin, work_end);
 }

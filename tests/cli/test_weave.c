@@ -47,6 +47,16 @@ static void what_cannot_be_done_ends_in_one_line(void **state) {
     wif_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n");
     assert_ends(LIST("weave", "broken.wif"), 3, "line 4");
     assert_ends(LIST("weave", "none.wif"), 3, "none.wif: cannot be opened");
+    file_make("cloth.png", "RIFF\x10\0\0\0WEBPVP8 and more", 24);
+    assert_ends(LIST("weave", "cloth.png"), 3, "neither a WIF nor a picture: it is WebP\n");
+    wif_make("notes.txt", "warp 24k\nweft 24w\n");
+    assert_ends(LIST("weave", "notes.txt"), 3, "it is text that does not begin with [WIF]\n");
+    wif_make("empty.wif", "[WIF]\n");
+    assert_ends(LIST("weave", "empty.wif"), 3, "no section [WIF], or nothing in it\n");
+    assert_ends(LIST("weave", "plain; sett 24.5"), 2, "one or two whole numbers");
+    assert_ends(LIST("weave", "sett 24.5"), 2, "the weave is plain");
+    assert_ends(LIST("weave", "plain; both 8000k 8000w"), 2, "threads are too many");
+    assert_ends(LIST("weave", "twill 200/200; both 4001k 4000w"), 2, "threads are too many");
     assert_ends(LIST("weave", "velvet"), 2, "is not a weave");
     assert_ends(LIST("weave", "plain", "-o", "plain.jpg"), 2, ".wif, .png");
     assert_ends(LIST("weave", "plain", "--sett", "0"), 2, "sett");

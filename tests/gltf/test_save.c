@@ -166,8 +166,8 @@ static void anything_comes_back(void **state) {
     for (int c = 0; c < 12; c++) {
         WeftImage image = pattern(4 + c, c % 4 + 1, (WeftPixelType)(c / 4));
         assert_int_equal(weft_scene_add_texture(scene, &image, &error), c + 1);
-        scene->textures[c].wrap_u = (Wrap)(c % 3);
-        scene->textures[c].wrap_v = (Wrap)(c / 3 % 3);
+        scene->textures[c].wrap_u = (TextureWrap)(c % 3);
+        scene->textures[c].wrap_v = (TextureWrap)(c / 3 % 3);
         scene->textures[c].nearest = c % 5 == 0;
     }
     for (int k = 0; k < scene->material_count; k++) {

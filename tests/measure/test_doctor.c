@@ -506,7 +506,7 @@ static void like_materials_are_measured_once(void **state) {
 
 /* The gain is what weft_reflection_albedo says of the same material, and the roughness that is advised has
  * none. */
-/* A thousand sheens, none like another: two seconds of a processor were asked for, and a slower machine is
+/* A thousand sheens, none like another: two seconds of a processor are the goal, and a slower machine is
  * given three times that; it was twenty-five. */
 static void a_thousand_sheens_take_seconds(void **state) {
     (void)state;

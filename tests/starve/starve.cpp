@@ -2,14 +2,15 @@
  *
  * WEFT_STARVE_AT=n: the n-th, counted from 1, of those that weft, Embree, TBB, jansson or a codec ask for.
  * What the graphics driver and the C library ask for by themselves is neither counted nor refused: that is
- * theirs to survive. WEFT_STARVE_ON=1: all that follow it fail too. Who asks is told by the module that the
- * call returns to. */
+ * theirs to survive. WEFT_STARVE_ON=1: all that follow it fail too. WEFT_STARVE_COUNT: a file for how many
+ * there were. Who asks is told by the module that the call returns to. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
@@ -32,6 +33,14 @@ __attribute__((constructor)) void begin() {
     const char *at = getenv("WEFT_STARVE_AT"), *on = getenv("WEFT_STARVE_ON");
     fail_on = on && *on == '1';
     fail_at = at ? atol(at) : -1;
+}
+
+__attribute__((destructor)) void end() {
+    const char *path = getenv("WEFT_STARVE_COUNT");
+    FILE *file = path ? fopen(path, "w") : nullptr;
+    if (!file) return;
+    fprintf(file, "%ld\n", count.load());
+    fclose(file);
 }
 
 bool is_ours(const void *caller) {

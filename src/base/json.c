@@ -1,0 +1,31 @@
+#include "base/json.h"
+
+#include <pthread.h>
+
+/* What jansson allocated with before: the C library's, or those of a program that set its own. */
+static json_malloc_t allocate;
+static json_free_t release;
+
+static _Thread_local bool was_refused;
+
+static void *allocate_watched(size_t size) {
+    void *memory = allocate(size);
+    was_refused |= !memory;
+    return memory;
+}
+
+static void watch(void) {
+    json_get_alloc_funcs(&allocate, &release);
+    json_set_alloc_funcs(allocate_watched, release);
+}
+
+json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *where, bool *starved) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, watch);
+    was_refused = false;
+    json_t *root = json_loadb(text, size, flags, where);
+    *starved = was_refused;
+    if (!was_refused) return root;
+    json_decref(root);
+    return NULL;
+}
