@@ -36,8 +36,8 @@ typedef struct WeftChartEntry {
     float ior;           /* index of refraction, from which f0 follows; 0 of a METAL */
 } WeftChartEntry;
 
-/* The entry at index, by kind and then from dark to bright; NULL out of range. It lives as long as the
- * program. */
+/* The entry at index, by kind and then from dark to bright: by the luminance of base_color, what is clear by
+ * that of f0. NULL out of range. It lives as long as the program. */
 WEFT_API const WeftChartEntry *weft_chart(int index);
 
 #ifdef __cplusplus

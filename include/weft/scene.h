@@ -59,8 +59,12 @@ WEFT_API const char *weft_scene_variant_name(const WeftScene *scene, int index);
  * chosen has is worn by none. */
 WEFT_API int weft_scene_material_worn(const WeftScene *scene, int index);
 
-/* Switches to a variant of KHR_materials_variants by name. */
+/* Switches to a variant of KHR_materials_variants by name, NULL: to none. A surface of which the variant says
+ * nothing wears what it does without one. Fails with WEFT_MESSAGE_VARIANT_NAME. */
 WEFT_API WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error);
+
+/* The index of the variant that was switched to; -1: none. */
+WEFT_API int weft_scene_variant(const WeftScene *scene);
 
 /* Sets "MATERIAL.INPUT" to a number or "r,g,b" and drops its texture (a normal map stays and is scaled), or a
  * choice such as "MATERIAL.layer" to an id or "auto"; MATERIAL is a name, an index or "*" for all. Values

@@ -20,8 +20,8 @@ WeftResult floor_check(const WeftFloor *wanted, WeftError *error);
 #define FLOOR_REACH 5.0f
 Floor floor_of(const WeftScene *scene, const WeftFloor *wanted);
 
-/* How much of what it catches a point of the floor shows: 1 up to half of the radius, 0 at the rim, between
- * them s^2 (3 - 2 s). */
+/* The share of what it catches that a point of the floor shows: 1 up to half of the radius, 0 at the rim,
+ * between them s^2 (3 - 2 s). */
 float floor_share(const Floor *floor, Vec3 point);
 
 /* The distance along a ray from above to the floor; below 0 where it meets none. */

@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/json.h"
+#include "base/mark.h"
 #include "scene/set.h"
 
 /* A file being read. The first failure stays. */
@@ -148,10 +150,10 @@ static void six(Reader *r, const json_t *json, const char *what, float m[6]) {
 
 /* One word, or one along u and one along v. */
 static void read_wrap(Reader *r, const json_t *json, Texture *texture) {
-    static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL}; /* as Wrap */
+    static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL}; /* as TextureWrap */
     bool two = json_is_array(json) && json_array_size(json) == 2;
-    texture->wrap_u = (Wrap)one_of(r, two ? json_array_get(json, 0) : json, "wrap", wraps);
-    texture->wrap_v = two ? (Wrap)one_of(r, json_array_get(json, 1), "wrap", wraps) : texture->wrap_u;
+    texture->wrap_u = (TextureWrap)one_of(r, two ? json_array_get(json, 0) : json, "wrap", wraps);
+    texture->wrap_v = two ? (TextureWrap)one_of(r, json_array_get(json, 1), "wrap", wraps) : texture->wrap_u;
 }
 
 /* Where a texture lies. */
@@ -311,14 +313,13 @@ static void read_object(Reader *r, json_t *root) {
         else
             read_rest(r, value);
     }
+    r->key = "keep";
+    for (int k = 0; k < INPUT_COUNT && r->result == WEFT_OK; k++)
+        if (r->out->named[k] && r->out->keep[k]) refuse(r, "%s is both kept and given", input_infos[k].name);
+    if (r->result != WEFT_OK) return;
+    plausible_check_named(&r->out->material, r->out->named, r->name, r->log);
     char about[SUBJECT];
-    for (int k = 0; k < INPUT_COUNT && r->result == WEFT_OK; k++) {
-        if (!r->out->named[k]) continue;
-        plausible_check(&r->out->material, k, -1, subject(r, input_infos[k].name, about), r->log);
-        r->key = "keep";
-        if (r->out->keep[k]) refuse(r, "%s is both kept and given", input_infos[k].name);
-    }
-    for (int k = 0; k < CHOICE_COUNT && r->result == WEFT_OK; k++)
+    for (int k = 0; k < CHOICE_COUNT; k++)
         plausible_check(&r->out->material, -1, k, subject(r, weft_material_choice_name(k), about), r->log);
 }
 
@@ -327,14 +328,14 @@ WeftResult material_file_read(const void *data, size_t size, const char *name, c
     *out = (MaterialFile){.material = material_default("")};
     Reader reader = {.name = name, .folder = folder, .key = "", .out = out, .log = log, .error = error};
     const char *text = data;
-    size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, blank = mark; /* of UTF-8 */
+    size_t mark = mark_size(text, size), blank = mark;
     while (blank < size && text[blank] && strchr(" \t\r\n", text[blank])) blank++;
     json_error_t where;
-    memory_begin();
-    json_t *root = json_loadb(text + mark, size - mark, JSON_REJECT_DUPLICATES, &where);
+    bool starved;
+    json_t *root = json_parse(text + mark, size - mark, JSON_REJECT_DUPLICATES, &where, &starved);
     if (blank == size)
         refuse(&reader, "it is empty");
-    else if (memory_was_short())
+    else if (starved)
         reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     else if (!root)
         refuse(&reader, "line %d: %s", where.line, where.text);

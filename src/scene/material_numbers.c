@@ -182,7 +182,7 @@ static void check_fitted(const Material *material, const char *name, const WeftL
     Surface surface = material_plain(material);
     Stack stack;
     if (material->inputs[INPUT_sheen_roughness].texture) surface.sheen_roughness = 0.0f;
-    stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE});
     if (IS_WORN(&stack)) lobe_fitted(&stack.sheen.lobe, name, log);
 }
 

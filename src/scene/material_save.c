@@ -140,8 +140,9 @@ static void place_put(Writer *w, json_t *object, const float m[6]) {
 }
 
 static json_t *texture_json(Writer *w, const Material *material, InputId id) {
-    static const char *const channels[] = {"r", "g", "b", "a"}, *const wraps[] = {"repeat", "mirror",
-                                                                                  "clamp"}; /* as Wrap */
+    static const char *const channels[] = {"r", "g", "b", "a"}, *const wraps[] = {
+                                                                    "repeat", "mirror",
+                                                                    "clamp"}; /* as TextureWrap */
     const Input *input = &material->inputs[id];
     const Texture *texture = &w->scene->textures[input->texture - 1];
     InputKind kind = input_infos[id].kind;

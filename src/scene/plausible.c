@@ -1,6 +1,7 @@
 /* plausible.c - what real materials keep to, as data for warnings: reflectances and colours of the chart's
  * dielectrics and metals, no diffuse on a metal, no sheen out of nothing */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -31,7 +32,7 @@ static float f0_specular(Surface s) {
     return specular_is_metal(s) ? NOTHING : f0_judged(rgb_max3(specular_f0(s)));
 }
 
-/* How far the channels of a dielectric's F0 are apart, of the strongest of them. */
+/* The distance between the channels of a dielectric's F0, as a share of the strongest of them. */
 static float spread(Rgb f0) {
     float most = rgb_max3(f0), least = fminf(f0.r, fminf(f0.g, f0.b));
     return most > 0.0f ? (most - least) / most : NOTHING;
@@ -55,7 +56,7 @@ static float albedo_specular(Surface s) { return specular_is_metal(s) ? NOTHING 
 static float in_between(Surface s) { return fminf(s.metallic, 1.0f - s.metallic); }
 static float diffuse_on_metal(Surface s) { return specular_is_metal(s) ? rgb_max3(s.base_color) : NOTHING; }
 
-/* What a measure is to be. The first three are read from the chart: F0 of its dielectrics but gems, widened
+/* Ranges of measures. The first three are read from the chart: F0 of its dielectrics but gems, widened
  * to the ends of the slider `reflectance`; the strongest channel of its metals, to 1; up to its brightest
  * diffuse colour. Its dielectrics are grey, with a tenth of tolerance. */
 typedef enum Kept { KEPT_DIELECTRIC, KEPT_METAL, KEPT_ALBEDO, KEPT_GREY, KEPT_NONE } Kept;
@@ -209,6 +210,24 @@ void plausible_check(const Material *material, int input, int choice, const char
     for (size_t k = 0; input >= 0 && k < sizeof limits / sizeof *limits; k++)
         if (concerns(&limits[k], input)) check_limit(&limits[k], material, target, log);
     if (choice >= 0) check_gains(material, choice, target, log);
+}
+
+/* The first of a limit's inputs that is named; -1: none. */
+static int first_named(const Limit *limit, const bool *named) {
+    for (int k = 0; k < LIMIT_INPUTS && limit->inputs[k] >= 0; k++)
+        if (named[limit->inputs[k]]) return limit->inputs[k];
+    return -1;
+}
+
+void plausible_check_named(const Material *material, const bool *named, const char *file,
+                           const WeftLog *log) {
+    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++) {
+        const int input = first_named(&limits[k], named);
+        char target[160];
+        if (input < 0) continue;
+        snprintf(target, sizeof target, "%.120s: %s", file, input_infos[input].name);
+        check_limit(&limits[k], material, target, log);
+    }
 }
 
 void plausible_check_all(const Material *material, const char *target, const WeftLog *log) {

@@ -48,18 +48,18 @@ static void answer_at(const Probe *probe, Surface s, const Choices *choices, Rgb
     const Facing at = {probe->normal, probe->normal, probe->tangent, 1.0f};
     const TableRef none = {.kind = TABLE_NONE};
     float e[COLUMNS + 1];
-    Stack m;
+    SeenStack seen;
     Frame frame = frame_of(at, s, probe->eye), fixed = frame_about(frame.z, probe->tangent, 1.0f);
     Dir o = frame_to(frame, probe->eye);
     s = dust_settle(frame_surface(s), frame.z, probe->point);
-    stack_make(&m, &s, choices, none, o);
-    float same = stand_in(&m);
+    stack_make(&seen.stack, &s, choices, none);
+    float same = stand_in(&seen.stack);
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;
-    stack_make(&m, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS},
-               o);
+    seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS},
+              o);
     for (int k = 0; k < INCOMING; k++) { /* the same ones in the world, however the frame is turned */
         Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
-        f_cos[k] = stack_eval(&m, o, frame_to(frame, i), 1).f_cos;
+        f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;
     }
 }
 

@@ -87,20 +87,29 @@ const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftSc
     return text;
 }
 
-WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error) {
-    for (int v = 0; v < scene->variant_count; v++) {
-        if (strcmp(scene->variants[v], name) != 0) continue;
-        for (int m = 0; m < scene->mesh_count; m++) {
-            Mesh *mesh = &scene->meshes[m];
-            if (mesh->variant_material && mesh->variant_material[v] >= 0)
-                mesh->material = mesh->variant_material[v];
-        }
-        return WEFT_OK;
+/* From -1, none. */
+static void wear_variant(WeftScene *scene, int v) {
+    scene->variant = v + 1;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        Mesh *mesh = &scene->meshes[m];
+        if (!mesh->variant_material) continue;
+        int other = v >= 0 ? mesh->variant_material[v] : -1;
+        mesh->material = other >= 0 ? other : mesh->own_material;
     }
-    char names[NAMES_SIZE];
-    return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s",
-                scene_names(scene, weft_scene_variant_name, names));
 }
+
+WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError *error) {
+    char names[NAMES_SIZE];
+    int v = name ? 0 : -1;
+    while (name && v < scene->variant_count && strcmp(scene->variants[v], name) != 0) v++;
+    if (name && v == scene->variant_count)
+        return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s",
+                    scene_names(scene, weft_scene_variant_name, names));
+    wear_variant(scene, v);
+    return WEFT_OK;
+}
+
+int weft_scene_variant(const WeftScene *scene) { return scene->variant - 1; }
 
 WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,
                                            WeftError *error) {

@@ -32,12 +32,12 @@ typedef struct Mesh {
     float *position; /* 3 a vertex */
     float *normal;   /* 3 a vertex, unit; NULL: use the flat face normal */
     float *tangent; /* 4 a vertex: unit xyz, w = +1 or -1 with bitangent = w cross(n, t); NULL: none needed */
-    float *texcoord[2]; /* 2 a vertex; NULL reads as (0, 0) */
-    float *color;       /* 4 a vertex, linear RGBA, multiplies base_color and opacity; NULL: white */
-    uint32_t *index;    /* 3 a triangle, each < vertex_count */
-    int material;       /* index into materials; always valid */
-    int *
-        variant_material; /* variant_count entries, -1 where a variant leaves this mesh alone; NULL: all -1 */
+    float *texcoord[2];    /* 2 a vertex; NULL reads as (0, 0) */
+    float *color;          /* 4 a vertex, linear RGBA, multiplies base_color and opacity; NULL: white */
+    uint32_t *index;       /* 3 a triangle, each < vertex_count */
+    int material;          /* index into materials; always valid */
+    int own_material;      /* without a variant, where there are any */
+    int *variant_material; /* variant_count entries, -1: its own; NULL: all -1 */
 } Mesh;
 
 typedef enum LightKind { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } LightKind;
@@ -97,6 +97,7 @@ struct WeftScene {
     Light *lights;
     Camera *cameras;
     const char **variants;
+    int variant; /* that was switched to, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
     int light_room, polygon_light_count, polygon_light_room; /* room: as many as the lists have memory for */
     PolygonLight *polygon_lights;

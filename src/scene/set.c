@@ -118,11 +118,11 @@ static bool has_sheen(const Material *material) {
     Choices choices = material_choices(material);
     Surface surface = convert_surface(material_plain(material), choices);
     Stack stack;
-    compose_begin(&stack, &surface, convert_choices(choices), dir(0.0f, 0.0f, 1.0f));
-    return stack.sheen.pick > 0.0f;
+    compose_begin(&stack, &surface, convert_choices(choices));
+    return HAS_SHEEN(&stack);
 }
 
-/* Whether a setting does something to a sheen alone. */
+/* Returns true for a setting that does something to a sheen alone. */
 static bool wants_sheen(const Setting *setting) {
     static const ChoiceId choices[] = {CHOICE_sheen_lobe, CHOICE_sheen_d, CHOICE_sheen_v, CHOICE_sheen_f,
                                        CHOICE_layer};

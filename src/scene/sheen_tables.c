@@ -17,7 +17,7 @@ struct SheenTables {
 /* The stack of a material without its textures. */
 static Stack plain_stack(const Surface *surface, const Choices *choices) {
     Stack stack;
-    stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE});
     return stack;
 }
 
@@ -70,7 +70,7 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     const Choices choices = material_choices(material);
     *index = -1;
     Stack most = plain_stack(&plain, &choices);
-    if (!(most.sheen.pick > 0.0f) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
+    if (!HAS_SHEEN(&most) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
     if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
         stack_albedo(&most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
         return WEFT_OK;

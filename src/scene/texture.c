@@ -21,7 +21,7 @@ typedef struct Span {
 } Span;
 
 /* Where u falls after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
-static inline Span span(float u, int size, Wrap wrap, bool nearest) {
+static inline Span span(float u, int size, TextureWrap wrap, bool nearest) {
     if (!(fabsf(u) < 1e6f)) u = 0.0f;
     float period = wrap == WRAP_MIRROR ? 0.5f * u : u;
     if (wrap != WRAP_CLAMP) u = period - floorf(period); /* in [0, 1]; rounding can reach 1 */

@@ -6,11 +6,11 @@
 
 #include "weft/image.h"
 
-typedef enum Wrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } Wrap;
+typedef enum TextureWrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } TextureWrap;
 
 typedef struct Texture {
     int image; /* index into the scene's images */
-    Wrap wrap_u, wrap_v;
+    TextureWrap wrap_u, wrap_v;
     bool nearest; /* no interpolation between texels */
     /* Of its image, so that all textures of one have the same: */
     const char *path; /* its file; NULL where it is none of its own */

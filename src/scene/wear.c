@@ -125,7 +125,7 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 
-/* What a file is for, by the end of its name without case, suffix, and '_', '-' and blanks between words. */
+/* Uses of files by the ends of their names, without case, suffix, and '_', '-' and blanks between words. */
 static const struct {
     const char *name;
     InputId input;
@@ -172,7 +172,7 @@ enum { MAPS = sizeof maps / sizeof *maps, FILES_MOST = INPUT_COUNT, NAMES_ROOM =
 
 static bool is_separator(char c) { return c && strchr("_-. ", c); }
 
-/* Whether the name ends so, between its start and its suffix at dot, after a separator or nothing. */
+/* Returns true if the name ends so, between its start and its suffix at dot, after a separator or nothing. */
 static bool ends_in(const char *file, const char *dot, const char *name) {
     const char *at = dot, *letter = name + strlen(name);
     while (letter > name && at > file) {
@@ -296,8 +296,8 @@ static int workflow_of(Wardrobe *wardrobe) {
                                                                                            : -1;
 }
 
-/* What has the map already keeps the number that it is multiplied by; a folder that holds nothing new leaves
- * the workflow too. */
+/* An input that has the map already keeps the number that it is multiplied by; a folder that holds nothing
+ * new leaves the workflow too. */
 static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++) {

@@ -37,6 +37,23 @@ static void entries_are_complete_and_their_numbers_agree(void **state) {
     assert_true(metals >= 12 && others >= 15);
 }
 
+static double brightness(const WeftChartEntry *e) {
+    bool clear = e->kind == WEFT_CHART_CLEAR || e->kind == WEFT_CHART_GEM;
+    const float *c = clear ? e->f0 : e->base_color;
+    return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
+}
+
+static void entries_go_from_dark_to_bright(void **state) {
+    (void)state;
+    const WeftChartEntry *e, *before = weft_chart(0);
+    for (int k = 1; (e = weft_chart(k)); k++) {
+        assert_true(e->kind >= before->kind);
+        if (e->kind == before->kind && brightness(e) < brightness(before))
+            fail_msg("%s is darker than %s", e->name, before->name);
+        before = e;
+    }
+}
+
 static void hear(void *user, WeftMessage message, const char *text) {
     (void)message;
     fprintf(stderr, "%s\n", text);
@@ -98,6 +115,7 @@ static void no_entry_but_a_gem_is_called_implausible(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(entries_go_from_dark_to_bright),
         cmocka_unit_test(entries_are_complete_and_their_numbers_agree),
         cmocka_unit_test(no_entry_but_a_gem_is_called_implausible),
     };

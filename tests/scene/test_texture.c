@@ -54,7 +54,7 @@ static void wrapping_follows_the_sampler(void **state) {
     WeftImage image = image_of(4, 1, 1, WEFT_PIXEL_F32);
     memcpy(image.pixels, (float[4]){0.0f, 1.0f, 2.0f, 3.0f}, 4 * sizeof(float));
     static const struct {
-        Wrap wrap;
+        TextureWrap wrap;
         float u, value;
     } cases[] = {
         {WRAP_REPEAT, 0.125f, 0.0f},  {WRAP_REPEAT, 1.125f, 0.0f}, {WRAP_REPEAT, -0.125f, 3.0f},
@@ -92,7 +92,8 @@ static void wild_coordinates_are_harmless(void **state) {
         for (uint32_t k = 0; k < 64 + 2000; k++) {
             float u = k < 64 ? wild[k % 8] : 40.0f * unit_float(hash32(k)) - 20.0f;
             float v = k < 64 ? wild[k / 8] : 40.0f * unit_float(hash32(k + 9999)) - 20.0f;
-            Texture texture = {.wrap_u = (Wrap)wrap, .wrap_v = (Wrap)wrap, .nearest = k % 2 == 0};
+            Texture texture = {
+                .wrap_u = (TextureWrap)wrap, .wrap_v = (TextureWrap)wrap, .nearest = k % 2 == 0};
             Texel t = texture_fetch(&texture, &image, NULL, u, v);
             for (int c = 0; c < 3; c++) assert_true(t.c[c] >= 0.0f && t.c[c] <= 1.0f);
         }
