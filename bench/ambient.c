@@ -173,8 +173,8 @@ static const char *name_of(int subject) {
 }
 
 /* A white metal, or a dielectric. */
-static Stack surface_of(int subject, float roughness, Dir o) {
-    Stack m;
+static SeenStack surface_of(int subject, float roughness, Dir o) {
+    SeenStack m;
     float metal = subject == BASE ? 0.0f : 1.0f;
     Surface s = {.base_color = {0.8f, 0.8f, 0.8f},
                  .metallic = metal,
@@ -187,27 +187,27 @@ static Stack surface_of(int subject, float roughness, Dir o) {
     s.specular_color = rgb_grey(1.0f);
     s.reflectance = 0.46f; /* f0 0.04 */
     s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
-    stack_make(&m, &s, &c, (TableRef){.kind = TABLE_NONE}, o);
+    seen_make(&m, &s, &c, (TableRef){.kind = TABLE_NONE}, o);
     return m;
 }
 
 /* What is looked at; `albedo` may be NULL. */
-static Stack subject_stack(int subject, float roughness, Dir o, const AlbedoTable *albedo) {
+static SeenStack subject_stack(int subject, float roughness, Dir o, const AlbedoTable *albedo) {
     if (subject >= BASE && subject != SATIN) return surface_of(subject, roughness, o);
-    Stack m;
-    stack_clear(&m);
+    SeenStack seen;
+    Stack *m = &seen.stack;
+    stack_clear(m);
     Rgb white = rgb_grey(1.0f);
     Lobe lobe = lobe_rough(subject == SATIN ? LOBE_SILK : subject, roughness);
     if (subject == SATIN) lobe.params[1] = 0.8f;
-    slot_make(&m.sheen, lobe, white, white, 1.0f, 1.0f);
-    m.sheen.pick = 1.0f;
+    slot_even(&m->sheen, lobe, white, white, 1.0f);
     if (albedo) {
-        m.albedo = ALBEDO_TABLE;
-        m.table = albedo_table_ref(albedo);
-        m.at = lobe.params[0];
-        m.e_o = stack_albedo(&m, o);
+        m->albedo = ALBEDO_TABLE;
+        m->table = albedo_table_ref(albedo);
+        m->at = lobe.params[0];
     }
-    return m;
+    seen_settle(&seen, o);
+    return seen;
 }
 
 static const char *only; /* this subject alone */
@@ -238,7 +238,7 @@ static float radical(uint32_t k) {
     return x;
 }
 
-static Rgb reference(const Map *map, const Pixel *p, const Stack *m, const Draw2 *draws, int count) {
+static Rgb reference(const Map *map, const Pixel *p, const SeenStack *m, const Draw2 *draws, int count) {
     double sum[3] = {0.0};
     for (int k = 0; k < count; k++) {
         float c[3];
@@ -251,7 +251,7 @@ static Rgb reference(const Map *map, const Pixel *p, const Stack *m, const Draw2
         float c[3];
         Dir i = to_local(p, map->draws[k]);
         if (!(i.z > 0.0f)) continue;
-        StackValue x = stack_eval(m, p->o, i, 0);
+        StackValue x = seen_eval(m, i, 0);
         latlong_at(&map->environment.image, map->draws[k], c);
         double w = (double)x.f_cos.g / (LOBE_DRAWS * (double)x.pdf + MAP_DRAWS * map_pdf(map, map->draws[k]));
         for (int j = 0; j < 3; j++) sum[j] += w * (double)c[j];
@@ -275,6 +275,7 @@ static AmbientTable table_of(Held *held, int slot, const Lobe *lobe) {
     ambient_hold(&held->fit, held->polynomials + slot * AMBIENT_HELD);
     t.focus = held->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
     t.turning = held->fit.turning;
+    t.strips = lobe_names(lobe->id)->strips;
     t.lossless = false;
     t.held = slot * AMBIENT_HELD;
     return t;
@@ -283,9 +284,9 @@ static AmbientTable table_of(Held *held, int slot, const Lobe *lobe) {
 static AmbientTables tables_of(Held *held, const Stack *m) {
     AmbientTable none = ambient_table(&fits[LOBE_LAMBERT], AMBIENT_FITTED);
     AmbientTables tables = {none, none, none, none, none};
-    if (m->diffuse.pick > 0.0f) tables.diffuse = table_of(held, 0, &m->diffuse.lobe);
-    if (m->specular.pick > 0.0f) tables.specular = table_of(held, 1, &m->specular.lobe);
-    if (m->sheen.pick > 0.0f) tables.sheen = table_of(held, 2, &m->sheen.lobe);
+    if (HAS_DIFFUSE(m)) tables.diffuse = table_of(held, 0, &m->diffuse.lobe);
+    if (HAS_SPECULAR(m)) tables.specular = table_of(held, 1, &m->specular.lobe);
+    if (HAS_SHEEN(m)) tables.sheen = table_of(held, 2, &m->sheen.lobe);
     return tables;
 }
 
@@ -306,16 +307,16 @@ static void measure(void *user, int item, int thread) {
         Lobe lobe = lobe_rough(subject, roughness);
         albedo_table_fill(albedo, &lobe, lobe.params[0], lobe.params[0], 1);
     }
-    Stack some = subject_stack(subject, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
-    AmbientTables tables = tables_of(held, &some);
+    SeenStack some = subject_stack(subject, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
+    AmbientTables tables = tables_of(held, &some.stack);
     for (int n = 0; n < PIXELS; n++) {
         const Pixel *p = &pixels[n];
-        Stack m = subject_stack(subject, roughness, p->o, albedo);
+        SeenStack m = subject_stack(subject, roughness, p->o, albedo);
         int count = 0;
         for (int k = 0; k < LOBE_DRAWS; k++) {
-            Dir i = stack_sample(&m, p->o, ((float)k + 0.5f) / LOBE_DRAWS, radical((uint32_t)k));
+            Dir i = seen_sample(&m, ((float)k + 0.5f) / LOBE_DRAWS, radical((uint32_t)k));
             if (!(i.z > 0.0f)) continue;
-            StackValue x = stack_eval(&m, p->o, i, 0);
+            StackValue x = seen_eval(&m, i, 0);
             if (x.pdf > 0.0f) draws[count++] = (Draw2){i, x.f_cos.g, x.pdf};
         }
         for (int k = 0; k < map_count; k++) {
@@ -330,7 +331,7 @@ static void measure(void *user, int item, int thread) {
                                         held->polynomials};
             Rgb truth = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                Rgb got = stack_ambient(&m, p->o, by_strategy(tables, s), &calls, 1.0f);
+                Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);
                 double *sum = results[subject][r][s][k];
                 sum[0] +=
                     p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));
@@ -361,7 +362,9 @@ static Error error_of(int subject, int strategy, int map) {
 }
 
 static int best_of(int subject) {
-    return subject < BASE ? ambient_strategy(subject) : subject == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
+    return subject < BASE    ? ambient_strategy(subject, true)
+           : subject == BASE ? AMBIENT_FITTED
+                             : AMBIENT_SAMPLED;
 }
 
 static bool by_row; /* one line a roughness */

@@ -48,11 +48,11 @@ static void print_lobe(Lobe lobe, const WeftLtc *ltc) {
         for (int s = 0; s < SPOTS; s++) {
             Light light = light_seen(&pose, s % 2 == 1, &random);
             Polygon p = light_polygon(light.corners, 4), above = polygon_clip(p);
-            Stack m = light_lone(lobe);
+            SeenStack m = light_lone(lobe, light.o);
             double reference = light_integral(light_stack, &m, light.o, light.corners, 4, 4);
             int n = points_of(above);
             sum += reference;
-            sums_add(&ours, (double)light_on(&m, light.o, p).g - reference);
+            sums_add(&ours, (double)light_on(&m, p).g - reference);
             if (ltc) sums_add(&one, alone(ltc, lobe.params[0], light.o, p) - reference);
             points += n;
             seen += n > 0;
@@ -119,10 +119,10 @@ static void print_layers(void) {
             for (int n = 0; n < SPOTS; n++) {
                 Light light = light_seen(&pose, n % 2 == 1, &random);
                 Polygon p = light_polygon(light.corners, 4);
-                Stack m;
-                stack_make(&m, &s, &c, albedo_table_ref(&table), light.o);
+                SeenStack m;
+                seen_make(&m, &s, &c, albedo_table_ref(&table), light.o);
                 double reference = light_integral(light_stack, &m, light.o, light.corners, 4, 3);
-                off += fabs((double)light_on(&m, light.o, p).g - reference);
+                off += fabs((double)light_on(&m, p).g - reference);
                 all += reference;
                 /* diffuse and sheen share the points of the cosine, the highlight has its own */
                 points += 3 * points_of(polygon_clip(p));

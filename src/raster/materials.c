@@ -84,11 +84,11 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
     Surface surface = middle_surface(material);
     Stack m;
     if (!fit) return false;
-    stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE});
     const Slot *const slots[SHADER_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
     for (int k = 0; k < SHADER_SLOTS; k++) {
         const Lobe *lobe = &slots[k]->lobe;
-        if (!(slots[k]->pick > 0.0f) || !shader_holds(&self->key, k)) continue;
+        if (!(slots[k]->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
         MaterialFit *held = &self->fits[k];
         if (!held->made || !ambient_alike(&held->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);

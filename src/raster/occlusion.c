@@ -25,7 +25,7 @@ struct Occlusion {
     float *values;
     uint32_t *first; /* vertex of a mesh */
     int rays, threads;
-    bool no_cache;
+    bool no_cache, behind;
     AmbientLamp lamps[OCCLUSION_LAMPS];
     int lamp_count;
     uint64_t key; /* of the values in the cache */
@@ -202,6 +202,7 @@ static bool in_range(const float *values, size_t count) {
 static void *work(void *user) {
     Occlusion *self = user;
     uint32_t count = self->first[self->scene.mesh_count];
+    if (self->behind) thread_step_back();
     parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
     /* in silence: a log is for the thread that made this */
     if (!self->no_cache && !atomic_load(&self->stop))
@@ -247,6 +248,7 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->rays = how->rays;
     self->no_cache = how->no_cache || !is_opaque(scene);
+    self->behind = how->behind;
     self->threads = how->threads ? how->threads : thread_count();
     self->lamp_count = how->lamp_count < OCCLUSION_LAMPS ? how->lamp_count : OCCLUSION_LAMPS;
     for (int k = 0; k < self->lamp_count; k++) self->lamps[k] = how->lamps[k];

@@ -24,6 +24,7 @@ typedef struct OcclusionHow {
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const AmbientLamp *lamps; /* in the world; copied */
     int lamp_count;           /* those beyond OCCLUSION_LAMPS are not looked for */
+    bool behind;              /* other threads come first */
 } OcclusionHow;
 
 /* Starts to look from every vertex of the scene's own meshes; those of its lights, which move, neither hide

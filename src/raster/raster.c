@@ -120,8 +120,12 @@ static bool find_lamps(WeftRaster *self) {
 }
 
 static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog *log, WeftError *error) {
-    const OcclusionHow how = {self->desc.occlusion, self->desc.threads, no_cache, self->lamps,
-                              self->lamp_count};
+    const OcclusionHow how = {.rays = self->desc.occlusion,
+                              .threads = self->desc.threads,
+                              .no_cache = no_cache,
+                              .lamps = self->lamps,
+                              .lamp_count = self->lamp_count,
+                              .behind = self->desc.adopt != 0}; /* pictures are drawn meanwhile */
     WeftResult result = occlusion_start(self->scene, &how, &self->occlusion, log, error);
     self->look = result != WEFT_OK;
     return result;

@@ -52,17 +52,14 @@ bool shader_holds(const ShaderKey *key, int slot) {
     for (int k = 0; k < 2; k++) {
         Stack m;
         Surface s = composition_surface(0.5f, zero);
-        s.dust = zero[INPUT_dust] ? 0.0f : 1.0f;
         vary(key, &s, k ? 0.75f : 0.25f);
-        stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE});
         lobes[k] = slot_of(&m, slot)->lobe;
-        if (!(slot_of(&m, slot)->pick > 0.0f)) return false;
+        if (!(slot_of(&m, slot)->normal > 0.0f)) return false;
     }
     bool same = !(lobes[0].params[0] < lobes[1].params[0]) && !(lobes[0].params[0] > lobes[1].params[0]);
     return lobes[0].id == lobes[1].id && same;
 }
-
-static bool is_dusty(const ShaderKey *key) { return key->inputs[INPUT_dust].state != INPUT_ZERO; }
 
 /* One vec4 an input, two for where its texture lies, and the sheen's table: material.c fills them. */
 static void put_uniforms(Text *text, const ShaderKey *key) {
@@ -244,8 +241,7 @@ static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
 /* Whether two keys leave out and hold the same. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
     const CompositionSlots x = find_slots(a), y = find_slots(b);
-    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && is_dusty(a) == is_dusty(b) &&
-           same_tables(a, b);
+    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && same_tables(a, b);
 }
 
 static bool join_input(ShaderInput *a, const ShaderInput *b) {
@@ -297,6 +293,7 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
               number(t.low).text, slot, number(t.high).text, slot, t.strategy);
     text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
               boolean(t.focus), slot, boolean(t.narrow), slot, boolean(t.second));
+    text_line(text, "    t.%s.strips = %s;", slot, boolean(t.strips));
     text_line(text, "    t.%s.turning = %s;\n    t.%s.lossless = %s;\n    t.%s.held = %d;", slot,
               boolean(t.turning), slot, boolean(t.lossless), slot, t.held);
 }
@@ -304,13 +301,12 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
 /* Of a slot that holds nothing too: nobody asks. False where memory is short. */
 static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
     static const char *const names[SHADER_SLOTS] = {"diffuse", "specular", "sheen", "coat", "dust"};
-    int strategy = key->ambient > 1 ? key->ambient - 2 : lobe ? ambient_strategy(lobe->id) : AMBIENT_FITTED;
-    AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS, .strategy = strategy};
+    AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
     int layer = 0;
     if (lobe && !shader_holds(key, slot)) {
         const AmbientFit *fit = fits_get(fits, lobe);
         if (!fit) return false;
-        t = ambient_table(fit, strategy);
+        t = ambient_table(fit, AMBIENT_FITTED);
         int sides = t.turning ? AMBIENT_SIDES : 1;
         layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
@@ -320,12 +316,17 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         t.turning = key->turning >> slot & 1;
         t.second = (weft_lobe_info(lobe->id)->traits & TRAIT_TWO_COLORS) != 0;
     }
+    if (lobe) t.strips = lobe_names(lobe->id)->strips;
+    t.strategy = AMBIENT_FITTED;
+    if (key->ambient > 1)
+        t.strategy = key->ambient - 2;
+    else if (lobe)
+        t.strategy = ambient_strategy(lobe->id, t.turning);
     put_ambient_table(text, names[slot], t, layer);
     return true;
 }
 
 static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {
-    const Lobe dust = lobe_default(LOBE_LTC_FIBRE);
     environment_text(text);
     text_line(text, "\nAmbientWeights ambient_held(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
                     "    AmbientWeights w;\n    w.a = c.x;\n    w.b = c.y;\n    w.c = c.z;\n    w.d = c.w;\n"
@@ -334,8 +335,7 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k < SHADER_SLOTS; k++) {
-        bool there = k < TEXT_SLOTS ? found->slots[k].count > 0 : is_dusty(key);
-        const Lobe *lobe = !there ? NULL : k < TEXT_SLOTS ? &found->lobes[k] : &dust;
+        const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
         if (!put_ambient_slot(text, key, k, lobe, fits)) return;
     }
     text_line(text, "    return t;\n}");
@@ -352,7 +352,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (turns(key, &found)) text_define(text, "TURNS", "1");
     part_text(key->part, text);
     put_lights(text, key);
-    text_composition_lobes(text, &found, is_dusty(key), key->table_kind, key->table_tilts);
+    text_composition_lobes(text, &found, key->table_kind, key->table_tilts);
     if (key->polygons) text_lobe_tables(text);
     text_composition(text, &key->choices);
     text_composition_choices(text, &key->choices);

@@ -10,10 +10,10 @@
  *                less so, with one look-up of the rest, E(cos_o) ambient_rest(axis, kappa); and for one too
  *                narrow for the lamps E(cos_o) (mean of ambient_radiance(axis, kappa) with a wider one for
  *                the tail of the lobe). The axis is the lobe's mean direction
- *   sampled      lamps as before, and of the rest, or for a narrow lobe of all, the mean over some of the
- *                lobe's own samples of f cos_i / pdf L(i, kappa), kappa by their density: Jaroslav Krivanek,
- *                Mark Colbert, "Real-time Shading with Filtered Importance Sampling", Computer Graphics Forum
- *                27(4), 2008. For lobes that are far from round
+ *   sampled      the mean over samples of the lobe of f cos_i / pdf L(i, kappa), kappa by their density:
+ *                Jaroslav Krivanek, Mark Colbert, "Real-time Shading with Filtered Importance Sampling",
+ *                Computer Graphics Forum 27(4), 2008; joined with the lamps where they are the denser. For a
+ *                highlight that is drawn out, whose normals come in strips (terms/d_ggx.h)
  *
  * Why lamps: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
  * lamps for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
@@ -55,7 +55,7 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
-#define AMBIENT_SAMPLES 16
+#define AMBIENT_SAMPLES 96
 
 /* A shader whose slots all have one strategy says so in place of this. */
 #ifndef AMBIENT_STRATEGY
@@ -97,6 +97,7 @@ STRUCT(AmbientTable) {
     bool narrow;       /* and somewhere too narrow for the lamps */
     bool second;       /* it has a second colour */
     bool lossless;     /* E is 1 everywhere */
+    bool strips;       /* the lobe has its normals in strips */
     bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
     int strategy;
     int held; /* its first polynomial; below 0: it is a table */
@@ -332,7 +333,7 @@ FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
     return p;
 }
 
-/* Of facets by ggx the part beyond 1 - mu = t is 1 / (1 + kappa t / ln 2), half of it at ln 2 / kappa. This
+/* The part of ggx facets beyond 1 - mu = t is 1 / (1 + kappa t / ln 2), half of it at ln 2 / kappa. This
  * is within 0.036 of 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
 FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
     return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
@@ -345,24 +346,39 @@ FN float ambient_beyond(float log2_kappa, float edge) {
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* A sample stands for the solid angle 1 / (n pdf); exp(kappa (mu - 1)) has that of 2 pi / kappa, and twice
- * it, by the paper, keeps neighbours together. The sum is made E, which the table knows better. */
-FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float narrow, float known) {
+/* The lamps of those two ways to find them are weighed by the squares of their densities: Eric Veach,
+ * Leonidas Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, the
+ * power heuristic. */
+FN float ambient_power(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
+
+/* What samples of the lobe find: the rest, and of the lamps the part that is theirs, `lamps` being the
+ * density at which a lamp stands for its light. A sample stands for the solid angle 1 / (n pdf); exp(kappa
+ * (mu - 1)) has that of 2 pi / kappa, and twice it, by the paper, keeps neighbours together. The sum is made
+ * E, which the table knows better. */
+FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float lamps,
+                             float known) {
     AmbientPair p;
     float e = 0.0f, n = to_float(AMBIENT_SAMPLES);
     p.first = rgb_grey(0.0f);
     p.second = p.first;
     for (int k = 0; k < AMBIENT_SAMPLES; k++) {
-        float golden = to_float(k) * 0.618033989f + 0.25f;
-        Dir i = lobe_sample(&lobe, v.o, (to_float(k) + 0.5f) / n, golden - floor(golden));
+        float golden = to_float(k) * 0.618033989f + 0.25f, at = (to_float(k) + 0.5f) / n, dense = 1.0f;
+        Dir i;
+        if (strips) {
+            Strip strip = lobe_strip(&lobe, v.o, at, golden - floor(golden));
+            i = dir_mirror(v.o, strip.h);
+            dense = strip.density;
+        } else {
+            i = lobe_sample(&lobe, v.o, at, golden - floor(golden));
+        }
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
-            float w = x.f * i.z / max(x.pdf * n, 1e-20f), kappa = clamp(PI * n * x.pdf, 0.5f, 1e4f);
+            float drawn = max(x.pdf * dense * n, 1e-20f), w = x.f * i.z / drawn;
+            float kappa = clamp(PI * drawn, 0.5f, 1e4f), part = ambient_power(drawn, lamps);
             Dir out_i = ambient_out(v, i);
-            Rgb l = rgb_grey(0.0f);
-            if (narrow < 1.0f) l = ambient_rest(s, out_i, kappa);
-            if (narrow > 0.0f) l = rgb_mix(l, ambient_radiance(s, out_i, kappa), narrow);
-            l = rgb_scale(l, w * ambient_open(s, out_i, i.z, v.occlusion));
+            Rgb all = ambient_radiance(s, out_i, kappa), rest = ambient_rest(s, out_i, kappa);
+            rest = rgb(min(rest.r, all.r), min(rest.g, all.g), min(rest.b, all.b));
+            Rgb l = rgb_scale(rgb_mix(rest, all, part), w * ambient_open(s, out_i, i.z, v.occlusion));
             p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(l, x.s));
             e = e + w;
@@ -370,6 +386,26 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, float na
     }
     p.first = rgb_scale(p.first, known / max(e, 1e-20f));
     p.second = rgb_scale(p.second, known / max(e, 1e-20f));
+    return p;
+}
+
+/* What lamps find: theirs of the lamps. */
+FN AmbientPair ambient_met(AmbientSource s, AmbientView v, Lobe lobe, float lamps) {
+    AmbientPair p;
+    p.first = rgb_grey(0.0f);
+    p.second = p.first;
+    int count = ambient_count(s);
+    for (int k = 0; k < count; k++) {
+        AmbientLight l = ambient_light(s, k);
+        Dir i = dir(dir_dot(l.w, v.x), dir_dot(l.w, v.y), dir_dot(l.w, v.z));
+        if (i.z > 0.0f) {
+            LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
+            float part = ambient_power(lamps, x.pdf * to_float(AMBIENT_SAMPLES));
+            Rgb c = rgb_scale(l.color, x.f * i.z * part * ambient_seen(s, k, v.occlusion));
+            p.first = rgb_add(p.first, rgb_scale(c, 1.0f - x.s));
+            p.second = rgb_add(p.second, rgb_scale(c, x.s));
+        }
+    }
     return p;
 }
 
@@ -398,19 +434,23 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
         a.of = ambient_one(rgb_scale(about, ambient_open(s, r, v.o.z, v.occlusion)), l.first, l.second);
         return a;
     }
+    if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
+        float lamps = exp2(ambient_lamp_kappa(s)) / PI; /* twice that of exp(kappa (mu - 1)) */
+        AmbientPair met = ambient_met(s, v, lobe, lamps);
+        a.of = ambient_drawn(s, v, lobe, t.strips, lamps, l.first + l.second);
+        a.of.first = rgb_add(a.of.first, met.first);
+        a.of.second = rgb_add(a.of.second, met.second);
+        return a;
+    }
     a.lamps = 1.0f;
     a.of = ambient_mixed(rest, l);
-    if (!t.focus && AMBIENT_STRATEGY(t) == AMBIENT_FITTED) return a;
+    if (!t.focus) return a;
     AmbientWeights shape = ambient_group(t, s, spot, AMBIENT_GROUP_SHAPE);
     float x = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
     float close = ambient_beyond(log2_kappa, AMBIENT_CLOSE);
     float narrow = t.narrow ? ambient_beyond(log2_kappa, ambient_lamp_kappa(s) - AMBIENT_FINER) : 0.0f;
     Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
     a.lamps = 1.0f - narrow;
-    if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
-        a.of = ambient_drawn(s, v, lobe, narrow, l.first + l.second);
-        return a;
-    }
     float seen = ambient_open(s, out_axis, axis.z, v.occlusion);
     Rgb wide = rgb_scale(ambient_rest(s, out_axis, kappa), seen);
     a.of = ambient_pair_mix(a.of, ambient_one(wide, l.first, l.second), close);
@@ -420,16 +460,17 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
     return a;
 }
 
-/* The colours of a slot against that. Where F enters squared (slot_f's sag) and where colour is no factor,
+/* The colours of a slot against that. Where F enters squared (the sag) and where colour is no factor,
  * the share and the tint are those of the whole lobe. */
 FN float ambient_channel(SheenE e, float f0, float f90, float sag, float first, float second) {
-    if (e.tint.s > 0.0f) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
+    if (IS_TINTED(e.tint)) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
     return f0 * first + f90 * second - sag * first * second / max(first + second, 1e-30f);
 }
-FN Rgb ambient_colored(Slot s, SheenE e, AmbientPair p) {
-    return rgb(ambient_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
-               ambient_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
-               ambient_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b));
+FN Rgb ambient_colored(SlotColors s, float scale, SheenE e, AmbientPair p) {
+    return rgb_scale(rgb(ambient_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
+                         ambient_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
+                         ambient_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b)),
+                     scale);
 }
 
 /* Cosine average of schlick_s at the least of wi . h, cos_o and cos_i, which is the lesser of the cosines:
@@ -446,39 +487,32 @@ FN float ambient_schlick_half(float cos_o) {
 }
 
 /* What the interface leaves for the diffuse lobe, on cosine average over wi. */
-FN Rgb ambient_under(const Stack *m, float cos_o) {
+FN Rgb ambient_under(const Stack *m, const StackView *w) {
+    float cos_o = w->o.z;
     Rgb f = rgb_grey(0.0f);
     if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN)
-        f = rgb_mix(m->under_f0, rgb_grey(m->under_f90), ambient_schlick_half(cos_o));
+        f = rgb_mix(w->under_f0, rgb_grey(w->under_f90), ambient_schlick_half(cos_o));
     if (m->under == UNDER_LEAST)
-        f = rgb_grey(rgb_max3(rgb_mix(m->under_f0, rgb_grey(m->under_f90), ambient_schlick_least(cos_o))));
-    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+        f = rgb_grey(rgb_max3(rgb_mix(w->under_f0, rgb_grey(w->under_f90), ambient_schlick_least(cos_o))));
+    return stack_rest(f);
 }
-FN Rgb ambient_let_through(const Stack *m, float cos_o) {
-    float s = ambient_schlick_least(cos_o);
-    if (m->layer == LAYER_SEED) s = ambient_schlick_half(cos_o);
-    return stack_let_by(m, s);
-}
-
-/* A slot as the lamps see it. */
-FN Slot ambient_lit(Slot s, float lamps) {
-    Slot t = s;
-    t.f0 = rgb_scale(s.f0, lamps);
-    t.f90 = rgb_scale(s.f90, lamps);
-    t.sag = rgb_scale(s.sag, lamps);
-    return t;
+FN Rgb ambient_let_through(const Stack *m, const StackView *w) {
+    float s = ambient_schlick_least(w->o.z);
+    if (m->layer == LAYER_SEED) s = ambient_schlick_half(w->o.z);
+    return stack_let_by(m, w, s);
 }
 
-FN Rgb ambient_lamps(const Stack *m, Slots only, Dir o, AmbientSource s, float occlusion) {
+FN Rgb ambient_lamps(const Stack *m, const StackView *lit, Slots only, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f);
     int count = ambient_count(s);
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_light(s, k);
         float seen = l.w.z > 0.0f ? ambient_seen(s, k, occlusion) : 0.0f;
         if (seen > 0.0f) {
-            Angles a = angles_between(o, l.w), coat = a;
-            if (only.coat) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, l.w));
-            sum = rgb_add(sum, rgb_scale(rgb_mul(l.color, stack_value_of(m, only, a, coat).f_cos), seen));
+            Angles a = angles_between(lit->o, l.w), coat = a;
+            if (only.coat) coat = angles_between(lit->coat_o, stack_to_coat(m, l.w));
+            StackValue value = stack_value_of(m, lit, only, &a, &coat);
+            sum = rgb_add(sum, rgb_scale(rgb_mul(l.color, value.f_cos), seen));
         }
     }
     return sum;
@@ -486,71 +520,75 @@ FN Rgb ambient_lamps(const Stack *m, Slots only, Dir o, AmbientSource s, float o
 
 /* What a stack reflects towards wo, its tables being those of its lobes. occlusion: the part of the
  * cosine-weighted sky that is seen, in [0, 1]. */
-FN Rgb stack_ambient(const Stack *m, Dir o, AmbientTables t, AmbientSource s, float occlusion) {
+FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f), over = rgb_grey(1.0f);
-    Stack lit = *m;
+    StackView lit = *w; /* as the lamps see it */
+    Dir o = w->o;
     Slots only = slots_of(false, false, false, false, false);
     AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
     AmbientFour rest = ambient_four(s, v);
     bool worn = IS_WORN(m);
     Rgb keep = rgb_grey(1.0f);
-    if (worn) keep = stack_keep(m, m->e_avg);
-    Rgb diffuse = rgb_mul(keep, ambient_under(m, o.z));
+    if (worn) keep = stack_keep(m, w, m->e_avg);
+    Rgb diffuse = rgb_mul(keep, ambient_under(m, w));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
     if (IS_BELOW_F(m) && worn) {
-        over = ambient_let_through(m, o.z);
+        over = ambient_let_through(m, w);
         diffuse = rgb_mul(keep, over);
         keep = rgb_grey(1.0f);
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
         AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m->diffuse.lobe, -1.0f);
-        Rgb c = rgb_scale(ambient_colored(m->diffuse, plain, a.of), matte);
+        Rgb c = rgb_scale(ambient_colored(slot_colors(&m->diffuse), w->scale.diffuse, plain, a.of), matte);
         if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, c);
-        lit.diffuse = ambient_lit(m->diffuse, a.lamps * matte);
+        lit.scale.diffuse = w->scale.diffuse * a.lamps * matte;
         only.diffuse = SHOWS_DIFFUSE && a.lamps * matte > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
         AmbientSlot a = ambient_slot(t.specular, s, v, rest, m->specular.lobe, -1.0f);
         float lamps = a.lamps * other;
-        Rgb c = rgb_scale(ambient_colored(m->specular, plain, a.of), other);
+        Rgb c =
+            rgb_scale(ambient_colored(stack_specular_colors(m, w), w->scale.specular, plain, a.of), other);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
         only.specular = SHOWS_SPECULAR && lamps > 0.0f;
-        if (lamps > 0.0f) {
-            lit.specular = ambient_lit(m->specular, lamps);
-            lit.left = m->left * lamps; /* so that stack_let_by is what it was */
-        }
+        lit.scale.specular = w->scale.specular * lamps;
     }
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
         if (m->nap.tilt > 0.0f) along.heading = v.tx * m->nap.x + v.ty * m->nap.y;
         /* E of the stack is mixed with more care than that of the fit */
-        float known = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? m->e_o.e : -1.0f;
+        float known = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? w->e_o.e : -1.0f;
         AmbientSlot a = ambient_slot(t.sheen, s, along, rest, m->sheen.lobe, known);
-        Rgb c = ambient_colored(m->sheen, m->e_o, a.of);
+        Rgb c = ambient_colored(slot_colors(&m->sheen), w->scale.sheen, w->e_o, a.of);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), other));
-        lit.sheen = ambient_lit(m->sheen, a.lamps * other);
+        lit.scale.sheen = w->scale.sheen * a.lamps * other;
         only.sheen = SHOWS_SHEEN && a.lamps * other > 0.0f;
     }
     if (HAS_COAT(m)) {
-        Dir oc = stack_to_coat(m, o);
+        Dir oc = w->coat_o;
         if (oc.z > 0.0f) {
             AmbientView c = ambient_view(oc, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
             AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m->coat.lobe, -1.0f);
-            if (SHOWS_COAT) sum = rgb_add(sum, rgb_scale(ambient_colored(m->coat, plain, a.of), other));
-            lit.coat = ambient_lit(m->coat, a.lamps * other);
+            if (SHOWS_COAT)
+                sum =
+                    rgb_add(sum, rgb_scale(ambient_colored(slot_colors(&m->coat), w->scale.coat, plain, a.of),
+                                           other));
+            lit.scale.coat = w->scale.coat * a.lamps * other;
             only.coat = SHOWS_COAT && a.lamps * other > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
         AmbientSlot a = ambient_slot(t.dust, s, v, rest, m->dust.lobe, -1.0f);
-        if (SHOWS_DUST) sum = rgb_add(sum, rgb_scale(ambient_colored(m->dust, plain, a.of), matte));
-        lit.dust = ambient_lit(m->dust, a.lamps * matte);
+        if (SHOWS_DUST)
+            sum = rgb_add(
+                sum, rgb_scale(ambient_colored(slot_colors(&m->dust), w->scale.dust, plain, a.of), matte));
+        lit.scale.dust = w->scale.dust * a.lamps * matte;
         only.dust = SHOWS_DUST && a.lamps * matte > 0.0f;
     }
     if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
-        sum = rgb_add(sum, ambient_lamps(&lit, only, o, s, v.occlusion));
+        sum = rgb_add(sum, ambient_lamps(m, &lit, only, s, v.occlusion));
     return sum;
 }
 

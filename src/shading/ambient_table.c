@@ -226,7 +226,7 @@ static void fit_column(void *user, int column, int thread) {
 static bool turns(const Lobe *lobe) {
     int tilt = lobe_param(lobe->id, "tilt"), brushed = lobe_param(lobe->id, "anisotropy");
     int by = tilt < 0 ? brushed : tilt;
-    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || lobe->params[by] > 0.0f);
+    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || fabsf(lobe->params[by]) > 0.0f);
 }
 
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
@@ -302,6 +302,7 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .narrow = true,
                           .second = second,
                           .lossless = !second && is_flat(fit),
+                          .strips = lobe_names(fit->lobe.id)->strips,
                           .turning = fit->turning,
                           .strategy = strategy,
                           .held = -1};
@@ -383,4 +384,6 @@ void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]) {
         hold_side(fit, fit->turning ? side : 0, out + side * AMBIENT_SIDE);
 }
 
-int ambient_strategy(int lobe) { return lobe == LOBE_SILK ? AMBIENT_SAMPLED : AMBIENT_FITTED; }
+int ambient_strategy(int lobe, bool turning) {
+    return turning && lobe_names(lobe)->strips ? AMBIENT_SAMPLED : AMBIENT_FITTED;
+}

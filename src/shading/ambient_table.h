@@ -39,7 +39,8 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy);
 /* The polynomials of a fit of one row, by least squares over its nodes. */
 void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]);
 
-/* The strategy with the least error for that lobe (docs/environment.md). */
-int ambient_strategy(int lobe);
+/* The strategy with the least error for that lobe, with or without an azimuth that matters
+ * (docs/environment.md). */
+int ambient_strategy(int lobe, bool turning);
 
 #endif

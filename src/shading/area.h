@@ -96,7 +96,7 @@ FN AreaDensity area_density(Lobe lobe, Dir o) {
 
 /* The slots together, with the points of one D. o and the polygon, which is above the horizon, are in the
  * frame of the slots. */
-FN Rgb area_slots(const Stack *m, Slots only, AreaDensity d, Dir o, Polygon p) {
+FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) {
         Dir v = ltc_inverse(d.m, o, p.corners[k]);
@@ -118,7 +118,7 @@ FN Rgb area_slots(const Stack *m, Slots only, AreaDensity d, Dir o, Polygon p) {
                 seen = seen + v.area * max(v.w.z, 0.0f);
                 if (w.z > 0.0f) {
                     Angles angles = angles_between(o, w);
-                    StackValue value = stack_value_of(m, only, angles, angles);
+                    StackValue value = stack_value_of(m, view, only, &angles, &angles);
                     sum = rgb_add(sum, rgb_scale(value.f_cos, v.area * scale * r * r * r));
                 }
             }
@@ -136,9 +136,10 @@ FN Polygon area_to_coat(const Stack *m, Polygon p) {
 
 /* The stack seen from wo (shading frame) under a polygon of radiance 1 from all of its points. Of layer rule
  * stochastic it is the first pass. */
-FN Rgb stack_polygon(const Stack *m, Dir o, Polygon p) {
+FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     Rgb sum = rgb_grey(0.0f);
     Polygon q = polygon_clip(p);
+    Dir o = view->o;
     if (q.count < 3 || o.z <= 0.0f) return sum;
     AreaDensity specular = area_density(m->specular.lobe, o), sheen = area_density(m->sheen.lobe, o);
     AreaDensity dust = area_density(m->dust.lobe, o);
@@ -154,12 +155,12 @@ FN Rgb stack_polygon(const Stack *m, Dir o, Polygon p) {
         if (pass == 2) d = sheen;
         if (pass == 3) d = dust;
         if (only.coat) {
-            from = stack_to_coat(m, o);
+            from = view->coat_o;
             q = area_to_coat(m, q);
             d = area_density(m->coat.lobe, from);
         }
         if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
-            if (from.z > 0.0f) sum = rgb_add(sum, area_slots(m, only, d, from, q));
+            if (from.z > 0.0f) sum = rgb_add(sum, area_slots(m, view, only, d, from, q));
     }
     return sum;
 }

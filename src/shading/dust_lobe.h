@@ -36,13 +36,4 @@ FN float dust_albedo(const Lobe *m, float cos_o) {
     return min(ltc_table_level(lobe_table_ltc_fibre(), cos_o, m->params[LTC_FIBRE_ALPHA]).f0, 1.0f);
 }
 
-/* As lobe_value has it. */
-FN LobeValue dust_value(const Lobe *m, Angles a) {
-    LtcFibrePrepared p;
-    LtcFibreView w;
-    p.m.alpha = m->params[LTC_FIBRE_ALPHA];
-    ltc_fibre_view(&p, a.o, &w);
-    return ltc_fibre_value(&p, &w, a);
-}
-
 #endif

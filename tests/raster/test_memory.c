@@ -1,5 +1,6 @@
 /* A raster lets go of what nothing draws with any more: memory does not grow with every term that was tried.
  */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,6 +36,7 @@ typedef struct Switches {
     WeftScene *scene;
     WeftRaster *raster;
     int done, wanted, scale; /* scale: of a picture of 320 x 180 */
+    double most;             /* MiB, after any of them */
 } Switches;
 
 static void draw(Switches *self) {
@@ -45,6 +47,7 @@ static void draw(Switches *self) {
         fail_msg("%s", error.text);
     weft_raster_finish(self->raster);
     self->done++;
+    self->most = fmax(self->most, resident());
 }
 
 /* Each value of each choice, and back. */
@@ -85,9 +88,8 @@ static void end(Switches *self) {
 }
 
 static void holds_at_most(const Switches *self, double most) {
-    weft_raster_finish(self->raster);
     double held = resident();
-    print_message("%.0f MiB after %d switches\n", held, self->done);
+    print_message("%.0f MiB after %d switches, %.0f at most between\n", held, self->done, self->most);
     if (!SANITIZED && held > most) fail_msg("more than %.0f", most);
 }
 

@@ -536,17 +536,18 @@ static void fill_stack(Random *random, int which, float *row) {
 static void answer_stack(int which, const float *row, float *answers) {
     Surface s;
     Choices c;
-    Stack m;
+    SeenStack seen;
     memcpy(&s, row + SURFACE_AT, sizeof s);
     const float *at = row + CHOICES_AT;
 #define ANSWER_CHOICE(name, help) c.name = (int)*at++;
     SURFACE_CHOICES(ANSWER_CHOICE)
     Angles a = row_angles(row);
-    stack_make(&m, &s, &c, lobe_table_charlie_neubelt(), a.o);
-    Angles coat = angles_between(stack_to_coat(&m, a.o), stack_to_coat(&m, a.i));
-    StackValue v = stack_value(&m, a, coat);
-    const float all[ANSWERS] = {v.f_cos.r,      v.f_cos.g,       v.f_cos.b,    v.pdf,
-                                m.diffuse.pick, m.specular.pick, m.sheen.pick, m.coat.pick};
+    seen_make(&seen, &s, &c, lobe_table_charlie_neubelt(), a.o);
+    const StackView *w = &seen.view;
+    Angles coat = angles_between(w->coat_o, stack_to_coat(&seen.stack, a.i));
+    StackValue v = stack_value(&seen.stack, w, &a, &coat);
+    const float all[ANSWERS] = {v.f_cos.r,       v.f_cos.g,        v.f_cos.b,     v.pdf,
+                                w->pick.diffuse, w->pick.specular, w->pick.sheen, w->pick.coat};
     memcpy(answers, all, sizeof all);
 }
 
@@ -560,11 +561,11 @@ static void stacks_agree(void **state) {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
             ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19)
                 ROW(20) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
-                        "lobe_table_charlie_neubelt(), o);\n"
-                        "    Angles coat = angles_between(stack_to_coat(m, a.o), stack_to_coat(m, a.i));\n"
-                        "    StackValue v = stack_value(m, a, coat);\n"
+                        "lobe_table_charlie_neubelt());\n    StackView w;\n    stack_view(m, o, w);\n"
+                        "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
+                        "    StackValue v = stack_value(m, w, a, coat);\n"
                         "    out0 = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);\n"
-                        "    out1 = vec4(m.diffuse.pick, m.specular.pick, m.sheen.pick, m.coat.pick);\n",
+                        "    out1 = vec4(w.pick.diffuse, w.pick.specular, w.pick.sheen, w.pick.coat);\n",
         .inputs = STACK_INPUTS,
         .answers = "nnnnnnnn",
         .put = put_stack,

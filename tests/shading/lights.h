@@ -113,9 +113,9 @@ static inline double light_integral(Integrand f, const void *what, Dir o, const 
     return sum;
 }
 
-/* What a whole stack reflects in green. */
+/* What a whole stack, seen from o, reflects in green. */
 static inline double light_stack(const void *what, Dir o, Dir i) {
-    return (double)stack_eval(what, o, i, 0).f_cos.g;
+    return (double)seen_eval(what, i, 0).f_cos.g;
 }
 
 /* A pose: a rectangle somewhere around, in any attitude; one in about ten crosses the floor. */
@@ -191,25 +191,25 @@ static inline int any_polygon(uint64_t *state, double far, Point corners[8]) {
 }
 
 /* A stack of one lobe, white: as the base's diffuse or specular lobe, or as a sheen. */
-static inline Stack light_lone(Lobe lobe) {
-    Stack m;
-    stack_clear(&m);
+static inline SeenStack light_lone(Lobe lobe, Dir o) {
+    SeenStack m;
+    stack_clear(&m.stack);
     Slot slot;
-    slot_make(&slot, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f, 1.0f);
-    slot.pick = 1.0f;
+    slot_even(&slot, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f);
     unsigned traits = weft_lobe_info(lobe.id)->traits;
     if (traits & TRAIT_DIFFUSE)
-        m.diffuse = slot;
+        m.stack.diffuse = slot;
     else if (area_density(lobe, dir(0.0f, 0.0f, 1.0f)).narrow)
-        m.specular = slot;
+        m.stack.specular = slot;
     else
-        m.sheen = slot;
+        m.stack.sheen = slot;
+    seen_settle(&m, o);
     return m;
 }
 
 /* One copy: stack_polygon is long once all in it is inlined. */
-static __attribute__((noinline, unused)) Rgb light_on(const Stack *m, Dir o, Polygon p) {
-    return stack_polygon(m, o, p);
+static __attribute__((noinline, unused)) Rgb light_on(const SeenStack *m, Polygon p) {
+    return stack_polygon(&m->stack, &m->view, p);
 }
 
 #endif

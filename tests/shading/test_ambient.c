@@ -36,12 +36,16 @@ static void fit(AmbientFit *to, int id) {
 
 static AmbientTables all_tables(AmbientTable t) { return (AmbientTables){t, t, t, t, t}; }
 
-static Stack one_lobe(Lobe lobe) {
-    Stack m;
-    stack_clear(&m);
-    slot_make(&m.sheen, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f, 1.0f);
-    m.sheen.pick = 1.0f;
+static SeenStack one_lobe(Lobe lobe, Dir o) {
+    SeenStack m;
+    stack_clear(&m.stack);
+    slot_even(&m.stack.sheen, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f);
+    seen_settle(&m, o);
     return m;
+}
+
+static Rgb ambient_of(SeenStack m, AmbientTables t, AmbientSource s, float occlusion) {
+    return stack_ambient(&m.stack, &m.view, t, s, occlusion);
 }
 
 /* What the table has for E is E, at nodes and between them, and no weight takes light away. */
@@ -68,8 +72,7 @@ static void even_light_returns_albedo(void **state) {
             if (weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC && k % 2) o = dir(o.y, o.x, o.z);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                Rgb got = stack_ambient((Stack[]){one_lobe(lobe)}, o, all_tables(ambient_table(&table, s)),
-                                        &calls, 1.0f);
+                Rgb got = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(&table, s)), &calls, 1.0f);
                 float off = abs(got.r - (e.f0 + e.f90));
                 /* E of fibres as good as appears near grazing at low alpha: rows are far apart there */
                 if (off > 0.01f * (e.f0 + e.f90) + 0.009f)
@@ -107,7 +110,7 @@ static void held_tables_return_albedo(void **state) {
             if (across) o = dir(o.y, o.x, o.z);
             AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
-            Rgb got = stack_ambient((Stack[]){one_lobe(lobe)}, o, all_tables(t), &calls, 1.0f);
+            Rgb got = ambient_of(one_lobe(lobe, o), all_tables(t), &calls, 1.0f);
             float truth = e.f0 + e.f90, off = abs(got.r - truth);
             if (off > 0.02f * truth + 0.009f)
                 fail_msg("%s, cosine %g: %g for %g", weft_lobe_info(id)->id, (double)o.z, (double)got.r,
@@ -116,13 +119,13 @@ static void held_tables_return_albedo(void **state) {
 }
 
 /* A sheen with the table that a stack asks E of. */
-static Stack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
-    Stack m = one_lobe(lobe);
+static SeenStack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
+    SeenStack m = one_lobe(lobe, o);
     albedo_table_fill(table, &lobe, lobe.params[0], lobe.params[0], 0);
-    m.table = albedo_table_ref(table);
-    m.albedo = ALBEDO_TABLE;
-    m.at = lobe.params[0];
-    m.e_o = stack_albedo(&m, o);
+    m.stack.table = albedo_table_ref(table);
+    m.stack.albedo = ALBEDO_TABLE;
+    m.stack.at = lobe.params[0];
+    seen_settle(&m, o);
     return m;
 }
 
@@ -141,14 +144,14 @@ static void held_tables_fade_away(void **state) {
         for (size_t k = 0; asked(id) && k < sizeof roughnesses / sizeof roughnesses[0]; k++) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, roughnesses[k]);
-            AmbientTable t = hold(&lobe, ambient_strategy(id), held);
+            AmbientTable t = hold(&lobe, ambient_strategy(id, true), held);
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
-                Stack m = tabled(lobe, o, &albedo);
-                Rgb got = stack_ambient(&m, o, all_tables(t), &calls, 1.0f);
-                if (!(got.r >= 0.0f && abs(got.r - m.e_o.e) <= 0.03f * m.e_o.e + 0.003f))
+                SeenStack m = tabled(lobe, o, &albedo);
+                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f);
+                if (!(got.r >= 0.0f && abs(got.r - m.view.e_o.e) <= 0.03f * m.view.e_o.e + 0.003f))
                     fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id,
-                             (double)roughnesses[k], (double)o.z, (double)got.r, (double)m.e_o.e);
+                             (double)roughnesses[k], (double)o.z, (double)got.r, (double)m.view.e_o.e);
             }
         }
 }
@@ -170,12 +173,13 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
         AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
         for (int n = 1; n < 40; n++) {
             Dir o = direction_cos(0.025 * n, 0.0);
-            Stack m = tabled(lobe, o, &albedo);
+            SeenStack m = tabled(lobe, o, &albedo);
             for (t.strategy = 0; t.strategy < AMBIENT_STRATEGIES; t.strategy++) {
-                Rgb got = stack_ambient(&m, o, all_tables(t), &calls, 1.0f);
-                if (!(abs(got.r - m.e_o.e) <= 0.01f * m.e_o.e + 1e-9f))
+                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f);
+                if (!(abs(got.r - m.view.e_o.e) <= 0.01f * m.view.e_o.e + 1e-9f))
                     fail_msg("%s, alpha %g, strategy %d, cosine %g: %g for %g", weft_lobe_info(lobe.id)->id,
-                             (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r, (double)m.e_o.e);
+                             (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r,
+                             (double)m.view.e_o.e);
             }
         }
     }
@@ -196,12 +200,12 @@ static void lamps_are_met_as_lights_are(void **state) {
     float f[2];
     for (int k = 0; k < 2; k++)
         f[k] = lobe_eval(&lobe, angles_between(o, even.lamps[k].w)) * even.lamps[k].w.z;
-    Rgb got = stack_ambient((Stack[]){one_lobe(lobe)}, o, tables, &calls, 1.0f);
+    Rgb got = ambient_of(one_lobe(lobe, o), tables, &calls, 1.0f);
     assert_float_equal(got.r, 2.0f * f[0] + 0.1f * f[1], 1e-6);
     assert_float_equal(got.g, f[0] + 0.3f * f[1], 1e-6);
     assert_float_equal(got.b, 0.5f * f[0] + 3.0f * f[1], 1e-6);
     /* a crease dims them */
-    got = stack_ambient((Stack[]){one_lobe(lobe)}, o, tables, &calls, 0.6f);
+    got = ambient_of(one_lobe(lobe, o), tables, &calls, 0.6f);
     assert_float_equal(got.r, 0.6f * (2.0f * f[0] + 0.1f * f[1]), 1e-6);
 }
 
@@ -223,14 +227,14 @@ static void occlusion_takes_what_it_says(void **state) {
 }
 
 /* The integral of a stack over the hemisphere: in even light, what ambient light must be. */
-static Rgb whole(const Stack *m, Dir o) {
+static Rgb whole(const SeenStack *m, Dir o) {
     enum { RINGS = 96, TURNS = 128 };
     double sum[3] = {0.0};
     for (int k = 0; k < RINGS * TURNS; k++) {
         double u = (k / TURNS + 0.5) / RINGS, theta = 1.57079632679 * u;
         Dir i = direction(theta, 6.28318530718 * (k % TURNS + 0.5) / TURNS);
         double solid = (sin)(theta)*1.57079632679 / RINGS * 6.28318530718 / TURNS;
-        Rgb f = stack_eval(m, o, i, 0).f_cos;
+        Rgb f = seen_eval(m, i, 0).f_cos;
         sum[0] += solid * (double)f.r, sum[1] += solid * (double)f.g, sum[2] += solid * (double)f.b;
     }
     return rgb((float)sum[0], (float)sum[1], (float)sum[2]);
@@ -261,15 +265,15 @@ static void layers_leave_what_they_should(void **state) {
             s.reflectance = 0.46f;
             s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
             c.layer = layer;
-            Stack m;
+            SeenStack m;
             Dir o = direction_cos(0.2 + 0.35 * (double)(k / 2), 0.3);
-            stack_make(&m, &s, &c, albedo_table_ref(&albedo), o);
-            Rgb truth = whole(&m, o), got = stack_ambient(&m, o, tables, &calls, 1.0f);
+            seen_make(&m, &s, &c, albedo_table_ref(&albedo), o);
+            Rgb truth = whole(&m, o), got = stack_ambient(&m.stack, &m.view, tables, &calls, 1.0f);
             if (layer == LAYER_STOCHASTIC) continue; /* its bounces are the path tracer's */
             float off = abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b);
             float all = truth.r + truth.g + truth.b;
             /* rules min and max meet E(wi), seed and side-by-side the interface, on average alone */
-            const Stack *made = &m;
+            const Stack *made = &m.stack;
             bool averaged = layer == LAYER_ALBEDO_MIN || layer == LAYER_ALBEDO_MAX || IS_BELOW_F(made);
             float most = averaged ? 0.06f : 0.03f;
             if (!(off < most * all))
@@ -362,8 +366,7 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy) {
             double w = (double)(lobe_eval(&lobe, angles_between(o, i)) * i.z) * (sin)(v * TEST_PI);
             for (int c = 0; c < 3; c++) truth[c] += w * (double)p[c];
         }
-        Rgb got = stack_ambient((Stack[]){one_lobe(lobe)}, o, all_tables(ambient_table(table, strategy)),
-                                &calls, 1.0f);
+        Rgb got = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(table, strategy)), &calls, 1.0f);
         const float values[3] = {got.r, got.g, got.b};
         for (int c = 0; c < 3; c++) {
             truth[c] *= 2.0 * TEST_PI * TEST_PI / (16.0 * WIDTH * HEIGHT);

@@ -13,8 +13,8 @@ enum { POSES = 20 };
 /* Where the test looks from: a few points a pose, more in long runs. */
 static int spots(void) { return test_long() ? 24 : 6; }
 
-typedef Stack (*StackAt)(const void *what, Dir o);
-static Stack lone(const void *what, Dir o) { return light_lone(*(const Lobe *)what); }
+typedef SeenStack (*StackAt)(const void *what, Dir o);
+static SeenStack lone(const void *what, Dir o) { return light_lone(*(const Lobe *)what, o); }
 
 /* sum |difference| / sum reference over the poses, of the green channel. */
 static double error_of(StackAt stack_at, const void *what, int least) {
@@ -24,9 +24,9 @@ static double error_of(StackAt stack_at, const void *what, int least) {
         LightPose pose = light_pose(&random);
         for (int s = 0; s < spots(); s++) {
             Light light = light_seen(&pose, s % 2 == 1, &random);
-            Stack m = stack_at(what, light.o);
+            SeenStack m = stack_at(what, light.o);
             double expected = light_integral(light_stack, &m, light.o, light.corners, 4, least);
-            double got = (double)light_on(&m, light.o, light_polygon(light.corners, 4)).g;
+            double got = (double)light_on(&m, light_polygon(light.corners, 4)).g;
             assert_true(isfinite(got));
             off += fabs(got - expected);
             all += expected;
@@ -90,10 +90,10 @@ typedef struct Whole {
     const AlbedoTable *table;
 } Whole;
 
-static Stack whole(const void *what, Dir o) {
+static SeenStack whole(const void *what, Dir o) {
     const Whole *w = what;
-    Stack m;
-    stack_make(&m, &w->surface, &w->choices, albedo_table_ref(w->table), o);
+    SeenStack m;
+    seen_make(&m, &w->surface, &w->choices, albedo_table_ref(w->table), o);
     return m;
 }
 
@@ -173,16 +173,16 @@ static void nothing_is_infinite(void **state) {
         int id = (int)(k % LOBE_COUNT);
         Dir o = hostile_view(&random);
         Polygon p = hostile_polygon(&random);
-        Stack m;
+        SeenStack m;
         if (k % 4 == 0 || case_walks(id)) {
             Whole w = {random_surface(&surfaces, true),
                        test_choices(LOBE_CHARLIE_NEUBELT, (int)(k / 4 % LAYER_COUNT)), &charlie};
             w.surface.roughness = 2.0f * random_unit(&surfaces) * random_unit(&surfaces);
             m = whole(&w, o);
         } else {
-            m = light_lone(case_lobe(id, (int)(light_random(&random) * case_count(id))));
+            m = light_lone(case_lobe(id, (int)(light_random(&random) * case_count(id))), o);
         }
-        Rgb c = light_on(&m, o, p);
+        Rgb c = light_on(&m, p);
         if (!(isfinite(c.r) && isfinite(c.g) && isfinite(c.b) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f))
             fail_msg("%s, evaluation %ld: %g %g %g", weft_lobe_info(id)->id, k, (double)c.r, (double)c.g,
                      (double)c.b);
@@ -193,35 +193,36 @@ static void nothing_is_infinite(void **state) {
 static const int gpu_lobes[] = {LOBE_LAMBERT, LOBE_GGX, LOBE_CHARLIE_NEUBELT, LOBE_SILK, LOBE_FIBRE};
 enum { GPU_LOBES = sizeof gpu_lobes / sizeof *gpu_lobes, GPU_INPUTS = 8, GPU_SAMPLES = 4096 };
 
-static Stack row_stack(int sheen, float roughness, Dir n, Dir o) {
-    Stack m;
-    stack_clear(&m);
-    slot_make(&m.diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7f, 0.5f, 0.3f), rgb_grey(0.0f), 1.0f, 0.3f);
-    slot_make(&m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04f), rgb_grey(1.0f), 1.0f, 0.2f);
-    slot_make(&m.sheen, lobe_rough(sheen, roughness), rgb(0.2f, 0.4f, 0.6f), rgb_grey(1.0f), 1.0f, 0.3f);
-    slot_make(&m.coat, lobe_rough(LOBE_GGX, 0.3f), rgb_grey(0.1f), rgb_grey(0.2f), 1.0f, 0.2f);
-    stack_coat_frame(&m, n);
-    m.under = UNDER_LEAST;
-    m.under_f0 = rgb_grey(0.04f);
-    m.under_f90 = 1.0f;
-    m.layer = LAYER_ALBEDO_MAX;
-    m.color = rgb(0.2f, 0.4f, 0.6f);
-    m.table = lobe_table_charlie_neubelt();
-    m.at = 0.3f;
-    m.e_o = stack_albedo(&m, o);
-    return m;
+static SeenStack row_stack(int sheen, float roughness, Dir n, Dir o) {
+    SeenStack seen;
+    Stack *m = &seen.stack;
+    stack_clear(m);
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7f, 0.5f, 0.3f), rgb_grey(0.0f), 1.0f);
+    slot_even(&m->specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04f), rgb_grey(1.0f), 1.0f);
+    slot_even(&m->sheen, lobe_rough(sheen, roughness), rgb(0.2f, 0.4f, 0.6f), rgb_grey(1.0f), 1.0f);
+    slot_even(&m->coat, lobe_rough(LOBE_GGX, 0.3f), rgb_grey(0.1f), rgb_grey(0.2f), 1.0f);
+    stack_coat_frame(m, n);
+    m->under = UNDER_LEAST;
+    m->under_f0 = rgb_grey(0.04f);
+    m->under_f90 = 1.0f;
+    m->layer = LAYER_ALBEDO_MAX;
+    m->color = rgb(0.2f, 0.4f, 0.6f);
+    m->table = lobe_table_charlie_neubelt();
+    m->at = 0.3f;
+    seen_settle(&seen, o);
+    return seen;
 }
 
 static const char stack_text[] =
-    "\nStack row_stack(int sheen, float roughness, Dir n, Dir o) {\n    Stack m;\n    stack_clear(m);\n"
+    "\nStack row_stack(int sheen, float roughness, Dir n) {\n    Stack m;\n    stack_clear(m);\n"
     "    Rgb blue = rgb(0.2, 0.4, 0.6), white = rgb_grey(1.0);\n"
-    "    slot_make(m.diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7, 0.5, 0.3), rgb_grey(0.0), 1.0, 0.3);\n"
-    "    slot_make(m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04), white, 1.0, 0.2);\n"
-    "    slot_make(m.sheen, lobe_rough(sheen, roughness), blue, white, 1.0, 0.3);\n"
-    "    slot_make(m.coat, lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0, 0.2);\n"
+    "    slot_even(m.diffuse, lobe_default(LOBE_LAMBERT), rgb(0.7, 0.5, 0.3), rgb_grey(0.0), 1.0);\n"
+    "    slot_even(m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04), white, 1.0);\n"
+    "    slot_even(m.sheen, lobe_rough(sheen, roughness), blue, white, 1.0);\n"
+    "    slot_even(m.coat, lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0);\n"
     "    stack_coat_frame(m, n);\n    m.under = UNDER_LEAST;\n    m.under_f0 = rgb_grey(0.04);\n"
     "    m.under_f90 = 1.0;\n    m.layer = LAYER_ALBEDO_MAX;\n    m.color = blue;\n"
-    "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    m.e_o = stack_albedo(m, o);\n"
+    "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    stack_prepare_lobes(m);\n"
     "    return m;\n}";
 
 static void begin_text(Text *text, TextLanguage language) {
@@ -250,8 +251,8 @@ static void it_is_glsl(void **state) {
         text_line(&text,
                   "\n%sout vec4 color;\nvoid main() {\n    Polygon p;\n    p.count = 4;\n"
                   "    for (int k = 0; k < 4; k++) p.corners[k] = dir(float(k), float(k * k), 1.0);\n"
-                  "    Dir o = dir(0.6, 0.0, 0.8);\n    Stack m = row_stack(LOBE_FIBRE, 0.5, o, o);\n"
-                  "    Rgb c = stack_polygon(m, o, p);\n"
+                  "    Dir o = dir(0.6, 0.0, 0.8);\n    Stack m = row_stack(LOBE_FIBRE, 0.5, o);\n"
+                  "    StackView w;\n    stack_view(m, o, w);\n    Rgb c = stack_polygon(m, w, p);\n"
                   "    color = vec4(c.r, c.g, c.b, polygon_ltc(area_cosine(o).m, o, p));\n}",
                   vulkan ? "layout(location = 0) " : "");
         if (text_end(&text, &error) != WEFT_OK) fail_msg("%s", error.text);
@@ -276,7 +277,8 @@ static const char body[] =
     "    p.corners[2] = dir(in4.x, in4.y, in4.z);\n    p.corners[3] = dir(in5.x, in5.y, in5.z);\n"
     "    p.corners[4] = dir(in6.x, in6.y, in6.z);\n    p.corners[5] = dir(in7.x, in7.y, in7.z);\n"
     "    Dir o = dir(in0.x, in0.y, in0.z), n = dir(in1.x, in1.y, in1.z);\n"
-    "    Rgb c = stack_polygon(row_stack(int(in0.w), in1.w, n, o), o, p);\n"
+    "    Stack m = row_stack(int(in0.w), in1.w, n);\n    StackView w;\n    stack_view(m, o, w);\n"
+    "    Rgb c = stack_polygon(m, w, p);\n"
     "    out0 = vec4(c.r, c.g, c.b, polygon_cosine(p));\n";
 
 static float gpu_in[GPU_INPUTS][4 * GPU_SAMPLES], gpu_out[4 * GPU_SAMPLES], gpu_want[4 * GPU_SAMPLES];
@@ -298,8 +300,8 @@ static void fill_samples(void) {
             const float corner[4] = {p.corners[k].x, p.corners[k].y, p.corners[k].z, (float)count};
             memcpy(&gpu_in[2 + k][4 * s], corner, sizeof corner);
         }
-        Stack m = row_stack(sheen, roughness, n, o);
-        Rgb c = light_on(&m, o, p);
+        SeenStack m = row_stack(sheen, roughness, n, o);
+        Rgb c = light_on(&m, p);
         const float want[4] = {c.r, c.g, c.b, polygon_cosine(p)};
         memcpy(&gpu_want[4 * s], want, sizeof want);
     }

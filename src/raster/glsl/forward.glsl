@@ -26,23 +26,23 @@ Facing fragment_facing(Dir wo) {
 }
 
 /* From light k, which is of that kind and has that shadow map, or -1. */
-Rgb light_from(int k, int kind, int map, Stack m, Facing at, Frame f, Dir o) {
+Rgb light_from(int k, int kind, int map, Stack m, StackView w, Facing at, Frame f) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
     float cosine = dir_dot(beam.wi, at.geometric);
     bool lit = i.z > 0.0 && cosine > 0.0;
     i.z = max(i.z, 1e-6); /* what is not lit is worked out and left out: a branch costs more */
-    Angles a = angles_between(o, i), coat = a;
-    if (HAS_COAT(m)) coat = angles_between(stack_to_coat(m, o), stack_to_coat(m, i));
-    StackValue v = stack_value(m, a, coat);
+    Angles a = angles_between(w.o, i), coat = a;
+    if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
+    StackValue v = stack_value(m, w, a, coat);
     float reaches = light_reaches(map, vec_of_dir(at.geometric), cosine);
     Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
     return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
 }
 
 /* EACH_LIGHT(L) is L(k, kind, map) for each light. */
-#define ONE_LIGHT(k, kind, map) sum = rgb_add(sum, light_from(k, kind, map, m, at, f, o));
-Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
+#define ONE_LIGHT(k, kind, map) sum = rgb_add(sum, light_from(k, kind, map, m, w, at, f));
+Rgb punctual_light(Stack m, StackView w, Facing at, Frame f) {
     Rgb sum = rgb_grey(0.0);
     EACH_LIGHT(ONE_LIGHT)
     return sum;
@@ -51,19 +51,19 @@ Rgb punctual_light(Stack m, Facing at, Frame f, Dir o) {
 #ifdef POLYGONS
 #include "raster/glsl/polygons.glsl"
 #else
-Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) { return rgb_grey(0.0); }
+Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) { return rgb_grey(0.0); }
 #endif
 
 #ifdef AMBIENT
 /* The texture's occlusion is of the material's own bumps, the vertex's of all else; where both know the same
  * crease the lesser is right. */
-Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) {
+Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) {
     texture_occlusion = occlusion;
-    return stack_ambient(m, o, material_ambient(), f,
+    return stack_ambient(m, w, material_ambient(), f,
                          min(occlusion, gl_FrontFacing ? vertex_occlusion.x : vertex_occlusion.y));
 }
 #else
-Rgb ambient_light_of(Stack m, Frame f, Dir o, float occlusion) { return rgb_grey(0.0); }
+Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) { return rgb_grey(0.0); }
 #endif
 
 void main() {
@@ -83,10 +83,12 @@ void main() {
         Dir o = frame_to(f, wo);
         s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m;
-        surface_stack(m, s, material_choices(), material_table(), o);
-        sum = rgb_add(sum, punctual_light(m, at, f, o));
-        sum = rgb_add(sum, polygon_light(m, at, f, o));
-        sum = rgb_add(sum, ambient_light_of(m, f, o, s.occlusion));
+        StackView w;
+        surface_stack(m, s, material_choices(), material_table());
+        stack_view(m, o, w);
+        sum = rgb_add(sum, punctual_light(m, w, at, f));
+        sum = rgb_add(sum, polygon_light(m, w, at, f));
+        sum = rgb_add(sum, ambient_light_of(m, w, f, s.occlusion));
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif

@@ -5,7 +5,7 @@
 
 /* From polygon k, which has so many corners and that shadow map, or -1. Its back is dark unless it has two
  * sides; behind the surface's own plane it is cut off. */
-Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, Facing at, Frame f, Dir o) {
+Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, StackView w, Facing at, Frame f) {
     vec3 here = eye.xyz + from_eye, normal = polygon_normals[k].xyz, c = polygon_radiance[k].rgb;
     Polygon p;
     p.count = corners;
@@ -15,14 +15,14 @@ Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, Facing at
     }
     float reaches = polygon_reaches(map, vec_of_dir(at.geometric)); /* before any pixel is left out: it asks its neighbours */
     if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
-    Rgb sum = rgb_mul(stack_polygon(m, o, p), rgb(c.r, c.g, c.b));
+    Rgb sum = rgb_mul(stack_polygon(m, w, p), rgb(c.r, c.g, c.b));
     return rgb_scale(sum, reaches);
 }
 
 /* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */
 #define ONE_POLYGON(k, corners, two_sided, map)                                                              \
-    sum = rgb_add(sum, polygon_from(k, corners, two_sided, map, m, at, f, o));
-Rgb polygon_light(Stack m, Facing at, Frame f, Dir o) {
+    sum = rgb_add(sum, polygon_from(k, corners, two_sided, map, m, w, at, f));
+Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) {
     Rgb sum = rgb_grey(0.0);
     EACH_POLYGON(ONE_POLYGON)
     return sum;
