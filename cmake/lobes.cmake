@@ -2,7 +2,8 @@
 # of src/shading/lobes say of their parameters and traits. Adds to a build folder's generated/shading
 #
 #   lobe_ids.gen.h    LOBE_GGX; GGX_ANISOTROPY, where in the table of its parameters each is; LOBE_COUNT
-#   lobes.gen.h       their files, and their records from arrays of parameters; in the dialect
+#   lobes.gen.h       their files, their records from arrays of parameters, and unions of what they prepare and see; in
+#                     the dialect
 #   dispatch.gen.h    all of them behind one signature; in the dialect
 #   lobe_infos.gen.h  their tables as data, for registry.c
 #   loops.gen.h       their loops over arrays, for arrays.c
@@ -14,7 +15,7 @@ file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
 
 # Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
-# tinted, tabled, second.
+# tinted, tabled, second, strips.
 macro(weft_read_lobe id)
   string(REPLACE "-" "_" name ${id})
   string(TOUPPER ${name} NAME)
@@ -42,6 +43,11 @@ macro(weft_read_lobe id)
     endif()
   endforeach()
   string(FIND "${text}" "float ${name}_second(" second)
+  string(FIND "${text}" "Strip ${name}_strip(" strip)
+  set(strips true)
+  if(strip EQUAL -1)
+    set(strips false)
+  endif()
   string(REGEX MATCHALL "P\\((float|[A-Z]Term), [a-z_]+, [^,]+, [^,]+, [^,]+, [^,]+, [^,]+," rows "${text}")
   set(params "")
   set(types "")
@@ -107,9 +113,16 @@ function(weft_dispatch folder)
     if(NOT fibres STREQUAL "")
       weft_case(fibres_cases "${fibres}break;")
     endif()
-    set(made "${Name}Prepared p; ${Name}View w; ${name}_prepare(${name}_of(m), &p);")
-    weft_case(value_cases "{ ${made} ${name}_view(&p, a->o, &w); *v = ${name}_value(&p, &w, *a); break; }")
-    weft_case(sample_cases "{ ${made} ${name}_view(&p, o, &w); return ${name}_sample(&p, &w, o, u, v); }")
+    string(APPEND prepared_members "    ${Name}Prepared ${name}; /* LOBE_${NAME} */\n")
+    string(APPEND view_members "    ${Name}View ${name}; /* LOBE_${NAME} */\n")
+    weft_case(prepare_cases "${name}_prepare(${name}_of(m), &p->${name}); break;")
+    weft_case(view_cases "${name}_view(&p->${name}, *o, &w->${name}); break;")
+    weft_case(value_cases "*v = ${name}_value(&p->${name}, &w->${name}, *a); break;")
+    weft_case(reflect_cases "*s = lobe_reflected(${name}_value(&p->${name}, &w->${name}, *a), *f0, *f90); break;")
+    weft_case(sample_cases "*i = ${name}_sample(&p->${name}, &w->${name}, *o, u, v); break;")
+    if(strips)
+      weft_case(strip_cases "{ ${Name}Prepared p; ${name}_prepare(${name}_of(m), &p); return ${name}_strip(&p, o, u, v); }")
+    endif()
     if(is_TWO_COLORS AND second EQUAL -1)
       weft_case(second_cases "return f90;")
     elseif(is_TWO_COLORS)
@@ -145,7 +158,7 @@ foreach(id ${WEFT_LOBE_IDS})
   endforeach()
   string(APPEND tables "static const WeftParamInfo ${name}_params[] = {${NAME}_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0, NULL}};\n")
   string(APPEND infos "    {\"${id}\", ${NAME}_TRAITS, (int)(sizeof ${name}_params / sizeof *${name}_params) - 1, ${name}_params},\n")
-  string(APPEND names "    {\"${name}\", \"${Name}\", \"${NAME}\"},\n")
+  string(APPEND names "    {\"${name}\", \"${Name}\", \"${NAME}\", ${strips}},\n")
   if(is_REFERENCE)
     weft_case(walked_cases "return ${name}_albedo(${name}_of(m), o, walks);")
     continue()

@@ -16,49 +16,65 @@
 
 typedef struct Export {
     const Options *options;
-    WeftExportDesc desc;
-    Subject subject, right;
+    WeftExportDesc descs[WEFT_EXPORT_SUBJECTS_MAX];
+    Subject subjects[WEFT_EXPORT_SUBJECTS_MAX], right;
+    int count;
     WeftExport made;
     bool quiet;
 } Export;
 
 /* A profile or workflow keeps its own defaults but for what is set behind its name: any value may come. */
-static int read_subject(Export *self, const char *typed) {
-    Subject *subject = &self->subject;
+static int read_subject(const char *typed, Subject *subject, WeftExportDesc *desc) {
     int result = subject_parse_bare(typed, subject);
     if (result != 0) return result;
     bool choice = subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_WORKFLOW;
     if (subject->kind == SUBJECT_MEASURED)
         return report(WEFT_USAGE, "%.200s: is a measurement: `weft fit` makes a material of it", typed);
     if (subject->kind == SUBJECT_LOBE) {
-        self->desc.lobe = &subject->lobe;
+        desc->lobe = &subject->lobe;
     } else if (choice && strcmp(subject->name, "none") != 0) {
-        self->desc.profile = subject->name;
-        if (subject->given) self->desc.material = &subject->material;
+        desc->profile = subject->name;
+        if (subject->given) desc->material = &subject->material;
     } else {
-        self->desc.material = &subject->material;
-        self->desc.name = subject->name;
+        desc->material = &subject->material;
+        desc->name = subject->name;
     }
+    if (desc->albedo && !desc->lobe)
+        return report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
     return 0;
 }
 
-/* The lobe of the right half. */
+/* The lobe of the right half of a Shadertoy. */
 static int read_right(Export *self, const char *typed) {
-    if (self->desc.target != WEFT_EXPORT_SHADERTOY)
-        return report(WEFT_USAGE, "%.200s: is one operand too many: two lobes are for --target shadertoy",
-                      typed);
-    int result = self->desc.lobe ? subject_parse(typed, &self->right) : WEFT_USAGE;
-    if (!self->desc.lobe || (result == 0 && self->right.kind != SUBJECT_LOBE))
+    int result = self->descs->lobe ? subject_parse(typed, &self->right) : WEFT_USAGE;
+    if (!self->descs->lobe || (result == 0 && self->right.kind != SUBJECT_LOBE))
         return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", typed);
-    self->desc.right = &self->right.lobe;
+    self->descs->right = &self->right.lobe;
     return result;
+}
+
+static int read_subjects(Export *self, const WeftExportDesc *common) {
+    const Options *options = self->options;
+    bool toy = common->target == WEFT_EXPORT_SHADERTOY;
+    if (toy && options->operand_count > 2)
+        return report(WEFT_USAGE, "%.200s: is one operand too many: a Shadertoy shows two lobes at most",
+                      options->operands[2]);
+    for (int k = 0; k < options->operand_count; k++) {
+        if (toy && k == 1) return read_right(self, options->operands[k]);
+        self->descs[k] = *common;
+        int result = read_subject(options->operands[k], &self->subjects[k], &self->descs[k]);
+        if (result != 0) return result;
+        self->count++;
+    }
+    return 0;
 }
 
 static int export_read(const Options *options, Export *self) {
     static const char *const pis[] = {"explicit", "folded", NULL};
     const char *targets[WEFT_EXPORT_TARGETS + 1] = {NULL}, *luts[WEFT_EXPORT_LUTS + 1] = {NULL};
     int target, lut = 0, pi;
-    *self = (Export){.options = options, .quiet = option_given(options, "--quiet")};
+    self->options = options;
+    self->quiet = option_given(options, "--quiet");
     for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target(k);
     for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut(k);
     if (!option_text(options, "--target"))
@@ -67,16 +83,11 @@ static int export_read(const Options *options, Export *self) {
     if (!option_choice(options, "--target", targets, &target) ||
         !option_choice(options, "--lut", luts, &lut) || !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
-    self->desc.target = (WeftExportTarget)target;
-    self->desc.lut = (WeftExportLut)lut;
-    self->desc.albedo = option_given(options, "--albedo");
-    self->desc.fold_pi = pi;
-    self->desc.prefix = option_text(options, "--prefix");
-    int result = read_subject(self, options->operands[0]);
-    if (result == 0 && self->desc.albedo && !self->desc.lobe)
-        result = report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
-    if (result == 0 && options->operand_count > 1) result = read_right(self, options->operands[1]);
-    return result;
+    return read_subjects(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
+                                                 .lut = (WeftExportLut)lut,
+                                                 .albedo = option_given(options, "--albedo"),
+                                                 .fold_pi = pi,
+                                                 .prefix = option_text(options, "--prefix")});
 }
 
 /* "velvet.weft_texels_sheen.exr" beside "velvet.hlsl". */
@@ -88,7 +99,7 @@ static char *table_path(const Export *self, int k) {
     size_t room = (size_t)stem + WEFT_EXPORT_NAME + 8;
     char *out = malloc(room);
     if (out)
-        snprintf(out, room, "%.*s.%s%s", stem, path, self->made.tables[k].name, suffixes[self->desc.lut]);
+        snprintf(out, room, "%.*s.%s%s", stem, path, self->made.tables[k].name, suffixes[self->descs->lut]);
     return out;
 }
 
@@ -108,7 +119,7 @@ static int table_file_write(const Export *self, int k, const char *path) {
                             .about = about,
                             .low = low,
                             .high = high,
-                            .scale = self->desc.lut == WEFT_EXPORT_LUT_PNG16 ? 1.0 : 0.0};
+                            .scale = self->descs->lut == WEFT_EXPORT_LUT_PNG16 ? 1.0 : 0.0};
     int result = command ? table_write(&file, path) : report(WEFT_RESOURCES, "out of memory");
     free(command);
     return result;
@@ -144,7 +155,7 @@ static int files_write(const Export *self) {
         result = tables_write(self, NULL);
     } else {
         json_open(&json, NULL, '{');
-        json_text(&json, "target", weft_export_target((int)self->desc.target));
+        json_text(&json, "target", weft_export_target((int)self->descs->target));
         json_text(&json, "output", option_text(self->options, "-o"));
         json_whole(&json, "bytes", (long long)self->made.size);
         json_open(&json, "tables", '[');
@@ -156,14 +167,16 @@ static int files_write(const Export *self) {
 }
 
 static int export_run(const Options *options) {
-    Export self;
+    Export *self = calloc(1, sizeof *self);
     WeftError error;
-    int result = export_read(options, &self);
+    if (!self) return report(WEFT_RESOURCES, "out of memory");
+    int result = export_read(options, self);
     if (result == 0) result = output_probe_apart(options, option_text(options, "-o"));
-    if (result != 0) return result;
-    if (weft_export(&self.desc, &self.made, &error) != WEFT_OK) return report_error(&error);
-    result = files_write(&self);
-    weft_export_free(&self.made);
+    if (result == 0 && weft_export_all(self->descs, self->count, &self->made, &error) != WEFT_OK)
+        result = report_error(&error);
+    if (result == 0) result = files_write(self);
+    weft_export_free(&self->made);
+    free(self);
     return result;
 }
 
@@ -194,21 +207,23 @@ static const Option export_options[] = {
 
 const Verb verb_export = {
     .name = "export",
-    .operands = "SUBJECT [LOBE] --target TARGET -o FILE [options]",
+    .operands = "SUBJECT... --target TARGET -o FILE [options]",
     .help = "writes a model as GLSL, HLSL, C or a Shadertoy",
     .operands_least = 1,
-    .operands_most = 2,
+    .operands_most = WEFT_EXPORT_SUBJECTS_MAX,
     .options = export_options,
     .lists = lists,
     .notes = "SUBJECT is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
              "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]; all\n"
-             "with settings behind it, " SUBJECT_FORM ". A\n"
-             "second lobe stands on the right half of a Shadertoy. docs/export.md explains the\n"
-             "functions, pi, and how engines take them.\n\n"
+             "with settings behind it, " SUBJECT_FORM ".\n"
+             "Several share what is the same in them; a second lobe stands on the right half\n"
+             "of a Shadertoy. docs/export.md explains the functions, pi, and how engines take\n"
+             "them.\n\n"
              "Examples\n"
              "  weft export charlie-neubelt:alpha=0.3 --target hlsl -o charlie.ush\n"
              "  weft export ltc-fibre --target glsl --lut dds -o fuzz.glsl\n"
              "  weft export velvet --target c -o velvet.h\n"
+             "  weft export ggx charlie-neubelt khronos --target glsl -o cloth.glsl\n"
              "  weft export chair.gltf:fabric --target essl --light-pi folded -o chair.glsl\n"
              "  weft export ashikhmin-neubelt charlie-neubelt --target shadertoy -o toy.glsl\n",
     .run = export_run,

@@ -7,6 +7,8 @@
 
 #include "export/draft.h"
 
+#include "text/types.h"
+
 static const char scene[] =
     "/* A ball fills most of the picture's height, or of its half. Radiance towards the viewer, of\n"
     " * one distant light of irradiance `light`. */\n"
@@ -93,6 +95,9 @@ void draft_ball_inputs(const Draft *draft, Buffer *out) {
         {"sheen_roughness", "    s.sheen_roughness = roughness;"},
         {"sheen", "    s.sheen = 1.0;"},
     };
-    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++)
-        if (items_ask(&draft->items, "Surface", 's', lines[k][0])) put_line(out, "%s", lines[k][1]);
+    const Token surface = {TOKEN_NAME, "Surface", 7};
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
+        const Token input = {TOKEN_NAME, lines[k][0], strlen(lines[k][0])};
+        if (types_member(&draft->items, surface, input).kind == TOKEN_NAME) put_line(out, "%s", lines[k][1]);
+    }
 }

@@ -5,21 +5,29 @@
 #include "export/draft.h"
 
 #include "base/fail.h"
+#include "text/native.h"
+#include "text/returned.h"
+#include "text/unused.h"
 
-void draft_begin(Draft *draft, const WeftExportDesc *desc) {
+void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
         [WEFT_EXPORT_GLSL] = SPELL_GLSL,      [WEFT_EXPORT_ESSL] = SPELL_GLSL,
         [WEFT_EXPORT_HLSL] = SPELL_HLSL,      [WEFT_EXPORT_C] = SPELL_C,
         [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL,
     };
-    *draft = (Draft){.desc = desc, .speller.language = languages[desc->target]};
+    *draft = (Draft){.desc = desc, .speller.language = languages[desc->target], .whole = {"Dir", "Rgb"}};
     snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
+    draft->tables = tables;
     text_begin(&draft->text, &(TextDesc){.language = TEXT_PLAIN,
+                                         .before = tables->all,
+                                         .before_count = tables->count,
                                          .comments = true,
                                          .table_side = desc->target == WEFT_EXPORT_SHADERTOY ? 32 : 0});
     text_include(&draft->text, "shading/lang.h");
     text_define(&draft->text, "table_texel", "table_fetch");
-    text_line(&draft->text, "\nfloat table_fetch(int t, int stride, int row, int column) { return 0.0; }");
+    text_line(&draft->text,
+              "\nfloat table_fetch(int t, int stride, int row, int column) {\n"
+              "    return float(t + stride + row + column); /* names what the real one reads */\n}");
 }
 
 void draft_free(Draft *draft) {
@@ -63,6 +71,20 @@ void draft_identifier(const char *name, char id[DRAFT_ID]) {
     id[size] = 0;
 }
 
+/* Those of the text, under names that no other has. */
+static void take_tables(Draft *draft) {
+    DraftTables *to = draft->tables;
+    for (int k = 0; k < draft->text.table_count; k++, to->count++) {
+        const char *name = draft->text.tables[k].name;
+        bool taken = false;
+        for (int j = 0; j < to->count; j++) taken |= strcmp(to->all[j].name, name) == 0;
+        snprintf(to->names[to->count], WEFT_EXPORT_NAME, "%s%s%s", taken ? draft->id[0] : "",
+                 taken ? "_" : "", name);
+        to->all[to->count] = draft->text.tables[k];
+        to->all[to->count].name = to->names[to->count];
+    }
+}
+
 /* "t.texels = 3;" of what is kept: which tables are read. */
 static void find_used(Draft *draft) {
     for (int k = 0; k < draft->items.count; k++) {
@@ -72,22 +94,48 @@ static void find_used(Draft *draft) {
             if (!token_is(token, "texels") || !token_is(token_solid(&c, item->end), "=")) continue;
             token = token_solid(&c, item->end);
             long layer = token.kind == TOKEN_NUMBER ? strtol(token.at, NULL, 10) : -1;
-            if (layer >= 0 && layer < draft->text.table_count) draft->used[layer] = true;
+            if (layer >= 0 && layer < draft->tables->count) draft->tables->used[layer] = true;
         }
     }
 }
 
-WeftResult draft_cut(Draft *draft, WeftError *error) {
-    WeftResult result = text_end(&draft->text, error);
-    if (result != WEFT_OK) return result;
-    fold_text(draft->text.bytes, draft->facts, draft->fact_count, &draft->folded);
+/* The text as it is now, in place of what it was, and what of it the roots need. */
+static WeftResult take_text(Draft *draft, Buffer *next, WeftError *error) {
+    items_free(&draft->items);
+    buffer_free(&draft->folded);
+    draft->folded = *next;
+    *next = (Buffer){0};
     if (draft->folded.failed || !draft->folded.bytes) return fail(error, WEFT_MESSAGE_MEMORY, "text", NULL);
     items_cut(draft->folded.bytes, &draft->items);
     if (draft->items.short_of_memory) return fail(error, WEFT_MESSAGE_MEMORY, "text", NULL);
     for (int k = 0; k < draft->root_count; k++)
         if (!items_keep(&draft->items, draft->roots[k]))
             return fail(error, WEFT_MESSAGE_TEXT_NAME, draft->roots[k], NULL);
+    return WEFT_OK;
+}
+
+static WeftResult cut(Draft *draft, WeftError *error) {
+    Buffer next = {0};
+    fold_text(draft->text.bytes, draft->facts, draft->fact_count, &next);
+    WeftResult result = take_text(draft, &next, error);
+    if (result == WEFT_OK && draft->speller.language != SPELL_C) { /* which has pointers for it */
+        returned_put(&draft->items, draft->folded.bytes, &next);
+        result = take_text(draft, &next, error);
+    }
+    while (result == WEFT_OK && unused_cut(&draft->items, draft->folded.bytes, draft->whole, &next))
+        result = take_text(draft, &next, error);
+    if (result != WEFT_OK || draft->speller.language == SPELL_C) return result;
+    native_put(draft->folded.bytes, &next);
+    return take_text(draft, &next, error);
+}
+
+WeftResult draft_cut(Draft *draft, WeftError *error) {
+    WeftResult result = text_end(&draft->text, error);
+    if (result == WEFT_OK) result = cut(draft, error);
+    if (result != WEFT_OK) return result;
+    take_tables(draft);
     find_used(draft);
+    snprintf(draft->speller.own, SPELL_PREFIX, "%.24s%.*s_", draft->speller.prefix, DRAFT_ID, draft->id[0]);
     return WEFT_OK;
 }
 

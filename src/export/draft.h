@@ -11,23 +11,32 @@
 
 enum { DRAFT_ROOTS = 24, DRAFT_FACTS = 48, DRAFT_ID = 64, DRAFT_ALBEDOS = 2 };
 
+/* The tables that the drafts of one text read, in the layers that they name. Zero-initialise. */
+typedef struct DraftTables {
+    TextTable all[TEXT_TABLES_MAX];
+    char names[TEXT_TABLES_MAX][WEFT_EXPORT_NAME];
+    bool used[TEXT_TABLES_MAX]; /* the text still reads it in the end */
+    int count;
+} DraftTables;
+
 typedef struct Draft {
     const WeftExportDesc *desc;
     Speller speller;
     Text text;                           /* TEXT_PLAIN */
     char roots[DRAFT_ROOTS][SPELL_NAME]; /* what an engine calls */
+    const char *whole[5];                /* records that keep all members; ended by NULL */
     FoldFact facts[DRAFT_FACTS];
     AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables looks into them */
     char albedo_names[DRAFT_ALBEDOS][SPELL_NAME];
     int root_count, fact_count, albedo_count;
-    char id[2][DRAFT_ID];       /* of a lobe, then of that on the right, or of a material: an identifier */
-    bool used[TEXT_TABLES_MAX]; /* tables that the text still reads in the end */
+    char id[2][DRAFT_ID]; /* of a lobe, then of that on the right, or of a material: an identifier */
+    DraftTables *tables;  /* of this draft and those before it; borrowed */
     Items items;
     Buffer folded; /* what the items are cut from */
 } Draft;
 
 /* Both may be called in any case after one another. */
-void draft_begin(Draft *draft, const WeftExportDesc *desc);
+void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables);
 void draft_free(Draft *draft);
 
 /* Text that is wanted, under a name with the id in it: draft_root(draft, "%s_eval", id). */
@@ -39,7 +48,7 @@ void draft_fact(Draft *draft, const char *path, int value);
 /* An empty table of E to fill, NULL where memory is short. */
 AlbedoTable *draft_albedo(Draft *draft);
 
-/* Closes the text, folds it and keeps what the roots need. */
+/* Closes the text, folds it, keeps what the roots need and adds its tables to those of the drafts before. */
 WeftResult draft_cut(Draft *draft, WeftError *error);
 
 /* "a-b" as an identifier, to which a prefix and endings with '_' may be joined: '_' stands neither first nor
@@ -60,13 +69,20 @@ const char *draft_lobe_record(int lobe);
 WeftResult draft_material(Draft *draft, WeftError *error);
 
 /* The tables in the words of the target: samplers or arrays, and the function that reads a texel. */
-void draft_tables(const Draft *draft, Buffer *out);
+void draft_tables(const Draft *draft, Buffer *out); /* any draft: the tables are those of all */
 
 /* What the program must upload, in the order in which the text names them. */
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error);
 
 /* The comment at the top. */
-void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out);
+void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buffer *out);
+
+/* What the drafts share comes once; where they differ an item goes by its draft's id. To be called when all
+ * are cut. */
+void drafts_merge(Draft *drafts, int count);
+
+/* Their items: first what several share or none else has, then what each has of its own. */
+void drafts_spell(Draft *drafts, int count, Buffer *out);
 
 /* Shadertoy's: the ball and its light, behind the functions. */
 void draft_ball(const Draft *draft, Buffer *out);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "export/draft.h"
 
 static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl", "essl", "hlsl", "c", "shadertoy", NULL};
@@ -91,31 +92,74 @@ static void put_guard(const Draft *draft, bool open, Buffer *out) {
         put_line(out, "\n#endif");
 }
 
-static void put_all(Draft *draft, const WeftExport *uploads, Buffer *out) {
-    draft_head(draft, uploads, out);
-    put_guard(draft, true, out);
-    draft_tables(draft, out);
-    for (int k = 0; k < draft->items.count; k++) /* its place is taken */
-        if (token_is(draft->items.all[k].name, "table_fetch")) draft->items.all[k].kept = false;
-    spell_items(&draft->speller, &draft->items, out);
-    if (draft->desc->target == WEFT_EXPORT_SHADERTOY) draft_ball(draft, out);
-    put_guard(draft, false, out);
+static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
+    const Items *texts[WEFT_EXPORT_SUBJECTS_MAX];
+    const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* its place is taken */
+    for (int d = 0; d < count; d++) {
+        texts[d] = &drafts[d].items;
+        for (int k = 0; k < drafts[d].items.count; k++)
+            if (token_same(drafts[d].items.all[k].name, fetch)) drafts[d].items.all[k].kept = false;
+    }
+    drafts_merge(drafts, count);
+    drafts_head(drafts, count, uploads, out);
+    put_guard(drafts, true, out);
+    draft_tables(drafts, out);
+    spell_helpers(&drafts->speller, texts, count, out);
+    drafts_spell(drafts, count, out);
+    if (drafts->desc->target == WEFT_EXPORT_SHADERTOY) draft_ball(drafts, out);
+    put_guard(drafts, false, out);
 }
 
-WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error) {
-    Draft draft;
+static bool same_words(const char *a, const char *b) { return strcmp(a ? a : "", b ? b : "") == 0; }
+
+/* What one text says of all it holds. */
+static WeftResult check_all(const WeftExportDesc *descs, int count, WeftError *error) {
+    const char *subject = "export";
+    if (!descs || count < 1 || count > WEFT_EXPORT_SUBJECTS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "takes 1 to %d subjects", WEFT_EXPORT_SUBJECTS_MAX);
+    for (int k = 0; k < count; k++) {
+        WeftResult result = check(&descs[k], error);
+        if (result != WEFT_OK) return result;
+        if (descs[k].target != descs->target || descs[k].lut != descs->lut ||
+            !descs[k].fold_pi != !descs->fold_pi || !same_words(descs[k].prefix, descs->prefix))
+            return fail(error, WEFT_MESSAGE_DESC, subject, "one text has one target, lut, prefix and pi");
+    }
+    if (count > 1 && descs->target == WEFT_EXPORT_SHADERTOY)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "a shadertoy shows one subject, or two lobes");
+    return WEFT_OK;
+}
+
+static WeftResult make_drafts(Draft *drafts, int count, WeftError *error) {
+    for (int k = 0; k < count; k++) {
+        WeftResult result = make_draft(&drafts[k], error);
+        if (result != WEFT_OK) return result;
+        for (int j = 0; j < k; j++)
+            if (strcmp(drafts[j].id[0], drafts[k].id[0]) == 0)
+                return fail(error, WEFT_MESSAGE_DESC, drafts[k].id[0], "two subjects go by that name");
+        if (k + 1 < count) draft_begin(&drafts[k + 1], drafts[k + 1].desc, drafts[k].tables);
+    }
+    return WEFT_OK;
+}
+
+WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *out, WeftError *error) {
     Buffer text = {0};
+    DraftTables tables = {.count = 0};
     *out = (WeftExport){0};
-    WeftResult result = check(desc, error);
+    WeftResult result = check_all(descs, count, error);
     if (result != WEFT_OK) return result;
-    draft_begin(&draft, desc);
-    result = make_draft(&draft, error);
-    if (result == WEFT_OK) result = draft_uploads(&draft, out, error);
+    Draft *drafts = alloc_array((size_t)count, sizeof *drafts);
+    if (!drafts) return fail(error, WEFT_MESSAGE_MEMORY, "text", NULL);
+    memset(drafts, 0, (size_t)count * sizeof *drafts);
+    for (int k = 0; k < count; k++) drafts[k].desc = &descs[k];
+    draft_begin(drafts, descs, &tables);
+    result = make_drafts(drafts, count, error);
+    if (result == WEFT_OK) result = draft_uploads(drafts, out, error);
     if (result == WEFT_OK) {
-        put_all(&draft, out, &text);
+        put_all(drafts, count, out, &text);
         if (text.failed) result = fail(error, WEFT_MESSAGE_MEMORY, "text", NULL);
     }
-    draft_free(&draft);
+    for (int k = 0; k < count; k++) draft_free(&drafts[k]);
+    free(drafts);
     if (result == WEFT_OK) {
         out->text = text.bytes; /* which free() releases, as all of a buffer */
         out->size = text.size;
@@ -125,6 +169,10 @@ WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *e
     }
     buffer_free(&text);
     return result;
+}
+
+WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error) {
+    return weft_export_all(desc, 1, out, error);
 }
 
 void weft_export_free(WeftExport *text) {

@@ -11,7 +11,7 @@ static const char *vector(const Draft *draft) {
 static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]) {
     char plain[DRAFT_ID + 16];
     snprintf(plain, sizeof plain, "%s_%s", draft->id[0], end);
-    return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
+    return spell_item(&draft->speller, &draft->items, ITEM_FUNCTION, plain, name);
 }
 
 static void put_conventions(const Draft *draft, Buffer *out) {
@@ -46,7 +46,7 @@ static void put_call(const Draft *draft, Buffer *out) {
     bool c = desc->target == WEFT_EXPORT_C;
     const char *type = vector(draft);
     if (desc->target == WEFT_EXPORT_SHADERTOY) return;
-    put_line(out, " *\n * Example");
+    put_line(out, " *\n * Example: %s", draft->id[0]);
     if (c) {
         put_line(out, " *   %s wo = {0.6f, 0.0f, 0.8f}, wi = {-0.48f, 0.64f, 0.6f};",
                  spell_name(&draft->speller, ITEM_RECORD, "Dir", a));
@@ -55,7 +55,8 @@ static void put_call(const Draft *draft, Buffer *out) {
         put_line(out, " *   %s wi = %s(dot(l, t), dot(l, b), dot(l, n));", type, type);
     }
     if (!desc->lobe) {
-        put_line(out, " *   %s s = %s();", spell_name(&draft->speller, ITEM_RECORD, "Surface", record),
+        put_line(out, " *   %s s = %s();",
+                 spell_item(&draft->speller, &draft->items, ITEM_RECORD, "Surface", record),
                  function(draft, "surface", a));
         put_line(out, " *   %s %s = %s(s, wo, wi); // times the light",
                  c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : type, "f_cos",
@@ -117,7 +118,22 @@ static void put_tables(const WeftExport *uploads, Buffer *out) {
                  uploads->tables[k].texels.height);
 }
 
-void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out) {
+/* What it is of, without what could end the comment. */
+static void put_subject(const WeftExportDesc *desc, Buffer *out) {
+    const char *what = desc->lobe      ? weft_lobe_info(desc->lobe->lobe)->id
+                       : desc->profile ? desc->profile
+                                       : (desc->name ? desc->name : "material");
+    char safe[DRAFT_ID + 16];
+    snprintf(safe, sizeof safe, "%.70s", what);
+    for (char *k = safe; *k; k++)
+        if (*k == '*' || (unsigned char)*k < ' ') *k = '_';
+    buffer_put_text(out, safe);
+    if (!desc->right) return;
+    buffer_put_text(out, " | ");
+    buffer_put_text(out, weft_lobe_info(desc->right->lobe)->id);
+}
+
+void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
     static const char *const languages[WEFT_EXPORT_TARGETS] = {
         "GLSL 3.30 core and later; goes behind your #version",
         "GLSL ES 3.00; goes behind #version 300 es and precision highp float;",
@@ -125,23 +141,19 @@ void draft_head(const Draft *draft, const WeftExport *uploads, Buffer *out) {
         "C99 and C++",
         "Shadertoy: paste all of it into a new shader",
     };
-    const WeftExportDesc *desc = draft->desc;
-    const char *what = desc->lobe      ? weft_lobe_info(desc->lobe->lobe)->id
-                       : desc->profile ? desc->profile
-                                       : (desc->name ? desc->name : "material");
-    char safe[DRAFT_ID + 16];
-    snprintf(safe, sizeof safe, "%.70s", what);
-    for (char *k = safe; *k; k++)
-        if (*k == '*' || (unsigned char)*k < ' ') *k = '_'; /* which could end the comment */
-    put_line(out, "/* %s%s%s - for %s", safe, desc->right ? " | " : "",
-             desc->right ? weft_lobe_info(desc->right->lobe)->id : "", languages[desc->target]);
+    buffer_put_text(out, "/* ");
+    for (int k = 0; k < count; k++) {
+        if (k) buffer_put_text(out, ", ");
+        put_subject(drafts[k].desc, out);
+    }
+    put_line(out, " - for %s", languages[drafts->desc->target]);
     put_line(out, " *");
     put_line(out, " * Made by weft %s from its catalogue of cloth-shading models.", weft_version());
     put_line(out, " * SPDX-License-Identifier: MIT");
     put_line(out, " * Copyright (c) 2026 The weft maintainers");
-    put_conventions(draft, out);
-    put_call(draft, out);
-    if (desc->target == WEFT_EXPORT_HLSL) put_engines(draft, out);
+    put_conventions(drafts, out);
+    for (int k = 0; k < count; k++) put_call(&drafts[k], out);
+    if (drafts->desc->target == WEFT_EXPORT_HLSL) put_engines(drafts, out);
     put_tables(uploads, out);
     put_line(out, " */");
 }

@@ -24,24 +24,6 @@ static void rename_own(Text *text, const char *name) {
     text_define(text, from, to);
 }
 
-/* Returns the traits of the lobe and of that on the right of it, which share one record of values. */
-static unsigned traits_of_both(const Draft *draft) {
-    const WeftLobe *right = draft->desc->right;
-    return weft_lobe_info(draft->desc->lobe->lobe)->traits |
-           (right ? weft_lobe_info(right->lobe)->traits : 0u);
-}
-
-/* Puts the record of values that lobes without a tint need, once in a text. */
-static void put_plain_value(Text *text, bool two) {
-    const char *share = two ? " float s;" : "";
-    if (!text_provide(text, "shading/lobe_value.h")) return;
-    text_line(text,
-              "\nstruct LobeValue { float f;%s float pdf; };\n"
-              "LobeValue lobe_value_of(float f, float s, float pdf) {\n    LobeValue v;\n    v.f = f;\n%s"
-              "    v.pdf = pdf;\n    return v;\n}",
-              share, two ? "    v.s = s;\n" : "");
-}
-
 static void put_default(Text *text, const WeftLobe *lobe, const LobeNames *own) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     text_line(text, "\n%s %s_default() {\n    %s m;", own->record, own->prefix, own->record);
@@ -74,14 +56,14 @@ static void put_rough(Text *text, const WeftLobe *lobe, const LobeNames *own) {
               number(p->hard_low).text, number(p->hard_high).text);
 }
 
-/* What all below begin with: the lobe prepared for wo. */
+/* Every function below begins with this: the lobe prepared for wo. */
 static void put_seen(Text *text, const LobeNames *own) {
     const char *p = own->prefix, *r = own->record;
     text_line(text, "    %sPrepared p;\n    %sView w;\n    %s_prepare(m, p);\n    %s_view(p, wo, w);", r, r,
               p, p);
 }
 
-/* Whether the second colour is made, and not the user's own. */
+/* Returns true where the second colour is made, and not the user's own. */
 static bool has_second(const LobeNames *own) {
     char file[96], function[96];
     snprintf(file, sizeof file, "lobes/%s.h", own->prefix);
@@ -172,15 +154,14 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     const LobeNames *own = lobe_names(lobe->lobe);
     Text *text = &draft->text;
     rename_own(text, own->prefix);
-    unsigned traits = traits_of_both(draft);
     text_include(text, "shading/angles.h");
     if (lobe->lobe != LOBE_COOK_TORRANCE) text_define(text, "SHARE_IS_COSINE(s)", "false");
-    if (!(traits & TRAIT_TINTED)) put_plain_value(text, traits & TRAIT_TWO_COLORS);
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);
     if (draft_lobe_rough(lobe)) put_rough(text, lobe, own);
     put_eval(text, lobe, own, draft->desc->fold_pi != 0);
     snprintf(draft->id[which], DRAFT_ID, "%s", own->prefix);
+    draft->whole[2 + which] = own->record;
     draft_root(draft, "%s_default", own->prefix);
     draft_root(draft, "%s_eval", own->prefix);
     if (draft_lobe_rough(lobe)) draft_root(draft, "%s_rough", own->prefix);

@@ -1,7 +1,4 @@
-/* material.c - a profile, a workflow or a material as two functions: its numbers, and f times the cosine
- *
- * The text is made twice: of the first it is seen which inputs the composition reads, and the second has only
- * those in its record. */
+/* material.c - a profile, a workflow or a material as two functions: its numbers, and f times the cosine */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -21,9 +18,6 @@ typedef struct Rule {
 
 #define RULE(id, index, base, conserves, help) {id, #base},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
-
-#define INPUT_TYPE(kind, name, def, low, high, hard_low, hard_high, help) #kind,
-static const char *const input_types[INPUT_COUNT] = {SURFACE_INPUTS(INPUT_TYPE)};
 
 typedef struct Subject {
     Material material;
@@ -69,13 +63,15 @@ static void find_facts(Draft *draft, Subject *subject) {
     Stack m[3];
     for (int x = 0; x < 3; x++) {
         Surface s = composition_surface(0.5f * (float)x, subject->zero);
-        stack_make(&m[x], &s, c, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+        stack_make(&m[x], &s, c, (TableRef){.kind = TABLE_NONE});
     }
-    bool layer = true, by = true, under = true, albedo = true;
+    bool layer = true, by = true, under = true, albedo = true, view = true, coat = true;
     for (int x = 1; x < 3; x++) {
         layer &= m[x].layer == m[0].layer;
         by &= m[x].by == m[0].by;
         under &= m[x].under == m[0].under;
+        view &= m[x].view == m[0].view;
+        coat &= m[x].coat_rule == m[0].coat_rule;
         albedo &= m[x].albedo == m[0].albedo;
     }
     subject->stack = m[1];
@@ -83,6 +79,8 @@ static void find_facts(Draft *draft, Subject *subject) {
     if (layer) draft_fact(draft, "m.layer", m[0].layer);
     if (by) draft_fact(draft, "m.by", m[0].by);
     if (under) draft_fact(draft, "m.under", m[0].under);
+    if (view) draft_fact(draft, "m.view", m[0].view);
+    if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
     bool moved =
         c->layer == LAYER_RECIPROCAL || c->layer == LAYER_STOCHASTIC; /* these may change it on the way */
     if (albedo && !moved) draft_fact(draft, "m.albedo", m[0].albedo);
@@ -149,30 +147,6 @@ static void put_layer(Text *text, int layer) {
         LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
 }
 
-/* Surfaces are s, and t where one is made of another. */
-static bool is_read(const Items *reader, int k) {
-    const char *name = input_infos[k].name;
-    return items_ask(reader, "Surface", 's', name) || items_ask(reader, "Surface", 't', name);
-}
-
-/* In place of shading/inputs.h: the inputs that are read; NULL: all. */
-static void put_inputs(Text *text, const Items *reader) {
-    char rows[INPUT_COUNT * 64] = "", choices[CHOICE_COUNT * 32] = "";
-    if (!reader) return;
-    for (int k = 0; k < INPUT_COUNT; k++) {
-        size_t used = strlen(rows);
-        if (is_read(reader, k))
-            snprintf(rows + used, sizeof rows - used, "P(%s, %s, 0, 0, 0, 0, 0, 0) ", input_types[k],
-                     input_infos[k].name);
-    }
-#define CHOICE_ROW(name, help) "C(" #name ", 0) "
-    snprintf(choices, sizeof choices, "%s", SURFACE_CHOICES(CHOICE_ROW));
-    text_provide(text, "shading/inputs.h");
-    text_line(text, "\nconst int CHOICE_AUTO = -1;");
-    text_define(text, "SURFACE_INPUTS(P)", rows);
-    text_define(text, "SURFACE_CHOICES(C)", choices);
-}
-
 static void put_value(Text *text, const Surface *s, int k) {
     const char *name = input_infos[k].name, *help = input_infos[k].help;
 #define VALUE_SCALAR(input) text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
@@ -191,15 +165,13 @@ static void put_value(Text *text, const Surface *s, int k) {
     SURFACE_INPUTS(VALUE)
 }
 
-/* The numbers, of which only those that are read. */
-static void put_surface(Draft *draft, const Subject *subject, const Items *reader) {
+static void put_surface(Draft *draft, const Subject *subject) {
     text_line(&draft->text,
               "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
               "{\n    Surface s;",
               draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers",
               draft->id[0]);
-    for (int k = 0; k < INPUT_COUNT; k++)
-        if (!reader || is_read(reader, k)) put_value(&draft->text, &subject->surface, k);
+    for (int k = 0; k < INPUT_COUNT; k++) put_value(&draft->text, &subject->surface, k);
     text_line(&draft->text, "    return s;\n}");
     draft_root(draft, "%s_surface", draft->id[0]);
 }
@@ -210,58 +182,45 @@ static void put_shade(Draft *draft, const Subject *subject) {
     text_line(text,
               "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
-              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);\n    Dir o = wo;",
+              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
               draft->desc->fold_pi ? " times pi" : "", draft->id[0]);
     if (subject->chosen) text_line(text, "    compose_surface(s, material_choices());");
     text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&subject->choices));
     if (subject->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
-    if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s, o);");
+    if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (subject->table) text_line(text, "    m.table = sheen_table();");
-    if (needs_e(subject)) text_line(text, "    m.e_o = stack_albedo(m, o);");
     if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)
         text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, m.at);");
     if (subject->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
-    text_line(text, "    Angles a = angles_between(o, wi);");
-    if (coat) text_line(text, "    Angles b = angles_between(stack_to_coat(m, o), stack_to_coat(m, wi));");
+    /* A lobe that a slot does not hold leaves its part of the view alone, of which a compiler of C warns. */
+    bool c = draft->desc->target == WEFT_EXPORT_C;
+    text_line(text, "    stack_prepare_lobes(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
+              c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
+    if (needs_e(subject)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
+    if (subject->slots.slots[2].count) text_line(text, "    view_keep(m, w);");
+    text_line(text, "    Angles a = angles_between(wo, wi);");
+    if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
     text_line(text,
-              draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, a, %s).f_cos, PI);\n}"
-                                   : "    return stack_value(m, a, %s).f_cos;\n}",
+              draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, w, a, %s).f_cos, PI);\n}"
+                                   : "    return stack_value(m, w, a, %s).f_cos;\n}",
               coat ? "b" : "a");
     draft_root(draft, "%s_shade", draft->id[0]);
 }
 
-/* reader: what the text came to before it was known which inputs are read, or NULL. */
-static void put_text(Draft *draft, Subject *subject, const Items *reader) {
+static void put_text(Draft *draft, Subject *subject) {
     Text *text = &draft->text;
     TableRef e = {.kind = TABLE_NONE};
     if (subject->table) e = albedo_table_ref(subject->table);
-    put_inputs(text, reader);
     text_include(text, "shading/angles.h");
-    text_composition_lobes(text, &subject->slots, !subject->zero[INPUT_dust], e.kind, e.tilts);
+    text_composition_lobes(text, &subject->slots, e.kind, e.tilts);
     if (!subject->slots.slots[2].count) text_define(text, "IS_WORN(m)", "false");
     if (subject->one_layer) put_layer(text, subject->stack.layer);
     text_composition(text, &subject->choices);
     if (subject->chosen) text_composition_choices(text, &subject->choices);
     if (subject->table) text_albedo_table(text, "sheen_table", "sheen", subject->table);
-    put_surface(draft, subject, reader);
+    put_surface(draft, subject);
     put_shade(draft, subject);
-}
-
-/* All again, once it is seen what the first text reads. */
-static WeftResult draft_again(Draft *draft, Subject *subject, WeftError *error) {
-    Draft first;
-    draft_begin(&first, draft->desc);
-    memcpy(first.id, draft->id, sizeof first.id);
-    memcpy(first.facts, draft->facts, sizeof first.facts);
-    first.fact_count = draft->fact_count;
-    put_text(&first, subject, NULL);
-    first.root_count = 0; /* its numbers are what is to be left out */
-    draft_root(&first, "%s_shade", first.id[0]);
-    WeftResult result = draft_cut(&first, error);
-    if (result == WEFT_OK) put_text(draft, subject, &first.items);
-    draft_free(&first);
-    return result;
 }
 
 WeftResult draft_material(Draft *draft, WeftError *error) {
@@ -273,5 +232,6 @@ WeftResult draft_material(Draft *draft, WeftError *error) {
         if (!subject.table) return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
         sheen_table_fill(&subject.surface, &subject.choices, subject.table);
     }
-    return draft_again(draft, &subject, error);
+    put_text(draft, &subject);
+    return WEFT_OK;
 }

@@ -13,7 +13,7 @@ static bool in_text(const Draft *draft) {
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
     char plain[WEFT_EXPORT_NAME];
-    snprintf(plain, sizeof plain, "texels_%s", draft->text.tables[k].name);
+    snprintf(plain, sizeof plain, "texels_%s", draft->tables->all[k].name);
     return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
 }
 
@@ -29,7 +29,7 @@ static float power_above(float x) {
 }
 
 static Range table_range(const Draft *draft, int k) {
-    const TextTable *t = &draft->text.tables[k];
+    const TextTable *t = &draft->tables->all[k];
     float low = 0.0f, high = 0.0f;
     if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft)) return (Range){1.0f, 0.0f};
     for (int n = 0; n < t->rows * t->columns; n++) {
@@ -53,7 +53,7 @@ static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
 }
 
 static void put_declaration(const Draft *draft, int k, Buffer *out) {
-    const TextTable *t = &draft->text.tables[k];
+    const TextTable *t = &draft->tables->all[k];
     char name[SPELL_NAME];
     int size = t->rows * t->columns;
     table_name(draft, k, name);
@@ -95,8 +95,8 @@ static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
 void draft_tables(const Draft *draft, Buffer *out) {
     int last = -1, count = 0;
     char name[SPELL_NAME];
-    for (int k = 0; k < draft->text.table_count; k++)
-        if (draft->used[k]) {
+    for (int k = 0; k < draft->tables->count; k++)
+        if (draft->tables->used[k]) {
             last = k;
             count++;
             put_declaration(draft, k, out);
@@ -109,15 +109,15 @@ void draft_tables(const Draft *draft, Buffer *out) {
              draft->desc->target == WEFT_EXPORT_C ? "static inline " : "",
              spell_name(&draft->speller, ITEM_FUNCTION, "table_fetch", name));
     if (draft->desc->target == WEFT_EXPORT_C && count == 1) put_line(out, "    (void)t;");
-    for (int k = 0; k < draft->text.table_count; k++)
-        if (draft->used[k]) put_fetch(draft, k, k == last, out);
+    for (int k = 0; k < draft->tables->count; k++)
+        if (draft->tables->used[k]) put_fetch(draft, k, k == last, out);
     put_line(out, "}\n");
 }
 
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) {
-    for (int k = 0; k < draft->text.table_count && !in_text(draft); k++) {
-        const TextTable *from = &draft->text.tables[k];
-        if (!draft->used[k] || out->table_count == WEFT_EXPORT_TABLES_MAX) continue;
+    for (int k = 0; k < draft->tables->count && !in_text(draft); k++) {
+        const TextTable *from = &draft->tables->all[k];
+        if (!draft->tables->used[k] || out->table_count == WEFT_EXPORT_TABLES_MAX) continue;
         WeftExportTable *table = &out->tables[out->table_count];
         char name[SPELL_NAME];
         snprintf(table->name, sizeof table->name, "%.95s", table_name(draft, k, name));

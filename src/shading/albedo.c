@@ -35,7 +35,7 @@ static Rule rule_make(double step) {
     return rule;
 }
 
-/* What is integrated of a lobe: f times 1 - share and times share; or, given the colours w, f in these: the
+/* The integrand of a lobe: f times 1 - share and times share; or, given the colours w, f in these: the
  * albedos of a tinted one, the f0 of one whose f0 makes its F. */
 typedef struct Asked {
     const Lobe *lobe;

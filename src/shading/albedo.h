@@ -22,7 +22,7 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
  * `tolerance` where the finest step was not enough. */
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
-/* Whether colour is no factor and no share either: of a tinted lobe, and of one whose f0 makes its F. */
+/* Returns true where colour is no factor and no share either: for a tinted lobe, and where f0 makes F. */
 bool albedo_asks_color(const Lobe *lobe);
 
 /* E of such a lobe in the colour w: of each channel by itself. */

@@ -1,4 +1,4 @@
-/* compose.h - from inputs and choices to a stack, and what a stack reflects
+/* compose.h - from inputs and choices to a stack, what wo adds to it, and what it reflects
  *
  * A profile, or else a workflow, makes the stack; then come the choices that were made, in place of what it
  * says. */
@@ -13,7 +13,6 @@
 #include "shading/lobes/ggx.h"
 #include "shading/lobes/silk.h"
 #include "shading/profile.h"
-#include "shading/slots.h"
 
 /* The index of refraction; where none is given, that of the reflectance. */
 FN float compose_ior(const Surface *s) {
@@ -64,7 +63,7 @@ FN void compose_surface(Surface *s, Choices c) {
     if (c.d >= 0 && c.d != D_GGX_ANISO) s->anisotropy = 0.0f;
 }
 
-/* Whether terms of the sheen are chosen, or the lobe that is made of terms. */
+/* Returns true where terms of the sheen are chosen, or the lobe that is made of terms. */
 FN bool compose_sheen_is_free(Choices c) {
     return c.sheen_lobe == LOBE_COOK_TORRANCE || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
 }
@@ -94,7 +93,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         }
         if (free) lobe = compose_sheen(lobe, s, c);
         m->nap = nap_of(s->nap, s->nap_direction);
-        slot_make(&m->sheen, lobe, m->sheen_color, s->sheen_second, m->left, m->sheen.pick);
+        slot_make(&m->sheen, lobe, m->sheen_color, s->sheen_second, 1.0f, m->sheen.normal, m->sheen.grazing);
         m->albedo = ALBEDO_TABLE;
         m->at = lobe.params[0];
     }
@@ -110,8 +109,8 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     }
     if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
         Lobe lobe = lobe_rough(c.diffuse, c.diffuse == LOBE_WRAP ? s->subsurface : s->roughness);
-        Rgb color = rgb_scale(m->diffuse.f0, 1.0f / max(m->left, 1e-6f));
-        slot_make(&m->diffuse, lobe, color, color, m->left, m->diffuse.pick);
+        Rgb color = m->diffuse.f0;
+        slot_make(&m->diffuse, lobe, color, color, 1.0f, m->diffuse.normal, m->diffuse.grazing);
     }
 }
 
@@ -124,118 +123,191 @@ FN SheenE stack_albedo(const Stack *m, Dir w) {
     return table_sheen_nap(m->table, w, m->nap, m->at);
 }
 
-/* Dust over all of it, where dust_settle found some. What lies below keeps 1 - E, E of white dust: what dark
- * dust does not send back it keeps. So a white base under white dust returns what it receives. */
-FN void compose_dust(Stack *m, const Surface *s, Dir o) {
+/* Dust over all of it, where dust_settle found some. */
+FN void compose_dust(Stack *m, const Surface *s) {
     if (s->dust <= DUST_LEAST) return;
-    Lobe lobe = lobe_rough(LOBE_LTC_FIBRE, s->dust_roughness);
-    float e_1 = dust_albedo(&lobe, o.z), weight = dust_weight(s->dust, e_1, o.z), e = weight * e_1;
-    slot_dim(&m->diffuse, 1.0f - e);
-    slot_dim(&m->specular, 1.0f - e);
-    slot_dim(&m->sheen, 1.0f - e);
-    slot_dim(&m->coat, 1.0f - e);
-    m->left = m->left * (1.0f - e);
-    slot_make(&m->dust, lobe, s->dust_color, s->dust_color, weight, e * rgb_mean(s->dust_color));
+    m->dust_lies = s->dust;
+    slot_even(&m->dust, lobe_rough(LOBE_LTC_FIBRE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
+    m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
 
-/* What depends on wo and all of the stack: E, and the chance of each lobe to be sampled. */
-FN void compose_finish(Stack *m, TableRef e, Dir o) {
-    m->table = e;
-    if (HAS_SHEEN(m)) {
-        m->e_o = stack_albedo(m, o);
-        m->e_avg = table_sheen_nap_average(e, m->nap, m->at);
-        float keep = rgb_mean(stack_keep(m, m->e_o));
-        m->sheen.pick = m->layer == LAYER_MULTIPLICATIVE ? 0.0f : max(m->sheen.pick * m->e_o.e, 1e-3f);
-        if (m->layer == LAYER_MULTIPLICATIVE) {
-            m->sheen.f0 = rgb_grey(0.0f);
-            m->sheen.f90 = m->sheen.f0;
-        }
-        m->diffuse.pick = m->diffuse.pick * keep;
-        if (!IS_BELOW_F(m)) m->specular.pick = m->specular.pick * keep;
-    }
-    float sum = m->diffuse.pick + m->specular.pick + m->sheen.pick + m->coat.pick + m->dust.pick;
-    /* a floor keeps every lobe reachable, so that no weight is unbounded */
-    float most = sum > 0.0f ? 0.9375f / sum : 0.0f, least = 0.015625f, rest = 1.0f;
-    m->diffuse.pick = m->diffuse.pick > 0.0f ? most * m->diffuse.pick + least : 0.0f;
-    m->specular.pick = m->specular.pick > 0.0f ? most * m->specular.pick + least : 0.0f;
-    m->sheen.pick = m->sheen.pick > 0.0f ? most * m->sheen.pick + least : 0.0f;
-    m->coat.pick = m->coat.pick > 0.0f ? most * m->coat.pick + least : 0.0f;
-    m->dust.pick = m->dust.pick > 0.0f ? most * m->dust.pick + least : 0.0f;
-    sum = m->diffuse.pick + m->specular.pick + m->sheen.pick + m->coat.pick + m->dust.pick;
-    rest = sum > 0.0f ? 1.0f / sum : 0.0f;
-    m->diffuse.pick = m->diffuse.pick * rest;
-    m->specular.pick = m->specular.pick * rest;
-    m->sheen.pick = m->sheen.pick * rest;
-    m->coat.pick = m->coat.pick * rest;
-    m->dust.pick = m->dust.pick * rest;
-}
-
-/* The stack of a surface seen from wo (shading frame, z > 0). e is the table of E of the sheen's lobe over
- * its first parameter, where the stack without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust
- * is what lies at this point: dust_settle says. */
-FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e, Dir o) {
+/* The stack of a surface. e is the table of E of the sheen's lobe over its first parameter, where the stack
+ * without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust is what lies at this point:
+ * dust_settle says. */
+FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     Choices d = convert_choices(c);
     Surface t = convert_surface(*s, c);
     compose_surface(&t, d);
-    compose_begin(m, &t, d, o);
+    compose_begin(m, &t, d);
     compose_choices(m, &t, d);
-    compose_dust(m, &t, o);
-    compose_finish(m, e, o);
+    compose_dust(m, &t);
+    m->table = e;
+    if (HAS_SHEEN(m)) m->e_avg = table_sheen_nap_average(e, m->nap, m->at);
+    if (m->layer == LAYER_MULTIPLICATIVE) {
+        m->sheen.f0 = rgb_grey(0.0f);
+        m->sheen.f90 = m->sheen.f0;
+    }
+    stack_prepare_lobes(m);
 }
 
+FN void view_coat(const Stack *m, StackView *w) {
+    w->coat_o = stack_to_coat(m, w->o);
+    if (m->coat_rule == COAT_BARE) return;
+    float cosine = w->coat_o.z, f = 0.0f; /* a coat turned away by its normal map is not seen */
+    float s = m->coat_rule == COAT_GAUSSIAN ? schlick_gaussian_s(cosine) : schlick_s(cosine);
+    if (cosine > 1e-4f) f = m->coat_weight * mix(0.04f, 1.0f, s);
+    w->coat_keep = 1.0f - f;
+    w->pick.coat = f;
+    w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
+}
+
+/* What lies below dust keeps 1 - E, E of white dust: what dark dust does not send back it keeps. So a white
+ * base under white dust returns what it receives. */
+FN void view_dust(const Stack *m, StackView *w) {
+    if (m->dust_lies <= DUST_LEAST) return;
+    float e_1 = dust_albedo(&m->dust.lobe, w->o.z);
+    w->scale.dust = dust_weight(m->dust_lies, e_1, w->o.z);
+    w->pick.dust = w->scale.dust * e_1;
+    w->dust_keep = 1.0f - w->pick.dust;
+}
+
+#define SCALE_ONE(name, NAME, Name, wo)                                                                      \
+    w->scale.name = 1.0f;                                                                                    \
+    w->pick.name = 1.0f;
+#define COMPOSE_VIEW(name, index, what)                                                                      \
+    if (m->view == index) what;
+/* All but what the layer rule asks for and the chances of sampling. */
+FN void view_begin(const Stack *m, Dir o, StackView *w) {
+    w->o = o;
+    w->coat_o = o;
+    w->coat_keep = 1.0f;
+    w->dust_keep = 1.0f;
+    w->under_f0 = m->under_f0;
+    w->under_f90 = m->under_f90;
+    w->more = 0.0f;
+    w->e_o = sheen_e_of(0.0f);
+    w->keep = rgb_grey(1.0f);
+    SLOTS(SCALE_ONE)
+    WEFT_VIEWS(COMPOSE_VIEW)
+    if (HAS_COAT(m)) view_coat(m, w);
+    if (HAS_DUST(m)) view_dust(m, w);
+    float left = w->coat_keep * w->dust_keep;
+    w->scale.diffuse = w->scale.diffuse * left;
+    w->scale.specular = w->scale.specular * left;
+    w->scale.sheen = w->scale.sheen * left;
+    w->scale.coat = w->scale.coat * w->dust_keep;
+    stack_view_lobes(m, w);
+}
+
+/* What the layer rule leaves, of a rule that does not ask for wi. */
+FN void view_keep(const Stack *m, StackView *w) {
+    if (IS_WORN(m)) w->keep = stack_keep(m, w, w->e_o);
+}
+
+/* A floor keeps every lobe reachable, so that no weight is unbounded: here before what dims it, and below. */
+FN float pick_of(const Slot *s, float schlick, float share, float scale) {
+    return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * share, 1e-3f) : 0.0f;
+}
+#define PICK_SUM(name, NAME, Name, wo)   +p->name
+#define PICK_USED(name, NAME, Name, wo)  +(p->name > 0.0f ? 1.0f : 0.0f)
+#define PICK_SCALE(name, NAME, Name, wo) w->pick.name = p->name > 0.0f ? most * p->name + least : 0.0f;
+/* Of n slots that are used each gets (p / sum 15/16 + 1/64) / (15/16 + n/64). */
+FN void view_picks_of(const Scales *p, StackView *w) {
+    float sum = 0.0f SLOTS(PICK_SUM), used = 0.0f SLOTS(PICK_USED);
+    float least = 1.0f / (60.0f + used), most = 60.0f * least / max(sum, 1e-30f);
+    SLOTS(PICK_SCALE)
+}
+
+/* The chance of each lobe to be sampled; before, what of it wo decides. */
+FN void view_picks(const Stack *m, StackView *w) {
+    float s = schlick_s(w->o.z), below = w->coat_keep, clear = w->dust_keep, keep = 1.0f;
+    Scales p;
+    p.diffuse = clear * pick_of(&m->diffuse, s, w->pick.diffuse * below, w->scale.diffuse);
+    p.specular = clear * pick_of(&m->specular, s, w->pick.specular * below, w->scale.specular);
+    p.sheen = clear * pick_of(&m->sheen, s, w->pick.sheen * below, w->scale.sheen);
+    p.coat = clear * pick_of(&m->coat, s, w->pick.coat, w->scale.coat);
+    p.dust = pick_of(&m->dust, s, w->pick.dust, w->scale.dust);
+    if (HAS_SHEEN(m)) {
+        keep = rgb_mean(w->keep);
+        p.sheen = m->layer == LAYER_MULTIPLICATIVE ? 0.0f : max(p.sheen * w->e_o.e, 1e-3f);
+        p.diffuse = p.diffuse * keep;
+        if (!IS_BELOW_F(m)) p.specular = p.specular * keep;
+    }
+    view_picks_of(&p, w);
+}
+
+/* What wo (shading frame, z > 0) adds to a stack. */
+FN void stack_view(const Stack *m, Dir o, StackView *w) {
+    view_begin(m, o, w);
+    if (HAS_SHEEN(m)) w->e_o = stack_albedo(m, o);
+    view_keep(m, w);
+    view_picks(m, w);
+}
+
+/* Adds what a slot reflects: f times its scale, which is one for each channel. */
+FN void value_add(StackValue *sum, const LobeReflected *v, Rgb scale, float pick) {
+    sum->f_cos = rgb_add(sum->f_cos, rgb_mul(scale, v->f));
+    sum->pdf = sum->pdf + pick * v->pdf;
+}
+#define SLOT_VALUE(slot, pair)                                                                               \
+    IN_SLOT(slot, reflect)                                                                                   \
+    (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_seen, pair, &m->slot.f0, &m->slot.f90, &v);
+
 /* The same as stack_value for some of the slots: what the others do to these stays. */
-FN StackValue stack_value_of(const Stack *m, Slots only, Angles a, Angles coat) {
-    SheenE e_i = sheen_e_of(0.0f);
-    if (m->layer >= LAYER_ALBEDO_MIN && HAS_SHEEN(m)) e_i = stack_albedo(m, a.i);
+FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
+                             const Angles *coat) {
     bool worn = IS_WORN(m);
-    Rgb keep = rgb_grey(1.0f);
-    if (worn) keep = stack_keep(m, e_i);
-    Rgb under = stack_under(m, a), over = rgb_grey(1.0f), specular_keep = keep;
+    Rgb keep = w->keep;
+    if (worn && m->layer >= LAYER_ALBEDO_MIN) {
+        SheenE e_i = sheen_e_of(0.0f);
+        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+        keep = stack_keep(m, w, e_i);
+    }
+    Rgb under = stack_under(m, w, a), over = rgb_grey(1.0f), specular_keep = keep;
     if (IS_BELOW_F(m) && worn) {
-        under = stack_let_through(m, a);
+        under = stack_let_through(m, w, a);
         over = under;
         specular_keep = rgb_grey(1.0f);
     }
     StackValue sum;
+    LobeReflected v;
     sum.f_cos = rgb_grey(0.0f);
     sum.pdf = 0.0f;
     if (only.diffuse && HAS_DIFFUSE(m)) {
-        LobeValue v;
-        diffuse_at(&m->diffuse.lobe, &a, &v);
-        sum.f_cos = rgb_mul(rgb_mul(keep, under), slot_f(&m->diffuse, v));
-        sum.pdf = slot_pdf(&m->diffuse, v);
+        SLOT_VALUE(diffuse, a)
+        value_add(&sum, &v, rgb_scale(rgb_mul(keep, under), w->scale.diffuse), w->pick.diffuse);
     }
     if (only.specular && HAS_SPECULAR(m)) {
-        LobeValue v;
-        specular_at(&m->specular.lobe, &a, &v);
-        sum.f_cos = rgb_add(sum.f_cos, rgb_mul(specular_keep, slot_f(&m->specular, v)));
-        sum.pdf = sum.pdf + slot_pdf(&m->specular, v);
+        if (HAS_MORE(m)) {
+            SlotColors c = stack_specular_colors(m, w);
+            IN_SLOT(specular, reflect)
+            (m->specular.lobe.id, &m->specular_prepared, &w->specular_seen, a, &c.f0, &c.f90, &v);
+            v.f = rgb_add(v.f, rgb_scale(c.sag, -v.f_s2));
+        } else {
+            SLOT_VALUE(specular, a)
+        }
+        value_add(&sum, &v, rgb_scale(specular_keep, w->scale.specular), w->pick.specular);
     }
     if (only.sheen && HAS_SHEEN(m)) {
-        LobeValue v;
-        sheen_at(&m->sheen.lobe, &a, &v);
-        sum.f_cos = rgb_add(sum.f_cos, rgb_mul(over, slot_f(&m->sheen, v)));
-        sum.pdf = sum.pdf + slot_pdf(&m->sheen, v);
+        SLOT_VALUE(sheen, a)
+        value_add(&sum, &v, rgb_scale(over, w->scale.sheen), w->pick.sheen);
     }
     if (only.dust && HAS_DUST(m)) {
-        LobeValue v = dust_value(&m->dust.lobe, a);
-        sum.f_cos = rgb_add(sum.f_cos, slot_f(&m->dust, v));
-        sum.pdf = sum.pdf + slot_pdf(&m->dust, v);
+        SLOT_VALUE(dust, a)
+        value_add(&sum, &v, rgb_grey(w->scale.dust), w->pick.dust);
     }
-    sum.f_cos = rgb_scale(sum.f_cos, a.i.z);
-    if (only.coat && HAS_COAT(m) && coat.o.z > 0.0f && coat.i.z > 0.0f) {
-        LobeValue v;
-        coat_at(&m->coat.lobe, &coat, &v);
-        sum.f_cos = rgb_add(sum.f_cos, rgb_scale(slot_f(&m->coat, v), coat.i.z));
-        sum.pdf = sum.pdf + slot_pdf(&m->coat, v);
+    sum.f_cos = rgb_scale(sum.f_cos, a->i.z);
+    if (only.coat && HAS_COAT(m) && coat->o.z > 0.0f && coat->i.z > 0.0f) {
+        SLOT_VALUE(coat, coat)
+        value_add(&sum, &v, rgb_grey(w->scale.coat * coat->i.z), w->pick.coat);
     }
     return sum;
 }
 
 /* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
-FN StackValue stack_value(const Stack *m, Angles a, Angles coat) {
+FN StackValue stack_value(const Stack *m, const StackView *w, const Angles *a, const Angles *coat) {
     Slots only = slots_of(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
-    return stack_value_of(m, only, a, coat);
+    return stack_value_of(m, w, only, a, coat);
 }
 
 #endif

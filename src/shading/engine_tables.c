@@ -6,6 +6,15 @@
 
 enum { SIDE_MAX = 256, SHEEN_SAMPLES = 4096, GGX_SAMPLES = 1024, THREE_SAMPLES = 4096 };
 
+/* Sums run side by side, so that compilers vectorise them, and each is short enough for floats. */
+enum { LANES = 32 };
+
+static double lanes_sum(const float lane[LANES]) {
+    double sum = 0.0;
+    for (int j = 0; j < LANES; j++) sum += (double)lane[j];
+    return sum;
+}
+
 typedef struct EngineTable {
     int side, samples;
     bool sheen, shifted;
@@ -53,15 +62,12 @@ static void fill_sheen_column(void *user, int column, int thread) {
         log_sin[n] = 0.5f * log2(sin2);
         w[n++] = scale * i * d / (4.0f * (o + i - o * i));
     }
+    while (n % LANES) log_sin[n] = 0.0f, w[n++] = 0.0f;
     for (int row = 0; row < table->side; row++) {
-        float power = 1.0f / row_alpha(table, row);
-        double sum = 0.0;
-        for (int from = 0; from < n; from += 256) {
-            float part = 0.0f;
-            for (int k = from; k < n && k < from + 256; k++) part += w[k] * exp2(power * log_sin[k]);
-            sum += (double)part;
-        }
-        table->e[row * table->side + column] = (float)sum * (2.0f + power) / (2.0f * PI);
+        float power = 1.0f / row_alpha(table, row), lane[LANES] = {0.0f};
+        for (int from = 0; from < n; from += LANES)
+            for (int j = 0; j < LANES; j++) lane[j] += w[from + j] * exp2(power * log_sin[from + j]);
+        table->e[row * table->side + column] = (float)lanes_sum(lane) * (2.0f + power) / (2.0f * PI);
     }
 }
 
@@ -69,7 +75,7 @@ static void fill_ggx_row(void *user, int row, int thread) {
     (void)thread;
     EngineTable *table = user;
     float alpha = row_alpha(table, row), a2 = alpha * alpha;
-    float cos_h[THREE_SAMPLES], x[THREE_SAMPLES];
+    float cos_h[THREE_SAMPLES] = {0.0f}, x[THREE_SAMPLES] = {0.0f};
     for (int k = 0; k < table->samples; k++) {
         float u, v;
         hammersley(k, table->samples, &u, &v);
@@ -79,13 +85,15 @@ static void fill_ggx_row(void *user, int row, int thread) {
     }
     for (int column = 0; column < table->side; column++) {
         float o = ((float)column + 0.5f) / (float)table->side, sin_o = sqrt(1.0f - o * o);
-        float length_o = sqrt(o * o * (1.0f - a2) + a2), sum = 0.0f;
-        for (int k = 0; k < table->samples; k++) {
-            float d = sin_o * x[k] + o * cos_h[k], i = max(2.0f * d * cos_h[k] - o, 0.0f);
-            float v = 0.5f / (i * length_o + o * sqrt(i * i * (1.0f - a2) + a2));
-            sum += i * d * v / cos_h[k];
-        }
-        table->e[row * table->side + column] = 4.0f * sum / (float)table->samples;
+        float length_o = sqrt(o * o * (1.0f - a2) + a2), lane[LANES] = {0.0f};
+        for (int from = 0; from < table->samples; from += LANES)
+            for (int j = 0; j < LANES; j++) {
+                float cos_k = cos_h[from + j], d = sin_o * x[from + j] + o * cos_k;
+                float i = max(2.0f * d * cos_k - o, 0.0f);
+                float v = 0.5f / (i * length_o + o * sqrt(i * i * (1.0f - a2) + a2));
+                lane[j] += i * d * v / cos_k;
+            }
+        table->e[row * table->side + column] = 4.0f * (float)lanes_sum(lane) / (float)table->samples;
     }
 }
 

@@ -16,6 +16,7 @@
 #define FN
 #define FN_APART
 #define STRUCT(Name) struct Name
+#define UNION(Name)  struct Name /* GLSL has no unions: all members, of which a shader reads one */
 
 #define to_float(x) float(x)
 #define to_int(x)   int(x)
@@ -44,10 +45,14 @@
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \
     struct Name
+#define UNION(Name)                                                                                          \
+    typedef union Name Name;                                                                                 \
+    union Name
 
 /* log2 x of a normal x > 0, as the exponent and what it leaves, within a half of 0. The mantissa in
  * [sqrt(1/2), sqrt(2)) is 1 + t, and log2(1 + t) / t a degree-7 polynomial interpolated at Chebyshev nodes.
- * Written here because a library call stops a loop from vectorising. */
+ * Written here because a library call stops a loop from vectorising, and summed in pairs because a scalar
+ * waits for each step of Horner's rule. */
 typedef struct WeftLog2 {
     float whole, rest;
 } WeftLog2;
@@ -59,13 +64,9 @@ FN WeftLog2 weft_log2_parts(float x) {
     i -= (int32_t)((uint32_t)e << 23);
     float m;
     memcpy(&m, &i, 4);
-    float t = m - 1.0f, p = -0.142759734f;
-    p = p * t + 0.232652579f;
-    p = p * t - 0.249271822f;
-    p = p * t + 0.287288882f;
-    p = p * t - 0.360225182f;
-    p = p * t + 0.480916708f;
-    p = p * t - 0.721352931f;
+    float t = m - 1.0f, t2 = t * t;
+    float p = (0.287288882f - 0.249271822f * t) + t2 * (0.232652579f - 0.142759734f * t);
+    p = (-0.721352931f + 0.480916708f * t) + t2 * (-0.360225182f + t * p);
     p = p * t + 1.44269499f;
     WeftLog2 l = {(float)e, p * t};
     return l;
@@ -84,13 +85,9 @@ FN float weft_log2(float x) {
 /* 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a degree-6 polynomial for 2^t, k added to its
  * exponent. */
 FN float weft_exp2_parts(float rounded, float t) {
-    float p = 0.000154531629f;
-    p = p * t + 0.00133908634f;
-    p = p * t + 0.00961808256f;
-    p = p * t + 0.0555035711f;
-    p = p * t + 0.240226508f;
-    p = p * t + 0.693147188f;
-    p = p * t + 1.0f;
+    float t2 = t * t, p = (0.00961808256f + 0.00133908634f * t) + t2 * 0.000154531629f;
+    p = (0.240226508f + 0.0555035711f * t) + t2 * p;
+    p = (0.693147188f + p * t) * t + 1.0f;
     uint32_t k, i;
     memcpy(&k, &rounded, 4);
     memcpy(&i, &p, 4);

@@ -30,6 +30,11 @@
  *
  *   float name_albedo(Name m, Dir o, int walks)
  *
+ * One whose highlight is drawn out may have its normals in strips (terms/d_ggx.h), which light from an
+ * environment then takes in place of name_sample:
+ *
+ *   Strip name_strip(const NamePrepared *p, Dir o, float u, float v)
+ *
  * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
 
 /* The most that a lobe has. */
@@ -41,12 +46,12 @@ STRUCT(Lobe) {
     float params[LOBE_PARAMS_MAX];
 };
 
-/* What makes a lobe makes the tables that it reads; a shader has them already. */
+/* Whoever makes a lobe makes the tables that it reads; a shader has them already. */
 #ifndef LOBE_TABLES_MAKE
 #define LOBE_TABLES_MAKE(id)
 #endif
 
-/* Of a lobe whose parameters are all that there is to know, and of one to which wo adds nothing. */
+/* For a lobe whose parameters are all that there is to know, and for one to which wo adds nothing. */
 #define PREPARED_AS_IT_IS(name, Name)                                                                        \
     STRUCT(Name##Prepared) { Name m; };                                                                      \
     FN void name##_prepare(Name m, Name##Prepared *p) { p->m = m; }

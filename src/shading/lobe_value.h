@@ -2,6 +2,7 @@
 #ifndef WEFT_LOBE_VALUE_H
 #define WEFT_LOBE_VALUE_H
 
+#include "shading/angles.h"
 #include "shading/share.h"
 #include "shading/tint.h"
 
@@ -24,8 +25,25 @@ FN LobeValue lobe_value_of(float f, float s, float pdf) {
 /* What f is multiplied by in one channel: the second colour is what lobe_second says, times any weight that
  * the first has too. Of a tinted lobe that makes the weight, and first / second the albedo of its flakes. */
 FN float lobe_color(LobeValue v, float first, float second) {
-    if (v.tint.s > 0.0f) return second * tint_color(v.tint, first / max(second, 1e-30f));
+    if (IS_TINTED(v.tint)) return second * tint_color(v.tint, first / max(second, 1e-30f));
     return share_mix(v.s, first, second);
+}
+
+/* A value in three channels of two colours. */
+STRUCT(LobeReflected) {
+    Rgb f;      /* 1/sr, in these colours */
+    float pdf;  /* 1/sr */
+    float f_s2; /* f of the white lobe times s (1 - s) */
+};
+FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
+    LobeReflected x;
+    float s = share_plain(v.s);
+    x.f.r = v.f * lobe_color(v, f0.r, f90.r);
+    x.f.g = v.f * lobe_color(v, f0.g, f90.g);
+    x.f.b = v.f * lobe_color(v, f0.b, f90.b);
+    x.pdf = v.pdf;
+    x.f_s2 = v.f * s * (1.0f - s);
+    return x;
 }
 
 #endif

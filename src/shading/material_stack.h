@@ -1,4 +1,4 @@
-/* material_stack.h - the stack of compose.h in C: made, evaluated, sampled */
+/* material_stack.h - the stack of compose.h in C: made, seen, evaluated, sampled */
 #ifndef WEFT_SHADING_MATERIAL_STACK_H
 #define WEFT_SHADING_MATERIAL_STACK_H
 
@@ -8,25 +8,44 @@
 /* One copy of each: the catalogue's text in every caller would be many times the program. */
 #define ONE_COPY __attribute__((noinline))
 
-/* Fills stack for a surface seen from wo (shading frame, z > 0). e is the table of the sheen's E
- * that surface_stack asks for; one of TABLE_NONE where it asks for none or the sheen is black. */
-ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e, Dir o);
+/* Fills stack for a surface, once for all directions. e is the table of the sheen's E that surface_stack asks
+ * for; one of TABLE_NONE where it asks for none or the sheen is black. */
+ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e);
+
+/* Fills view for wo (shading frame, z > 0), once for all wi. It holds for that stack alone. */
+ONE_COPY void stack_see(const Stack *stack, Dir o, StackView *view);
 
 /* f cos and pdf for wi; 0 below the horizon. seed: of the random walk that layer rule stochastic takes
  * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
-ONE_COPY StackValue stack_eval(const Stack *stack, Dir o, Dir i, uint32_t seed);
+ONE_COPY StackValue stack_eval(const Stack *stack, const StackView *view, Dir i, uint32_t seed);
 
 /* The same of some of the slots, and of layer rule stochastic without its walk. */
-ONE_COPY StackValue stack_eval_of(const Stack *stack, Slots only, Dir o, Dir i);
+ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
 /* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
-ONE_COPY Dir stack_sample(const Stack *stack, Dir o, float u, float v);
+ONE_COPY Dir stack_sample(const Stack *stack, const StackView *view, float u, float v);
 
-/* The slot that u in [0, 1) picks, NULL of an empty stack; u becomes what is left of it, again in [0, 1). */
-const Slot *stack_pick(const Stack *stack, float *u);
+/* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left
+ * of it, again in [0, 1). */
+int stack_pick(const StackView *view, float *u);
 
 /* sheet.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
  * then bounced at least once between the base and the sheen's underside, times the cosine of wi. */
-ONE_COPY Rgb sheet_bounces(const Stack *stack, Slots last, Dir o, Dir i, uint32_t seed);
+ONE_COPY Rgb sheet_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
+
+/* A stack and its view from one direction. */
+typedef struct SeenStack {
+    Stack stack;
+    StackView view;
+} SeenStack;
+void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o);
+/* The view of a stack whose lobes have been put in by hand. */
+void seen_settle(SeenStack *seen, Dir o);
+static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {
+    return stack_eval(&seen->stack, &seen->view, i, seed);
+}
+static inline Dir seen_sample(const SeenStack *seen, float u, float v) {
+    return stack_sample(&seen->stack, &seen->view, u, v);
+}
 
 #endif

@@ -26,30 +26,30 @@
 
 /* W(id, index, what fills a cleared stack, help) */
 #define WEFT_WORKFLOWS(W)                                                                                    \
-    W("metallic", 0, metallic_stack(m, s, o), "base colour, metalness, roughness: glTF's")                   \
-    W("specular", 1, specular_stack(m, s, o), "diffuse colour, specular colour, roughness")                  \
-    W("disney", 2, disney_stack(m, s, o),                                                                    \
+    W("metallic", 0, metallic_stack(m, s), "base colour, metalness, roughness: glTF's")                      \
+    W("specular", 1, specular_stack(m, s), "diffuse colour, specular colour, roughness")                     \
+    W("disney", 2, disney_stack(m, s),                                                                       \
       "the principled BRDF of 2012 with its ten parameters and base colour")                                 \
-    W("cloth", 3, cloth_stack(m, s, o), "a sheen over a diffuse colour, no highlight")                       \
-    W("free", 4, free_stack(m, s, o), "diffuse + D V F + sheen, nothing takes from anything")
+    W("cloth", 3, cloth_stack(m, s), "a sheen over a diffuse colour, no highlight")                          \
+    W("free", 4, free_stack(m, s), "diffuse + D V F + sheen, nothing takes from anything")
 
 /* P(id, index, what fills a cleared stack, help); none: the workflow. */
 #define WEFT_PROFILES(P)                                                                                     \
-    P("none", 0, metallic_stack(m, s, o), "weft's own: the workflow")                                        \
-    P("unreal4", 1, unreal4_stack(m, s, o), "Unreal Engine 4.27, shading model Cloth")                       \
-    P("hdrp-cotton", 2, hdrp_cotton_stack(m, s, o), "Unity HDRP, Fabric: cotton and wool")                   \
-    P("hdrp-silk", 3, hdrp_silk_stack(m, s, o), "Unity HDRP, Fabric: silk")                                  \
-    P("urp", 4, urp_stack(m, s, o), "Unity URP with a fabric that users added")                              \
-    P("filament-cloth", 5, filament_cloth_stack(m, s, o), "Filament's cloth model")                          \
-    P("filament-sheen", 6, filament_sheen_stack(m, s, o), "Filament's lit model with a sheen")               \
-    P("khronos", 7, khronos_stack(m, s, o), "glTF's reference renderer")                                     \
-    P("three", 8, three_stack(m, s, o), "three.js 0.187, MeshPhysicalMaterial")                              \
-    P("babylon", 9, babylon_stack(m, s, o), "Babylon.js 9.34, PBRMaterial with albedoScaling")               \
-    P("materialx", 10, materialx_stack(m, s, o), "MaterialX, gltf_pbr in GLSL")                              \
-    P("cycles-velvet", 11, cycles_velvet_stack(m, s, o), "Blender Cycles before 4.0, Velvet over Lambert")   \
-    P("disney-2012", 12, disney_2012_stack(m, s, o), "the BRDF Explorer's disney.brdf")                      \
-    P("order-1886", 13, order_1886_stack(m, s, o), "The Order: 1886, a reconstruction")                      \
-    P("openpbr", 14, openpbr_stack(m, s, o), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
+    P("none", 0, metallic_stack(m, s), "weft's own: the workflow")                                           \
+    P("unreal4", 1, unreal4_stack(m, s), "Unreal Engine 4.27, shading model Cloth")                          \
+    P("hdrp-cotton", 2, hdrp_cotton_stack(m, s), "Unity HDRP, Fabric: cotton and wool")                      \
+    P("hdrp-silk", 3, hdrp_silk_stack(m, s), "Unity HDRP, Fabric: silk")                                     \
+    P("urp", 4, urp_stack(m, s), "Unity URP with a fabric that users added")                                 \
+    P("filament-cloth", 5, filament_cloth_stack(m, s), "Filament's cloth model")                             \
+    P("filament-sheen", 6, filament_sheen_stack(m, s), "Filament's lit model with a sheen")                  \
+    P("khronos", 7, khronos_stack(m, s), "glTF's reference renderer")                                        \
+    P("three", 8, three_stack(m, s), "three.js 0.187, MeshPhysicalMaterial")                                 \
+    P("babylon", 9, babylon_stack(m, s), "Babylon.js 9.34, PBRMaterial with albedoScaling")                  \
+    P("materialx", 10, materialx_stack(m, s), "MaterialX, gltf_pbr in GLSL")                                 \
+    P("cycles-velvet", 11, cycles_velvet_stack(m, s), "Blender Cycles before 4.0, Velvet over Lambert")      \
+    P("disney-2012", 12, disney_2012_stack(m, s), "the BRDF Explorer's disney.brdf")                         \
+    P("order-1886", 13, order_1886_stack(m, s), "The Order: 1886, a reconstruction")                         \
+    P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
 
 /* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \
@@ -58,6 +58,14 @@
     A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->at))           \
     A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->at))              \
     A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m->at))
+
+/* What engines make of wo: V(name, view, what it does to one in which nothing is dimmed yet). */
+#define WEFT_VIEWS(V)                                                                                        \
+    V(urp, VIEW_URP, urp_view(m, w))                                                                         \
+    V(three, VIEW_THREE, filament_view(engine_table(ENGINE_THREE_GGX), m, w))                                \
+    V(filament, VIEW_FILAMENT, filament_view(engine_table(ENGINE_FILAMENT_GGX), m, w))                       \
+    V(babylon, VIEW_BABYLON, filament_view(engine_table(ENGINE_BABYLON_GGX), m, w))                          \
+    V(materialx, VIEW_MATERIALX, materialx_view(m, w))
 
 #define PROFILE_CASE(id, index, fill, help)                                                                  \
     if (c.profile == index) {                                                                                \
@@ -69,7 +77,7 @@
         fill;                                                                                                \
         return;                                                                                              \
     }
-FN void compose_begin(Stack *m, const Surface *s, Choices c, Dir o) {
+FN void compose_begin(Stack *m, const Surface *s, Choices c) {
     stack_clear(m);
     if (c.profile > 0) {
         WEFT_PROFILES(PROFILE_CASE)

@@ -1,6 +1,6 @@
 /* registry.h - the catalogue as data: every lobe, its parameters, and its functions behind one signature
  *
- * What a lobe is, and how one is added: lobe.h. Dialect texts include this file too: in GLSL the flattener
+ * Adding a lobe, and all it is: lobe.h. Dialect texts include this file too: in GLSL the flattener
  * (text/) puts in its place lobe_ids.gen.h and dispatch.gen.h, for the lobes that a program needs. */
 #ifndef WEFT_SHADING_REGISTRY_H
 #define WEFT_SHADING_REGISTRY_H
@@ -9,6 +9,7 @@
 
 #include "shading/lobe.h"
 #include "shading/lobe_ids.gen.h"
+#include "shading/terms/d_ggx.h"
 #include "weft/lobe.h"
 
 /* What holds of a lobe over its whole parameter range. The tests check each claim. */
@@ -24,26 +25,34 @@ enum {
     TRAIT_TINTED = WEFT_LOBE_TINTED
 };
 
-/* How a lobe's text names its things: "ggx", "Ggx" and "GGX". */
+/* The names of things in a lobe's text: "ggx", "Ggx" and "GGX". */
 typedef struct LobeNames {
     const char *prefix, *record, *macros;
+    bool strips; /* it has them: lobe.h */
 } LobeNames;
 const LobeNames *lobe_names(int id);
+
+/* What a lobe of any kind prepares and sees: lobes.gen.h. */
+typedef union LobePrepared LobePrepared;
+typedef union LobeView LobeView;
 
 /* The functions of dispatch.gen.h, one copy of each. */
 #define LOBE_COPY __attribute__((noinline))
 LOBE_COPY Lobe lobe_default(int id);
 LOBE_COPY Lobe lobe_rough(int id, float roughness);
 LOBE_COPY Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth);
-LOBE_COPY void lobe_value_to(const Lobe *m, const Angles *a, LobeValue *v);
+LOBE_COPY void lobe_prepare(const Lobe *m, LobePrepared *p);
+LOBE_COPY void lobe_view(int id, const LobePrepared *p, const Dir *o, LobeView *w);
+LOBE_COPY void lobe_value_at(int id, const LobePrepared *p, const LobeView *w, const Angles *a, LobeValue *v);
+LOBE_COPY void lobe_reflect(int id, const LobePrepared *p, const LobeView *w, const Angles *a, const Rgb *f0,
+                            const Rgb *f90, LobeReflected *s);
+LOBE_COPY void lobe_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u,
+                              float v, Dir *i);
+LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
 LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
+LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY float lobe_second(const Lobe *m, float f0, float f90);
 
-static inline LobeValue lobe_value(const Lobe *m, Angles a) {
-    LobeValue v;
-    lobe_value_to(m, &a, &v);
-    return v;
-}
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 

@@ -16,12 +16,27 @@ enum { BOUNCES_MOST = 64 };
 
 static float walk_random(uint32_t *walk) { return unit_float(*walk = hash32(*walk + 0x9e3779b9u)); }
 
+/* One of the two by itself: the whole without its layer rule, how that is seen, and which slots are its own.
+ */
+typedef struct Sheet {
+    const Stack *stack;
+    StackView view;
+    Slots own;
+} Sheet;
+
+/* Seen from o, of which else nothing changes. */
+static void turn(Sheet *sheet, Dir o) {
+    sheet->view.o = sheet->view.coat_o = o;
+    stack_view_lobes(sheet->stack, &sheet->view);
+}
+
 /* Extends the walk by one reflection; o becomes the new direction. False where it ends. */
-static bool walk_on(uint32_t *walk, const Stack *layer, Dir *o, Rgb *weight) {
+static bool walk_on(uint32_t *walk, Sheet *layer, Dir *o, Rgb *weight) {
     float u = walk_random(walk), v = walk_random(walk);
-    Dir i = stack_sample(layer, *o, u, v);
+    turn(layer, *o);
+    Dir i = stack_sample(layer->stack, &layer->view, u, v);
     if (i.z <= 0.0f) return false;
-    StackValue value = stack_eval(layer, *o, i, 0);
+    StackValue value = stack_eval_of(layer->stack, &layer->view, layer->own, i);
     if (!(value.pdf > 0.0f)) return false;
     *weight = rgb_mul(*weight, rgb_scale(value.f_cos, 1.0f / value.pdf));
     *o = i;
@@ -35,36 +50,35 @@ static Rgb let_through(const Stack *stack, Dir w) {
                max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));
 }
 
-/* One of the two layers by itself, the picks of what is left scaled to 1. */
-static Stack only(const Stack *stack, bool sheen) {
-    Stack m = *stack;
-    m.coat.pick = m.dust.pick = 0.0f;
-    if (sheen)
-        m.diffuse.pick = m.specular.pick = 0.0f;
-    else
-        m.sheen.pick = 0.0f;
-    float sum = m.diffuse.pick + m.specular.pick + m.sheen.pick, k = sum > 0.0f ? 1.0f / sum : 0.0f;
-    m.diffuse.pick *= k, m.specular.pick *= k, m.sheen.pick *= k;
-    m.color = rgb_grey(0.0f);
-    m.layer = LAYER_ADDITIVE;
-    /* slots hold colour times what dust and coat let through, which counts once and not at every bounce */
-    float back = 1.0f / max(m.left, 1e-6f);
-    Slot *slots[] = {&m.diffuse, &m.specular, &m.sheen};
-    for (int j = 0; j < 3; j++) {
-        slots[j]->f0 = rgb_scale(slots[j]->f0, back);
-        slots[j]->f90 = rgb_scale(slots[j]->f90, back);
-    }
-    return m;
+/* The picks of its own scaled to 1. What dust and coat let through counts once and not at every bounce. */
+static Sheet sheet_of(const Stack *alone, const StackView *view, bool sheen) {
+    Sheet s = {alone, *view, slots_of(!sheen, !sheen, sheen, false, false)};
+    const Scales *p = &view->pick;
+    float sum = sheen ? p->sheen : p->diffuse + p->specular, k = sum > 0.0f ? 1.0f / sum : 0.0f;
+    float back = 1.0f / max(view->coat_keep * view->dust_keep, 1e-6f);
+    s.view.pick = (Scales){0};
+    if (sheen) s.view.pick.sheen = p->sheen * k;
+    if (!sheen) s.view.pick.diffuse = p->diffuse * k, s.view.pick.specular = p->specular * k;
+    s.view.scale.diffuse *= back, s.view.scale.specular *= back, s.view.scale.sheen *= back;
+    s.view.keep = rgb_grey(1.0f);
+    return s;
 }
 
-Rgb sheet_bounces(const Stack *stack, Slots last, Dir o, Dir i, uint32_t seed) {
-    if (stack->layer != LAYER_STOCHASTIC || !(stack->sheen.pick > 0.0f)) return rgb_grey(0.0f);
-    Stack base = only(stack, false), sheen = only(stack, true);
-    Rgb weight = rgb_scale(let_through(stack, o), stack->left), sum = rgb_grey(0.0f);
+Rgb sheet_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed) {
+    if (stack->layer != LAYER_STOCHASTIC || !HAS_SHEEN(stack)) return rgb_grey(0.0f);
+    Stack alone = *stack;
+    alone.color = rgb_grey(0.0f);
+    alone.layer = LAYER_ADDITIVE;
+    Sheet base = sheet_of(&alone, view, false), sheen = sheet_of(&alone, view, true);
+    Slots of_base = slots_of(last.diffuse, last.specular, false, false, false);
+    Dir o = view->o;
+    Rgb weight = rgb_scale(let_through(stack, o), view->coat_keep * view->dust_keep), sum = rgb_grey(0.0f);
     Rgb out = let_through(stack, i);
     for (int bounce = 0; bounce < BOUNCES_MOST; bounce++) {
         if (!walk_on(&seed, &base, &o, &weight) || !walk_on(&seed, &sheen, &o, &weight)) break;
-        sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), stack_eval_of(&base, last, o, i).f_cos));
+        turn(&base, o);
+        Rgb f_cos = stack_eval_of(&alone, &base.view, of_base, i).f_cos;
+        sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), f_cos));
         float survive = min(rgb_max3(weight), 1.0f);
         if (walk_random(&seed) >= survive) break;
         weight = rgb_scale(weight, 1.0f / survive);

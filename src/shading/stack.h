@@ -1,17 +1,18 @@
 /* stack.h - a material at one point: dust over a coat over a sheen over a specular and a diffuse lobe
  *
- *   f cos = dust + dust_keep (coat + sheen_keep sheen + base_keep (specular + under diffuse))
+ *   f cos = T_dust (T_coat (sheen + keep (specular + (1 - F) diffuse)) + coat) + dust
  *   pdf   = sum pick_k pdf_k,  sum pick_k = 1
  *
- * What a slot weighs and how likely sampling picks it is known from wo alone. What depends on wi too - what
- * the layer rule leaves for the base, what the specular interface leaves for the diffuse lobe - changes f and
- * not the proposal, so that sampling and pdf agree exactly. */
+ * A Stack is what does not depend on directions: it is made once a material, or once after its textures. A
+ * StackView is what wo adds: it is made once for all wi and for sampling. What depends on wi too - what the
+ * layer rule leaves for the base, what the specular interface leaves for the diffuse lobe - changes f and not
+ * the proposal, so that sampling and pdf agree exactly. */
 #ifndef WEFT_SHADING_STACK_H
 #define WEFT_SHADING_STACK_H
 
 #include "shading/layer.h"
-#include "shading/registry.h"
 #include "shading/rgb.h"
+#include "shading/slots.h"
 #include "shading/table.h"
 #include "shading/terms/f_schlick.h"
 #include "shading/terms/f_schlick_gaussian.h"
@@ -19,8 +20,7 @@
 STRUCT(Slot) {
     Lobe lobe;
     Rgb f0, f90; /* the lobe's colours times its weight; of a tinted one the second is the weight alone */
-    Rgb sag;     /* of F = f0 (1 - s) + f90 s - sag s (1 - s): 0 but where F enters squared */
-    float pick;  /* probability that sampling chooses it; 0: there is no lobe */
+    float normal, grazing; /* about what it reflects to there, for the choice of one to sample; 0: no lobe */
 };
 
 /* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
@@ -29,6 +29,12 @@ STRUCT(Slot) {
 #define UNDER_HALF     1
 #define UNDER_LEAST    2
 #define UNDER_GAUSSIAN 3
+
+/* How the coat weighs what it reflects and dims what is below: not, its lobe's own Fresnel factor is all
+ * there is; both by F at its cosine; or what is below by F as f_schlick_gaussian has it. */
+#define COAT_BARE     0
+#define COAT_SCHLICK  1
+#define COAT_GAUSSIAN 2
 
 /* Where the E of the sheen comes from: a table of the lobe's own, which ALBEDO_KHRONOS reads too, or what an
  * engine takes for it (profile.h). */
@@ -39,12 +45,33 @@ STRUCT(Slot) {
 #define ALBEDO_BABYLON   4
 #define ALBEDO_MATERIALX 5
 
+/* What an engine makes of wo besides (profile.h). */
+#define VIEW_PLAIN     0
+#define VIEW_URP       1
+#define VIEW_THREE     2
+#define VIEW_FILAMENT  3
+#define VIEW_BABYLON   4
+#define VIEW_MATERIALX 5
+
+#define SLOT_MEMBER(name, NAME, Name, wo)   Slot name;
+#define SLOT_PREPARED(name, NAME, Name, wo) OF_SLOT(Name, Prepared) name##_prepared;
+#define SLOT_SEEN(name, NAME, Name, wo)     OF_SLOT(Name, View) name##_seen;
+#define SLOT_FLOAT(name, NAME, Name, wo)    float name;
+#define SLOT_BOOL(name, NAME, Name, wo)     bool name;
+
 STRUCT(Stack) {
-    Slot diffuse, specular, sheen, coat, dust;
+    SLOTS(SLOT_MEMBER)
+    SLOTS(SLOT_PREPARED)
     int under;
     Rgb under_f0;
     float under_f90;
-    float left; /* of what comes from below dust and coat, 1 without them */
+    Rgb more_f0, more_f90,
+        more_sag; /* F of the specular slot is f0 (1 - s) + f90 s, and so much more times */
+    float gloss;  /* the view's `more`, less more_sag s (1 - s); by what E of ggx is asked */
+    int view;
+    int coat_rule;
+    float coat_weight;
+    float dust_lies; /* 0: nothing */
     int layer, by;
     Rgb color;       /* of the sheen, as the layer rule sees it */
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
@@ -53,12 +80,25 @@ STRUCT(Stack) {
     TableRef table;
     Nap nap;                    /* of the sheen */
     float at;                   /* the parameter with which E is asked for */
-    SheenE e_o, e_avg;          /* E of the white sheen towards wo, and on cosine average */
+    SheenE e_avg;               /* E of the white sheen on cosine average */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
 };
 
-/* Some of the five. */
-STRUCT(Slots) { bool diffuse, specular, sheen, coat, dust; };
+STRUCT(Scales){SLOTS(SLOT_FLOAT)};
+STRUCT(StackView) {
+    Dir o, coat_o; /* wo, and in the coat's frame */
+    SLOTS(SLOT_SEEN)
+    Scales scale;               /* of what a slot reflects: what lies above, and weights that wo decides */
+    Scales pick;                /* probability that sampling chooses it */
+    float coat_keep, dust_keep; /* what coat and dust let through, 1 without them */
+    Rgb under_f0;
+    float under_f90, more;
+    SheenE e_o; /* E of the white sheen towards wo */
+    Rgb keep;   /* of the base, where the layer rule does not ask for wi */
+};
+
+/* Some of the slots. */
+STRUCT(Slots){SLOTS(SLOT_BOOL)};
 
 FN Slots slots_of(bool diffuse, bool specular, bool sheen, bool coat, bool dust) {
     Slots s;
@@ -80,16 +120,19 @@ STRUCT(StackValue) {
 /* Whether a slot holds a lobe, and whether a layer rule has a sheen to see. A shader, which knows what its
  * slots may hold, says so in place of these: what holds nothing then adds nothing. */
 #ifndef HAS_DIFFUSE
-#define HAS_DIFFUSE(m)  ((m)->diffuse.pick > 0.0f)
-#define HAS_SPECULAR(m) ((m)->specular.pick > 0.0f)
-#define HAS_SHEEN(m)    ((m)->sheen.pick > 0.0f)
-#define HAS_COAT(m)     ((m)->coat.pick > 0.0f)
-#define HAS_DUST(m)     ((m)->dust.pick > 0.0f)
+#define HAS_DIFFUSE(m)  ((m)->diffuse.normal > 0.0f)
+#define HAS_SPECULAR(m) ((m)->specular.normal > 0.0f)
+#define HAS_SHEEN(m)    ((m)->sheen.normal > 0.0f)
+#define HAS_COAT(m)     ((m)->coat.normal > 0.0f)
+#define HAS_DUST(m)     ((m)->dust.normal > 0.0f)
 #define IS_WORN(m)      ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
 #endif
 
 /* Whether the rule lays the interface of the base over the sheen too: it asks for no E. */
 #define IS_BELOW_F(m) (m->layer == LAYER_SEED || m->layer == LAYER_SIDE_BY_SIDE)
+
+/* Whether the specular slot has `more`. */
+#define HAS_MORE(m) (m->view != VIEW_PLAIN && m->view != VIEW_URP)
 
 /* Whether what a slot reflects is looked at. A shader that shows a part of the light says so; what the others
  * do to that part stays. */
@@ -105,27 +148,25 @@ FN void slot_clear(Slot *s) {
     s->lobe = lobe_default(LOBE_LAMBERT);
     s->f0 = rgb_grey(0.0f);
     s->f90 = s->f0;
-    s->sag = s->f0;
-    s->pick = 0.0f;
+    s->normal = 0.0f;
+    s->grazing = 0.0f;
 }
 
-/* A lobe of a colour and, where it has two, of a second one; `share` is about what it reflects towards wo. */
-FN void slot_make(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight, float share) {
+/* A lobe of a colour and, where it has two, of a second one; normal and grazing are about what it reflects.
+ */
+FN void slot_make(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight, float normal, float grazing) {
     s->lobe = lobe;
     s->f0 = rgb_scale(color, weight);
     s->f90 = rgb_scale(rgb(lobe_second(&s->lobe, color.r, second.r), lobe_second(&s->lobe, color.g, second.g),
                            lobe_second(&s->lobe, color.b, second.b)),
                        weight);
-    s->sag = rgb_grey(0.0f);
-    s->pick = rgb_max3(s->f0) + rgb_max3(s->f90) > 0.0f ? max(share, 1e-3f) : 0.0f;
+    s->normal = rgb_max3(s->f0) + rgb_max3(s->f90) > 0.0f ? max(normal, 1e-30f) : 0.0f;
+    s->grazing = grazing;
 }
 
-/* Behind what lets that share through. */
-FN void slot_dim(Slot *s, float share) {
-    s->f0 = rgb_scale(s->f0, share);
-    s->f90 = rgb_scale(s->f90, share);
-    s->sag = rgb_scale(s->sag, share);
-    s->pick = s->pick * share;
+/* The same of one that reflects alike everywhere. */
+FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
+    slot_make(s, lobe, color, second, weight, weight * rgb_mean(color), weight * rgb_mean(color));
 }
 
 FN void stack_clear(Stack *m) {
@@ -137,7 +178,14 @@ FN void stack_clear(Stack *m) {
     m->under = UNDER_NONE;
     m->under_f0 = rgb_grey(0.0f);
     m->under_f90 = 0.0f;
-    m->left = 1.0f;
+    m->more_f0 = m->under_f0;
+    m->more_f90 = m->under_f0;
+    m->more_sag = m->under_f0;
+    m->gloss = 0.0f;
+    m->view = VIEW_PLAIN;
+    m->coat_rule = COAT_BARE;
+    m->coat_weight = 0.0f;
+    m->dust_lies = 0.0f;
     m->layer = LAYER_ADDITIVE;
     m->by = LAYER_BY_MAX;
     m->color = rgb_grey(0.0f);
@@ -154,13 +202,11 @@ FN void stack_clear(Stack *m) {
     m->table.tilt = 0.0f;
     m->nap = nap_of(0.0f, dir(1.0f, 0.0f, 0.0f));
     m->at = 0.0f;
-    m->e_o = sheen_e_of(0.0f);
-    m->e_avg = m->e_o;
+    m->e_avg = sheen_e_of(0.0f);
     m->coat_x = dir(1.0f, 0.0f, 0.0f);
     m->coat_y = dir(0.0f, 1.0f, 0.0f);
     m->coat_z = dir(0.0f, 0.0f, 1.0f);
 }
-
 /* The frame about the coat's own normal; which way x points does not matter to an isotropic coat. Tom Duff et
  * al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
 FN void stack_coat_frame(Stack *m, Dir n) {
@@ -173,52 +219,80 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-FN float slot_pdf(const Slot *s, LobeValue v) { return s->pick * v.pdf; }
+/* What the lobes' parameters make, once they are settled. */
+#define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
+    if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
+FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}
 
-FN Rgb slot_f(const Slot *s, LobeValue v) {
-    Rgb f = rgb(lobe_color(v, s->f0.r, s->f90.r), lobe_color(v, s->f0.g, s->f90.g),
-                lobe_color(v, s->f0.b, s->f90.b)),
-        sag = rgb_scale(s->sag, -share_plain(v.s) * (1.0f - share_plain(v.s)));
-    return rgb_scale(rgb_add(f, sag), v.f);
+/* What wo adds to that, where it is above the slot's horizon: a coat's normal may turn it away. */
+#define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
+    if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                   \
+        IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_seen);                  \
+    }
+FN void stack_view_lobes(const Stack *m, StackView *w){SLOTS(VIEW_SLOT)}
+
+/* The colours of a slot at a view, its scale aside: F = f0 (1 - s) + f90 s - sag s (1 - s). */
+STRUCT(SlotColors) {
+    Rgb f0, f90, sag;
+};
+FN SlotColors slot_colors(const Slot *s) {
+    SlotColors c;
+    c.f0 = s->f0;
+    c.f90 = s->f90;
+    c.sag = rgb_grey(0.0f);
+    return c;
+}
+FN SlotColors stack_specular_colors(const Stack *m, const StackView *w) {
+    SlotColors c = slot_colors(&m->specular);
+    if (HAS_MORE(m)) {
+        c.f0 = rgb_add(c.f0, rgb_scale(m->more_f0, w->more));
+        c.f90 = rgb_add(c.f90, rgb_scale(m->more_f90, w->more));
+        c.sag = rgb_scale(m->more_sag, w->more);
+    }
+    return c;
 }
 
 /* F of the specular interface, each channel. */
-FN Rgb stack_fresnel(const Stack *m, float d) {
+FN Rgb stack_fresnel(const Stack *m, const StackView *w, float d) {
     float s = m->under == UNDER_GAUSSIAN ? schlick_gaussian_s(d) : schlick_s(d);
-    return rgb_mix(m->under_f0, rgb_grey(m->under_f90), s);
+    return rgb_mix(w->under_f0, rgb_grey(w->under_f90), s);
 }
 
-FN Rgb stack_under(const Stack *m, Angles a) {
+/* 1 - F, not below 0. */
+FN Rgb stack_rest(Rgb f) { return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f)); }
+
+FN Rgb stack_under(const Stack *m, const StackView *w, const Angles *a) {
     Rgb f = rgb_grey(0.0f);
-    if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN) f = stack_fresnel(m, a.d);
-    if (m->under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, min(a.d, min(a.o.z, a.i.z)))));
-    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+    if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN) f = stack_fresnel(m, w, a->d);
+    if (m->under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, w, min(a->d, min(a->o.z, a->i.z)))));
+    return stack_rest(f);
 }
 
 /* For the rules whose interface lies over diffuse and sheen, what it lets through: 1 - F of whatever the
  * specular slot is, metal too, by schlick between its two colours. seed: at wi . h, each channel.
  * side-by-side: of the strongest channel at the least of the three cosines. s: schlick_s there. */
-FN Rgb stack_let_by(const Stack *m, float s) {
-    Rgb f = rgb_scale(rgb_mix(m->specular.f0, m->specular.f90, s), 1.0f / max(m->left, 1e-6f));
+FN Rgb stack_let_by(const Stack *m, const StackView *w, float s) {
+    SlotColors c = stack_specular_colors(m, w);
+    Rgb f = rgb_mix(c.f0, c.f90, s);
     if (m->layer == LAYER_SIDE_BY_SIDE) f = rgb_grey(rgb_max3(f));
     if (!HAS_SPECULAR(m)) f = rgb_grey(0.0f);
-    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+    return stack_rest(f);
 }
-FN Rgb stack_let_through(const Stack *m, Angles a) {
-    float cosine = m->layer == LAYER_SEED ? a.d : min(a.d, min(a.o.z, a.i.z));
-    return stack_let_by(m, schlick_s(cosine));
+FN Rgb stack_let_through(const Stack *m, const StackView *w, const Angles *a) {
+    float cosine = m->layer == LAYER_SEED ? a->d : min(a->d, min(a->o.z, a->i.z));
+    return stack_let_by(m, w, schlick_s(cosine));
 }
 
 /* What the sheen leaves of the base, by one channel of its colour. */
-FN float stack_keep_by(const Stack *m, float c, SheenE e_i) {
-    return layer_base(m->layer, c, sheen_e_in(m->e_o, c), sheen_e_in(e_i, c), sheen_e_in(m->e_avg, c));
+FN float stack_keep_by(const Stack *m, const StackView *w, float c, SheenE e_i) {
+    return layer_base(m->layer, c, sheen_e_in(w->e_o, c), sheen_e_in(e_i, c), sheen_e_in(m->e_avg, c));
 }
-FN Rgb stack_keep(const Stack *m, SheenE e_i) {
+FN Rgb stack_keep(const Stack *m, const StackView *w, SheenE e_i) {
     if (m->layer == LAYER_SEED) return rgb_grey(layer_base(m->layer, m->amount, 0.0f, 0.0f, 0.0f));
     if (m->by == LAYER_BY_CHANNEL)
-        return rgb(stack_keep_by(m, m->color.r, e_i), stack_keep_by(m, m->color.g, e_i),
-                   stack_keep_by(m, m->color.b, e_i));
-    return rgb_grey(stack_keep_by(m, rgb_max3(m->color), e_i));
+        return rgb(stack_keep_by(m, w, m->color.r, e_i), stack_keep_by(m, w, m->color.g, e_i),
+                   stack_keep_by(m, w, m->color.b, e_i));
+    return rgb_grey(stack_keep_by(m, w, rgb_max3(m->color), e_i));
 }
 
 #endif

@@ -157,7 +157,7 @@ FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
 
 /* E of a sheen of that colour, over the colour. */
 FN float sheen_e_in(SheenE x, float color) {
-    return x.tint.s > 0.0f ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
+    return IS_TINTED(x.tint) ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
 }
 
 /* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts

@@ -21,6 +21,11 @@ STRUCT(Tint) {
     float e;
 };
 
+/* Whether colour is more than a factor. A shader that has no lobe with TRAIT_TINTED says so. */
+#ifndef IS_TINTED
+#define IS_TINTED(t) ((t).s > 0.0f)
+#endif
+
 /* Of light that meets one flake: colour is a factor. */
 FN Tint tint_none(void) {
     Tint t;

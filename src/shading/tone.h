@@ -44,7 +44,7 @@ FN Rgb tone_light(Rgb color, float gain, int curve) {
     return rgb_min(c, 1.0f);
 }
 
-/* What it is to give where that covers a part, in [0, 1], of what is behind it, which no curve changes. */
+/* The light to give where this covers a part, in [0, 1], of what is behind it, which no curve changes. */
 FN Rgb tone_over(Rgb light, float cover, Rgb behind) {
     return rgb_add(rgb_scale(light, cover), rgb_scale(behind, 1.0f - cover));
 }

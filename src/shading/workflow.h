@@ -20,15 +20,13 @@ FN float dielectric_f0(const Surface *s) {
 
 /* The coat of glTF: GGX of ior 1.5 with its own normal, which dims all below it by 1 - F(cos_o).
  * Khronos Group, KHR_materials_clearcoat, 2020. */
-FN void workflow_coat(Stack *m, const Surface *s, Dir o) {
-    float coat_o = dir_dot(o, s->clearcoat_normal);
-    if (s->clearcoat <= 0.0f || coat_o <= 1e-4f)
-        return; /* a coat turned away by its normal map is not seen */
+FN void workflow_coat(Stack *m, const Surface *s) {
+    if (s->clearcoat <= 0.0f) return;
     stack_coat_frame(m, s->clearcoat_normal);
-    float f = s->clearcoat * mix(0.04f, 1.0f, schlick_s(coat_o));
+    m->coat_rule = COAT_SCHLICK;
+    m->coat_weight = s->clearcoat;
     Lobe lobe = lobe_rough(LOBE_GGX, s->clearcoat_roughness);
-    slot_make(&m->coat, lobe, rgb_grey(1.0f), rgb_grey(1.0f), f, f);
-    m->left = 1.0f - f;
+    slot_even(&m->coat, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f);
 }
 
 /* The sheen: any lobe of the catalogue in a colour, under a layer rule. Its E is asked of the table of that
@@ -38,19 +36,19 @@ FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
     m->color = color;
     m->sheen_color = color;
     m->at = lobe.params[0];
-    slot_make(&m->sheen, lobe, color, second, m->left, m->left * rgb_mean(color));
+    slot_even(&m->sheen, lobe, color, second, 1.0f);
 }
 
 /* The base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
-FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90, Dir o) {
-    float s_o = schlick_s(o.z);
+FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90) {
+    float mean = rgb_mean(diffuse);
     if (rgb_max3(f0) > 0.0f || f90 > 0.0f) {
         Lobe lobe = lobe_rough(LOBE_GGX, s->roughness);
         lobe.params[GGX_ANISOTROPY] = s->anisotropy;
-        slot_make(&m->specular, lobe, f0, rgb_grey(f90), m->left, m->left * mix(rgb_mean(f0), f90, s_o));
+        slot_make(&m->specular, lobe, f0, rgb_grey(f90), 1.0f, rgb_mean(f0), f90);
     }
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, m->left,
-              m->left * rgb_mean(diffuse) * (1.0f - mix(rgb_max3(m->under_f0), m->under_f90, s_o)));
+    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f,
+              mean * (1.0f - rgb_max3(m->under_f0)), mean * (1.0f - m->under_f90));
 }
 
 #endif

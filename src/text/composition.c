@@ -19,12 +19,19 @@ static const Composition workflows[] = {WEFT_WORKFLOWS(WORKFLOW_ROW)};
 static const Composition profiles[] = {WEFT_PROFILES(PROFILE_ROW)};
 
 typedef struct Formula {
-    int albedo;
+    int index;
     const char *row;
 } Formula;
 
-#define FORMULA_ROW(name, index, formula) {index, "A(" #name ", " #index ", " #formula ")"},
-static const Formula formulas[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW)};
+#define FORMULA_ROW(name, index, formula) {index, "F(" #name ", " #index ", " #formula ")"},
+static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW){-1, ""}};
+static const Formula views[] = {WEFT_VIEWS(FORMULA_ROW){-1, ""}};
+
+/* The one that a stack names, or the empty one behind. */
+static const char *formula_of(const Formula *f, int index) {
+    while (f->index >= 0 && f->index != index) f++;
+    return f->row;
+}
 
 /* Makes nothing of the inputs that are nothing. */
 static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
@@ -41,7 +48,7 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
     const Material material = material_default("");
     Surface s = material_plain(&material);
     s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
-    s.clearcoat = 1.0f;
+    s.clearcoat = s.dust = 1.0f;
     s.roughness = s.sheen_roughness = 0.5f;
     s.anisotropy = s.subsurface = s.metallic = x;
     s.sheen = s.specular = 1.0f;
@@ -59,7 +66,7 @@ const char *composition_stack(const Choices *choices) { return composition_of(ch
 static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
     TextSlot *to = &self->slots[slot];
     int id = from->lobe.id;
-    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->pick > 0.0f)) return;
+    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->normal > 0.0f)) return;
     for (int k = 0; k < to->count; k++)
         if (to->lobes[k] == id) return;
     if (!to->count) self->lobes[slot] = from->lobe;
@@ -72,9 +79,8 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         Stack m;
         Surface s = composition_surface(0.5f * (float)(x % 3), zero);
         if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
-        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
-        if (m.layer == LAYER_MULTIPLICATIVE && IS_WORN(&m)) m.sheen.pick = 1.0f; /* not drawn, but its E is */
-        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat};
+        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
+        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
         for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
         const Stack *made = &m;
         found.worn &= !IS_BELOW_F(made);
@@ -83,12 +89,10 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
 }
 
 /* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
-void text_composition_lobes(Text *text, const CompositionSlots *found, bool dusty, int table_kind,
-                            int table_tilts) {
+void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
     static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
-                                                "HAS_COAT(m)"};
+                                                "HAS_COAT(m)", "HAS_DUST(m)"};
     int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    if (dusty) ids[count++] = LOBE_LTC_FIBRE;
     for (int k = 0; k < TEXT_SLOTS; k++)
         for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
     char kind[16], tilts[16];
@@ -97,7 +101,6 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, bool dust
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
     for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
-    text_define(text, "HAS_DUST(m)", dusty ? "true" : "false");
     text_define(text, "IS_WORN(m)", found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots);
@@ -112,11 +115,10 @@ static const struct {
                ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
 
 /* The engines' tables that the composition names: each takes a while to make. */
-static void put_engines(Text *text, const char *file, const char *formula) {
+static void put_engines(Text *text, const char *const formulas[2]) {
     int which[ENGINE_COUNT], count = 0;
-    const char *source = weft_catalogue_text(file);
     for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
-        if ((source && strstr(source, engines[k].name)) || strstr(formula, engines[k].name))
+        if (strstr(formulas[0], engines[k].name) || strstr(formulas[1], engines[k].name))
             which[count++] = engines[k].which;
     text_engine_tables(text, which, count);
 }
@@ -124,25 +126,25 @@ static void put_engines(Text *text, const char *file, const char *formula) {
 /* In place of shading/profile.h: the one composition that this shader is for. */
 void text_composition(Text *text, const Choices *choices) {
     const Composition *c = composition_of(choices);
-    char file[128], rows[256] = "";
+    char file[128];
     int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
     for (int k = 0; k < size; k++)
         if (file[k] == '-') file[k] = '_';
     const bool none[INPUT_COUNT] = {false};
     Surface s = composition_surface(0.5f, none);
     Stack m;
-    compose_begin(&m, &s, *choices, dir(0.0f, 0.0f, 1.0f));
-    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++)
-        if (formulas[k].albedo == m.albedo) snprintf(rows, sizeof rows, "%s", formulas[k].row);
-    put_engines(text, file + strlen("shading/"), rows);
+    compose_begin(&m, &s, *choices);
+    const char *albedo = formula_of(albedos, m.albedo), *view = formula_of(views, m.view);
+    const char *const formulas[] = {albedo, view};
+    put_engines(text, formulas);
     text_provide(text, "shading/profile.h");
     text_include(text, "shading/workflow.h");
     text_include(text, file);
-    text_line(
-        text,
-        "\nvoid compose_begin(inout Stack m, Surface s, Choices c, Dir o) {\n    stack_clear(m);\n    %s;\n}",
-        c->stack);
-    text_define(text, "WEFT_ALBEDO_FORMULAS(A)", rows);
+    text_line(text,
+              "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    stack_clear(m);\n    %s;\n}",
+              c->stack);
+    text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
+    text_define(text, "WEFT_VIEWS(F)", view);
     text_include(text, "shading/compose.h");
 }
 

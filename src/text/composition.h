@@ -19,10 +19,9 @@ typedef struct CompositionSlots {
 /* whole_sheen: input sheen is 1 everywhere. */
 CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen);
 
-/* The lobes of these slots, in place of shading/slots.h, and what is known of them and of the sheen's table
- * in place of what shading/stack.h and table.h ask. Call it before text_composition. */
-void text_composition_lobes(Text *text, const CompositionSlots *slots, bool dusty, int table_kind,
-                            int table_tilts);
+/* The lobes of these slots, in place of what shading/slots.h has, and what is known of them and of the
+ * sheen's table in place of what shading/stack.h and table.h ask. Call it before text_composition. */
+void text_composition_lobes(Text *text, const CompositionSlots *slots, int table_kind, int table_tilts);
 
 /* In place of shading/profile.h: the one composition, with the tables of its engine; and shading/compose.h
  * behind it. */
@@ -31,7 +30,7 @@ void text_composition(Text *text, const Choices *choices);
 /* Choices material_choices(): these. */
 void text_composition_choices(Text *text, const Choices *choices);
 
-/* The call that makes its stack, "khronos_stack(s, o)". */
+/* The call that makes its stack, "khronos_stack(m, s)". */
 const char *composition_stack(const Choices *choices);
 
 #endif

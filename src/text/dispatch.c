@@ -4,6 +4,7 @@
 #include "text/dispatch.h"
 
 #include "shading/lobe_tables.h"
+#include "shading/slots.h"
 #include "text/tables.h"
 #include "weft/lobe.h"
 
@@ -67,44 +68,51 @@ static void put_lines(Text *text, const char *file, const char *first, const cha
 }
 
 void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
-    static const char *const functions[TEXT_SLOTS] = {"diffuse_at", "specular_at", "sheen_at", "coat_at"};
-    text_provide(text, "shading/slots.h");
+#define SLOT_NAMES(name, NAME, Name, wo)                                                                     \
+    {#Name "Prepared", #Name "View", #name "_prepare", #name "_view", #name "_reflect"},
+    static const char *const names[] = {"LobePrepared", "LobeView", "lobe_prepare", "lobe_view",
+                                        "lobe_reflect"};
+    enum { NAMES = sizeof names / sizeof *names };
+    static const char *const own[TEXT_SLOTS][NAMES] = {SLOTS(SLOT_NAMES)};
     for (int k = 0; k < TEXT_SLOTS; k++) {
         bool there[LOBE_COUNT] = {false};
         for (int j = 0; j < slots[k].count; j++) there[slots[k].lobes[j]] = true;
-        text_define(text, "lobe_value_to", functions[k]);
-        put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_value_to(", "/* A wi for", there);
-        text_undefine(text, "lobe_value_to");
+        for (int n = 0; n < NAMES; n++) text_define(text, names[n], own[k][n]);
+        put_lines(text, "shading/lobes.gen.h", "UNION(LobePrepared)", NULL, there);
+        put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_prepare(", "/* The view is that", there);
+        put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_reflect(", "/* A wi for", there);
+        for (int n = 0; n < NAMES; n++) text_undefine(text, names[n]);
     }
+    text_define(text, "OF_SLOT(Name, Record)", "Name##Record");
+    text_define(text, "IN_SLOT(name, function)", "name##_##function");
 }
 
 /* What stands for shading/dust_lobe.h where its lobe is not there. */
 static void put_no_dust(Text *text) {
     if (!text_provide(text, "shading/dust_lobe.h")) return;
     text_line(text, "\nfloat dust_weight(float dust, float e_1, float cos_o) { return 0.0; }\n"
-                    "float dust_albedo(Lobe m, float cos_o) { return 0.0; }\n"
-                    "LobeValue dust_value(Lobe m, Angles a) { return lobe_value_of(0.0, 0.0, 0.0); }");
+                    "float dust_albedo(Lobe m, float cos_o) { return 0.0; }");
 }
 
 void text_dispatch(Text *text, const int *lobes, int lobe_count) {
-    bool there[LOBE_COUNT] = {false};
+    bool there[LOBE_COUNT] = {false}, tinted = false;
     for (int k = 0; k < lobe_count; k++) {
         there[lobes[k]] = true;
+        tinted |= has(lobes[k], TRAIT_TINTED);
         lobe_tables_make_for(lobes[k]); /* before the first asks for all there are */
     }
     for (int k = 0; k < lobe_count; k++)
         if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);
     if (!there[LOBE_COOK_TORRANCE]) text_define(text, "SHARE_IS_COSINE(s)", "false");
+    if (!tinted) text_define(text, "IS_TINTED(t)", "false");
     text_include(text, "shading/lobe.h");
     put_lines(text, "shading/lobe_ids.gen.h", NULL, NULL, there);
     put_lines(text, "shading/lobes.gen.h", NULL, NULL, there);
     text_provide(text, "shading/lobes.gen.h");
     put_lines(text, "shading/dispatch.gen.h", NULL, NULL, there);
     text_provide(text, "shading/registry.h");
-    text_line(text,
-              "\nLobeValue lobe_value(Lobe m, Angles a) {\n    LobeValue v;\n    lobe_value_to(m, a, v);\n"
-              "    return v;\n}\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
-              "float lobe_share(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
-              "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
+    text_line(text, "\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
+                    "float lobe_share(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
+                    "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
     if (!there[LOBE_LTC_FIBRE]) put_no_dust(text);
 }

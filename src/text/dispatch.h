@@ -13,6 +13,7 @@ void text_lobe(Text *text, int id);
  *
  *   const int LOBE_GGX = ..., GGX_ANISOTROPY = ...;
  *   Lobe, LobeValue                                    lobe.h
+ *   LobePrepared, LobeView, lobe_prepare, lobe_view, lobe_value_at, lobe_sample_at
  *   lobe_default, lobe_rough, lobe_fibres, lobe_value, lobe_sample, lobe_second
  *
  * and f, s and pdf of lobe_value alone as lobe_f, lobe_share and lobe_pdf. Of a lobe that is not among these,
@@ -22,14 +23,14 @@ void text_lobe(Text *text, int id);
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
 /* The lobes that a slot of a stack may hold. */
-enum { TEXT_SLOTS = 4 };
+enum { TEXT_SLOTS = 5 };
 typedef struct TextSlot {
     int lobes[LOBE_COUNT];
     int count;
 } TextSlot;
 
-/* In place of shading/slots.h: functions for the diffuse, specular, sheen and coat slot that know only these
- * lobes, and no pdf. Call it once, behind text_dispatch, which has all of them. */
+/* The records and functions of shading/slots.h for each slot, in the order of SLOTS, which know only these
+ * lobes. Call it once, behind text_dispatch, which has all of them. */
 void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]);
 
 #endif

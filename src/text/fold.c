@@ -30,11 +30,9 @@ static const Value UNKNOWN = {false, 0};
 
 static Value known(long value) { return (Value){true, value}; }
 
-static bool same_token(Token a, Token b) { return a.size == b.size && memcmp(a.at, b.at, a.size) == 0; }
-
 static const Name *find_name(const Name *names, int count, Token name) {
     for (int k = 0; k < count; k++)
-        if (same_token(names[k].name, name)) return &names[k];
+        if (token_same(names[k].name, name)) return &names[k];
     return NULL;
 }
 
@@ -50,8 +48,6 @@ static Value find_path(const Fold *fold, Token first, const char *end) {
     return name ? name->value : UNKNOWN;
 }
 
-static Token peek(const char *c, const char *end) { return token_solid(&c, end); }
-
 static bool take(const char **cursor, const char *end, const char *mark) {
     const char *c = *cursor;
     for (; *mark; mark++) {
@@ -60,17 +56,6 @@ static bool take(const char **cursor, const char *end, const char *mark) {
     }
     *cursor = c;
     return true;
-}
-
-/* Behind the bracket that closes the one at c. */
-static const char *closed(const char *c, const char *end) {
-    int depth = 0;
-    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
-        depth += token_is(token, "(") + token_is(token, "{") + token_is(token, "[");
-        depth -= token_is(token, ")") + token_is(token, "}") + token_is(token, "]");
-        if (depth == 0) return c;
-    }
-    return end;
 }
 
 static Value read_or(const Fold *fold, const char **c, const char *end);
@@ -82,9 +67,9 @@ static Value read_name(const Fold *fold, Token first, const char **c, const char
         *c = stop + 1;
         stop += 1 + token_next(c, end).size;
     }
-    Token next = peek(*c, end);
+    Token next = token_peek(*c, end);
     if (!token_is(next, "(") && !token_is(next, "[")) return find_path(fold, first, stop);
-    *c = closed(next.at, end);
+    *c = token_closed(next.at, end);
     return UNKNOWN;
 }
 
@@ -169,14 +154,14 @@ static Value read_all(const Fold *fold, const char *c, const char *end) {
 static const char *statement_end(const char *c, const char *end) {
     const char *cursor = c;
     Token first = token_solid(&cursor, end);
-    if (token_is(first, "{")) return closed(first.at, end);
+    if (token_is(first, "{")) return token_closed(first.at, end);
     if (token_is(first, "if") || token_is(first, "for") || token_is(first, "while")) {
-        const char *stop = statement_end(closed(peek(cursor, end).at, end), end), *next = stop;
+        const char *stop = statement_end(token_closed(token_peek(cursor, end).at, end), end), *next = stop;
         return token_is(first, "if") && token_is(token_solid(&next, end), "else") ? statement_end(next, end)
                                                                                   : stop;
     }
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
-        if (token_is(token, "(")) c = closed(token.at, end);
+        if (token_is(token, "(")) c = token_closed(token.at, end);
         if (token_is(token, ";")) return c;
     }
     return end;
@@ -233,12 +218,12 @@ static void put_condition(Fold *fold, const char *c, const char *end, Buffer *ou
     bool first = true, whole = true;
     for (const char *k = c; k < end;) { /* || and ?: bind less: left alone */
         Token token = token_next(&k, end);
-        if (token_is(token, "(")) k = closed(token.at, end);
+        if (token_is(token, "(")) k = token_closed(token.at, end);
         whole &= !token_is(token, "|") && !token_is(token, "?");
     }
     for (const char *k = c; whole && part < end;) {
         Token token = token_next(&k, end);
-        if (token_is(token, "(")) k = closed(token.at, end);
+        if (token_is(token, "(")) k = token_closed(token.at, end);
         bool last = token.kind == TOKEN_NONE, cut = token_is(token, "&");
         if (!last && !cut) continue;
         const char *stop = last ? end : token.at;
@@ -258,7 +243,7 @@ static void put_condition(Fold *fold, const char *c, const char *end, Buffer *ou
 
 /* An if at c, whose condition is known: what it chooses. Returns where to go on. */
 static const char *fold_if(Fold *fold, const char *c, const char *end, bool unwrap, bool *done, Buffer *out) {
-    const char *open = peek(c, end).at, *close = closed(open, end);
+    const char *open = token_peek(c, end).at, *close = token_closed(open, end);
     Value v = read_all(fold, open + 1, close - 1);
     const char *stop = statement_end(close, end), *next = stop, *other = NULL;
     *done = v.known;
@@ -280,7 +265,7 @@ static const char *fold_if(Fold *fold, const char *c, const char *end, bool unwr
         put_chosen(fold, other, next, unwrap, out);
     else
         return drop_line(next, end, out);
-    if (!v.value || !unwrap || !token_is(peek(close, end), "return")) return next;
+    if (!v.value || !unwrap || !token_is(token_peek(close, end), "return")) return next;
     const char *tail = end; /* what follows is never read */
     while (tail > next && is_blank(tail[-1])) tail--;
     buffer_put(out, tail, (size_t)(end - tail));
@@ -293,7 +278,7 @@ static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffe
     int nested = 0;
     while (k < end) {
         Token token = token_next(&k, end);
-        if (token_is(token, "(") || token_is(token, "[")) k = closed(token.at, end);
+        if (token_is(token, "(") || token_is(token, "[")) k = token_closed(token.at, end);
         bool over =
             token_is(token, ";") || token_is(token, ",") || token_is(token, ")") || token_is(token, "}");
         if (token_is(token, "?")) {
@@ -350,11 +335,11 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
         if (token_is(token, "else")) {
             const char *next = c, *open;
             bool is_if = token_is(token_solid(&next, end), "if");
-            open = peek(next, end).at;
+            open = token_peek(next, end).at;
             if (is_if) {
-                Value v = read_all(fold, open + 1, closed(open, end) - 1);
-                const char *stop = statement_end(closed(open, end), end);
-                if (v.known && !v.value && !token_is(peek(stop, end), "else")) {
+                Value v = read_all(fold, open + 1, token_closed(open, end) - 1);
+                const char *stop = statement_end(token_closed(open, end), end);
+                if (v.known && !v.value && !token_is(token_peek(stop, end), "else")) {
                     c = drop_line(stop, end, out);
                     continue;
                 }
@@ -398,7 +383,7 @@ enum { DECLARED_MAX = 16 };
 
 static bool is_read(Token name, const char *c, const char *end) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
-        if (token.kind == TOKEN_NAME && same_token(token, name)) return true;
+        if (token.kind == TOKEN_NAME && token_same(token, name)) return true;
     return false;
 }
 
@@ -412,7 +397,7 @@ static int find_declared(const char *c, const char *end, Declared all[DECLARED_M
         if (name.kind != TOKEN_NAME || !take(&c, end, "=") || count == DECLARED_MAX) return 0;
         do {
             mark = token_next(&c, end);
-            if (token_is(mark, "(")) c = closed(mark.at, end);
+            if (token_is(mark, "(")) c = token_closed(mark.at, end);
         } while (mark.kind != TOKEN_NONE && !token_is(mark, ",") && !token_is(mark, ";"));
         all[count++] = (Declared){name.at, mark.at, is_read(name, c, end)};
     } while (token_is(mark, ","));
@@ -483,7 +468,7 @@ void fold_text(const char *text, const FoldFact *facts, int count, Buffer *out) 
     while (c < end) { /* a function at a time */
         const char *open = c;
         while (open < end && *open != '{') open = is_comment(open, end) ? comment_end(open, end) : open + 1;
-        const char *close = open < end ? closed(open, end) : end;
+        const char *close = open < end ? token_closed(open, end) : end;
         fold->local_count = 0;
         if (open < end) {
             buffer_put(out, c, (size_t)(open + 1 - c));

@@ -97,9 +97,7 @@ void items_free(Items *items) {
     *items = (Items){0};
 }
 
-static bool is_named(const Item *item, Token name) {
-    return item->name.size == name.size && memcmp(item->name.at, name.at, name.size) == 0;
-}
+static bool is_named(const Item *item, Token name) { return token_same(item->name, name); }
 
 const Item *items_find(const Items *items, Token name) {
     for (int k = 0; k < items->count; k++)
@@ -127,28 +125,6 @@ static bool keep_named(Items *items, Token name) {
 }
 
 bool items_keep(Items *items, const char *name) {
+    for (int k = 0; k < items->count; k++) items->all[k].asked |= token_is(items->all[k].name, name);
     return keep_named(items, (Token){TOKEN_NAME, name, strlen(name)});
-}
-
-static bool has_name(const Item *item, const char *name) {
-    const char *c = item->code;
-    for (Token token; (token = token_next(&c, item->end)).kind != TOKEN_NONE;)
-        if (token_is(token, name)) return true;
-    return false;
-}
-
-bool items_ask(const Items *items, const char *type, char variable, const char *member) {
-    for (int k = 0; k < items->count; k++) {
-        if (!items->all[k].kept || !has_name(&items->all[k], type)) continue;
-        const char *c = items->all[k].code;
-        Token last[2] = {{0}, {0}}; /* the two before */
-        for (Token token; (token = token_next(&c, items->all[k].end)).kind != TOKEN_NONE;) {
-            if (last[1].size == 1 && *last[1].at == '.' && last[0].size == 1 && *last[0].at == variable &&
-                token_is(token, member))
-                return true;
-            last[0] = last[1];
-            last[1] = token;
-        }
-    }
-    return false;
 }

@@ -14,6 +14,9 @@ typedef struct Item {
     const char *code, *end;
     int file; /* index into files, -1: none */
     bool kept;
+    bool asked; /* kept for whoever uses the text */
+    bool own;   /* goes by a name of this text alone */
+    bool late;  /* stands behind what several texts share */
 } Item;
 
 /* A file of the catalogue that items come from. */
@@ -42,8 +45,5 @@ bool items_keep(Items *items, const char *name);
 
 /* The item of a name, NULL: none. */
 const Item *items_find(const Items *items, Token name);
-
-/* Whether a kept item that names the type asks for a member of that name of a variable of one letter. */
-bool items_ask(const Items *items, const char *type, char variable, const char *member);
 
 #endif

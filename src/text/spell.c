@@ -2,6 +2,8 @@
 
 #include <stdio.h>
 
+#include "text/types.h"
+
 typedef struct Word {
     const char *plain, *spelt;
 } Word;
@@ -42,10 +44,20 @@ char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char 
     return name;
 }
 
-static void put_name(const Speller *speller, ItemKind kind, Token plain, Buffer *out) {
+char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *plain,
+                 char name[SPELL_NAME]) {
+    const Item *item = items_find(items, (Token){TOKEN_NAME, plain, strlen(plain)});
+    Speller own = *speller;
+    if (item && item->own) memcpy(own.prefix, own.own, sizeof own.prefix);
+    return spell_name(&own, kind, plain, name);
+}
+
+static void put_name(const Speller *speller, const Item *item, Buffer *out) {
     char text[SPELL_NAME - SPELL_PREFIX], name[SPELL_NAME];
-    snprintf(text, sizeof text, "%.*s", (int)plain.size, plain.at);
-    buffer_put_text(out, spell_name(speller, kind, text, name));
+    Speller own = *speller;
+    if (item->own) memcpy(own.prefix, own.own, sizeof own.prefix);
+    snprintf(text, sizeof text, "%.*s", (int)item->name.size, item->name.at);
+    buffer_put_text(out, spell_name(&own, item->kind, text, name));
 }
 
 static const Word *find_word(const Word *words, Token name) {
@@ -56,10 +68,19 @@ static const Word *find_word(const Word *words, Token name) {
 
 /* A float in C ends in f, or is a double. */
 static void put_number(const Speller *speller, Token number, Buffer *out) {
-    bool real = false;
+    bool real = false, f = number.at[number.size - 1] == 'f';
     for (size_t k = 0; k < number.size; k++) real |= number.at[k] == '.' || number.at[k] == 'e';
-    buffer_put(out, number.at, number.size);
-    if (speller->language == SPELL_C && real && number.at[number.size - 1] != 'f') buffer_put(out, "f", 1);
+    buffer_put(out, number.at, number.size - (real && f));
+    if (speller->language == SPELL_C && real) buffer_put(out, "f", 1);
+}
+
+/* HLSL makes no vector of one number but by a cast. */
+static void put_vector(const Speller *speller, const char *spelt, bool made, const char *c, const char *end,
+                       Buffer *out) {
+    bool cast = speller->language == SPELL_HLSL && made && list_of(c, end).count == 1;
+    if (cast) buffer_put_text(out, "(");
+    buffer_put_text(out, spelt);
+    if (cast) buffer_put_text(out, ")");
 }
 
 /* A name that is no member's. c is behind it. */
@@ -70,11 +91,11 @@ static void put_word(const Speller *speller, const Items *items, Token name, con
     bool vector = is_vector(speller, name), cast = token_is(name, "float") || token_is(name, "int");
     const Item *item = vector ? NULL : items_find(items, name);
     if (word && (call || vector))
-        buffer_put_text(out, word->spelt);
+        put_vector(speller, word->spelt, vector && call, c, end, out);
     else if (item)
-        put_name(speller, item->kind, name, out);
+        put_name(speller, item, out);
     else if (speller->language == SPELL_C && call && find_word(c_helpers, name))
-        put_name(speller, ITEM_FUNCTION, name, out);
+        put_name(speller, &(Item){.kind = ITEM_FUNCTION, .name = name}, out);
     else if (speller->language == SPELL_C && call && cast) {
         buffer_put(out, "(", 1);
         buffer_put(out, name.at, name.size);
@@ -84,7 +105,7 @@ static void put_word(const Speller *speller, const Items *items, Token name, con
     }
 }
 
-/* Whether a function's parameter of that place is written. */
+/* Returns true if a function's parameter of that place is written. */
 static bool is_written(const Item *function, int place) {
     const char *c = function->code;
     while (c < function->end && *c != '(') c++;
@@ -100,7 +121,7 @@ static bool is_written(const Item *function, int place) {
     return false;
 }
 
-/* Whether the function has a written parameter of that name. */
+/* Returns true if the function has a written parameter of that name. */
 static bool is_reference(const Item *function, Token name) {
     const char *c = function ? function->code : NULL;
     bool written = false;
@@ -108,7 +129,7 @@ static bool is_reference(const Item *function, Token name) {
         if (token_is(token, "{")) return false;
         if (token_is(token, ",")) written = false;
         if (token_is(token, "inout")) written = true;
-        if (written && token.size == name.size && memcmp(token.at, name.at, name.size) == 0) return true;
+        if (written && token_same(token, name)) return true;
     }
     return false;
 }
@@ -135,15 +156,6 @@ static const char *find(const char *c, const char *end, const char *mark) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
         if (token_is(token, mark)) return token.at;
     return end;
-}
-
-static bool has_token(const char *c, const char *end, Token name) {
-    bool member = false;
-    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
-        if (!member && token.size == name.size && memcmp(token.at, name.at, name.size) == 0) return true;
-        if (token.kind != TOKEN_BLANK) member = token_is(token, ".");
-    }
-    return false;
 }
 
 /* "inout Name x" at c, behind the first word: a pointer. Returns where to go on. */
@@ -222,7 +234,7 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     for (Token last = {0}; c <= close;) {
         Token token = token_solid(&c, item->end);
         if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME &&
-            !token_is(last, "void") && !has_token(body, item->end, last)) {
+            !token_is(last, "void") && !token_found(body, item->end, last)) {
             buffer_put_text(out, "\n    (void)");
             put_word(speller, items, last, c, item->end, out);
             buffer_put_text(out, ";");
@@ -236,13 +248,13 @@ static void put_record(const Speller *speller, const Items *items, const Item *i
     const char *open = find(item->code, item->end, "{"), *close = item->end - 1;
     while (close > open && *close != '}') close--;
     buffer_put_text(out, speller->language == SPELL_C ? "typedef struct " : "struct ");
-    put_name(speller, ITEM_RECORD, item->name, out);
+    put_name(speller, item, out);
     buffer_put_text(out, " ");
     put_code(speller, items, open, close, true, out);
     buffer_put_text(out, "}");
     if (speller->language == SPELL_C) {
         buffer_put_text(out, " ");
-        put_name(speller, ITEM_RECORD, item->name, out);
+        put_name(speller, item, out);
     }
     buffer_put_text(out, ";");
 }
@@ -259,22 +271,28 @@ static void put_constant(const Speller *speller, const Items *items, const Item 
         buffer_put(out, type.at, type.size);
         buffer_put_text(out, " ");
     }
-    put_name(speller, ITEM_CONSTANT, item->name, out);
+    put_name(speller, item, out);
     buffer_put_text(out, " =");
     put_code(speller, items, value, item->end - 1, false, out);
     buffer_put_text(out, enumerated ? " };" : ";");
 }
 
-/* The functions of C that stand for what shading languages have, where they are called. */
-static void put_helpers(const Speller *speller, const Items *items, Buffer *out) {
+static bool is_called(const Items *const *texts, int count, Token name) {
+    for (int t = 0; t < count; t++)
+        for (int k = 0; k < texts[t]->count; k++) {
+            const Item *item = &texts[t]->all[k];
+            if (item->kept && token_found(item->code, item->end, name)) return true;
+        }
+    return false;
+}
+
+void spell_helpers(const Speller *speller, const Items *const *texts, int count, Buffer *out) {
+    if (speller->language != SPELL_C) return;
     for (const Word *helper = c_helpers; helper->plain; helper++) {
         const Token name = {TOKEN_NAME, helper->plain, strlen(helper->plain)};
-        bool called = false;
-        for (int k = 0; k < items->count && !called; k++)
-            called = items->all[k].kept && has_token(items->all[k].code, items->all[k].end, name);
-        if (!called) continue;
+        if (!is_called(texts, count, name)) continue;
         buffer_put_text(out, "static inline float ");
-        put_name(speller, ITEM_FUNCTION, name, out);
+        put_name(speller, &(Item){.kind = ITEM_FUNCTION, .name = name}, out);
         buffer_put_text(out, helper->spelt);
         buffer_put_text(out, "\n");
     }
@@ -285,16 +303,18 @@ static bool is_line(const Item *item) {
     return !item->comment && !memchr(item->code, '\n', (size_t)(item->end - item->code));
 }
 
-void spell_items(const Speller *speller, const Items *items, Buffer *out) {
+static bool is_put(const Item *item, bool late) { return item->kept && item->late == late; }
+
+void spell_items(const Speller *speller, const Items *items, bool late, Buffer *out) {
     bool line = false, any = false;
     int file = -1;
-    if (speller->language == SPELL_C) put_helpers(speller, items, out);
     for (int k = 0; k < items->count; k++) {
         const Item *item = &items->all[k];
-        if (!item->kept || (item->kind == ITEM_RECORD && is_vector(speller, item->name))) continue;
+        if (!is_put(item, late) || (item->kind == ITEM_RECORD && is_vector(speller, item->name))) continue;
         const ItemFile *from = item->file < 0 ? NULL : &items->files[item->file];
         bool first = from && from->head && item->file != file;
-        for (int j = 0; j < k && first; j++) first = !items->all[j].kept || items->all[j].file != item->file;
+        for (int j = 0; j < k && first; j++)
+            first = !is_put(&items->all[j], late) || items->all[j].file != item->file;
         if (any && (!line || !is_line(item) || first)) buffer_put_text(out, "\n");
         if (first) {
             buffer_put_text(out, "/*");

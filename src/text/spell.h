@@ -14,17 +14,26 @@ typedef enum SpellLanguage {
     SPELL_C     /* C99 and C++: functions are static inline */
 } SpellLanguage;
 
-enum { SPELL_PREFIX = 32, SPELL_NAME = 128 };
+enum { SPELL_PREFIX = 112, SPELL_NAME = 256 };
 
 typedef struct Speller {
     SpellLanguage language;
     char prefix[SPELL_PREFIX]; /* "weft_", may be empty */
+    char own[SPELL_PREFIX];    /* "weft_khronos_", of items that are the text's own */
 } Speller;
 
-/* Appends the items that are kept, in their order, each behind its comment. */
-void spell_items(const Speller *speller, const Items *items, Buffer *out);
+/* Appends the items that are kept, late or not, in their order, each behind its comment. */
+void spell_items(const Speller *speller, const Items *items, bool late, Buffer *out);
+
+/* Appends the functions of C that stand for what shading languages have, where kept items of any of the texts
+ * call them; to stand before all. */
+void spell_helpers(const Speller *speller, const Items *const *texts, int count, Buffer *out);
 
 /* The name that an item of that kind gets. Returns name. */
 char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]);
+
+/* The same, of one of these items where there is one of that name. */
+char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *plain,
+                 char name[SPELL_NAME]);
 
 #endif

@@ -83,12 +83,11 @@ void text_begin(Text *text, const TextDesc *desc) {
               desc->language == TEXT_GLSL_450 ? "layout(set = 0, binding = 0) " : "");
 }
 
-void text_line(Text *text, const char *format, ...) {
-    if (failed(text)) return;
-    text->buffer.origin = (Origin){0};
-    va_list arguments, again;
-    va_start(arguments, format);
+/* As printf makes it. */
+static void put_line(Text *text, const char *format, va_list arguments) {
+    va_list again;
     va_copy(again, arguments);
+    text->buffer.origin = (Origin){0};
     int size = vsnprintf(NULL, 0, format, arguments);
     char *line = size < 0 ? NULL : alloc_array((size_t)size + 2, 1);
     if (line) {
@@ -100,8 +99,17 @@ void text_line(Text *text, const char *format, ...) {
         fail_memory(text);
     }
     va_end(again);
-    va_end(arguments);
     text->gap = true;
+}
+
+void text_line(Text *text, const char *format, ...) {
+    if (failed(text)) return;
+    if (text->marked && !text->depth) buffer_put_text(&text->buffer, "\n" TEXT_FILE_MARK " - */\n");
+    text->marked = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    put_line(text, format, arguments);
+    va_end(arguments);
 }
 
 /* True where the text did not have it yet. */
@@ -143,14 +151,8 @@ static void check_macros(Text *text) {
     if (*text->macros.wrong) fail_dialect(text, text->macros.wrong);
 }
 
-/* A comment that says whose the next items are, and with the first of them what their file begins with. */
-static void put_marks(Text *text, const char *file, const Buffer *source) {
-    if (text->marked == file) return;
-    bool first = source->bytes && is_comment(source->bytes, source->bytes + source->size);
-    for (const TextName *name = text->headed; name; name = name->next) first &= name->name != file;
-    text_line(text, "\n" TEXT_FILE_MARK " %s */", file);
-    text->marked = file;
-    if (!first) return;
+/* What a file begins with. */
+static void put_head(Text *text, const char *file, const Buffer *source) {
     const char *stop = comment_end(source->bytes, source->bytes + source->size);
     text_line(text, TEXT_HEAD_MARK "%.*s", (int)(stop - source->bytes) - 2, source->bytes + 2);
     TextName *name = arena_array(&text->macros.arena, 1, sizeof *name);
@@ -160,6 +162,16 @@ static void put_marks(Text *text, const char *file, const Buffer *source) {
     }
     *name = (TextName){text->headed, file};
     text->headed = name;
+}
+
+/* A comment that says whose the next items are, and with the first of them what their file begins with. */
+static void put_marks(Text *text, const char *file, const Buffer *source) {
+    if (text->marked == file) return;
+    bool first = source->bytes && is_comment(source->bytes, source->bytes + source->size);
+    for (const TextName *name = text->headed; name; name = name->next) first &= name->name != file;
+    text_line(text, "\n" TEXT_FILE_MARK " %s */", file);
+    if (first) put_head(text, file, source);
+    text->marked = file;
 }
 
 /* The declarations between two directives of source. What a macro stands for comes from where it is called.
@@ -425,12 +437,17 @@ void text_source(Text *text, const char *file, const Buffer *bytes) {
 
 int text_table(Text *text, TextTable table) {
     if (failed(text)) return -1;
-    if (text->table_count == TEXT_TABLES_MAX) {
+    const TextDesc *desc = &text->desc;
+    for (int k = 0; k < desc->before_count; k++)
+        if (desc->before[k].texels == table.texels && desc->before[k].rows == table.rows &&
+            desc->before[k].columns == table.columns)
+            return k;
+    if (desc->before_count + text->table_count == TEXT_TABLES_MAX) {
         fail(&text->error, WEFT_MESSAGE_DESC, "shader text", "more than %d tables", TEXT_TABLES_MAX);
         return -1;
     }
     text->tables[text->table_count] = table;
-    return text->table_count++;
+    return desc->before_count + text->table_count++;
 }
 
 WeftResult text_end(Text *text, WeftError *error) {

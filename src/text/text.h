@@ -40,6 +40,10 @@ typedef struct TextDesc {
     /* Comments stay. A line between items of different files is then a comment that names the second one,
      * TEXT_FILE_MARK; what a file begins with is behind its first one, TEXT_HEAD_MARK. */
     bool comments;
+    /* Tables in the layers from 0 on, behind which the text's own follow; one of them is not added again.
+     * Borrowed for as long as the Text. */
+    const struct TextTable *before;
+    int before_count;
     /* Engines' tables with more rows or columns are put in anew with so many of both, where a text is to hold
      * them itself; 0: as they are. */
     int table_side;
@@ -60,7 +64,8 @@ enum { TEXT_TABLES_MAX = 32 };
 typedef struct Text {
     const char *bytes; /* what text_end has closed; ends with a zero byte */
     size_t size;
-    TextTable tables[TEXT_TABLES_MAX]; /* what the text expects in the layers of weft_tables, from 0 on */
+    TextTable
+        tables[TEXT_TABLES_MAX]; /* what the text expects in the layers of weft_tables, behind `before` */
     int table_count;
     /* The rest is the text's own. */
     TextDesc desc;
@@ -70,7 +75,7 @@ typedef struct Text {
     struct TextName *headed; /* files whose beginning is in the text */
     int depth;               /* files being included inside each other */
     bool gap;                /* a blank line is due */
-    const char *marked;      /* the file that a comment has named last */
+    const char *marked;      /* the file that a comment has named last; NULL: the caller's lines */
     WeftError error;
 } Text;
 
@@ -96,8 +101,8 @@ void text_undefine(Text *text, const char *name);
 /* One line of the caller's own, as printf makes it. Macros are not expanded in it. */
 __attribute__((format(printf, 2, 3))) void text_line(Text *text, const char *format, ...);
 
-/* Adds a table and returns its layer, the Table of shading/table.h; -1 where there are TEXT_TABLES_MAX, which
- * is a failure too (WEFT_MESSAGE_DESC). */
+/* Adds a table and returns its layer, the Table of shading/table.h; -1 where there are TEXT_TABLES_MAX with
+ * those before, which is a failure too (WEFT_MESSAGE_DESC). */
 int text_table(Text *text, TextTable table);
 
 /* The file and line that a line of the text comes from, both counted from 1; lines that a macro stands for

@@ -89,4 +89,37 @@ static inline bool token_is(Token token, const char *text) {
     return token.size == strlen(text) && memcmp(token.at, text, token.size) == 0;
 }
 
+static inline bool token_same(Token a, Token b) {
+    return a.size == b.size && memcmp(a.at, b.at, a.size) == 0;
+}
+
+/* The next solid token, which is not taken. */
+static inline Token token_peek(const char *c, const char *end) { return token_solid(&c, end); }
+
+static inline int token_depth(Token token) {
+    if (token.kind != TOKEN_MARK) return 0;
+    return (*token.at == '(' || *token.at == '{' || *token.at == '[') -
+           (*token.at == ')' || *token.at == '}' || *token.at == ']');
+}
+
+/* Behind the bracket that closes the one at c. */
+static inline const char *token_closed(const char *c, const char *end) {
+    int depth = 0;
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        depth += token_depth(token);
+        if (depth == 0) return c;
+    }
+    return end;
+}
+
+/* Whether [c, end) has the name, but for members of that name. */
+static inline bool token_found(const char *c, const char *end, Token name) {
+    bool member = false;
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        if (!member && token_same(token, name)) return true;
+        if (token.kind != TOKEN_BLANK) member = token_is(token, ".");
+    }
+    return false;
+}
+
 #endif

@@ -16,7 +16,7 @@ static void add_light(const PathContext *context, Vec3 point, float share, Point
     caught->reached += hidden ? whole * (1.0f - share) : whole;
 }
 
-/* What a mirror of that roughness shows; false where that is not the scene. */
+/* Finds what a mirror of that roughness shows; false where that is not the scene. */
 static bool mirrored(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
                      Sampler *sampler, Rgb *color, long long *rays) {
     float alpha = max(floor->roughness * floor->roughness, 0.001f);

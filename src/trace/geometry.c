@@ -1,4 +1,5 @@
 #include <embree3/rtcore.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,7 +16,7 @@ struct Geometry {
     RTCScene accel;
     bool *asked; /* of a mesh: see is_asked */
     int meshes, threads;
-    enum RTCError complaint;
+    atomic_int complaint; /* an RTCError: Embree's first; its own threads complain too */
     bool built;
 };
 
@@ -109,10 +110,10 @@ static bool attach(Geometry *geometry, uint32_t id) {
 /* Up to here the slower build that traces faster takes less than the eye notices. */
 enum { FINE_BUILD_TRIANGLES = 200000 };
 
-/* Embree's first complaint; 0: none. */
 static void note_error(void *user, enum RTCError code, const char *text) {
     Geometry *geometry = user;
-    if (geometry->complaint == RTC_ERROR_NONE) geometry->complaint = code;
+    int none = RTC_ERROR_NONE;
+    atomic_compare_exchange_strong(&geometry->complaint, &none, (int)code);
 }
 
 /* Makes what Embree holds; `built` where all of it stands. */
@@ -122,7 +123,10 @@ static void build(void *user) {
     char config[64];
     snprintf(config, sizeof config, "threads=%d,set_affinity=0", geometry->threads);
     geometry->device = rtcNewDevice(config);
-    if (!geometry->device) return;
+    if (!geometry->device) {
+        note_error(geometry, rtcGetDeviceError(NULL), NULL);
+        return;
+    }
     rtcSetDeviceErrorFunction(geometry->device, note_error, geometry);
     geometry->accel = rtcNewScene(geometry->device);
     bool made = geometry->accel != NULL;
@@ -136,14 +140,14 @@ static void build(void *user) {
     rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     if (triangles <= FINE_BUILD_TRIANGLES) rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
     rtcCommitScene(geometry->accel);
-    geometry->built =
-        geometry->complaint == RTC_ERROR_NONE && rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
+    note_error(geometry, rtcGetDeviceError(geometry->device), NULL);
+    geometry->built = geometry->complaint == RTC_ERROR_NONE;
 }
 
 static void release(void *user) {
     const Geometry *geometry = user;
-    if (geometry->accel) rtcReleaseScene(geometry->accel);
-    if (geometry->device) rtcReleaseDevice(geometry->device);
+    rtcReleaseScene(geometry->accel);
+    rtcReleaseDevice(geometry->device);
 }
 
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out,
@@ -157,18 +161,21 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     for (int k = 0; k < meshes; k++) geometry->asked[k] = is_asked(scene, k);
-    if (guarded(build, geometry) && geometry->built) {
+    bool starved;
+    if (guarded(build, geometry, &starved) && geometry->built) {
         *out = geometry;
         return WEFT_OK;
     }
-    bool starved = geometry->complaint == RTC_ERROR_OUT_OF_MEMORY;
+    starved |= geometry->complaint == RTC_ERROR_OUT_OF_MEMORY;
     geometry_free(geometry);
     return fail(error, starved ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_RENDER_DEVICE, scene->name, NULL);
 }
 
 void geometry_free(Geometry *geometry) {
     if (!geometry) return;
-    guarded(release, geometry); /* a scene whose building broke off throws on its way out */
+    /* Embree ends the program where it is to release a scene whose building broke off: that is left to it */
+    bool starved;
+    if (geometry->built) guarded(release, geometry, &starved);
     free(geometry->asked);
     free(geometry);
 }
@@ -198,9 +205,11 @@ void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, H
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     struct RTCRayHit16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
+    /* with AVX2 Embree makes sure of idle rays too */
+    static const Ray harmless = {.direction = {0.0f, 0.0f, 1.0f}};
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        const Ray *ray = &rays[k < count ? k : 0];
-        valid[k] = k < count && is_sound(ray) ? -1 : 0;
+        valid[k] = k < count && is_sound(&rays[k]) ? -1 : 0;
+        const Ray *ray = valid[k] ? &rays[k] : &harmless;
         q.ray.org_x[k] = ray->origin.x, q.ray.org_y[k] = ray->origin.y, q.ray.org_z[k] = ray->origin.z;
         q.ray.dir_x[k] = ray->direction.x, q.ray.dir_y[k] = ray->direction.y,
         q.ray.dir_z[k] = ray->direction.z;

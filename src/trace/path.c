@@ -9,8 +9,9 @@ typedef struct ShadingPoint {
     Vec3 origin;    /* where rays that leave start, before their offset */
     Frame frame;
     Dir wo;
-    bool lit; /* stack is filled; else it only shines */
-    Stack stack;
+    const Stack *stack; /* the material's, or the point's own; NULL: it only shines */
+    StackView view;
+    Stack own;
 } ShadingPoint;
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
@@ -41,15 +42,16 @@ static Vec3 leave(Vec3 p, Vec3 n) { return vec3(step_out(p.x, n.x), step_out(p.y
 static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit, Vec3 wo, ShadingPoint *p) {
     const PathMaterial *known = &context->materials[mesh->material];
     const Material *material = &known->material;
+    bool textured = known->textured || mesh->color;
     Vertex vertex = geometry_vertex(mesh, hit);
     float side = vec3_dot(vertex.geometric, wo) < 0.0f ? -1.0f : 1.0f;
     Surface surface = known->plain;
-    if (known->textured || mesh->color) {
+    if (textured) {
         Attributes at = geometry_attributes(mesh, hit);
         material_textures(context->scene, material, at.uv, at.color, &surface);
     }
     p->geometric = vec3_scale(vertex.geometric, side);
-    p->lit = false;
+    p->stack = NULL;
 
     float strength = side < 0.0f && !material->double_sided ? 0.0f : surface.emission_strength;
     Rgb emission = {surface.emission.r * strength, surface.emission.g * strength,
@@ -62,11 +64,14 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
                  .tangent = dir_of(vec3_scale(vertex.tangent, side)),
                  .handedness = vertex.handedness * side};
     p->frame = frame_of(at, surface, dir_of(wo));
-    surface = frame_surface(surface);
-    surface = dust_settle(surface, p->frame.z, dir_of(vertex.position));
     p->wo = to_local(p, wo);
-    stack_make(&p->stack, &surface, &known->choices, known->sheen_e, p->wo);
-    p->lit = true;
+    p->stack = &known->stack;
+    if (textured || surface.dust > 0.0f) {
+        surface = dust_settle(frame_surface(surface), p->frame.z, dir_of(vertex.position));
+        stack_make(&p->own, &surface, &known->choices, known->sheen_e);
+        p->stack = &p->own;
+    }
+    stack_see(p->stack, p->wo, &p->view);
     return emission;
 }
 
@@ -89,8 +94,8 @@ static float mis_weight(const PathContext *context, WeftSampling strategy, float
 static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir wi, uint32_t seed, Rgb f_cos) {
     const Environment *sky = &context->scene->environment;
     Slots others = slots_of(false, true, true, true, false);
-    Rgb rest = rgb_add(stack_eval_of(&p->stack, others, p->wo, wi).f_cos,
-                       sheet_bounces(&p->stack, others, p->wo, wi, seed));
+    Rgb rest = rgb_add(stack_eval_of(p->stack, &p->view, others, wi).f_cos,
+                       sheet_bounces(p->stack, &p->view, others, wi, seed));
     Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }
@@ -104,7 +109,7 @@ static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb th
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
     Dir wi = to_local(p, light.wi);
-    StackValue value = stack_eval(&p->stack, p->wo, wi, key);
+    StackValue value = stack_eval(p->stack, &p->view, wi, key);
     Rgb f = value.f_cos;
     if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, key, f);
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
@@ -141,15 +146,15 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
                                lights_triangle_pdf(context->lights, hit.mesh, hit.triangle, hit.t, cosine));
             add(&sum, throughput, emission, weight);
         }
-        if (depth == context->max_depth || !p.lit) return sum;
+        if (depth == context->max_depth || !p.stack) return sum;
         TwoPoints uv = sampler_next(sampler);
         add_direct(context, &p, throughput, uv.first, hash32(ray.key), &sum, rays);
 
-        Dir wi = stack_sample(&p.stack, p.wo, uv.second.u, uv.second.v);
+        Dir wi = stack_sample(p.stack, &p.view, uv.second.u, uv.second.v);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
         uint32_t seed = hash32(ray.key ^ 0x68e31da4u);
-        StackValue value = stack_eval(&p.stack, p.wo, wi, seed);
+        StackValue value = stack_eval(p.stack, &p.view, wi, seed);
         if (!(value.pdf > 0.0f)) return sum;
         float k = 1.0f / value.pdf;
         throughput = (Rgb){throughput.r * value.f_cos.r * k, throughput.g * value.f_cos.g * k,

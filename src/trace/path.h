@@ -16,6 +16,7 @@ typedef struct PathMaterial {
     Choices choices;
     bool textured;    /* has any */
     TableRef sheen_e; /* TABLE_NONE without a sheen */
+    Stack stack;      /* of plain, where no point has one of its own */
 } PathMaterial;
 
 typedef struct PathContext {

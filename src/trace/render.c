@@ -10,6 +10,7 @@
 #include "scene/polygons.h"
 #include "scene/shade.h"
 #include "scene/sheen_tables.h"
+#include "shading/frame.h"
 #include "trace/catcher.h"
 #include "trace/path.h"
 
@@ -109,6 +110,8 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         for (int input = 0; input < INPUT_COUNT; input++)
             known->textured |= known->material.inputs[input].texture != 0;
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
+        Surface surface = frame_surface(known->plain);
+        stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
     }
     return WEFT_OK;
 }

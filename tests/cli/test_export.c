@@ -80,6 +80,19 @@ static void options_are_heeded(void **state) {
     ran_free(&ran);
 }
 
+static void several_subjects_make_one_file(void **state) {
+    (void)state;
+    finish(done(LIST("export", "khronos", "velvet", "ggx", "--target", "hlsl", "-o", "all.hlsl")));
+    assert_has("all.hlsl", "weft_khronos_shade(");
+    assert_has("all.hlsl", "weft_velvet_shade(");
+    assert_has("all.hlsl", "weft_ggx_eval(");
+    assert_has("all.hlsl", "WeftVelvetSurface");
+    Ran ran = run_with(NULL, LIST("export", "ggx", "ggx:alpha=0.3", "--target", "c", "-o", "twice.h"));
+    assert_int_equal(ran.code, 2);
+    assert_non_null(strstr(ran.err, "ggx"));
+    ran_free(&ran);
+}
+
 static WeftImage image_of(const char *path) {
     WeftImage image;
     WeftError error = {0};
@@ -255,7 +268,7 @@ static void nonsense_is_refused(void **state) {
         {LIST("export", "ggx:beta=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
         {LIST("export", "khronos:alpha=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
         {LIST("export", "khronos", "--albedo", "--target", "c", "-o", "x"), 2, "--albedo"},
-        {LIST("export", "ggx", "silk", "--target", "c", "-o", "x"), 2, "shadertoy"},
+        {LIST("export", "ggx", "silk", "lambert", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
         {LIST("export", "khronos", "silk", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
         {LIST("export", "ggx", "--prefix", "9a", "--target", "c", "-o", "x"), 2, "prefix"},
         {LIST("export", "ggx", "--prefix", "gl_", "--target", "c", "-o", "x"), 2, "prefix"},
@@ -278,6 +291,7 @@ int main(void) {
         cmocka_unit_test(help_is_complete),
         cmocka_unit_test(all_subjects_are_found),
         cmocka_unit_test(options_are_heeded),
+        cmocka_unit_test(several_subjects_make_one_file),
         cmocka_unit_test(tables_are_read_back),
         cmocka_unit_test(png_is_scaled),
         cmocka_unit_test(nonsense_is_refused),

@@ -120,6 +120,17 @@ static void numbers_are_checked(void **state) {
     }
 }
 
+static void what_belongs_to_a_floor_needs_one(void **state) {
+    (void)state;
+    static const char *const verbs[] = {"render", "view"};
+    for (int k = 0; k < 2; k++) {
+        assert_complaint(NULL, LIST(verbs[k], "builtin:cloth", "--floor-reflection=0.5"), 2,
+                         "--floor-reflection: needs --floor");
+        assert_complaint(NULL, LIST(verbs[k], "builtin:cloth", "--floor-roughness=0.5"), 2,
+                         "--floor-roughness: needs --floor");
+    }
+}
+
 static void pipes_end_quietly(void **state) {
     (void)state;
     Ran ran = run_shell("\"$0\" models | head -n 1");
@@ -149,7 +160,7 @@ int main(void) {
         cmocka_unit_test(help_is_complete),        cmocka_unit_test(usage_errors_are_one_line),
         cmocka_unit_test(numbers_are_checked),     cmocka_unit_test(pipes_end_quietly),
         cmocka_unit_test(full_output_is_reported), cmocka_unit_test(words_do_as_options),
-        cmocka_unit_test(empty_words_are_quoted),
+        cmocka_unit_test(empty_words_are_quoted),  cmocka_unit_test(what_belongs_to_a_floor_needs_one),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -288,12 +288,12 @@ static inline void material_answers(const Exported *s, float *const in[INPUTS], 
     sheen_table_fill(&plain, &choices, table);
     for (size_t k = 0; k < PAIRS; k++) {
         Surface surface = plain;
-        Stack stack;
+        SeenStack seen;
         Dir o = dir(in[0][4 * k], in[0][4 * k + 1], in[0][4 * k + 2]);
         Dir i = dir(in[1][4 * k], in[1][4 * k + 1], in[1][4 * k + 2]);
         if (!s->fixed) put_varied(&surface, in, k);
-        stack_make(&stack, &surface, &choices, albedo_table_ref(table), o);
-        Rgb f = stack_eval_of(&stack, slots_of(true, true, true, true, true), o, i).f_cos;
+        seen_make(&seen, &surface, &choices, albedo_table_ref(table), o);
+        Rgb f = stack_eval_of(&seen.stack, &seen.view, slots_all(), i).f_cos;
         out[0][4 * k] = f.r, out[0][4 * k + 1] = f.g, out[0][4 * k + 2] = f.b, out[0][4 * k + 3] = 0.0f;
         for (size_t c = 0; c < 4; c++) out[1][4 * k + c] = 0.0f;
     }

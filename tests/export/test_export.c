@@ -69,6 +69,119 @@ static void nothing_is_idle(void **state) {
     }
 }
 
+static bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+}
+
+/* The text without its comments, to be freed. */
+static char *code_of(const char *text) {
+    char *code = calloc(strlen(text) + 1, 1);
+    size_t size = 0;
+    assert_non_null(code);
+    for (const char *c = text; *c; c++) {
+        if (c[0] == '/' && c[1] == '*')
+            c = strstr(c, "*/") + 1;
+        else
+            code[size++] = *c;
+    }
+    return code;
+}
+
+static int count_word(const char *code, const char *word) {
+    int count = 0;
+    size_t size = strlen(word);
+    for (const char *c = code; (c = strstr(c, word)); c += size)
+        count += (c == code || !is_word(c[-1])) && !is_word(c[size]);
+    return count;
+}
+
+/* Each name that "struct NAME {" gives is used again. */
+static void assert_records_used(const Exported *s, const char *code) {
+    for (const char *c = code; (c = strstr(c, "struct ")); c++) {
+        char name[96];
+        const char *end = c + 7;
+        while (is_word(*end)) end++;
+        snprintf(name, sizeof name, "%.*s", (int)(end - c) - 7, c + 7);
+        if (count_word(code, name) < 2) fail_msg("%s: nothing uses record %s", s->id, name);
+    }
+}
+
+/* How many records deep the record of that name is, itself counted. */
+static int nesting_of(const char *code, const char *name, size_t size) {
+    char head[112];
+    snprintf(head, sizeof head, "struct %.*s {", (int)size, name);
+    const char *c = strstr(code, head), *end = c ? strchr(c, '}') : NULL;
+    int deepest = 0;
+    for (c = c ? c + strlen(head) : NULL; c && c < end; c++) {
+        if (!is_word(*c)) continue;
+        const char *word = c;
+        while (is_word(*c)) c++;
+        int deep = nesting_of(code, word, (size_t)(c - word));
+        deepest = deep > deepest ? deep : deepest;
+    }
+    return end ? 1 + deepest : 0;
+}
+
+/* WebGL takes records in four levels and no more: "WebGL Specification", version 1.0.3, section 6.19. */
+static void records_nest_as_webgl_takes_them(void **state) {
+    (void)state;
+    for (int k = 0; k < subject_count; k++)
+        for (int toy = 0; toy < 2; toy++) {
+            WeftExportDesc desc = subject_desc(&subjects[k], toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL);
+            WeftExport made = subject_export(&desc);
+            char *code = code_of(made.text);
+            for (const char *c = code; (c = strstr(c, "struct ")); c++) {
+                size_t size = strcspn(c + 7, " ");
+                int deep = nesting_of(code, c + 7, size);
+                if (deep > 4) fail_msg("%s: %.*s is %d deep", subjects[k].id, (int)size, c + 7, deep);
+            }
+            free(code);
+            weft_export_free(&made);
+        }
+}
+
+/* No name of a language's own, no call where it has an operator, no number in the notation of C, no record
+ * that is filled or idle. */
+static void texts_read_natively(void **state) {
+    (void)state;
+    static const char *const banned[] = {"rgb_add(",  "rgb_mul(",  "rgb_scale(", "rgb_grey(",
+                                         "rgb_mix(",  "dir_dot(",  "dir_add(",   "dir_scale(",
+                                         "weft_dir(", "weft_rgb(", "dir_mirror("};
+    /* The OpenGL Shading Language 4.60, section 3.6; HLSL, appendix "Reserved words". */
+    static const char *const reserved[] = {
+        "common",    "partition", "active",   "asm",    "class",    "union",     "enum",    "typedef",
+        "template",  "this",      "resource", "goto",   "inline",   "noinline",  "public",  "extern",
+        "long",      "short",     "half",     "fixed",  "input",    "output",    "filter",  "cast",
+        "using",     "sample",    "patch",    "point",  "line",     "linear",    "pass",    "matrix",
+        "vector",    "string",    "export",   "shared", "triangle", "technique", "precise", "interface",
+        "namespace", "register",  "compile"};
+    for (int k = 0; k < subject_count; k++) {
+        const Exported *s = &subjects[k];
+        if (!s->is_lobe && !getenv("WEFT_TEST_LONG") && k % 6) continue;
+        for (int t = WEFT_EXPORT_GLSL; t <= WEFT_EXPORT_HLSL; t++) {
+            WeftExportDesc desc = subject_desc(s, (WeftExportTarget)t);
+            desc.albedo = 0;
+            WeftExport made = subject_export(&desc);
+            char *code = code_of(made.text);
+            for (size_t n = 0; n < sizeof banned / sizeof *banned; n++)
+                if (strstr(code, banned[n])) fail_msg("%s: %.60s", s->id, strstr(code, banned[n]));
+            for (size_t n = 0; n < sizeof reserved / sizeof *reserved; n++)
+                if (count_word(code, reserved[n]))
+                    fail_msg("%s: %s is a word of a language", s->id, reserved[n]);
+            if (s->is_lobe && strstr(code, "inout")) fail_msg("%s: %.60s", s->id, strstr(code, "inout"));
+            for (const char *c = code; *c; c++)
+                if (c > code && *c == 'f' && c[-1] >= '0' && c[-1] <= '9' && !is_word(c[1])) {
+                    const char *first = c;
+                    while (first > code && (is_word(first[-1]) || first[-1] == '.')) first--;
+                    if (*first >= '0' && *first <= '9') fail_msg("%s: %.12s", s->id, first);
+                }
+            assert_records_used(s, code);
+            free(code);
+            weft_export_free(&made);
+        }
+    }
+}
+
 /* C with pi folded, times a light over pi, against C with pi explicit, times the light. */
 static void pi_gives_one_picture(void **state) {
     (void)state;
@@ -139,6 +252,95 @@ static void pi_gives_one_picture(void **state) {
     assert_int_equal(system(command), 0);
 }
 
+/* One text of several subjects, and each in a text of its own, beside each other in one program of C. */
+static void several_share_one_text(void **state) {
+    (void)state;
+    enum { COUNT = 5 };
+    static const char *const ids[COUNT] = {"khronos", "disney", "hdrp-cotton", "ggx", "charlie-neubelt"};
+    char folder[] = "/tmp/weft-test-export-XXXXXX", path[128], command[256];
+    WeftExportDesc descs[COUNT];
+    WeftExport made;
+    WeftError error;
+    if (system("command -v gcc >/dev/null 2>&1") != 0) skip();
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/all.c", folder);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    size_t apart = 0;
+    for (int k = 0; k < COUNT; k++) {
+        const Exported *s = NULL;
+        for (int n = 0; n < subject_count; n++)
+            if (!subjects[n].fixed && strcmp(subjects[n].id, ids[k]) == 0) s = &subjects[n];
+        assert_non_null(s);
+        char prefix[16];
+        snprintf(prefix, sizeof prefix, "p%d_", k);
+        descs[k] = subject_desc(s, WEFT_EXPORT_C);
+        descs[k].albedo = 0;
+        descs[k].prefix = prefix;
+        made = subject_export(&descs[k]);
+        descs[k].prefix = "all_";
+        apart += made.size;
+        fputs(made.text, stream);
+        weft_export_free(&made);
+    }
+    if (weft_export_all(descs, COUNT, &made, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_true(made.size < apart);
+    fputs(made.text, stream);
+    weft_export_free(&made);
+    fprintf(
+        stream,
+        "\nint differ(void);\nint differ(void) {\n  int wrong = 0;\n  for (int n = 1; n < 40; n++) {\n"
+        "    float t = 0.038f * (float)n, q = 1.3f * (float)n;\n"
+        "    All_Dir x = {sinf(t), 0.0f, cosf(t)}, y = {sinf(t) * cosf(q), sinf(t) * sinf(q), cosf(t)};\n");
+    for (int k = 0; k < COUNT; k++) {
+        char id[32];
+        snprintf(id, sizeof id, "%s", ids[k]);
+        for (char *c = id; *c; c++)
+            if (*c == '-') *c = '_';
+        fprintf(stream, "    { P%d_Dir o = {x.x, x.y, x.z}, i = {y.x, y.y, y.z};\n", k);
+        if (descs[k].lobe) {
+            bool two = weft_lobe_info(descs[k].lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS;
+            fprintf(stream,
+                    "      P%d_Rgb c = {0.5f, 0.4f, 0.3f}; All_Rgb d = {0.5f, 0.4f, 0.3f};\n"
+                    "      wrong += p%d_%s_eval(p%d_%s_default(), c, %so, i).g != "
+                    "all_%s_eval(all_%s_default(), d, "
+                    "%sx, y).g; }\n",
+                    k, k, id, k, id, two ? "c, " : "", id, id, two ? "d, " : "");
+        } else {
+            fprintf(stream,
+                    "      wrong += p%d_%s_shade(p%d_%s_surface(), o, i).g != "
+                    "all_%s_shade(all_%s_surface(), x, y).g; }\n",
+                    k, id, k, id, id, id);
+        }
+    }
+    fprintf(stream, "  }\n  return wrong;\n}\n");
+    assert_int_equal(fclose(stream), 0);
+    snprintf(command, sizeof command,
+             "cd %s && sed -i 's/\\bP\\([0-9]\\)_/P\\1/g; s/\\bAll_/All/g' all.c && "
+             "gcc -std=c99 -O1 -ffp-contract=off -shared -fPIC all.c -o all.so -lm",
+             folder);
+    assert_int_equal(system(command), 0);
+    snprintf(path, sizeof path, "%s/all.so", folder);
+    void *library = dlopen(path, RTLD_NOW);
+    assert_non_null(library);
+    union {
+        void *symbol;
+        int (*run)(void);
+    } differ = {.symbol = dlsym(library, "differ")};
+    assert_non_null(differ.symbol);
+    assert_int_equal(differ.run(), 0);
+    dlclose(library);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    descs[1] = descs[0]; /* no two by one name */
+    assert_int_not_equal(weft_export_all(descs, 2, &made, &error), WEFT_OK);
+    assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+    descs[1] = (WeftExportDesc){.profile = "disney", .target = WEFT_EXPORT_GLSL};
+    assert_int_not_equal(weft_export_all(descs, 2, &made, &error), WEFT_OK);
+    assert_int_not_equal(weft_export_all(descs, 0, &made, &error), WEFT_OK);
+    assert_int_not_equal(weft_export_all(descs, WEFT_EXPORT_SUBJECTS_MAX + 1, &made, &error), WEFT_OK);
+}
+
 /* GLSL keeps names with "__" for itself, and any program may call a material anything. */
 static void no_name_has_two_underscores(void **state) {
     (void)state;
@@ -200,8 +402,13 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_are_clean),      cmocka_unit_test(nothing_is_idle),
-        cmocka_unit_test(pi_gives_one_picture), cmocka_unit_test(no_name_has_two_underscores),
+        cmocka_unit_test(texts_are_clean),
+        cmocka_unit_test(nothing_is_idle),
+        cmocka_unit_test(texts_read_natively),
+        cmocka_unit_test(records_nest_as_webgl_takes_them),
+        cmocka_unit_test(pi_gives_one_picture),
+        cmocka_unit_test(several_share_one_text),
+        cmocka_unit_test(no_name_has_two_underscores),
         cmocka_unit_test(nonsense_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, NULL);

@@ -222,10 +222,10 @@ static inline Choices test_choices(int sheen_lobe, int layer) {
 }
 
 /* The stack of a surface with that sheen. */
-static inline Stack test_stack(const Surface *surface, int layer, const AlbedoTable *table, Dir o) {
+static inline SeenStack test_stack(const Surface *surface, int layer, const AlbedoTable *table, Dir o) {
     Choices choices = test_choices(table->lobe.id, layer);
-    Stack stack;
-    stack_make(&stack, surface, &choices, albedo_table_ref(table), o);
+    SeenStack stack;
+    seen_make(&stack, surface, &choices, albedo_table_ref(table), o);
     return stack;
 }
 
@@ -246,7 +246,7 @@ static inline Lobe sheen_lobe(int id, float roughness) {
     Surface cloth = white_cloth(roughness);
     Choices choices = test_choices(id, CHOICE_AUTO);
     Stack stack;
-    stack_make(&stack, &cloth, &choices, (TableRef){.kind = TABLE_NONE}, dir(0.0f, 0.0f, 1.0f));
+    stack_make(&stack, &cloth, &choices, (TableRef){.kind = TABLE_NONE});
     return stack.sheen.lobe;
 }
 

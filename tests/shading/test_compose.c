@@ -15,27 +15,27 @@ static Surface plain(void) {
                      .anisotropy_direction = {1.0f, 0.0f, 0.0f}};
 }
 
-static Stack made(const Surface *surface, Choices choices, Dir o) {
+static SeenStack made(const Surface *surface, Choices choices, Dir o) {
     static AlbedoTable table;
     static bool filled;
     if (!filled) fill_albedo(&table, LOBE_CHARLIE_CONTY_KULLA);
     filled = true;
-    Stack stack;
-    stack_make(&stack, surface, &choices, albedo_table_ref(&table), o);
+    SeenStack stack;
+    seen_make(&stack, surface, &choices, albedo_table_ref(&table), o);
     return stack;
 }
 
 static double furnace(const Surface *surface, Choices choices, double cos_o) {
     enum { CELLS = 200 };
     Dir o = direction_cos(cos_o, 0.0);
-    Stack stack = made(surface, choices, o);
+    SeenStack stack = made(surface, choices, o);
     Grid grid = grid_about(o);
     double step = 2.0 / CELLS, sum = 0.0;
     for (int j = 0; j < CELLS; j++)
         for (int k = 0; k < CELLS; k++) {
             double area;
             Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
-            if (i.z > 0.0f) sum += (double)stack_eval(&stack, o, i, 0).f_cos.g * area * step * step;
+            if (i.z > 0.0f) sum += (double)seen_eval(&stack, i, 0).f_cos.g * area * step * step;
         }
     return sum;
 }
@@ -83,8 +83,8 @@ static void seed_is_its_formula(void **state) {
         s.roughness = 0.3f + 0.7f * random_unit(&random);
         s.sheen_roughness = 0.3f + 0.7f * random_unit(&random);
         Dir o = random_direction(&random), i = random_direction(&random);
-        Stack stack = made(&s, choices, o);
-        Rgb f_cos = stack_eval(&stack, o, i, 0).f_cos;
+        SeenStack stack = made(&s, choices, o);
+        Rgb f_cos = seen_eval(&stack, i, 0).f_cos;
         const float found[] = {f_cos.r, f_cos.g, f_cos.b},
                     base[] = {s.base_color.r, s.base_color.g, s.base_color.b},
                     color[] = {s.sheen_color.r, s.sheen_color.g, s.sheen_color.b};
@@ -140,18 +140,18 @@ static void a_round_highlight_knows_no_brushing(void **state) {
         choices.profile = profiles[k];
         choices.d = D_GGX;
         Dir o = direction(0.4, 0.2), i = direction(0.7, 2.9);
-        Stack a = made(&brushed, choices, o), b = made(&round, choices, o);
-        assert_float_equal(a.specular.lobe.params[0], 0.25f, 1e-6f);
-        assert_float_equal(stack_eval(&a, o, i, 0).f_cos.g, stack_eval(&b, o, i, 0).f_cos.g, 0.0f);
+        SeenStack a = made(&brushed, choices, o), b = made(&round, choices, o);
+        assert_float_equal(a.stack.specular.lobe.params[0], 0.25f, 1e-6f);
+        assert_float_equal(seen_eval(&a, i, 0).f_cos.g, seen_eval(&b, i, 0).f_cos.g, 0.0f);
         choices.d = D_GGX_ANISO; /* a round V beside it: the mean width */
         choices.v = V_SMITH_GGX;
-        Stack c = made(&brushed, choices, o);
-        const float *p = c.specular.lobe.params;
+        SeenStack c = made(&brushed, choices, o);
+        const float *p = c.stack.specular.lobe.params;
         Angles angles = angles_between(o, i);
         float alpha = p[0] * sqrt(p[COOK_TORRANCE_STRETCH]), ax = p[0] * p[COOK_TORRANCE_STRETCH];
         float dv =
             term_d(D_GGX_ANISO, p[0], ax, p[0], angles.h) * term_v(V_SMITH_GGX, alpha, ax, p[0], angles);
-        assert_float_equal(lobe_eval(&c.specular.lobe, angles), dv, 1e-6f * dv);
+        assert_float_equal(lobe_eval(&c.stack.specular.lobe, angles), dv, 1e-6f * dv);
     }
 }
 
@@ -169,30 +169,30 @@ static void a_sheen_is_made_of_free_terms(void **state) {
         Choices c = test_choices(n % 2 ? LOBE_COOK_TORRANCE : CHOICE_AUTO, LAYER_ADDITIVE);
         c.sheen_d = n % D_COUNT, c.sheen_v = n / D_COUNT % V_COUNT, c.sheen_f = n / D_COUNT / V_COUNT;
         Dir o = random_direction(&random), i = random_direction(&random);
-        Stack stack = made(&s, c, o);
+        SeenStack stack = made(&s, c, o);
         Angles a = angles_between(o, i);
         float alpha = s.sheen_roughness * s.sheen_roughness,
               share = term_f(c.sheen_f, compose_ior(&s), 0.0f, a.d);
         float dv = term_d(c.sheen_d, alpha, alpha, alpha, a.h) * term_v(c.sheen_v, alpha, alpha, alpha, a);
         float expected = dv * share_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
-        assert_float_equal(stack_eval(&stack, o, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);
+        assert_float_equal(seen_eval(&stack, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);
     }
     /* what is not chosen: of the profile's own terms, or of charlie-neubelt */
     Surface s = plain();
     s.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
     s.sheen_roughness = 0.5f;
     Choices c = test_choices(LOBE_COOK_TORRANCE, CHOICE_AUTO);
-    Stack stack = made(&s, c, direction(0.3, 0.0));
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_D], D_CHARLIE);
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_V], V_NEUBELT);
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_F], F_NONE);
+    SeenStack stack = made(&s, c, direction(0.3, 0.0));
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_D], D_CHARLIE);
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_V], V_NEUBELT);
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_F], F_NONE);
     c = test_choices(CHOICE_AUTO, CHOICE_AUTO);
     c.profile = choice_find(CHOICE_profile, "order-1886");
     c.sheen_v = V_IMPLICIT;
     stack = made(&s, c, direction(0.3, 0.0));
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_D], D_ASHIKHMIN);
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_V], V_IMPLICIT);
-    assert_int_equal((int)stack.sheen.lobe.params[COOK_TORRANCE_F], F_SCHLICK);
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_D], D_ASHIKHMIN);
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_V], V_IMPLICIT);
+    assert_int_equal((int)stack.stack.sheen.lobe.params[COOK_TORRANCE_F], F_SCHLICK);
 }
 
 /* Beta of an exponential sheen is given, or else made of the roughness; no other sheen takes notice. */
@@ -205,14 +205,14 @@ static void beta_is_an_input(void **state) {
         s.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
         s.sheen_roughness = 0.4f;
         Choices c = test_choices(lobes[k], LAYER_ADDITIVE);
-        Stack rough = made(&s, c, o);
-        assert_float_equal(rough.at, k == 2 ? 0.16f : mix(0.5f, 20.0f, 0.4f), 1e-5f);
+        SeenStack rough = made(&s, c, o);
+        assert_float_equal(rough.stack.at, k == 2 ? 0.16f : mix(0.5f, 20.0f, 0.4f), 1e-5f);
         s.sheen_beta = 3.0f;
-        Stack given = made(&s, c, o);
-        assert_float_equal(given.at, k == 2 ? 0.16f : 3.0f, 1e-6f);
-        assert_float_equal(given.sheen.lobe.params[0], given.at, 0.0f);
+        SeenStack given = made(&s, c, o);
+        assert_float_equal(given.stack.at, k == 2 ? 0.16f : 3.0f, 1e-6f);
+        assert_float_equal(given.stack.sheen.lobe.params[0], given.stack.at, 0.0f);
         s.sheen_beta = 100.0f;
-        assert_float_equal(made(&s, c, o).at, k == 2 ? 0.16f : 100.0f, 1e-5f);
+        assert_float_equal(made(&s, c, o).stack.at, k == 2 ? 0.16f : 100.0f, 1e-5f);
     }
 }
 
@@ -229,9 +229,9 @@ static void cook_torrance_of_metals_and_dielectrics(void **state) {
         Choices c = test_choices(CHOICE_AUTO, CHOICE_AUTO);
         c.f = F_COOK_TORRANCE;
         c.v = V_IMPLICIT;
-        Stack stack = made(&s, c, o);
+        SeenStack stack = made(&s, c, o);
         float d = term_d(D_GGX, 0.36f, 0.36f, 0.36f, dir(0.0f, 0.0f, 1.0f));
-        float f = stack_eval(&stack, o, i, 0).f_cos.r / (0.25f * d * i.z);
+        float f = seen_eval(&stack, i, 0).f_cos.r / (0.25f * d * i.z);
         if (metal) assert_float_equal(f, 0.478f, 5e-4f);
         if (!metal) assert_float_equal(f, cook_torrance_f((0.8f / 2.8f) * (0.8f / 2.8f), 0.15f), 1e-4f);
     }
@@ -262,12 +262,12 @@ static void brushed_metal_stays_brushed(void **state) {
         Choices plainly = test_choices(CHOICE_AUTO, CHOICE_AUTO), chosen = plainly;
         if (silk) plainly.profile = chosen.profile = 3; /* hdrp-silk */
         chosen.f = F_SCHLICK;
-        Stack a = made(&surface, plainly, o), b = made(&surface, chosen, o);
-        assert_true(stack_eval(&a, o, along, 0).f_cos.g > 4.0f * stack_eval(&a, o, across, 0).f_cos.g);
+        SeenStack a = made(&surface, plainly, o), b = made(&surface, chosen, o);
+        assert_true(seen_eval(&a, along, 0).f_cos.g > 4.0f * seen_eval(&a, across, 0).f_cos.g);
         for (int k = 0; k < 2; k++) {
             Dir i = k ? across : along;
-            float f = stack_eval(&a, o, i, 0).f_cos.g;
-            assert_float_equal(stack_eval(&b, o, i, 0).f_cos.g, f, 1e-3f * f);
+            float f = seen_eval(&a, i, 0).f_cos.g;
+            assert_float_equal(seen_eval(&b, i, 0).f_cos.g, f, 1e-3f * f);
         }
     }
     assert_string_equal(weft_profile_id(3), "hdrp-silk");
@@ -283,8 +283,9 @@ static void reciprocal_asks_the_table(void **state) {
             surface.sheen_roughness = 0.5f;
             Choices choices = test_choices(CHOICE_AUTO, layer ? LAYER_STOCHASTIC : LAYER_RECIPROCAL);
             choices.profile = profile;
-            Stack stack = made(&surface, choices, direction_cos(0.5, 0.0));
-            if (stack.sheen.pick > 0.0f) assert_true(stack.albedo <= ALBEDO_KHRONOS && stack.e_avg.e > 0.0f);
+            SeenStack stack = made(&surface, choices, direction_cos(0.5, 0.0));
+            const Stack *m = &stack.stack;
+            if (HAS_SHEEN(m)) assert_true(m->albedo <= ALBEDO_KHRONOS && m->e_avg.e > 0.0f);
         }
 }
 
@@ -327,15 +328,38 @@ static void fibres_find_their_parameters(void **state) {
     surface.sheen_density = 2.0f;
     surface.nap = 0.6f;
     surface.nap_direction = dir(0.0f, -1.0f, 0.0f);
-    Stack stack = made(&surface, test_choices(LOBE_FIBRE_WALK, LAYER_ADDITIVE), direction_cos(0.5, 0.0));
-    const float *params = stack.sheen.lobe.params;
+    SeenStack stack = made(&surface, test_choices(LOBE_FIBRE_WALK, LAYER_ADDITIVE), direction_cos(0.5, 0.0));
+    const float *params = stack.stack.sheen.lobe.params;
     assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "density")], 2.0f, 0.0f);
     assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "tilt")], 0.6f, 0.0f);
     assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "azimuth")], 1.5f * PI, 1e-6f);
 }
 
+/* A stack holds nothing of the direction that it was last seen from. */
+static void one_stack_serves_all_directions(void **state) {
+    (void)state;
+    Random random = {29};
+    for (int n = 0; n < 400; n++) {
+        Surface s = random_surface(&random, true);
+        if (n % 4 == 0) s = dusted(s, random_unit(&random));
+        Choices c = test_choices(CHOICE_AUTO, n % 3 ? CHOICE_AUTO : n / 3 % LAYER_COUNT);
+        if (n % 2 && weft_profile_id(n / 2 % 15)) c.profile = n / 2 % 15;
+        SeenStack kept = made(&s, c, random_direction(&random));
+        for (int k = 0; k < 3; k++) {
+            Dir o = random_direction(&random), i = random_direction(&random);
+            SeenStack fresh = made(&s, c, o);
+            stack_see(&kept.stack, o, &kept.view);
+            StackValue a = seen_eval(&kept, i, 1), b = seen_eval(&fresh, i, 1);
+            assert_memory_equal(&a, &b, sizeof a);
+            Dir v = seen_sample(&kept, 0.3f, 0.7f), w = seen_sample(&fresh, 0.3f, 0.7f);
+            assert_memory_equal(&v, &w, sizeof v);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_stack_serves_all_directions),
         cmocka_unit_test(seed_is_its_formula),
         cmocka_unit_test(seed_leaves_what_wears_no_sheen),
         cmocka_unit_test(side_by_side_gains_nothing),

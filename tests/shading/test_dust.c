@@ -29,9 +29,9 @@ static const AlbedoTable *table(void) {
     return &made;
 }
 
-static Stack stack_of(const Surface *surface, const Choices *choices, Dir o) {
-    Stack stack;
-    stack_make(&stack, surface, choices, albedo_table_ref(table()), o);
+static SeenStack stack_of(const Surface *surface, const Choices *choices, Dir o) {
+    SeenStack stack;
+    seen_make(&stack, surface, choices, albedo_table_ref(table()), o);
     return stack;
 }
 
@@ -145,11 +145,11 @@ static void no_dust_changes_nothing(void **state) {
             clean.dust_noise = 1.0f;
             clean.dust_scale = 0.01f;
             clean = dust_settle(clean, dir(0.0f, 1.0f, 0.0f), dir(1.0f, 2.0f, 3.0f));
-            Stack a = stack_of(&bare, &choices, o), b = stack_of(&clean, &choices, o);
-            StackValue f = stack_eval(&a, o, i, 1), g = stack_eval(&b, o, i, 1);
+            SeenStack a = stack_of(&bare, &choices, o), b = stack_of(&clean, &choices, o);
+            StackValue f = seen_eval(&a, i, 1), g = seen_eval(&b, i, 1);
             assert_memory_equal(&f, &g, sizeof f);
-            assert_true(b.dust.pick <= 0.0f);
-            Dir s = stack_sample(&a, o, 0.3f, 0.6f), t = stack_sample(&b, o, 0.3f, 0.6f);
+            assert_true(b.view.pick.dust <= 0.0f);
+            Dir s = seen_sample(&a, 0.3f, 0.6f), t = seen_sample(&b, 0.3f, 0.6f);
             assert_memory_equal(&s, &t, sizeof s);
         }
 }
@@ -171,12 +171,12 @@ static void dust_takes_from_all_below(void **state) {
             s.dust_roughness = 0.4f + 0.6f * random_unit(&random);
             s.dust_color = (Rgb){0.9f, 0.5f, 0.0f};
             bare.dust = 0.0f;
-            Stack dusted = stack_of(&s, &choices, o), base = stack_of(&bare, &choices, o);
+            SeenStack dusted = stack_of(&s, &choices, o), base = stack_of(&bare, &choices, o);
             Lobe lobe = lobe_rough(LOBE_LTC_FIBRE, s.dust_roughness);
             double one = (double)albedo_quadrature(&lobe, o, 1e-5).f0,
                    all = one * eddington(8.0 * (double)s.dust, (double)o.z) / eddington(1.0, (double)o.z),
                    f = (double)lobe_eval(&lobe, angles_between(o, i)) * (double)i.z * all / one;
-            Rgb with = stack_eval(&dusted, o, i, 0).f_cos, without = stack_eval(&base, o, i, 0).f_cos;
+            Rgb with = seen_eval(&dusted, i, 0).f_cos, without = seen_eval(&base, i, 0).f_cos;
             const float found[] = {with.r, with.g, with.b}, below[] = {without.r, without.g, without.b},
                         color[] = {0.9f, 0.5f, 0.0f};
             for (int c = 0; c < 3; c++) {
@@ -188,7 +188,7 @@ static void dust_takes_from_all_below(void **state) {
 }
 
 /* Sum of f cos over the hemisphere, the midpoint rule on the grid of cases.h. */
-static Rgb furnace(const Stack *stack, Dir o, int cells) {
+static Rgb furnace(const SeenStack *stack, Dir o, int cells) {
     Grid grid = grid_about(o);
     double step = 2.0 / cells, sum[3] = {0.0};
     for (int j = 0; j < cells; j++)
@@ -196,7 +196,7 @@ static Rgb furnace(const Stack *stack, Dir o, int cells) {
             double area;
             Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
             if (i.z <= 0.0f) continue;
-            Rgb f = stack_eval(stack, o, i, 0).f_cos;
+            Rgb f = seen_eval(stack, i, 0).f_cos;
             sum[0] += (double)f.r * area * step * step;
             sum[1] += (double)f.g * area * step * step;
             sum[2] += (double)f.b * area * step * step;
@@ -221,7 +221,7 @@ static void white_under_white_stays_white(void **state) {
                 s.dust_roughness = roughnesses[r];
                 s.dust_color = (Rgb){1.0f, 0.5f, 0.0f};
                 Dir o = direction_cos(cosines[c], 0.4);
-                Stack stack = stack_of(&s, &choices, o);
+                SeenStack stack = stack_of(&s, &choices, o);
                 Rgb all = furnace(&stack, o, 120);
                 worst = fmax(worst, fabs((double)all.r - 1.0));
                 assert_true(all.b < all.g && all.g < all.r);
@@ -258,20 +258,20 @@ static void picks_sum_to_one(void **state) {
     for (int k = 0; stack_choices(k, &choices); k++)
         for (int n = 0; n < 4; n++) {
             Surface s = dusty(&random, random_unit(&random));
-            Stack m = stack_of(&s, &choices, random_direction(&random));
-            const Slot *slots[] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
+            SeenStack m = stack_of(&s, &choices, random_direction(&random));
+            const Scales *pick = &m.view.pick;
+            const float picks[] = {pick->diffuse, pick->specular, pick->sheen, pick->coat, pick->dust};
             int drawn[5] = {0};
             float sum = 0.0f;
-            for (int slot = 0; slot < 5; slot++) sum += slots[slot]->pick;
+            for (int slot = 0; slot < 5; slot++) sum += picks[slot];
             assert_float_equal(sum, 1.0f, 1e-6f);
-            assert_true(m.dust.pick > 0.01f);
+            assert_true(pick->dust > 0.01f);
             for (int j = 0; j < COUNT; j++) {
                 float u = ((float)j + 0.5f) / COUNT;
-                const Slot *slot = stack_pick(&m, &u);
-                for (int i = 0; i < 5; i++) drawn[i] += slot == slots[i];
+                drawn[stack_pick(&m.view, &u)]++;
             }
             for (int slot = 0; slot < 5; slot++)
-                assert_float_equal((float)drawn[slot] / COUNT, slots[slot]->pick, 2.0f / COUNT);
+                assert_float_equal((float)drawn[slot] / COUNT, picks[slot], 2.0f / COUNT);
         }
 }
 
@@ -288,10 +288,10 @@ static void stochastic_layers_are_dimmed_alike(void **state) {
     Random random = {7};
     for (int k = 0; k < 50; k++) {
         Dir o = random_direction(&random), i = random_direction(&random);
-        Stack a = stack_of(&s, &choices, o), b = stack_of(&bare, &choices, o);
-        float with = stack_eval(&a, o, i, 9).f_cos.g, without = stack_eval(&b, o, i, 9).f_cos.g;
-        assert_float_equal(with, without * a.left, 1e-3f * without + 1e-6f);
-        assert_true(a.left < 0.7f);
+        SeenStack a = stack_of(&s, &choices, o), b = stack_of(&bare, &choices, o);
+        float with = seen_eval(&a, i, 9).f_cos.g, without = seen_eval(&b, i, 9).f_cos.g;
+        assert_float_equal(with, without * a.view.dust_keep, 1e-3f * without + 1e-6f);
+        assert_true(a.view.dust_keep < 0.7f);
     }
 }
 

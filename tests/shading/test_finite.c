@@ -140,13 +140,13 @@ static void stacks_stay_finite(void **state) {
         Surface surface = random_surface(&random, n % 2);
         if (n % 5 == 0) surface.roughness = surface.sheen_roughness = surface.clearcoat_roughness = 0.0f;
         Dir o = hard_direction(&random), i = partner(&random, o);
-        Stack stack = test_stack(&surface, n % LAYER_COUNT, &table, o);
-        StackValue value = stack_eval(&stack, o, i, 0);
+        SeenStack stack = test_stack(&surface, n % LAYER_COUNT, &table, o);
+        StackValue value = seen_eval(&stack, i, 0);
         assert_true(is_sound(value.f_cos.r) && is_sound(value.f_cos.g) && is_sound(value.f_cos.b));
         assert_true(is_sound(value.pdf));
-        Dir s = stack_sample(&stack, o, random_unit(&random), random_unit(&random));
+        Dir s = seen_sample(&stack, random_unit(&random), random_unit(&random));
         assert_true(is_finite(s.x) && is_finite(s.y) && is_finite(s.z));
-        if (s.z > 0.0f) assert_true(is_sound(stack_eval(&stack, o, s, 0).pdf));
+        if (s.z > 0.0f) assert_true(is_sound(seen_eval(&stack, s, 0).pdf));
     }
 }
 

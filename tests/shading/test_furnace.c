@@ -2,7 +2,7 @@
 #include "cases.h"
 
 /* What a stack reflects of a uniform light, per channel. Midpoint sum on the grid of cases.h. */
-static Rgb furnace(const Stack *stack, Dir o, int cells) {
+static Rgb furnace(const SeenStack *stack, Dir o, int cells) {
     Grid grid = grid_about(o);
     double step = 2.0 / cells, r = 0.0, g = 0.0, b = 0.0;
     for (int j = 0; j < cells; j++)
@@ -10,7 +10,7 @@ static Rgb furnace(const Stack *stack, Dir o, int cells) {
             double area;
             Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
             if (i.z <= 0.0f) continue;
-            Rgb f = stack_eval(stack, o, i, 0).f_cos;
+            Rgb f = seen_eval(stack, i, 0).f_cos;
             r += (double)f.r * area * step * step;
             g += (double)f.g * area * step * step;
             b += (double)f.b * area * step * step;
@@ -19,14 +19,14 @@ static Rgb furnace(const Stack *stack, Dir o, int cells) {
 }
 
 /* The same by sampling, and its standard error in *error. */
-static double sampled_furnace(const Stack *stack, Dir o, int count, double *error) {
+static double sampled_furnace(const SeenStack *stack, Dir o, int count, double *error) {
     Random random = {23};
     double sum = 0.0, squares = 0.0;
     for (int n = 0; n < count; n++) {
         float u = random_unit(&random), v = random_unit(&random);
-        Dir i = stack_sample(stack, o, u, v);
+        Dir i = seen_sample(stack, u, v);
         if (i.z <= 0.0f) continue;
-        StackValue value = stack_eval(stack, o, i, 0);
+        StackValue value = seen_eval(stack, i, 0);
         double x = (double)max(value.f_cos.r, max(value.f_cos.g, value.f_cos.b)) / (double)value.pdf;
         sum += x;
         squares += x * x;
@@ -65,15 +65,15 @@ static void albedo_view_returns_what_it_receives(void **state) {
                 Surface cloth = white_cloth((float)r / 10.0f);
                 seen++;
                 Dir o = direction_cos(c / 10.0 - 0.05, 0.0); /* the azimuth of the table */
-                Stack stack = test_stack(&cloth, view, &table, o),
-                      base = test_stack(&cloth, additive, &table, o);
-                float e = stack.e_o.e;
+                SeenStack stack = test_stack(&cloth, view, &table, o),
+                          base = test_stack(&cloth, additive, &table, o);
+                float e = stack.view.e_o.e;
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;
                     worst = fmax(worst, has_creases(id) ? 0.0 : fabs(all - 1.0));
                     if (fabs(all - 1.0) > (has_creases(id) ? 5e-3 : 1e-3))
-                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.at,
+                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.stack.at,
                                  (double)o.z, all);
                 }
                 float step = has_creases(id) ? 5e-3f : 2e-3f;
@@ -99,7 +99,7 @@ static void no_surface_reflects_more_than_it_receives(void **state) {
         for (int c = 0; c < 4; c++) {
             double error, cos_o = 0.02 + 0.98 * (double)random_unit(&random);
             Dir o = direction_cos(cos_o, 0.5 + k);
-            Stack stack = test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o);
+            SeenStack stack = test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o);
             double all = sampled_furnace(&stack, o, samples, &error);
             highest = fmax(highest, all - 4.0 * error);
             if (all > 1.0 + 1e-2 + 4.0 * error)

@@ -22,7 +22,7 @@ static void fill(AlbedoTable *table, float roughness, float tilt, bool scaled) {
     (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, alpha, alpha, 0);
 }
 
-static double furnace(const Stack *stack, Dir o) {
+static double furnace(const SeenStack *stack, Dir o) {
     enum { CELLS = 44 };
     Grid grid = grid_about(o);
     double step = 2.0 / CELLS, sum = 0.0;
@@ -30,7 +30,7 @@ static double furnace(const Stack *stack, Dir o) {
         for (int k = 0; k < CELLS; k++) {
             double area;
             Dir i = grid_direction(grid, -1.0 + step * (j + 0.5), -1.0 + step * (k + 0.5), &area);
-            if (i.z > 0.0f) sum += (double)stack_eval(stack, o, i, 0).f_cos.g * area * step * step;
+            if (i.z > 0.0f) sum += (double)seen_eval(stack, i, 0).f_cos.g * area * step * step;
         }
     return sum;
 }
@@ -47,9 +47,9 @@ static void measure(Worst *worst, const AlbedoTable *table, float roughness, flo
     for (int c = 0; c < COSINES; c++)
         for (int k = 0; k < HEADINGS; k++) {
             Dir o = direction_cos((double)cosines[c], (double)(azimuth + headings[k] * DEGREES));
-            Stack stack = test_stack(&cloth, LAYER_ALBEDO_VIEW, table, o);
+            SeenStack stack = test_stack(&cloth, LAYER_ALBEDO_VIEW, table, o);
             double all = furnace(&stack, o),
-                   across = all + (double)(stack.e_o.e - table_sheen(ref, o.z, stack.at).e);
+                   across = all + (double)(stack.view.e_o.e - table_sheen(ref, o.z, stack.stack.at).e);
             worst->off = fmax(worst->off, fabs(all - 1.0));
             worst->across = fmax(worst->across, fabs(across - 1.0));
         }
@@ -131,9 +131,9 @@ static void the_rule_stays_reciprocal(void **state) {
     fill(&table, 0.7f, 0.6f, false);
     for (int n = 0; n < 2000; n++) {
         Dir o = random_direction(&random), i = random_direction(&random);
-        Stack there = test_stack(&cloth, LAYER_RECIPROCAL, &table, o),
-              back = test_stack(&cloth, LAYER_RECIPROCAL, &table, i);
-        float a = stack_eval(&there, o, i, 0).f_cos.g / i.z, b = stack_eval(&back, i, o, 0).f_cos.g / o.z;
+        SeenStack there = test_stack(&cloth, LAYER_RECIPROCAL, &table, o),
+                  back = test_stack(&cloth, LAYER_RECIPROCAL, &table, i);
+        float a = seen_eval(&there, i, 0).f_cos.g / i.z, b = seen_eval(&back, o, 0).f_cos.g / o.z;
         if (!(fabsf(a - b) <= 1e-3f * (a + b))) fail_msg("%g there, %g back", (double)a, (double)b);
     }
 }

@@ -429,7 +429,7 @@ static void profiles_are_their_engines(void **state) {
         Pair p = pair_of(o, i);
         for (int profile = 1; profile < PROFILES; profile++) {
             Choices choices = only_profile(profile);
-            Stack stack;
+            SeenStack stack;
             double tolerance = 0.0;
             if (profile == KHRONOS) {
                 Lobe lobe = lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness);
@@ -442,12 +442,12 @@ static void profiles_are_their_engines(void **state) {
                 openpbr_fuzz[0] = (double)lobe_eval(&lobe, angles_between(o, i));
                 openpbr_fuzz[1] = (double)albedo_quadrature(&lobe, o, 1e-4).f0;
             }
-            stack_make(&stack, &s, &choices,
-                       profile == KHRONOS   ? khronos_ref()
-                       : profile == OPENPBR ? openpbr_ref()
-                                            : (TableRef){.kind = TABLE_NONE},
-                       o);
-            Color got = times(color_of(stack_eval(&stack, o, i, 0).f_cos), 1.0 / p.l),
+            seen_make(&stack, &s, &choices,
+                      profile == KHRONOS   ? khronos_ref()
+                      : profile == OPENPBR ? openpbr_ref()
+                                           : (TableRef){.kind = TABLE_NONE},
+                      o);
+            Color got = times(color_of(seen_eval(&stack, i, 0).f_cos), 1.0 / p.l),
                   want = engines[profile](&s, p);
             if (profile == KHRONOS) { /* 2e-3 of what E takes away */
                 Surface bare = s;
@@ -503,15 +503,15 @@ static void nothing_is_infinite_or_negative(void **state) {
             o.z = max(o.z, 1e-6f), i.z = max(i.z, 1e-6f);
             int profile = 1 + (n + d) % (PROFILES - 1);
             Choices choices = only_profile(profile);
-            Stack stack;
-            stack_make(&stack, &s, &choices, khronos_ref(), o);
-            StackValue value = stack_eval(&stack, o, i, 0);
+            SeenStack stack;
+            seen_make(&stack, &s, &choices, khronos_ref(), o);
+            StackValue value = seen_eval(&stack, i, 0);
             Rgb f = value.f_cos;
             if (!(isfinite(f.r) && isfinite(f.g) && isfinite(f.b) && isfinite(value.pdf) && f.r >= 0.0f &&
                   f.g >= 0.0f && f.b >= 0.0f && value.pdf >= 0.0f))
                 fail_msg("%s, surface %d: %g %g %g, pdf %g", weft_profile_id(profile), n, (double)f.r,
                          (double)f.g, (double)f.b, (double)value.pdf);
-            Dir w = stack_sample(&stack, o, random_unit(&random), random_unit(&random));
+            Dir w = seen_sample(&stack, random_unit(&random), random_unit(&random));
             assert_true(isfinite(w.x) && isfinite(w.y) && isfinite(w.z));
         }
     }
@@ -546,10 +546,11 @@ static void sheens_reflect_what_their_engines_do(void **state) {
         s.clearcoat = s.anisotropy = 0.0f;
         Dir o = direction_cos(known[k].v, 0.0);
         Choices choices = only_profile(known[k].profile);
-        Stack stack;
-        stack_make(&stack, &s, &choices, (TableRef){.kind = TABLE_NONE}, o);
-        Albedo e = albedo_quadrature(&stack.sheen.lobe, o, 1e-5);
-        double got = (double)stack.sheen.f0.g * (double)e.f0 + (double)stack.sheen.f90.g * (double)e.f90;
+        SeenStack stack;
+        seen_make(&stack, &s, &choices, (TableRef){.kind = TABLE_NONE}, o);
+        Albedo e = albedo_quadrature(&stack.stack.sheen.lobe, o, 1e-5);
+        double got =
+            (double)stack.stack.sheen.f0.g * (double)e.f0 + (double)stack.stack.sheen.f90.g * (double)e.f90;
         if (!(fabs(got - known[k].e) < 0.004 * known[k].e + 5e-4))
             fail_msg("%s at %g, cos_o %g: %.5f and not %g", weft_profile_id(known[k].profile),
                      (double)known[k].r, known[k].v, got, known[k].e);
@@ -668,9 +669,9 @@ static void no_two_are_the_same(void **state) {
         double f[PROFILES];
         for (int profile = 0; profile < PROFILES; profile++) {
             Choices choices = only_profile(profile);
-            Stack stack;
-            stack_make(&stack, &s, &choices, khronos_ref(), o);
-            f[profile] = (double)stack_eval(&stack, o, i, 0).f_cos.g;
+            SeenStack stack;
+            seen_make(&stack, &s, &choices, khronos_ref(), o);
+            f[profile] = (double)seen_eval(&stack, i, 0).f_cos.g;
         }
         for (int j = 0; j < PROFILES; j++)
             for (int k = 0; k < j; k++)

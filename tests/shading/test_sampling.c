@@ -67,12 +67,9 @@ static void lobes_sample_what_their_pdf_says(void **state) {
 }
 
 static void stack_pdf(const View *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++)
-        pdf[k] = stack_eval(&view->stack, view->o, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
+    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
-static Dir stack_draw(const View *view, float u, float v) {
-    return stack_sample(&view->stack, view->o, u, v);
-}
+static Dir stack_draw(const View *view, float u, float v) { return seen_sample(&view->whole, u, v); }
 static const Subject stacked = {.pdf = stack_pdf, .sample = stack_draw};
 
 static void stacks_sample_what_their_pdf_says(void **state) {
@@ -86,7 +83,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
             View view = {
-                .subject = &stacked, .o = o, .stack = test_stack(&surface, k % LAYER_COUNT, &table, o)};
+                .subject = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
             char name[64];
             snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
             check_proposal(&view, name);

@@ -163,14 +163,14 @@ static void a_coloured_sheen_takes_what_it_sends(void **state) {
             choices.layer_by = LAYER_BY_CHANNEL;
             Dir o = direction_cos(0.08 + 0.4 * (n / 4), 0.0);
             Grid grid = grid_about(o);
-            Stack stack;
-            stack_make(&stack, &cloth, &choices, albedo_table_ref(&table), o);
+            SeenStack stack;
+            seen_make(&stack, &cloth, &choices, albedo_table_ref(&table), o);
             enum { CELLS = 120 };
             double step = 2.0 / CELLS, area, sum[3] = {0.0, 0.0, 0.0};
             for (int k = 0; k < CELLS * CELLS; k++) {
                 Dir i = grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5),
                                        &area);
-                Rgb f = stack_eval(&stack, o, i, 0).f_cos;
+                Rgb f = seen_eval(&stack, i, 0).f_cos;
                 sum[0] += (double)f.r * area * step * step, sum[1] += (double)f.g * area * step * step;
                 sum[2] += (double)f.b * area * step * step;
             }

@@ -201,7 +201,8 @@ static void a_surface_is_glsl(void **state) {
         put_main(&text,
                  "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
                  "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
-                 "    Stack m;\n    surface_stack(m, s, c, e, o);\n    StackValue v = stack_value(m, a, a);\n"
+                 "    Stack m;\n    surface_stack(m, s, c, e);\n    StackView w;\n    stack_view(m, o, w);\n"
+                 "    StackValue v = stack_value(m, w, a, a);\n"
                  "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
         end_clean(&text, "surface");
         batch_add(&batch, "surface", languages[l], text.bytes);

@@ -17,7 +17,9 @@
 #ifndef WEFT_CHARLIE_KHRONOS_H
 #define WEFT_CHARLIE_KHRONOS_H
 
-#include "shading/lobes/charlie_conty_kulla.h"
+#include "shading/lobe.h"
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/v_conty_kulla.h"
 
 #define CHARLIE_KHRONOS_PARAMS(P)                                                                            \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
@@ -25,28 +27,33 @@
 
 STRUCT(CharlieKhronos){CHARLIE_KHRONOS_PARAMS(FIELD)};
 
-STRUCT(CharlieKhronosPrepared) { CharlieContyKullaPrepared like; };
+STRUCT(CharlieKhronosPrepared) {
+    Charlie d;
+    ContyKulla shadow;
+};
 FN void charlie_khronos_prepare(CharlieKhronos m, CharlieKhronosPrepared *p) {
-    CharlieContyKulla like;
-    like.alpha = m.alpha;
-    charlie_conty_kulla_prepare(like, &p->like);
+    p->d = charlie_of(m.alpha);
+    p->shadow = conty_kulla_of(m.alpha);
 }
 
-STRUCT(CharlieKhronosView) { CharlieContyKullaView like; };
+STRUCT(CharlieKhronosView) {
+    CharlieSide side;
+    float lambda;
+};
 FN void charlie_khronos_view(const CharlieKhronosPrepared *p, Dir o, CharlieKhronosView *w) {
-    charlie_conty_kulla_view(&p->like, o, &w->like);
+    w->side = charlie_side(o);
+    w->lambda = conty_kulla_lambda(p->shadow, o.z);
 }
 
 FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Angles a) {
-    float d = charlie_d_sin2(p->like.d, a.sin2_h),
-          lambda = w->like.lambda + conty_kulla_lambda(p->like.shadow, a.i.z);
+    float d = charlie_d_sin2(p->d, a.sin2_h), lambda = w->lambda + conty_kulla_lambda(p->shadow, a.i.z);
     /* not the term's own V, whose floor under cos_o cos_i the clamp makes needless */
     float visibility = min(1.0f / max((1.0f + lambda) * 4.0f * a.o.z * a.i.z, 1e-30f), 1.0f);
-    return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->like.side, a));
+    return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->side, a));
 }
 FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u,
                               float v) {
-    return charlie_sample(p->like.d, w->like.side, o, u, v);
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

@@ -37,7 +37,7 @@
 
 STRUCT(Fibre){FIBRE_PARAMS(FIELD)};
 
-/* How fibres lie: how sharp and how they lean. The model of leaning fibres was fitted from alpha 0.38 up;
+/* The lie of fibres: sharpness and lean. The model of leaning fibres was fitted from alpha 0.38 up;
  * sharper ones that lean ever so little would reflect more than they receive. lobe_fitted says where this
  * takes another alpha. */
 STRUCT(FibreNap) {
@@ -74,7 +74,6 @@ FN Ltc fibre_ltc(float a, float cos_o) {
  * uniform, from where something is above the horizon, nu = -sin tilt, to nu = 1. Around t, from the side that
  * is up, the angle is uniform as far as the horizon. */
 STRUCT(FibreDraw) {
-    Ltc ltc;
     float nu, b, low, high; /* low .. high: of x / (b + |x|) */
     float cone; /* its part of the samples: near grazing, and where enough of the circle is above */
 };
@@ -83,7 +82,6 @@ FN float fibre_place(float x, float b) { return x / (b + abs(x)); }
 
 FN FibreDraw fibre_draw(FibreNap n, Dir o) {
     FibreDraw c;
-    c.ltc = fibre_ltc(n.alpha, o.z);
     c.nu = dir_dot(o, n.axis);
     c.b = max(n.s, o.z * n.s / (n.sin_t + n.s));
     c.low = fibre_place(c.nu - n.sin_t, c.b);
@@ -105,10 +103,10 @@ FN float fibre_reach(FibreNap n, float nu) {
 
 #define FIBRE_UNIFORM 0.04f
 
-FN float fibre_drawn(FibreNap n, FibreDraw c, Angles a) {
+FN float fibre_drawn(FibreNap n, FibreDraw c, Ltc ltc, Angles a) {
     float nu = clamp(dir_dot(a.i, n.axis), -1.0f, 1.0f), d = c.b + abs(nu + c.nu);
     float cone = c.b / (d * d * (c.high - c.low) * 2.0f * fibre_reach(n, nu));
-    return mix(mix(ltc_pdf(c.ltc, a.o, a.i), cone, c.cone), warp_uniform_pdf(a.i), FIBRE_UNIFORM);
+    return mix(mix(ltc_pdf(ltc, a.o, a.i), cone, c.cone), warp_uniform_pdf(a.i), FIBRE_UNIFORM);
 }
 
 FN Dir fibre_cone(FibreNap n, FibreDraw c, float u, float v) {
@@ -120,11 +118,11 @@ FN Dir fibre_cone(FibreNap n, FibreDraw c, float u, float v) {
                nu * n.cos_t + up * n.sin_t);
 }
 
-FN Dir fibre_direction(FibreNap n, FibreDraw c, Dir o, float u, float v) {
+FN Dir fibre_direction(FibreNap n, FibreDraw c, Ltc ltc, Dir o, float u, float v) {
     float rest = (u - FIBRE_UNIFORM) / (1.0f - FIBRE_UNIFORM);
     if (u < FIBRE_UNIFORM) return warp_uniform(u / FIBRE_UNIFORM, v);
     if (rest < c.cone) return fibre_cone(n, c, rest / c.cone, v);
-    return ltc_sample(c.ltc, o, (rest - c.cone) / (1.0f - c.cone), v);
+    return ltc_sample(ltc, o, (rest - c.cone) / (1.0f - c.cone), v);
 }
 
 STRUCT(FibrePrepared) {
@@ -139,11 +137,13 @@ FN void fibre_prepare(Fibre m, FibrePrepared *p) {
 }
 
 STRUCT(FibreView) {
+    Ltc ltc;
     FibreDraw draw;
     FibreSide side;
     float sigma;
 };
 FN void fibre_view(const FibrePrepared *p, Dir o, FibreView *w) {
+    w->ltc = fibre_ltc(p->nap.alpha, o.z);
     w->draw = fibre_draw(p->nap, o);
     w->side = fibre_side(p->model, o.z, w->draw.nu);
     w->sigma = flake_sigma(p->nap.s, w->draw.nu);
@@ -155,7 +155,7 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
         flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, flake_sigma(p->nap.s, nu_i), a.o, a.i);
     FibreSide i = fibre_side(p->model, a.i.z, nu_i);
     float turn = fibre_turn(w->side, i, a.o, a.i), multiple = fibre_multiple(p->model, w->side, i, turn);
-    LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_drawn(p->nap, w->draw, a));
+    LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_drawn(p->nap, w->draw, w->ltc, a));
     v.tint.s = multiple / max(single + multiple, 1e-30f);
     v.tint.q_o = w->side.q;
     v.tint.q_i = i.q;
@@ -163,7 +163,7 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
     return v;
 }
 FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {
-    return fibre_direction(p->nap, w->draw, o, u, v);
+    return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
 
 #endif

@@ -106,10 +106,12 @@ FN void fibre_table_prepare(FibreTable m, FibreTablePrepared *p) {
 }
 
 STRUCT(FibreTableView) {
+    Ltc ltc;
     FibreDraw draw;
     FibreTableSide side;
 };
 FN void fibre_table_view(const FibreTablePrepared *p, Dir o, FibreTableView *w) {
+    w->ltc = fibre_ltc(p->nap.alpha, o.z);
     w->draw = fibre_draw(p->nap, o);
     w->side = fibre_table_side(p->nap.alpha, o.z);
 }
@@ -118,10 +120,10 @@ FN LobeValue fibre_table_value(const FibreTablePrepared *p, const FibreTableView
     FibreTableSide i = fibre_table_side(p->nap.alpha, a.i.z);
     float multiple = fibre_table_multiple(w->side, i, a.o, a.i, p->nap.alpha, p->power);
     return lobe_value_of(flake_single_upright(p->flake, a.o, a.i) + multiple, 0.0f,
-                         fibre_drawn(p->nap, w->draw, a));
+                         fibre_drawn(p->nap, w->draw, w->ltc, a));
 }
 FN Dir fibre_table_sample(const FibreTablePrepared *p, const FibreTableView *w, Dir o, float u, float v) {
-    return fibre_direction(p->nap, w->draw, o, u, v);
+    return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
 
 #endif

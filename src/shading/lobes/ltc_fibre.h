@@ -32,20 +32,23 @@
 STRUCT(LtcFibre){LTC_FIBRE_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(ltc_fibre, LtcFibre)
 
-STRUCT(LtcFibreView) { LtcLobe ltc; };
+STRUCT(LtcFibreView) {
+    Ltc ltc;
+    float r; /* what it reflects */
+};
 FN void ltc_fibre_view(const LtcFibrePrepared *p, Dir o, LtcFibreView *w) {
-    w->ltc = ltc_table_level(lobe_table_ltc_fibre(), o.z, p->m.alpha);
-    w->ltc.f0 = min(w->ltc.f0, 1.0f);
+    LtcLobe at = ltc_table_level(lobe_table_ltc_fibre(), o.z, p->m.alpha);
+    w->ltc = at.m;
+    w->r = min(at.f0, 1.0f);
 }
 
 FN LobeValue ltc_fibre_value(const LtcFibrePrepared *p, const LtcFibreView *w, Angles a) {
-    Dir v = ltc_inverse(w->ltc.m, a.o, a.i);
+    Dir v = ltc_inverse(w->ltc, a.o, a.i);
     float r2 = max(dir_dot(v, v), 1e-18f); /* keeps its square a normal number */
-    return lobe_value_of(w->ltc.f0 * w->ltc.m.z * w->ltc.m.det / (PI * r2 * r2), 0.0f,
-                         ltc_pdf(w->ltc.m, a.o, a.i));
+    return lobe_value_of(w->r * w->ltc.z * w->ltc.det / (PI * r2 * r2), 0.0f, ltc_pdf(w->ltc, a.o, a.i));
 }
 FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o, float u, float v) {
-    return ltc_sample(w->ltc.m, o, u, v);
+    return ltc_sample(w->ltc, o, u, v);
 }
 
 #endif

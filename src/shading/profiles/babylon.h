@@ -21,7 +21,7 @@
 
 FN float babylon_alpha(float r) { return r * r + 0.0005f; }
 
-FN void babylon_stack(Stack *m, const Surface *s, Dir o) {
+FN void babylon_stack(Stack *m, const Surface *s) {
     float r = clamp(s->roughness, 0.0f, 1.0f), r_s = clamp(s->sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
     sheen.params[CHARLIE_NEUBELT_ALPHA] = max(babylon_alpha(r_s), 0.005f);
@@ -32,10 +32,10 @@ FN void babylon_stack(Stack *m, const Surface *s, Dir o) {
     float dielectric = 1.0f - s->metallic;
     Rgb below = rgb(max(1.0f - f0.r, 0.0f) * dielectric, max(1.0f - f0.g, 0.0f) * dielectric,
                     max(1.0f - f0.b, 0.0f) * dielectric);
-    workflow_base(m, s, rgb_mul(s->base_color, below), mixed, s->specular, o);
+    workflow_base(m, s, rgb_mul(s->base_color, below), mixed, s->specular);
     m->specular.lobe = lobe_default(LOBE_GGX);
     m->specular.lobe.params[GGX_ALPHA] = max(babylon_alpha(r), 0.001f);
-    filament_compensate(&m->specular, mixed, table_albedo(engine_table(ENGINE_BABYLON_GGX), o.z, r));
+    filament_compensate(m, mixed, VIEW_BABYLON, r);
 }
 
 #endif

@@ -15,15 +15,14 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflow.h"
 
-FN void cycles_velvet_stack(Stack *m, const Surface *s, Dir o) {
+FN void cycles_velvet_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);
     sheen.params[COOK_TORRANCE_ALPHA] = clamp(s->sheen_roughness, 0.01f, 1.0f);
     sheen.params[COOK_TORRANCE_D] = to_float(D_VELVET);
     sheen.params[COOK_TORRANCE_V] = to_float(V_COOK_TORRANCE);
     sheen.params[COOK_TORRANCE_F] = to_float(F_NONE);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
-              rgb_mean(s->base_color));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
 
 #endif

@@ -18,8 +18,8 @@ FN Rgb disney_2012_tint(Rgb base) {
     return rgb_grey(1.0f);
 }
 
-FN void disney_2012_stack(Stack *m, const Surface *s, Dir o) {
-    disney_tinted(m, s, disney_2012_tint(s->base_color), o);
+FN void disney_2012_stack(Stack *m, const Surface *s) {
+    disney_tinted(m, s, disney_2012_tint(s->base_color));
 }
 
 #endif

@@ -16,11 +16,10 @@
 
 #include "shading/profiles/filament_sheen.h"
 
-FN void filament_cloth_stack(Stack *m, const Surface *s, Dir o) {
+FN void filament_cloth_stack(Stack *m, const Surface *s) {
     float r = filament_roughness(s->sheen_roughness);
     filament_fuzz(m, r, rgb_scale(s->sheen_color, s->sheen), LAYER_ADDITIVE);
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
-              rgb_mean(s->base_color));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
 
 #endif

@@ -41,23 +41,27 @@ FN void filament_fuzz(Stack *m, float r, Rgb color, int layer) {
     m->sheen.f90 = m->sheen.f0;
 }
 
-/* 1 + f0 (1 / Ess - 1) on what a slot reflects. */
-FN void filament_compensate(Slot *slot, Rgb f0, float ess) {
-    Rgb gain = rgb_add(rgb_grey(1.0f), rgb_scale(f0, 1.0f / max(ess, 1e-3f) - 1.0f));
-    slot->f0 = rgb_mul(slot->f0, gain);
-    slot->f90 = rgb_mul(slot->f90, gain);
+/* What the highlight reflects, times f0 (1 / Ess - 1), is added to it: Ess towards wo, by the roughness. */
+FN void filament_compensate(Stack *m, Rgb f0, int view, float roughness) {
+    m->view = view;
+    m->gloss = roughness;
+    m->more_f0 = rgb_mul(m->specular.f0, f0);
+    m->more_f90 = rgb_mul(m->specular.f90, f0);
+}
+FN void filament_view(TableRef ess, const Stack *m, StackView *w) {
+    w->more = 1.0f / max(table_albedo(ess, w->o.z, m->gloss), 1e-3f) - 1.0f;
 }
 
-FN void filament_sheen_stack(Stack *m, const Surface *s, Dir o) {
+FN void filament_sheen_stack(Stack *m, const Surface *s) {
     float r = filament_roughness(s->roughness), r_s = filament_roughness(s->sheen_roughness);
     filament_fuzz(m, r_s, rgb_scale(s->sheen_color, s->sheen), LAYER_ALBEDO_VIEW);
     m->albedo = ALBEDO_FILAMENT;
     m->at = r_s;
     Rgb f0 = rgb_mix(metallic_f0(s), s->base_color, s->metallic);
     float f90 = min(16.5f * (f0.r + f0.g + f0.b), 1.0f);
-    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, f90, o);
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, f90);
     m->specular.lobe = lobe_rough(LOBE_GGX, r);
-    filament_compensate(&m->specular, f0, table_albedo(engine_table(ENGINE_FILAMENT_GGX), o.z, r));
+    filament_compensate(m, f0, VIEW_FILAMENT, r);
 }
 
 #endif

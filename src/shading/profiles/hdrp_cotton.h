@@ -17,14 +17,14 @@
 
 #include "shading/workflow.h"
 
-FN void hdrp_cotton_stack(Stack *m, const Surface *s, Dir o) {
+FN void hdrp_cotton_stack(Stack *m, const Surface *s) {
     float r = clamp(s->sheen_roughness, 0.0f, 1.0f), alpha = r * r;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
     sheen.params[CHARLIE_NEUBELT_ALPHA] = max(alpha * (1.0f + s->anisotropy), 0.005f);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
     Lobe diffuse = lobe_default(LOBE_FABRIC_LAMBERT);
     diffuse.params[FABRIC_LAMBERT_ROUGHNESS] = alpha;
-    slot_make(&m->diffuse, diffuse, s->base_color, s->base_color, 1.0f, rgb_mean(s->base_color));
+    slot_even(&m->diffuse, diffuse, s->base_color, s->base_color, 1.0f);
 }
 
 #endif

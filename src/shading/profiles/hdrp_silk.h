@@ -17,14 +17,14 @@
 
 #include "shading/workflows/metallic.h"
 
-FN void hdrp_silk_stack(Stack *m, const Surface *s, Dir o) {
+FN void hdrp_silk_stack(Stack *m, const Surface *s) {
     float r = clamp(s->roughness, 0.0f, 1.0f);
     Lobe silk = lobe_rough(LOBE_SILK, r), diffuse = lobe_default(LOBE_BURLEY);
     silk.params[SILK_ANISOTROPY] = clamp(s->anisotropy, 0.0f, 0.9f);
     diffuse.params[BURLEY_ROUGHNESS] = r;
     Rgb f0 = metallic_f0(s), color = rgb_scale(s->base_color, 1.0f / 1.03571f);
-    slot_make(&m->specular, silk, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, schlick_s(o.z)));
-    slot_make(&m->diffuse, diffuse, color, color, 1.0f, rgb_mean(color));
+    slot_make(&m->specular, silk, f0, rgb_grey(1.0f), 1.0f, rgb_mean(f0), 1.0f);
+    slot_even(&m->diffuse, diffuse, color, color, 1.0f);
 }
 
 #endif

@@ -27,9 +27,8 @@ FN float khronos_albedo(TableRef lobe, float cosine, float alpha) {
     return min(table_albedo(lobe, cosine, alpha), 1.0f);
 }
 
-FN void khronos_stack(Stack *m, const Surface *s, Dir o) {
-    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX, UNDER_HALF,
-                  o);
+FN void khronos_stack(Stack *m, const Surface *s) {
+    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX, UNDER_HALF);
     m->albedo = ALBEDO_KHRONOS;
 }
 

@@ -50,15 +50,12 @@ FN float materialx_b(float x, float y) {
     return clamp(n / d, 0.0f, 1.0f);
 }
 
-/* F (1 + k F) at a direction where F is one colour. */
-FN Rgb materialx_twice(Rgb f, float k) { return rgb_mul(f, rgb_add(rgb_grey(1.0f), rgb_scale(f, k))); }
-
 FN Rgb materialx_square(Rgb f0, float f90) {
     Rgb d = rgb(f90 - f0.r, f90 - f0.g, f90 - f0.b);
     return rgb_mul(d, d);
 }
 
-FN void materialx_stack(Stack *m, const Surface *s, Dir o) {
+FN void materialx_stack(Stack *m, const Surface *s) {
     float rho = s->sheen_roughness * s->sheen_roughness;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT);
     sheen.params[CHARLIE_NEUBELT_ALPHA] = clamp(rho, 0.005f, 4.0f);
@@ -67,18 +64,31 @@ FN void materialx_stack(Stack *m, const Surface *s, Dir o) {
     m->at = rho;
 
     float alpha = clamp(s->roughness * s->roughness, 0.001f, 1.0f), f90 = s->specular;
-    float a = materialx_a(o.z, alpha), b = materialx_b(o.z, alpha), k = 1.0f / max(a + b, 1e-3f) - 1.0f;
-    Rgb f0 = metallic_f0(s), e = rgb_add(rgb_scale(f0, a), rgb_grey(b * f90));
-    m->under = UNDER_HALF;
-    m->under_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, f0)));
-    m->under_f90 = rgb_mean(e) * (1.0f + k * f90);
-    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, max(f90, s->metallic), o);
+    Rgb f0 = metallic_f0(s);
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, max(f90, s->metallic));
     m->specular.lobe = lobe_default(LOBE_GGX);
     m->specular.lobe.params[GGX_ALPHA] = alpha;
-    m->specular.f0 = rgb_mix(materialx_twice(f0, k), materialx_twice(s->base_color, k), s->metallic);
-    m->specular.f90 = rgb_grey(mix(f90 * (1.0f + k * f90), 1.0f + k, s->metallic));
-    m->specular.sag =
-        rgb_scale(rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic), k);
+    m->specular.f0 = rgb_mix(f0, s->base_color, s->metallic);
+    m->specular.f90 = rgb_grey(mix(f90, 1.0f, s->metallic));
+    m->under = UNDER_HALF;
+    m->under_f0 = f0;
+    m->under_f90 = f90;
+    m->view = VIEW_MATERIALX;
+    m->gloss = alpha;
+    m->more_f0 = rgb_mix(rgb_mul(f0, f0), rgb_mul(s->base_color, s->base_color), s->metallic);
+    m->more_f90 = rgb_grey(mix(f90 * f90, 1.0f, s->metallic));
+    m->more_sag = rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
+}
+
+/* F (1 + k F) of the highlight; the diffuse lobe is dimmed by its E. */
+FN void materialx_view(const Stack *m, StackView *w) {
+    float a = materialx_a(w->o.z, m->gloss), b = materialx_b(w->o.z, m->gloss), f90 = m->under_f90;
+    float k = 1.0f / max(a + b, 1e-3f) - 1.0f;
+    Rgb e = rgb_add(rgb_scale(m->under_f0, a), rgb_grey(b * f90));
+    w->more = k;
+    w->under_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, m->under_f0)));
+    w->under_f90 = rgb_mean(e) * (1.0f + k * f90);
+    w->pick.diffuse = 1.0f - mix(rgb_max3(w->under_f0), w->under_f90, schlick_s(w->o.z));
 }
 
 #endif

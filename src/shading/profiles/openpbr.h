@@ -19,13 +19,14 @@
 
 #include "shading/workflows/metallic.h"
 
-FN void openpbr_stack(Stack *m, const Surface *s, Dir o) {
+FN void openpbr_stack(Stack *m, const Surface *s) {
     float weight = clamp(s->sheen, 0.0f, 1.0f);
     Lobe fuzz = lobe_default(LOBE_LTC_FIBRE);
     fuzz.params[LTC_FIBRE_ALPHA] = clamp(s->sheen_roughness, 0.05f, 1.0f);
     workflow_sheen(m, fuzz, rgb_scale(s->sheen_color, weight), s->sheen_second, LAYER_ALBEDO_VIEW);
     m->color = rgb_grey(weight);
-    if (weight > 0.0f) m->sheen.pick = max(m->sheen.pick, 1e-3f); /* black fuzz takes from the base too */
+    if (weight > 0.0f)
+        m->sheen.normal = max(m->sheen.normal, 1e-30f); /* black fuzz takes from the base too */
 
     float strength = clamp(s->specular, 0.0f, 1.0f), f0 = dielectric_f0(s) * strength;
     m->under = UNDER_LEAST;
@@ -34,7 +35,7 @@ FN void openpbr_stack(Stack *m, const Surface *s, Dir o) {
     /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
     float glass = 1.0f - s->metallic, metal = strength * s->metallic;
     Rgb first = rgb_add(rgb_scale(s->specular_color, f0 * glass), rgb_scale(s->base_color, metal));
-    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), first, 1.0f, o);
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), first, 1.0f);
     m->specular.lobe = lobe_default(LOBE_GGX);
     m->specular.lobe.params[GGX_ALPHA] = clamp(s->roughness * s->roughness, 0.001f, 1.0f);
     m->specular.f90 = rgb_add(rgb_scale(s->specular_color, glass), rgb_grey(metal));

@@ -18,7 +18,7 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflow.h"
 
-FN void order_1886_stack(Stack *m, const Surface *s, Dir o) {
+FN void order_1886_stack(Stack *m, const Surface *s) {
     float r = clamp(s->sheen_roughness, 0.0f, 1.0f);
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);
     sheen.params[COOK_TORRANCE_ALPHA] = max(r * r, 0.005f);
@@ -32,8 +32,7 @@ FN void order_1886_stack(Stack *m, const Surface *s, Dir o) {
         m->under_f0 = color;
         m->under_f90 = 1.0f;
     }
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
-              rgb_mean(s->base_color));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
 
 #endif

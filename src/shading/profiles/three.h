@@ -24,9 +24,7 @@
 #ifndef WEFT_PROFILE_THREE_H
 #define WEFT_PROFILE_THREE_H
 
-#include "shading/engine_tables.h"
-#include "shading/lobes/cook_torrance.h"
-#include "shading/workflows/metallic.h"
+#include "shading/profiles/filament_sheen.h"
 
 #define THREE_ROUGHNESS_LEAST 0.045f
 
@@ -48,14 +46,13 @@ FN Lobe three_ggx(float roughness, float anisotropy) {
     return lobe;
 }
 
-FN void three_coat(Stack *m, const Surface *s, Dir o) {
-    float coat_o = dir_dot(o, s->clearcoat_normal);
-    if (s->clearcoat <= 0.0f || coat_o <= 1e-4f) return;
+FN void three_coat(Stack *m, const Surface *s) {
+    if (s->clearcoat <= 0.0f) return;
     stack_coat_frame(m, s->clearcoat_normal);
-    float f = s->clearcoat * mix(0.04f, 1.0f, schlick_gaussian_s(coat_o));
+    m->coat_rule = COAT_GAUSSIAN;
+    m->coat_weight = s->clearcoat;
     slot_make(&m->coat, three_ggx(s->clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f),
-              s->clearcoat, f);
-    m->left = 1.0f - f;
+              s->clearcoat, 1.0f, 1.0f);
 }
 
 FN Lobe three_charlie(float alpha) {
@@ -67,8 +64,8 @@ FN Lobe three_charlie(float alpha) {
     return lobe;
 }
 
-FN void three_stack(Stack *m, const Surface *s, Dir o) {
-    three_coat(m, s, o);
+FN void three_stack(Stack *m, const Surface *s) {
+    three_coat(m, s);
     float r = clamp(s->roughness, THREE_ROUGHNESS_LEAST, 1.0f), r_s = clamp(s->sheen_roughness, 1e-4f, 1.0f);
     Lobe sheen = three_charlie(r_s * r_s);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_MAX);
@@ -82,12 +79,9 @@ FN void three_stack(Stack *m, const Surface *s, Dir o) {
     m->under = UNDER_GAUSSIAN;
     m->under_f0 = f0;
     m->under_f90 = f90;
-    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), mixed, f90, o);
+    workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), mixed, f90);
     m->specular.lobe = three_ggx(s->roughness, s->anisotropy);
-    float again = 1.0f / table_albedo(engine_table(ENGINE_THREE_GGX), o.z, r) - 1.0f;
-    Rgb gain = rgb(1.0f + mixed.r * again, 1.0f + mixed.g * again, 1.0f + mixed.b * again);
-    m->specular.f0 = rgb_mul(m->specular.f0, gain);
-    m->specular.f90 = rgb_mul(m->specular.f90, gain);
+    filament_compensate(m, mixed, VIEW_THREE, r);
 }
 
 #endif

@@ -31,8 +31,8 @@ FN Lobe unreal4_lobe(float alpha, int d, int v) {
 
 FN float unreal4_f90(Rgb f0) { return clamp(50.0f * f0.g, 0.0f, 1.0f); }
 
-FN void unreal4_stack(Stack *m, const Surface *s, Dir o) {
-    float r = clamp(s->roughness, 0.02f, 1.0f), alpha = r * r, s_o = schlick_s(o.z);
+FN void unreal4_stack(Stack *m, const Surface *s) {
+    float r = clamp(s->roughness, 0.02f, 1.0f), alpha = r * r;
     float cloth = rgb_max3(s->sheen_color) > 0.0f ? clamp(s->sheen, 0.0f, 1.0f) : 0.0f;
     Rgb f0 = rgb_mix(metallic_f0(s), s->base_color, s->metallic), fuzz = s->sheen_color;
     Rgb diffuse = rgb_scale(s->base_color, 1.0f - s->metallic);
@@ -40,11 +40,11 @@ FN void unreal4_stack(Stack *m, const Surface *s, Dir o) {
     m->color = rgb_scale(fuzz, cloth);
     m->sheen_color = m->color;
     m->at = haze.params[COOK_TORRANCE_ALPHA];
-    slot_make(&m->sheen, haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth, cloth * rgb_mean(fuzz));
+    slot_even(&m->sheen, haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth);
     slot_make(&m->specular, unreal4_lobe(max(alpha, 0.001f), D_GGX, V_SMITH_GGX_FAST), f0,
-              rgb_grey(unreal4_f90(f0)), 1.0f - cloth,
-              (1.0f - cloth) * mix(rgb_mean(f0), unreal4_f90(f0), s_o));
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f, rgb_mean(diffuse));
+              rgb_grey(unreal4_f90(f0)), 1.0f - cloth, (1.0f - cloth) * rgb_mean(f0),
+              (1.0f - cloth) * unreal4_f90(f0));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f);
 }
 
 #endif

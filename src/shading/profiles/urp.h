@@ -19,7 +19,7 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflow.h"
 
-FN void urp_stack(Stack *m, const Surface *s, Dir o) {
+FN void urp_stack(Stack *m, const Surface *s) {
     float r = clamp(s->roughness, 0.0f, 1.0f), alpha = max(r * r, 0.0078125f);
     float amount = rgb_max3(s->sheen_color) > 0.0f ? clamp(s->sheen, 0.0f, 1.0f) : 0.0f;
     Lobe sheen = lobe_default(LOBE_CHARLIE_NEUBELT), specular = lobe_default(LOBE_COOK_TORRANCE);
@@ -30,10 +30,16 @@ FN void urp_stack(Stack *m, const Surface *s, Dir o) {
     specular.params[COOK_TORRANCE_V] = to_float(V_URP);
     specular.params[COOK_TORRANCE_F] = to_float(F_NONE);
     Rgb f0 = rgb_mix(rgb_grey(0.04f), s->base_color, s->metallic);
-    slot_make(&m->specular, specular, f0, f0, 1.0f - amount, (1.0f - amount) * rgb_mean(f0));
-    float dull = mix(1.0f, 0.62f * (1.0f - 0.25f * o.z * o.z), alpha) * 0.96f * (1.0f - s->metallic);
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, dull,
-              dull * rgb_mean(s->base_color));
+    slot_even(&m->specular, specular, f0, f0, 1.0f - amount);
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color,
+              0.96f * (1.0f - s->metallic));
+    m->view = VIEW_URP;
+    m->gloss = alpha;
+}
+
+FN void urp_view(const Stack *m, StackView *w) {
+    w->scale.diffuse = mix(1.0f, 0.62f * (1.0f - 0.25f * w->o.z * w->o.z), m->gloss);
+    w->pick.diffuse = w->scale.diffuse;
 }
 
 #endif

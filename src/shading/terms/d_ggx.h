@@ -41,6 +41,32 @@ FN Dir ggx_sample_h(float ax, float ay, Dir o, float u, float v) {
     return dir(x * n, y * n, h * n);
 }
 
+/* A strip of such normals, and how dense they are against that. */
+STRUCT(Strip) {
+    Dir h;
+    float density;
+};
+
+/* The same with u along the longer axis: the cap is cut across that axis, u tells the cut and v the place on
+ * its arc, which is as long on a sphere wherever it is cut and on the cap between half as long and all of it.
+ * So points that are even in u are even along a highlight that is drawn out. */
+FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
+    bool turned = ay > ax;
+    float a = turned ? ay : ax, b = turned ? ax : ay, l = 1.0f / ggx_length(ax, ay, o);
+    Dir s = dir(a * (turned ? o.y : o.x) * l, b * (turned ? o.x : o.y) * l, o.z * l);
+    float x = 2.0f * u - 1.0f, r = sqrt(max(1.0f - x * x, 1e-12f));
+    float c = clamp(-s.z / r, -1.0f, 1.0f), y = abs(c);
+    /* Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45 */
+    float angle = sqrt(1.0f - y) * (1.5707288f + y * (-0.2121144f + y * (0.0742610f - 0.0187293f * y)));
+    float half_arc = c < 0.0f ? PI - angle : angle, at = (2.0f * v - 1.0f) * half_arc;
+    float hx = a * (x + s.x), hy = b * (r * sin(at) + s.y), hz = max(r * cos(at) + s.z, 0.0f);
+    float n = 1.0f / sqrt(max(hx * hx + hy * hy + hz * hz, 1e-24f));
+    Strip p;
+    p.h = dir((turned ? hy : hx) * n, (turned ? hx : hy) * n, hz * n);
+    p.density = PI * (1.0f + s.z) / (2.0f * half_arc);
+    return p;
+}
+
 /* Density of the wi that mirrors wo about such a normal: G1(wo) D(h) / (4 cos_o). */
 FN float ggx_pdf_h(float ax, float ay, Angles a) {
     return ggx_d(ax, ay, a.h) / (2.0f * (a.o.z + ggx_length(ax, ay, a.o)));

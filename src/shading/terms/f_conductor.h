@@ -23,8 +23,8 @@ FN float conductor_s(float ior, float k, float d) {
     float a = re < 0.0f ? 0.5f * im / max(large, 1e-12f) : large; /* the small root by the large one */
     float twice = 2.0f * a * c, s_pass = 2.0f * twice / (m + c2 + twice);
     float p_pass = 2.0f * twice * s2 / (c2 * m + s2 * s2 + twice * s2); /* 1 - Rp / Rs */
-    float n1 = 1.0f + ior, pass = s_pass + 0.5f * (1.0f - s_pass) * p_pass;
-    return clamp(1.0f - pass * (n1 * n1 + k * k) / (4.0f * ior), 0.0f, 1.0f);
+    float n1 = 1.0f + ior, passed = s_pass + 0.5f * (1.0f - s_pass) * p_pass;
+    return clamp(1.0f - passed * (n1 * n1 + k * k) / (4.0f * ior), 0.0f, 1.0f);
 }
 
 #endif

@@ -10,11 +10,10 @@
 
 #include "shading/workflow.h"
 
-FN void cloth_stack(Stack *m, const Surface *s, Dir o) {
+FN void cloth_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
-    slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f,
-              rgb_mean(s->base_color));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
 
 #endif

@@ -25,8 +25,8 @@ FN Rgb disney_tint(Rgb base) {
     return rgb_grey(1.0f);
 }
 
-FN void disney_tinted(Stack *m, const Surface *s, Rgb tint, Dir o) {
-    float s_o = schlick_s(o.z), below = 1.0f - s->metallic;
+FN void disney_tinted(Stack *m, const Surface *s, Rgb tint) {
+    float below = 1.0f - s->metallic;
     Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->specular_tint), 0.08f * s->specular),
                      s->base_color, s->metallic);
 
@@ -41,21 +41,19 @@ FN void disney_tinted(Stack *m, const Surface *s, Rgb tint, Dir o) {
     specular.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
     specular.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO_SEPARATE);
     specular.params[COOK_TORRANCE_F] = to_float(F_SCHLICK);
-    slot_make(&m->specular, specular, f0, rgb_grey(1.0f), 1.0f, mix(rgb_mean(f0), 1.0f, s_o));
+    slot_make(&m->specular, specular, f0, rgb_grey(1.0f), 1.0f, rgb_mean(f0), 1.0f);
 
     Lobe diffuse = lobe_rough(LOBE_BURLEY_SUBSURFACE, s->roughness);
     diffuse.params[BURLEY_SUBSURFACE_SUBSURFACE] = s->subsurface;
-    slot_make(&m->diffuse, diffuse, s->base_color, s->base_color, below, below * rgb_mean(s->base_color));
+    slot_even(&m->diffuse, diffuse, s->base_color, s->base_color, below);
 
     Lobe coat = lobe_default(LOBE_BURLEY_COAT);
     coat.params[BURLEY_COAT_ALPHA] = mix(0.1f, 0.001f, s->clearcoat_gloss);
     stack_coat_frame(m, s->clearcoat_normal);
     float amount = 0.25f * s->clearcoat;
-    slot_make(&m->coat, coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, amount * mix(0.04f, 1.0f, s_o));
+    slot_make(&m->coat, coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, 0.04f * amount, amount);
 }
 
-FN void disney_stack(Stack *m, const Surface *s, Dir o) {
-    disney_tinted(m, s, disney_tint(s->base_color), o);
-}
+FN void disney_stack(Stack *m, const Surface *s) { disney_tinted(m, s, disney_tint(s->base_color)); }
 
 #endif

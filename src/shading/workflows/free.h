@@ -10,10 +10,10 @@
 
 #include "shading/workflow.h"
 
-FN void free_stack(Stack *m, const Surface *s, Dir o) {
+FN void free_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
-    workflow_base(m, s, s->base_color, rgb_scale(s->specular_color, s->specular), 1.0f, o);
+    workflow_base(m, s, s->base_color, rgb_scale(s->specular_color, s->specular), 1.0f);
 }
 
 #endif
