@@ -178,9 +178,14 @@ FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWe
     return w;
 }
 
+/* Polynomials that go to zero swing about it; what is a sum or a part of one is not below. Where a lobe
+ * reflects next to nothing they do not keep to its shape: log2 of kappa stays where those of tables are. */
 FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
     AmbientWeights w = a;
-    if (group == AMBIENT_GROUP_SHAPE) return w;
+    if (group == AMBIENT_GROUP_SHAPE) {
+        w.b = clamp(a.b, -2.0f, 22.0f);
+        return w;
+    }
     w.a = max(a.a, 0.0f);
     w.b = max(a.b, 0.0f);
     w.c = max(a.c, 0.0f);
@@ -188,8 +193,7 @@ FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
     return w;
 }
 
-/* A group of a table that is held. Polynomials that go to zero swing about it; what is a sum or a part of one
- * is not below. */
+/* A group of a table that is held. */
 FN AmbientWeights ambient_sides(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
     int first = t.held + (AMBIENT_DEGREE + 1) * group;
     AmbientWeights w = ambient_polynomial(s, first, at.t);

@@ -46,7 +46,7 @@ Rgb ambient_radiance(Frame f, Dir w, float kappa) {
 
 /* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/ambient.h). */
 Rgb ambient_rest(Frame f, Dir w, float kappa) {
-    float q = 1.0 / max(kappa, 0.01), a = 1.0 + 2.0 / (exp(min(2.0 * kappa, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
+    float k = max(kappa, 0.25), q = 1.0 / k, a = 1.0 + 2.0 / (exp(min(2.0 * k, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
     vec3 d = kappa > 0.0 ? vec3(a, b, a - 5.0 * q * b) : vec3(2.0 / 3.0, 0.25, 0.0);
     vec3 n = environment_image(f, w), s = n * n;
     vec3 one = environment_rest[1].rgb * n.x + environment_rest[2].rgb * n.y + environment_rest[3].rgb * n.z;
