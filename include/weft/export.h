@@ -1,4 +1,4 @@
-/* export.h - a shading model as text for an engine: GLSL, HLSL, C or a complete Shadertoy, with its tables
+/* export.h - a shading model as text for an engine: GLSL, HLSL, WGSL, C or a Shadertoy, with its tables
  *
  *   WeftExport text;
  *   weft_export(&(WeftExportDesc){.lobe = &lobe, .target = WEFT_EXPORT_HLSL}, &text, &error);
@@ -32,16 +32,18 @@ typedef enum WeftExportTarget {
     WEFT_EXPORT_HLSL,      /* for shader model 5 and later: Unreal, Unity */
     WEFT_EXPORT_C,         /* one header, C99 and C++, that includes nothing but math.h and stdbool.h */
     WEFT_EXPORT_SHADERTOY, /* one whole shader: a ball, the mouse moves roughness and light */
+    WEFT_EXPORT_WGSL,      /* for WebGPU: tables are textures of its bind group 0 */
     WEFT_EXPORT_TARGETS
 } WeftExportTarget;
 
-/* "glsl", "essl", "hlsl", "c", "shadertoy" and a line on each; NULL past the end. */
+/* "glsl", "essl", "hlsl", "c", "shadertoy", "wgsl" and a line on each; NULL past the end. */
 WEFT_API const char *weft_export_target(int target);
 WEFT_API const char *weft_export_target_help(int target);
 
 /* How tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
-    WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY */
+    WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, and of WGSL up to 2,047
+                              texels, which is as long as an array may be written there */
     WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
     WEFT_EXPORT_LUT_EXR,
     WEFT_EXPORT_LUT_DDS,

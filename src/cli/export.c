@@ -78,7 +78,7 @@ static int export_read(const Options *options, Export *self) {
     for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target(k);
     for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut(k);
     if (!option_text(options, "--target"))
-        return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, c or shadertoy");
+        return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, wgsl, c or shadertoy");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
     if (!option_choice(options, "--target", targets, &target) ||
         !option_choice(options, "--lut", luts, &lut) || !option_choice(options, "--light-pi", pis, &pi))
@@ -208,7 +208,7 @@ static const Option export_options[] = {
 const Verb verb_export = {
     .name = "export",
     .operands = "SUBJECT... --target TARGET -o FILE [options]",
-    .help = "writes a model as GLSL, HLSL, C or a Shadertoy",
+    .help = "writes a model as GLSL, HLSL, WGSL, C or a Shadertoy",
     .operands_least = 1,
     .operands_most = WEFT_EXPORT_SUBJECTS_MAX,
     .options = export_options,

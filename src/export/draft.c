@@ -8,12 +8,13 @@
 #include "text/native.h"
 #include "text/returned.h"
 #include "text/unused.h"
+#include "text/wgsl.h"
 
 void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
         [WEFT_EXPORT_GLSL] = SPELL_GLSL,      [WEFT_EXPORT_ESSL] = SPELL_GLSL,
         [WEFT_EXPORT_HLSL] = SPELL_HLSL,      [WEFT_EXPORT_C] = SPELL_C,
-        [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL,
+        [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target], .whole = {"Dir", "Rgb"}};
     snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
@@ -114,13 +115,27 @@ static WeftResult take_text(Draft *draft, Buffer *next, WeftError *error) {
     return WEFT_OK;
 }
 
+/* WGSL has no references, but for pointers to whole variables. */
+static WeftResult check_writes(const Draft *draft, WeftError *error) {
+    for (int k = 0; k < draft->items.count && draft->speller.language == SPELL_WGSL; k++) {
+        const Item *item = &draft->items.all[k];
+        char name[SPELL_NAME];
+        snprintf(name, sizeof name, "%.*s", (int)item->name.size, item->name.at);
+        if (item->kept && item->kind == ITEM_FUNCTION && wgsl_writes(item))
+            return fail(error, WEFT_MESSAGE_TEXT_DIALECT, name,
+                        "it returns something and writes to a parameter, or writes to several");
+    }
+    return WEFT_OK;
+}
+
 static WeftResult cut(Draft *draft, WeftError *error) {
     Buffer next = {0};
     fold_text(draft->text.bytes, draft->facts, draft->fact_count, &next);
     WeftResult result = take_text(draft, &next, error);
     if (result == WEFT_OK && draft->speller.language != SPELL_C) { /* which has pointers for it */
-        returned_put(&draft->items, draft->folded.bytes, &next);
+        returned_put(&draft->items, draft->folded.bytes, draft->speller.language == SPELL_WGSL, &next);
         result = take_text(draft, &next, error);
+        if (result == WEFT_OK) result = check_writes(draft, error);
     }
     while (result == WEFT_OK && unused_cut(&draft->items, draft->folded.bytes, draft->whole, &next))
         result = take_text(draft, &next, error);

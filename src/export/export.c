@@ -7,13 +7,15 @@
 #include "base/memory.h"
 #include "export/draft.h"
 
-static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl", "essl", "hlsl", "c", "shadertoy", NULL};
+static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl",      "essl", "hlsl", "c",
+                                                             "shadertoy", "wgsl", NULL};
 static const char *const helps[WEFT_EXPORT_TARGETS] = {
     "functions for GLSL 3.30 core and later",
     "functions for GLSL ES 3.00: OpenGL ES 3, WebGL 2",
     "functions for HLSL, shader model 5 and later: Unreal, Unity",
     "one header for C99 and C++ that stands alone",
     "a complete shader to paste: a ball, the mouse moves roughness and light",
+    "functions for WGSL: WebGPU in browsers, and wgpu and Dawn outside",
 };
 static const char *const luts[WEFT_EXPORT_LUTS + 1] = {"c", "png16", "exr", "dds", "npy", NULL};
 

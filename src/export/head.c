@@ -5,7 +5,13 @@
 
 /* How the target writes a direction. */
 static const char *vector(const Draft *draft) {
+    if (draft->desc->target == WEFT_EXPORT_WGSL) return "vec3f";
     return draft->desc->target == WEFT_EXPORT_HLSL ? "float3" : "vec3";
+}
+
+/* What a variable of that type is declared with. */
+static const char *word(const Draft *draft, const char *type) {
+    return draft->desc->target == WEFT_EXPORT_WGSL ? "let" : type;
 }
 
 static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]) {
@@ -51,37 +57,39 @@ static void put_call(const Draft *draft, Buffer *out) {
         put_line(out, " *   %s wo = {0.6f, 0.0f, 0.8f}, wi = {-0.48f, 0.64f, 0.6f};",
                  spell_name(&draft->speller, ITEM_RECORD, "Dir", a));
     } else {
-        put_line(out, " *   %s wo = %s(dot(v, t), dot(v, b), dot(v, n)); // t, b, n: the frame", type, type);
-        put_line(out, " *   %s wi = %s(dot(l, t), dot(l, b), dot(l, n));", type, type);
+        put_line(out, " *   %s wo = %s(dot(v, t), dot(v, b), dot(v, n)); // t, b, n: the frame",
+                 word(draft, type), type);
+        put_line(out, " *   %s wi = %s(dot(l, t), dot(l, b), dot(l, n));", word(draft, type), type);
     }
     if (!desc->lobe) {
-        put_line(out, " *   %s s = %s();",
-                 spell_item(&draft->speller, &draft->items, ITEM_RECORD, "Surface", record),
+        spell_item(&draft->speller, &draft->items, ITEM_RECORD, "Surface", record);
+        put_line(out, " *   %s s = %s();", desc->target == WEFT_EXPORT_WGSL ? "var" : record,
                  function(draft, "surface", a));
-        put_line(out, " *   %s %s = %s(s, wo, wi); // times the light",
-                 c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : type, "f_cos",
+        put_line(out, " *   %s f_cos = %s(s, wo, wi); // times the light",
+                 c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : word(draft, type),
                  function(draft, "shade", b));
         return;
     }
     bool two = weft_lobe_info(desc->lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS;
     bool rough = draft_lobe_rough(desc->lobe);
-    put_line(out, " *   %s m = %s(%s);",
-             spell_name(&draft->speller, ITEM_RECORD, draft_lobe_record(desc->lobe->lobe), record),
-             function(draft, rough ? "rough" : "default", a), rough ? (c ? "0.5f" : "0.5") : "");
+    spell_name(&draft->speller, ITEM_RECORD, draft_lobe_record(desc->lobe->lobe), record);
+    put_line(out, " *   %s m = %s(%s);", word(draft, record), function(draft, rough ? "rough" : "default", a),
+             rough ? (c ? "0.5f" : "0.5") : "");
     if (c) {
         spell_name(&draft->speller, ITEM_RECORD, "Rgb", record);
         put_line(out, " *   %s color = {0.5f, 0.1f, 0.1f}%s, f = %s(m, color, %swo, wi);", record,
                  two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b),
                  two ? "second, " : "");
     } else {
-        put_line(out, " *   %s sent = %s(m, color, %swo, wi) * max(wi.z, 0.0) * light;", type,
+        put_line(out, " *   %s sent = %s(m, color, %swo, wi) * max(wi.z, 0.0) * light;", word(draft, type),
                  function(draft, "eval", b), two ? "second, " : "");
     }
     put_line(out, " *   %s drawn = %s(m, wo, u, v); // u, v in [0, 1); z <= 0: no sample",
-             c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : type,
+             c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : word(draft, type),
              function(draft, "sample", a));
-    put_line(out, " *   float pdf = %s(m, wo, drawn);", function(draft, "pdf", a));
-    if (desc->albedo) put_line(out, " *   float e = %s(m, wo.z);", function(draft, "albedo", a));
+    put_line(out, " *   %s pdf = %s(m, wo, drawn);", word(draft, "float"), function(draft, "pdf", a));
+    if (desc->albedo)
+        put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
 }
 
 static void put_engines(const Draft *draft, Buffer *out) {
@@ -108,7 +116,7 @@ static void put_engines(const Draft *draft, Buffer *out) {
     put_line(out, " * HDRP's lights are explicit; URP's and the built-in pipeline's are folded.");
 }
 
-static void put_tables(const WeftExport *uploads, Buffer *out) {
+static void put_tables(const WeftExport *uploads, bool bound, Buffer *out) {
     if (!uploads->table_count) return;
     put_line(out, " *\n * Tables: one channel of 32 bit floats or 16 bit unorms, nothing filtered, no sRGB, "
                   "no mipmaps; row 0");
@@ -116,6 +124,11 @@ static void put_tables(const WeftExport *uploads, Buffer *out) {
     for (int k = 0; k < uploads->table_count; k++)
         put_line(out, " *   %s, %d x %d", uploads->tables[k].name, uploads->tables[k].texels.width,
                  uploads->tables[k].texels.height);
+    if (!bound) return;
+    put_line(
+        out,
+        " * Each is a texture of sample type unfilterable-float, bound where its @group and @binding say:");
+    put_line(out, " * change those as your layout has it.");
 }
 
 /* What it is of, without what could end the comment. */
@@ -140,6 +153,7 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
         "HLSL, shader model 5 and later",
         "C99 and C++",
         "Shadertoy: paste all of it into a new shader",
+        "WGSL, the language of WebGPU",
     };
     buffer_put_text(out, "/* ");
     for (int k = 0; k < count; k++) {
@@ -154,6 +168,6 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
     put_conventions(drafts, out);
     for (int k = 0; k < count; k++) put_call(&drafts[k], out);
     if (drafts->desc->target == WEFT_EXPORT_HLSL) put_engines(drafts, out);
-    put_tables(uploads, out);
+    put_tables(uploads, drafts->desc->target == WEFT_EXPORT_WGSL, out);
     put_line(out, " */");
 }

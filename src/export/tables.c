@@ -6,9 +6,15 @@
 #include "export/draft.h"
 #include "text/number.h"
 
-static bool in_text(const Draft *draft) {
-    return draft->desc->target == WEFT_EXPORT_SHADERTOY ||
-           (draft->desc->target == WEFT_EXPORT_C && draft->desc->lut == WEFT_EXPORT_LUT_C);
+/* The most that WGSL takes between the brackets of an array: "WebGPU Shading Language", section 2.3. */
+enum { WGSL_ARRAY = 2047 };
+
+static bool in_text(const Draft *draft, int k) {
+    const TextTable *t = &draft->tables->all[k];
+    const WeftExportTarget target = draft->desc->target;
+    if (target == WEFT_EXPORT_SHADERTOY) return true;
+    if (draft->desc->lut != WEFT_EXPORT_LUT_C) return false;
+    return target == WEFT_EXPORT_C || (target == WEFT_EXPORT_WGSL && t->rows * t->columns <= WGSL_ARRAY);
 }
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
@@ -31,7 +37,7 @@ static float power_above(float x) {
 static Range table_range(const Draft *draft, int k) {
     const TextTable *t = &draft->tables->all[k];
     float low = 0.0f, high = 0.0f;
-    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft)) return (Range){1.0f, 0.0f};
+    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft, k)) return (Range){1.0f, 0.0f};
     for (int n = 0; n < t->rows * t->columns; n++) {
         low = fminf(low, t->texels[n]);
         high = fmaxf(high, t->texels[n]);
@@ -52,49 +58,98 @@ static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
     buffer_put_text(out, "\n");
 }
 
+/* A table inside the text. */
+static void put_array(const Draft *draft, const TextTable *t, const char *name, Buffer *out) {
+    int size = t->rows * t->columns;
+    bool c = draft->desc->target == WEFT_EXPORT_C;
+    if (c)
+        put_line(out, "static const float %s[%d] = {", name, size);
+    else if (draft->desc->target == WEFT_EXPORT_WGSL)
+        put_line(out, "const %s = array<f32, %d>(", name, size);
+    else
+        put_line(out, "const float %s[%d] = float[%d](", name, size, size);
+    put_numbers(t, c ? "f" : "", out);
+    put_line(out, c ? "};" : ");");
+}
+
+/* Its place among those that are beside the text. */
+static int binding_of(const Draft *draft, int k) {
+    int place = 0;
+    for (int j = 0; j < k; j++) place += draft->tables->used[j] && !in_text(draft, j);
+    return place;
+}
+
 static void put_declaration(const Draft *draft, int k, Buffer *out) {
     const TextTable *t = &draft->tables->all[k];
     char name[SPELL_NAME];
-    int size = t->rows * t->columns;
     table_name(draft, k, name);
     put_line(out, "/* %d columns, %d rows */", t->columns, t->rows);
-    if (draft->desc->target == WEFT_EXPORT_SHADERTOY) {
-        put_line(out, "const float %s[%d] = float[%d](", name, size, size);
-        put_numbers(t, "", out);
-        put_line(out, ");");
-    } else if (in_text(draft)) {
-        put_line(out, "static const float %s[%d] = {", name, size);
-        put_numbers(t, "f", out);
-        put_line(out, "};");
-    } else if (draft->desc->target == WEFT_EXPORT_C) {
+    if (in_text(draft, k))
+        put_array(draft, t, name, out);
+    else if (draft->desc->target == WEFT_EXPORT_C)
         put_line(out, "static const float *%s = 0; /* set it before the first call */", name);
-    } else if (draft->desc->target == WEFT_EXPORT_HLSL) {
+    else if (draft->desc->target == WEFT_EXPORT_HLSL)
         put_line(out, "Texture2D<float> %s;", name);
-    } else {
+    else if (draft->desc->target == WEFT_EXPORT_WGSL)
+        put_line(out, "@group(0) @binding(%d) var %s: texture_2d<f32>;", binding_of(draft, k), name);
+    else
         put_line(out, "uniform highp sampler2D %s;", name);
-    }
+}
+
+/* What reads a texel: row, column and stride are known by these names. */
+static void put_texel(const Draft *draft, int k, Buffer *out) {
+    char name[SPELL_NAME];
+    buffer_put_text(out, table_name(draft, k, name));
+    if (in_text(draft, k) || draft->desc->target == WEFT_EXPORT_C)
+        buffer_put_text(out, "[row * stride + column]");
+    else if (draft->desc->target == WEFT_EXPORT_HLSL)
+        buffer_put_text(out, ".Load(int3(column, row, 0))");
+    else if (draft->desc->target == WEFT_EXPORT_WGSL)
+        buffer_put_text(out, ", vec2i(column, row), 0).r");
+    else
+        buffer_put_text(out, ", ivec2(column, row), 0).r");
 }
 
 static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
-    char name[SPELL_NAME], test[32] = "", factor[112] = "", added[40] = "";
+    const WeftExportTarget target = draft->desc->target;
+    const char *f = target == WEFT_EXPORT_C ? "f" : "";
+    bool wgsl = target == WEFT_EXPORT_WGSL, beside = !in_text(draft, k);
+    char line[32];
     Range range = table_range(draft, k);
-    const char *f = draft->desc->target == WEFT_EXPORT_C ? "f" : "";
-    if (!last) snprintf(test, sizeof test, "if (t == %d) ", k);
-    if (range.offset < 0.0f) snprintf(added, sizeof added, " - %s%s", number(-range.offset).text, f);
-    if (range.scale > 1.0f || *added)
-        snprintf(factor, sizeof factor, " * %s%s%s", number(range.scale).text, f, added);
-    table_name(draft, k, name);
-    if (in_text(draft) || draft->desc->target == WEFT_EXPORT_C)
-        put_line(out, "    %sreturn %s[row * stride + column]%s;", test, name, factor);
-    else if (draft->desc->target == WEFT_EXPORT_HLSL)
-        put_line(out, "    %sreturn %s.Load(int3(column, row, 0))%s;", test, name, factor);
+    snprintf(line, sizeof line, "    if (t == %d) %s", k, wgsl ? "{ " : "");
+    buffer_put_text(out, last ? "    " : line);
+    buffer_put_text(out, "return ");
+    if (beside && target != WEFT_EXPORT_C && target != WEFT_EXPORT_HLSL)
+        buffer_put_text(out, wgsl ? "textureLoad(" : "texelFetch(");
+    put_texel(draft, k, out);
+    if (range.scale > 1.0f || range.offset < 0.0f) {
+        buffer_put_text(out, " * ");
+        buffer_put_text(out, number(range.scale).text);
+        buffer_put_text(out, f);
+    }
+    if (range.offset < 0.0f) {
+        buffer_put_text(out, " - ");
+        buffer_put_text(out, number(-range.offset).text);
+        buffer_put_text(out, f);
+    }
+    put_line(out, last || !wgsl ? ";" : "; }");
+}
+
+static void put_fetch_head(const Draft *draft, Buffer *out) {
+    char name[SPELL_NAME];
+    spell_name(&draft->speller, ITEM_FUNCTION, "table_fetch", name);
+    put_line(
+        out,
+        "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
+    if (draft->desc->target == WEFT_EXPORT_WGSL)
+        put_line(out, "fn %s(t: i32, stride: i32, row: i32, column: i32) -> f32 {", name);
     else
-        put_line(out, "    %sreturn texelFetch(%s, ivec2(column, row), 0).r%s;", test, name, factor);
+        put_line(out, "%sfloat %s(int t, int stride, int row, int column) {",
+                 draft->desc->target == WEFT_EXPORT_C ? "static inline " : "", name);
 }
 
 void draft_tables(const Draft *draft, Buffer *out) {
     int last = -1, count = 0;
-    char name[SPELL_NAME];
     for (int k = 0; k < draft->tables->count; k++)
         if (draft->tables->used[k]) {
             last = k;
@@ -102,12 +157,7 @@ void draft_tables(const Draft *draft, Buffer *out) {
             put_declaration(draft, k, out);
         }
     if (last < 0) return;
-    put_line(
-        out,
-        "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
-    put_line(out, "%sfloat %s(int t, int stride, int row, int column) {",
-             draft->desc->target == WEFT_EXPORT_C ? "static inline " : "",
-             spell_name(&draft->speller, ITEM_FUNCTION, "table_fetch", name));
+    put_fetch_head(draft, out);
     if (draft->desc->target == WEFT_EXPORT_C && count == 1) put_line(out, "    (void)t;");
     for (int k = 0; k < draft->tables->count; k++)
         if (draft->tables->used[k]) put_fetch(draft, k, k == last, out);
@@ -115,9 +165,10 @@ void draft_tables(const Draft *draft, Buffer *out) {
 }
 
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) {
-    for (int k = 0; k < draft->tables->count && !in_text(draft); k++) {
+    for (int k = 0; k < draft->tables->count; k++) {
         const TextTable *from = &draft->tables->all[k];
-        if (!draft->tables->used[k] || out->table_count == WEFT_EXPORT_TABLES_MAX) continue;
+        if (!draft->tables->used[k] || in_text(draft, k) || out->table_count == WEFT_EXPORT_TABLES_MAX)
+            continue;
         WeftExportTable *table = &out->tables[out->table_count];
         char name[SPELL_NAME];
         snprintf(table->name, sizeof table->name, "%.95s", table_name(draft, k, name));

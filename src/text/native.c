@@ -12,13 +12,13 @@ typedef struct Form {
 } Form;
 
 static const Form forms[] = {
-    {"dir", "Dir(A, B, C)", BOND_CALL},      {"dir_dot", "dot(A, B)", BOND_CALL},
-    {"dir_add", "A + B", BOND_SUM},          {"dir_scale", "A * B", BOND_PRODUCT},
-    {"dir_cross", "cross(A, B)", BOND_CALL}, {"dir_mirror", "reflect(-A, B)", BOND_CALL},
-    {"rgb", "Rgb(A, B, C)", BOND_CALL},      {"rgb_grey", "Rgb(A)", BOND_CALL},
-    {"rgb_add", "A + B", BOND_SUM},          {"rgb_mul", "A * B", BOND_PRODUCT},
-    {"rgb_scale", "A * B", BOND_PRODUCT},    {"rgb_mix", "mix(A, B, C)", BOND_CALL},
-    {"rgb_min", "min(A, B)", BOND_CALL},
+    {"dir", "Dir(A, B, C)", BOND_CALL},       {"dir_dot", "dot(A, B)", BOND_CALL},
+    {"dir_add", "A + B", BOND_SUM},           {"dir_scale", "A * B", BOND_PRODUCT},
+    {"dir_cross", "cross(A, B)", BOND_CALL},  {"dir_mirror", "reflect(-A, B)", BOND_CALL},
+    {"rgb", "Rgb(A, B, C)", BOND_CALL},       {"rgb_grey", "Rgb(A)", BOND_CALL},
+    {"rgb_add", "A + B", BOND_SUM},           {"rgb_mul", "A * B", BOND_PRODUCT},
+    {"rgb_scale", "A * B", BOND_PRODUCT},     {"rgb_mix", "mix(A, B, C)", BOND_CALL},
+    {"rgb_min", "min(A, Rgb(B))", BOND_CALL},
 };
 
 static const Form *find_form(Token name) {

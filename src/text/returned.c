@@ -8,12 +8,15 @@ enum { FILLERS_MAX = 256 };
 typedef struct Filler {
     const Item *function;
     Parameter filled;
+    int place;  /* of that among the parameters */
+    bool takes; /* it may read what was written before, and keeps its parameter */
     List parameters;
     const char *body;
 } Filler;
 
 typedef struct Returned {
     const Items *items;
+    bool all;
     Filler fillers[FILLERS_MAX];
     int count;
     Edits edits;
@@ -37,10 +40,14 @@ static void list_fillers(Returned *self) {
         filler.parameters = types_parameters(item, &filler.body);
         int written = 0;
         for (int n = 0; n < filler.parameters.count; n++) {
-            filler.filled = types_parameter(&filler.parameters, n);
-            written += filler.filled.written;
+            const Parameter parameter = types_parameter(&filler.parameters, n);
+            written += parameter.written;
+            if (!parameter.written) continue;
+            filler.filled = parameter;
+            filler.place = n;
         }
-        if (written == 1 && filler.filled.written) self->fillers[self->count++] = filler;
+        filler.takes = filler.place + 1 < filler.parameters.count;
+        if (written == 1 && (self->all || !filler.takes)) self->fillers[self->count++] = filler;
     }
 }
 
@@ -87,7 +94,7 @@ static bool is_fresh(const Returned *self, const Item *caller, const char *body,
     Token base = token_next(&rest, path.end);
     if (declared)
         from = types_statement_end(declared, call);
-    else if (!outer || !token_same(outer->filled.name, base))
+    else if (!outer || outer->takes || !token_same(outer->filled.name, base))
         return false;
     return !is_named(from, call, path);
 }
@@ -106,12 +113,12 @@ static bool call_at(const Returned *self, Token before, Token token, const char 
     const Filler *filler = find_filler(self, token);
     if (!filler || !token_is(token_peek(c, end), "(")) return false;
     *out = (Call){.filler = filler, .arguments = list_of(c, end), .at = token.at};
-    if (!out->arguments.count) return false;
-    out->path = out->arguments.all[out->arguments.count - 1];
+    if (filler->place >= out->arguments.count) return false;
+    out->path = out->arguments.all[filler->place];
     return true;
 }
 
-/* Strikes out those of which a call passes what may be read. True where one went. */
+/* Those of which a call passes what may be read are struck out, or take it. True where there is a new one. */
 static bool strike(Returned *self) {
     bool any = false;
     for (int k = 0; k < self->items->count; k++) {
@@ -125,9 +132,11 @@ static bool strike(Returned *self) {
             Token token = token_next(&c, caller->end);
             Call call;
             if (token.kind == TOKEN_BLANK) continue;
-            if (call_at(self, before, token, c, caller->end, &call) &&
+            if (call_at(self, before, token, c, caller->end, &call) && !call.filler->takes &&
                 !is_fresh(self, caller, body, call.at, call.path)) {
-                self->fillers[call.filler - self->fillers].function = NULL;
+                Filler *filler = &self->fillers[call.filler - self->fillers];
+                filler->takes = true;
+                if (!self->all) filler->function = NULL;
                 any = true;
             }
             before = token;
@@ -173,18 +182,39 @@ static bool return_value(Returned *self, const Filler *filler) {
     return false;
 }
 
-/* Its body declares what it fills, and returns it. */
+/* Whether a body ends with a return that no condition stands before. */
+static bool returns_last(const char *open, const char *last) {
+    Token before = {TOKEN_MARK, "{", 1}, token;
+    bool plain = false;
+    for (const char *c = open; (token = token_next(&c, last)).kind != TOKEN_NONE;) {
+        if (token.kind == TOKEN_BLANK) continue;
+        if (types_begins(before)) plain = token_is(token, "return");
+        before = token;
+    }
+    return plain && token_is(before, ";");
+}
+
+/* Its body declares what it fills, but for a parameter, and returns it. */
 static void return_filled(Returned *self, const Filler *filler) {
     const char *open = filler->body + 1, *close = filler->function->end - 1, *c = open;
     bool line = !memchr(open, '\n', (size_t)(close - open));
     Token name = filler->filled.name, type = filler->filled.type;
     const char *first = blank_end(open, close), *last = close;
     while (is_blank(last[-1])) last--;
-    put(self, open, line ? first : open,
-        (Token[]){word("\n    "), type, word(" "), name, word(line ? ";\n    " : ";")}, 5);
+    if (!filler->takes)
+        put(self, open, line ? first : open,
+            (Token[]){word("\n    "), type, word(" "), name, word(line ? ";\n    " : ";")}, 5);
+    else if (line)
+        put(self, open, first, (Token[]){word("\n    ")}, 1);
     for (Token token; (token = token_next(&c, close)).kind != TOKEN_NONE;)
         if (token_is(token, "return")) put(self, c, c, (Token[]){word(" "), name}, 2);
-    put(self, last, close, (Token[]){word("\n    return "), name, word(";\n")}, 3);
+    if (!returns_last(open, last))
+        put(self, last, close, (Token[]){word("\n    return "), name, word(";\n")}, 3);
+}
+
+static void drop_last(Returned *self, const List *list) {
+    edit_put(&self->edits, list->count > 1 ? list->all[list->count - 2].end : list->open + 1, list->close,
+             NULL);
 }
 
 static void change_function(Returned *self, const Filler *filler) {
@@ -192,9 +222,11 @@ static void change_function(Returned *self, const Filler *filler) {
     const List *list = &filler->parameters;
     Token nothing = token_solid(&c, filler->function->end);
     put(self, nothing.at, nothing.at + nothing.size, &filler->filled.type, 1);
-    edit_put(&self->edits, list->count > 1 ? list->all[list->count - 2].end : list->open + 1, list->close,
-             NULL);
-    if (!return_value(self, filler)) return_filled(self, filler);
+    if (filler->takes)
+        edit_put(&self->edits, list->all[filler->place].at, filler->filled.type.at, NULL);
+    else
+        drop_last(self, list);
+    if (filler->takes || !return_value(self, filler)) return_filled(self, filler);
 }
 
 /* Whether both are in one block. */
@@ -212,15 +244,15 @@ static void change_call(Returned *self, const char *body, const Call *call, Toke
     const char *declared = declared_bare(body, call->at, call->path);
     const Token path = {TOKEN_NAME, call->path.at, (size_t)(call->path.end - call->path.at)};
     Token type = call->filler->filled.type;
-    bool bare = declared && !memchr(path.at, '.', path.size) && is_beside(declared, call->at);
+    bool bare =
+        declared && !call->filler->takes && !memchr(path.at, '.', path.size) && is_beside(declared, call->at);
     if (bare && types_begins(before)) {
         edit_drop(&self->edits, declared, types_statement_end(declared, call->at));
         put(self, call->at, call->at, (Token[]){type, word(" "), path, word(" = ")}, 4);
     } else {
         put(self, call->at, call->at, (Token[]){path, word(" = ")}, 2);
     }
-    edit_put(&self->edits, list->count > 1 ? list->all[list->count - 2].end : list->open + 1, list->close,
-             NULL);
+    if (!call->filler->takes) drop_last(self, list);
 }
 
 static void change_calls(Returned *self, const Item *caller) {
@@ -236,8 +268,8 @@ static void change_calls(Returned *self, const Item *caller) {
     }
 }
 
-void returned_put(const Items *items, const char *text, Buffer *out) {
-    Returned self = {.items = items};
+void returned_put(const Items *items, const char *text, bool all, Buffer *out) {
+    Returned self = {.items = items, .all = all};
     list_fillers(&self);
     while (strike(&self)) {
     }

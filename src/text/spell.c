@@ -3,18 +3,21 @@
 #include <stdio.h>
 
 #include "text/types.h"
+#include "text/wgsl.h"
 
 typedef struct Word {
     const char *plain, *spelt;
 } Word;
 
-/* What a language has another word for; in C the last four are functions of the text's own. */
+/* What a language has another word for. */
 static const Word glsl_words[] = {{"Dir", "vec3"}, {"Rgb", "vec3"}, {NULL, NULL}};
 static const Word hlsl_words[] = {{"Dir", "float3"}, {"Rgb", "float3"}, {"mix", "lerp"}, {NULL, NULL}};
 static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"}, {"sqrt", "sqrtf"}, {"sin", "sinf"},
                                {"cos", "cosf"},  {"exp", "expf"},     {"exp2", "exp2f"}, {"log2", "log2f"},
                                {"pow", "powf"},  {NULL, NULL}};
-static const Word *const words_of[] = {glsl_words, hlsl_words, c_words};
+static const Word wgsl_words[] = {
+    {"Dir", "vec3f"}, {"Rgb", "vec3f"}, {"float", "f32"}, {"int", "i32"}, {NULL, NULL}};
+static const Word *const words_of[] = {glsl_words, hlsl_words, c_words, wgsl_words};
 
 static const Word c_helpers[] = {
     {"min", "(float a, float b) { return a < b ? a : b; }"},
@@ -89,8 +92,9 @@ static void put_word(const Speller *speller, const Items *items, Token name, con
     bool call = token_is(token_solid(&c, end), "(");
     const Word *word = find_word(words_of[speller->language], name);
     bool vector = is_vector(speller, name), cast = token_is(name, "float") || token_is(name, "int");
+    bool type = speller->language == SPELL_WGSL; /* as all of its words are */
     const Item *item = vector ? NULL : items_find(items, name);
-    if (word && (call || vector))
+    if (word && (call || vector || type))
         put_vector(speller, word->spelt, vector && call, c, end, out);
     else if (item)
         put_name(speller, item, out);
@@ -134,21 +138,26 @@ static bool is_reference(const Item *function, Token name) {
     return false;
 }
 
-/* Members keep their names; of a record's list that is all but the type that each line begins with. */
+/* Whether the name at the end of a piece of a record's list is a type: WGSL has it behind the member. */
+static bool is_type(const Speller *speller, Token before, const char *c, const char *end) {
+    if (speller->language == SPELL_WGSL) return !token_is(token_peek(c, end), ":");
+    return token_is(before, "{") || token_is(before, ";") || token_is(before, "[");
+}
+
+/* Members keep their names; of a record's list that is all but its types. */
 static void put_code(const Speller *speller, const Items *items, const char *c, const char *end, bool record,
                      Buffer *out) {
-    bool member = false;
+    Token before = {TOKEN_NONE, "", 0};
     while (c < end) {
         Token token = token_next(&c, end);
+        bool member = token_is(before, ".") || (record && !is_type(speller, before, c, end));
         if (token.kind == TOKEN_NUMBER)
             put_number(speller, token, out);
         else if (token.kind == TOKEN_NAME && !member)
             put_word(speller, items, token, c, end, out);
         else
             buffer_put(out, token.at, token.size);
-        if (token.kind == TOKEN_BLANK) continue;
-        member = token_is(token, ".") ||
-                 (record && !token_is(token, "{") && !token_is(token, ";") && !token_is(token, "["));
+        if (token.kind != TOKEN_BLANK) before = token;
     }
 }
 
@@ -244,6 +253,21 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     put_c_code(speller, items, item, body + 1, item->end, out);
 }
 
+/* WGSL: an item in its syntax, then its names. */
+static void put_wgsl(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
+    Buffer words = {0};
+    bool record = item->kind == ITEM_RECORD;
+    (record ? wgsl_put_members : wgsl_put_function)(item, &words);
+    if (record) {
+        buffer_put_text(out, "struct ");
+        put_name(speller, item, out);
+        buffer_put_text(out, " ");
+    }
+    if (words.bytes) put_code(speller, items, words.bytes, words.bytes + words.size, record, out);
+    out->failed |= words.failed;
+    buffer_free(&words);
+}
+
 static void put_record(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
     const char *open = find(item->code, item->end, "{"), *close = item->end - 1;
     while (close > open && *close != '}') close--;
@@ -264,14 +288,17 @@ static void put_constant(const Speller *speller, const Items *items, const Item 
     token_solid(&c, item->end);
     Token type = token_solid(&c, item->end);
     bool enumerated = speller->language == SPELL_C && token_is(type, "int");
+    bool wgsl = speller->language == SPELL_WGSL;
     if (enumerated) {
         buffer_put_text(out, "enum { ");
     } else {
-        buffer_put_text(out, speller->language == SPELL_GLSL ? "const " : "static const ");
-        buffer_put(out, type.at, type.size);
-        buffer_put_text(out, " ");
+        buffer_put_text(out, wgsl || speller->language == SPELL_GLSL ? "const " : "static const ");
+        if (!wgsl) buffer_put(out, type.at, type.size);
+        if (!wgsl) buffer_put_text(out, " ");
     }
     put_name(speller, item, out);
+    if (wgsl) buffer_put_text(out, ": ");
+    if (wgsl) put_word(speller, items, type, item->end, item->end, out);
     buffer_put_text(out, " =");
     put_code(speller, items, value, item->end - 1, false, out);
     buffer_put_text(out, enumerated ? " };" : ";");
@@ -323,10 +350,12 @@ void spell_items(const Speller *speller, const Items *items, bool late, Buffer *
         }
         file = item->file;
         if (item->comment) buffer_put(out, item->comment, (size_t)(item->code - item->comment));
-        if (item->kind == ITEM_RECORD)
-            put_record(speller, items, item, out);
-        else if (item->kind == ITEM_CONSTANT)
+        if (item->kind == ITEM_CONSTANT)
             put_constant(speller, items, item, out);
+        else if (speller->language == SPELL_WGSL)
+            put_wgsl(speller, items, item, out);
+        else if (item->kind == ITEM_RECORD)
+            put_record(speller, items, item, out);
         else if (speller->language == SPELL_C)
             put_c_function(speller, items, item, out);
         else

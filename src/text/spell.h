@@ -1,6 +1,6 @@
 /* spell.h - a plain text (TEXT_PLAIN) in the words of a language, under names of its own
  *
- *   Dir, Rgb        vec3 or float3; records in C
+ *   Dir, Rgb        vec3, float3 or vec3f; records in C
  *   charlie_d       weft_charlie_d, and so every function, record (WeftAngles) and constant (WEFT_PI) */
 #ifndef WEFT_TEXT_SPELL_H
 #define WEFT_TEXT_SPELL_H
@@ -11,7 +11,8 @@
 typedef enum SpellLanguage {
     SPELL_GLSL, /* 3.30 core and ES 3.00 */
     SPELL_HLSL, /* shader model 5 */
-    SPELL_C     /* C99 and C++: functions are static inline */
+    SPELL_C,    /* C99 and C++: functions are static inline */
+    SPELL_WGSL
 } SpellLanguage;
 
 enum { SPELL_PREFIX = 112, SPELL_NAME = 256 };

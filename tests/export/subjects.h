@@ -180,67 +180,117 @@ static inline void subject_inputs(const Exported *s, float *in[INPUTS]) {
     }
 }
 
-/* Statements in any of the languages, which read in0 .. in5 and set members of out0 and out1. */
+/* The words of a target for what a question is put in. */
+typedef struct Language {
+    const char *dir, *rgb, *whole, *number;
+    const char *of; /* behind the name of a function without parameters that returns a record */
+    bool typed;     /* a variable's type stands before it */
+} Language;
+
+static const Language language_glsl = {"vec3", "vec3", "int", "float", "() {", true};
+static const Language language_hlsl = {"float3", "float3", "int", "float", "() {", true};
+static const Language language_wgsl = {"vec3f", "vec3f", "i32", "f32", "() -> ", false};
+
+typedef struct Body {
+    char *text;
+    size_t used, room;
+} Body;
+
+__attribute__((format(printf, 2, 3))) static inline void body_put(Body *body, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    body->used += (size_t)vsnprintf(body->text + body->used, body->room - body->used, format, arguments);
+    va_end(arguments);
+    assert_true(body->used < body->room);
+}
+
+/* "    T name", or "    var name: T". */
+static inline void body_declare(Body *body, const Language *language, const char *type, const char *name) {
+    if (language->typed)
+        body_put(body, "    %s %s", type, name);
+    else
+        body_put(body, "    var %s: %s", name, type);
+}
+
+/* The function of that name that returns a record: what it returns, and its text from there on. */
+static inline const char *subject_record(const WeftExport *text, const Language *language, const char *end,
+                                         char type[64]) {
+    char call[64];
+    snprintf(call, sizeof call, "%s%s", end, language->of);
+    const char *at = strstr(text->text, call), *record = at;
+    assert_non_null(at);
+    if (language->typed) {
+        while (record[-1] != '\n') record--;
+        if (strncmp(record, "static inline ", 14) == 0) record += 14;
+    } else {
+        record += strlen(call);
+    }
+    snprintf(type, 64, "%.*s", (int)strcspn(record, " "), record);
+    return at;
+}
+
+static inline void put_lobe_questions(const Exported *s, const WeftExport *text, const Language *l,
+                                      const char *id, Body *body) {
+    const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
+    bool two = info->traits & WEFT_LOBE_TWO_COLORS;
+    char type[64];
+    subject_record(text, l, "_default", type);
+    body_declare(body, l, type, "m");
+    body_put(body, " = %s_default();\n", id);
+    for (int p = 0; p < info->param_count; p++)
+        body_put(body, "    m.%s = %s(in%d.%c);\n", info->params[p].name,
+                 info->params[p].choices ? l->whole : l->number, 2 + p / 4, "xyzw"[p % 4]);
+    body_declare(body, l, l->rgb, "color");
+    body_put(body, "; color.r = in4.x; color.g = in4.y; color.b = in4.z;\n");
+    if (two) body_declare(body, l, l->rgb, "second");
+    if (two) body_put(body, "; second.r = in5.x; second.g = in5.y; second.b = in5.z;\n");
+    body_declare(body, l, l->rgb, "f");
+    body_put(body, " = %s_eval(m, color, %so, i);\n", id, two ? "second, " : "");
+    body_declare(body, l, l->dir, "drawn");
+    body_put(body, " = %s_sample(m, o, in0.w, in1.w);\n", id);
+    body_put(body,
+             "    out0.w = %s_pdf(m, o, i);\n    out1.x = drawn.x;\n    out1.y = drawn.y;\n"
+             "    out1.z = drawn.z;\n",
+             id);
+    if (has_albedo(s)) body_put(body, "    out1.w = %s_albedo(m, o.z);\n", id);
+}
+
+static inline void put_material_questions(const Exported *s, const WeftExport *text, const Language *l,
+                                          const char *id, Body *body) {
+    char type[64];
+    const char *numbers = subject_record(text, l, "_surface", type);
+    body_declare(body, l, type, "s");
+    body_put(body, " = %s_surface();\n", id);
+    for (int v = 0; v < VARIED && !s->fixed; v++) {
+        const char *name = varied[v].name;
+        int row = varied[v].row;
+        char found[64];
+        snprintf(found, sizeof found, "    s.%s = ", name);
+        if (!strstr(numbers, found)) continue; /* the composition does not read it */
+        if (strcmp(varied[v].at, "rgb") == 0)
+            body_put(body, "    s.%s.r = in%d.x; s.%s.g = in%d.y; s.%s.b = in%d.z;\n", name, row, name, row,
+                     name, row);
+        else
+            body_put(body, "    s.%s = %s;\n", name, varied[v].at);
+    }
+    body_declare(body, l, l->rgb, "f");
+    body_put(body, " = %s_shade(s, o, i);\n", id);
+}
+
+/* Statements which read in0 .. in5 and set members of out0 and out1. */
 static inline void subject_body(const Exported *s, const WeftExport *text, const char *prefix,
-                                const char *dir, const char *rgb, bool c, char *body, size_t room) {
-    char type[64] = "", id[64];
-    size_t used = 0;
-    int size = 0;
-    for (const char *k = prefix; *k; k++)
-        if (*k != '_') {
-            type[size] = *k;
-            if (size == 0 || k[-1] == '_') type[size] = (char)(type[size] - 'a' + 'A');
-            size++;
-        }
+                                const Language *l, char *out, size_t room) {
+    char id[64];
+    Body body = {.text = out, .room = room};
     snprintf(id, sizeof id, "%s%s", prefix, s->id);
     for (char *k = id; *k; k++)
         if (*k == '-') *k = '_';
-#define PUT(...)                                                                                             \
-    do {                                                                                                     \
-        used += (size_t)snprintf(body + used, room - used, __VA_ARGS__);                                     \
-        assert_true(used < room);                                                                            \
-    } while (0)
-    PUT("    %s o; o.x = in0.x; o.y = in0.y; o.z = in0.z;\n    %s i; i.x = in1.x; i.y = in1.y; i.z = "
-        "in1.z;\n",
-        dir, dir);
-    if (s->is_lobe) {
-        const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
-        const char *record = strstr(text->text, c ? "_default(void) {" : "_default() {");
-        while (record[-1] != '\n') record--;
-        if (strncmp(record, "static inline ", 14) == 0) record += 14;
-        PUT("    %.*s m = %s_default();\n", (int)strcspn(record, " "), record, id);
-        for (int p = 0; p < info->param_count; p++)
-            PUT("    m.%s = %s(in%d.%c);\n", info->params[p].name,
-                c                         ? info->params[p].choices ? "(int)" : "(float)"
-                : info->params[p].choices ? "int"
-                                          : "float",
-                2 + p / 4, "xyzw"[p % 4]);
-        PUT("    %s color; color.r = in4.x; color.g = in4.y; color.b = in4.z;\n", rgb);
-        bool two = info->traits & WEFT_LOBE_TWO_COLORS;
-        if (two) PUT("    %s second; second.r = in5.x; second.g = in5.y; second.b = in5.z;\n", rgb);
-        PUT("    %s f = %s_eval(m, color, %so, i);\n", rgb, id, two ? "second, " : "");
-        PUT("    %s drawn = %s_sample(m, o, in0.w, in1.w);\n", dir, id);
-        PUT("    out0.w = %s_pdf(m, o, i);\n    out1.x = drawn.x;\n    out1.y = drawn.y;\n    out1.z = "
-            "drawn.z;\n",
-            id);
-        if (has_albedo(s)) PUT("    out1.w = %s_albedo(m, o.z);\n", id);
-    } else {
-        PUT("    %sSurface s = %s_surface();\n", type, id);
-        const char *numbers = strstr(text->text, c ? "_surface(void) {" : "_surface() {");
-        assert_non_null(numbers);
-        for (int v = 0; v < VARIED && !s->fixed; v++) {
-            char found[64];
-            snprintf(found, sizeof found, "    s.%s = ", varied[v].name);
-            if (!strstr(numbers, found)) continue; /* the composition does not read it */
-            if (strcmp(varied[v].at, "rgb") == 0)
-                PUT("    s.%s.r = in%d.x; s.%s.g = in%d.y; s.%s.b = in%d.z;\n", varied[v].name, varied[v].row,
-                    varied[v].name, varied[v].row, varied[v].name, varied[v].row);
-            else
-                PUT("    s.%s = %s;\n", varied[v].name, varied[v].at);
-        }
-        PUT("    %s f = %s_shade(s, o, i);\n", rgb, id);
-    }
-    PUT("    out0.x = f.r;\n    out0.y = f.g;\n    out0.z = f.b;\n");
+    body_declare(&body, l, l->dir, "o");
+    body_put(&body, "; o.x = in0.x; o.y = in0.y; o.z = in0.z;\n");
+    body_declare(&body, l, l->dir, "i");
+    body_put(&body, "; i.x = in1.x; i.y = in1.y; i.z = in1.z;\n");
+    (s->is_lobe ? put_lobe_questions : put_material_questions)(s, text, l, id, &body);
+    body_put(&body, "    out0.x = f.r;\n    out0.y = f.g;\n    out0.z = f.b;\n");
 }
 
 static inline void put_varied(Surface *s, float *const in[INPUTS], size_t k) {

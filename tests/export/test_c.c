@@ -42,7 +42,7 @@ static void put_subject(FILE *all, int k) {
     fputs(made.text, header);
     assert_int_equal(fclose(header), 0);
     assert_non_null(body);
-    subject_body(s, &made, prefix, dir, rgb, true, body, BODY);
+    subject_body(s, &made, prefix, &(Language){dir, rgb, "(int)", "(float)", "(void) {", true}, body, BODY);
     fprintf(all, "#include \"%s\"\nvoid run_%d(int n, const float4 *const in[6], float4 *const out[2]);\n",
             name, k);
     fprintf(all, "void run_%d(int n, const float4 *const in[6], float4 *const out[2]) {\n", k);

@@ -132,7 +132,7 @@ static void name_file(const Exported *s, const char *end, char name[128]) {
 static void hlsl_put(const Exported *s, const WeftExport *made) {
     char *body = malloc(BODY), *tail = malloc(BODY + 2048), name[128];
     assert_true(body && tail);
-    subject_body(s, made, "weft_", "float3", "float3", false, body, BODY);
+    subject_body(s, made, "weft_", &language_hlsl, body, BODY);
     snprintf(tail, BODY + 2048,
              "struct Answers { float4 out0 : SV_Target0; float4 out1 : SV_Target1; };\n"
              "Answers main(float4 a0 : TEXCOORD0, float4 a1 : TEXCOORD1, float4 a2 : TEXCOORD2,\n"
@@ -178,7 +178,7 @@ static void agree(Way way) {
             run(s, context, made, text, body, true, &arrays[k]);
             free(text);
         } else {
-            subject_body(s, made, "weft_", "vec3", "vec3", false, body, BODY);
+            subject_body(s, made, "weft_", &language_glsl, body, BODY);
             run(s, context, made, made->text, body, false, &arrays[k]);
         }
         assert_agree(s, way_names[way], &arrays[k]);

@@ -44,7 +44,7 @@ static void calls_become_operators(void **state) {
         {"c = rgb_mix(rgb_grey(1.0), rgb(r, g, b), t);", "c = mix(Rgb(1.0), Rgb(r, g, b), t);"},
         {"i = dir_mirror(o, h);", "i = reflect(-o, h);"},
         {"i = dir_mirror(dir_add(o, p), h);", "i = reflect(-(o + p), h);"},
-        {"c = rgb_min(rgb_scale(a, k), 1.0);", "c = min(a * k, 1.0);"},
+        {"c = rgb_min(rgb_scale(a, k), 1.0);", "c = min(a * k, Rgb(1.0));"},
         {"Rgb rgb_add(Rgb a, Rgb b) { return rgb(a.r + b.r, 0.0, 0.0); }",
          "Rgb rgb_add(Rgb a, Rgb b) { return Rgb(a.r + b.r, 0.0, 0.0); }"},
         {"float my_rgb_add(float rgb_add) { return rgb_add; }",
@@ -91,7 +91,7 @@ static void filled_records_are_returned(void **state) {
         Items items;
         Buffer out = {0};
         cut(cases[k][0], &items);
-        returned_put(&items, cases[k][0], &out);
+        returned_put(&items, cases[k][0], false, &out);
         assert_false(out.failed);
         assert_words(out.bytes, cases[k][1]);
         items_free(&items);

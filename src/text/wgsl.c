@@ -1,0 +1,424 @@
+#include "text/wgsl.h"
+
+#include "text/types.h"
+
+typedef struct Body {
+    const Item *function;
+    Buffer *out;
+} Body;
+
+static void put(Buffer *out, const char *c, const char *end) { buffer_put(out, c, (size_t)(end - c)); }
+
+static void put_token(Buffer *out, Token token) { buffer_put(out, token.at, token.size); }
+
+static const char *trimmed_end(const char *c, const char *end) {
+    while (end > c && is_blank(end[-1])) end--;
+    return end;
+}
+
+/* The first such mark outside of brackets, or end. */
+static const char *find_mark(const char *c, const char *end, const char *mark) {
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        if (token_is(token, mark)) return token.at;
+        if (token_depth(token) > 0) c = token_closed(token.at, end);
+    }
+    return end;
+}
+
+/* The colon of the choice whose mark is at c. */
+static const char *find_colon(const char *c, const char *end) {
+    int depth = 0;
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        depth += token_is(token, "?") - token_is(token, ":");
+        if (depth == 0) return token.at;
+        if (token_depth(token) > 0) c = token_closed(token.at, end);
+    }
+    return end;
+}
+
+static void put_expression(const char *c, const char *end, Buffer *out);
+
+/* What stands between brackets, an expression behind each comma. */
+static void put_list(const char *c, const char *end, Buffer *out) {
+    while (c < end) {
+        const char *comma = find_mark(c, end, ",");
+        put_expression(c, comma, out);
+        c = comma < end ? comma + 1 : end;
+        if (comma < end) buffer_put_text(out, ",");
+    }
+}
+
+static void put_tokens(const char *c, const char *end, Buffer *out) {
+    while (c < end) {
+        Token token = token_next(&c, end);
+        put_token(out, token);
+        if (token_depth(token) <= 0) continue;
+        const char *close = token_closed(token.at, end) - 1;
+        put_list(c, close, out);
+        put(out, close, close + 1);
+        c = close + 1;
+    }
+}
+
+/* WGSL does not say which of && and || binds closer. */
+static void put_alternatives(const char *c, const char *end, Buffer *out) {
+    const char *bar = find_mark(c, end, "|");
+    bool several = bar < end;
+    for (;;) {
+        const char *first = blank_end(c, bar), *last = trimmed_end(first, bar);
+        bool apart = several && find_mark(first, last, "&") < last;
+        put(out, c, first);
+        if (apart) buffer_put_text(out, "(");
+        put_tokens(first, last, out);
+        if (apart) buffer_put_text(out, ")");
+        put(out, last, bar);
+        if (bar == end) return;
+        buffer_put_text(out, "||");
+        c = bar + 2;
+        bar = find_mark(c, end, "|");
+    }
+}
+
+/* With the blanks around it. */
+static void put_expression(const char *c, const char *end, Buffer *out) {
+    const char *mark = find_mark(c, end, "?");
+    if (mark == end) {
+        put_alternatives(c, end, out);
+        return;
+    }
+    const char *colon = find_colon(mark, end), *first = blank_end(c, mark), *last = trimmed_end(colon, end);
+    put(out, c, first);
+    buffer_put_text(out, "select(");
+    put_expression(blank_end(colon + 1, last), last, out);
+    buffer_put_text(out, ", ");
+    put_expression(blank_end(mark + 1, colon), trimmed_end(mark + 1, colon), out);
+    buffer_put_text(out, ", ");
+    put_expression(first, trimmed_end(first, mark), out);
+    buffer_put_text(out, ")");
+    put(out, last, end);
+}
+
+/* Whether the path that begins at c is written to. */
+static bool is_stored(const char *c, const char *end) {
+    Token token;
+    token_solid(&c, end);
+    for (;;) {
+        token = token_solid(&c, end);
+        if (token_is(token, "["))
+            c = token_closed(token.at, end);
+        else if (token_is(token, "."))
+            token_solid(&c, end);
+        else
+            break;
+    }
+    bool changes =
+        token_is(token, "+") || token_is(token, "-") || token_is(token, "*") || token_is(token, "/");
+    if (token_is(token, "=")) return *c != '=';
+    return changes && (*c == '=' || (*c == *token.at && !token_is(token, "*") && !token_is(token, "/")));
+}
+
+static bool is_written(const Item *function, Token name) {
+    const char *c;
+    Token before = {TOKEN_NONE, "", 0}, token;
+    types_parameters(function, &c);
+    for (; (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
+        if (token.kind == TOKEN_BLANK) continue;
+        bool declared = (before.kind == TOKEN_NAME && !token_is(before, "else")) || token_is(before, ",");
+        if (token_same(token, name) && !declared && !token_is(before, ".") &&
+            is_stored(token.at, function->end))
+            return true;
+        before = token;
+    }
+    return false;
+}
+
+/* The blanks that the line of c begins with; none where something else does. */
+static Piece indent_of(const Body *body, const char *c) {
+    const char *first = c;
+    while (first > body->function->code && (first[-1] == ' ' || first[-1] == '\t')) first--;
+    bool line = first > body->function->code && first[-1] == '\n';
+    return line ? (Piece){first, c} : (Piece){c, c};
+}
+
+/* To a new line where the statement at c begins one. */
+static void put_break(const Body *body, const char *c) {
+    Piece indent = indent_of(body, c);
+    buffer_put_text(body->out, indent.at < indent.end ? "\n" : " ");
+    put(body->out, indent.at, indent.end);
+}
+
+/* "x[4]" of that type. */
+static void put_type(Token type, const char *c, const char *end, Buffer *out) {
+    Token bracket = token_solid(&c, end);
+    bool array = token_is(bracket, "[");
+    if (array) buffer_put_text(out, "array<");
+    put_token(out, type);
+    if (!array) return;
+    buffer_put_text(out, ", ");
+    put(out, c, token_closed(bracket.at, end) - 1);
+    buffer_put_text(out, ">");
+}
+
+/* One of the names of a declaration: "x = 1.0", "x" or "x[4]". */
+static void put_variable(const Body *body, Token type, Piece piece) {
+    const char *c = piece.at, *value = find_mark(c, piece.end, "=");
+    Token name = token_solid(&c, piece.end);
+    bool set = value < piece.end;
+    buffer_put_text(body->out, set && !is_written(body->function, name) ? "let " : "var ");
+    put_token(body->out, name);
+    if (set) {
+        buffer_put_text(body->out, " =");
+        put_expression(value + 1, piece.end, body->out);
+    } else {
+        buffer_put_text(body->out, ": ");
+        put_type(type, c, piece.end, body->out);
+    }
+}
+
+static void put_declaration(const Body *body, const char *c, Token type, const List *names) {
+    for (int k = 0; k < names->count; k++) {
+        if (k) put_break(body, c);
+        put_variable(body, type, names->all[k]);
+        if (k + 1 < names->count) buffer_put_text(body->out, ";");
+    }
+}
+
+/* "a = b" and "f(a)", without a semicolon. */
+static void put_action(const Body *body, const char *c, const char *end) {
+    Token type;
+    List names = types_declared(c, body->function->end, &type);
+    const char *value = find_mark(c, end, "=");
+    if (names.count) {
+        put_declaration(body, c, type, &names);
+    } else if (value < end) {
+        put_tokens(c, value + 1, body->out);
+        put_expression(value + 1, end, body->out);
+    } else {
+        put_expression(c, end, body->out);
+    }
+}
+
+static const char *put_statement(const Body *body, const char *c, const char *from);
+
+/* Statements and what is between them, up to a brace or a case. */
+static const char *put_statements(const Body *body, const char *c, const char *end) {
+    for (;;) {
+        const char *first = blank_end(c, end);
+        Token token = token_peek(first, end);
+        bool over = token_is(token, "}") || token_is(token, "case") || token_is(token, "default");
+        if (first == end || over) return c;
+        put(body->out, c, first);
+        c = put_statement(body, first, first);
+    }
+}
+
+/* What a condition is in front of, in braces; from: where all of it begins. */
+static const char *put_branch(const Body *body, const char *c, const char *from) {
+    const char *end = body->function->end, *first = blank_end(c, end);
+    bool braces = *first == '{', line = memchr(c, '\n', (size_t)(first - c)) != NULL;
+    if (!braces) buffer_put_text(body->out, " {");
+    put(body->out, c, first);
+    const char *stop = put_statement(body, first, from);
+    if (braces) return stop;
+    if (line)
+        put_break(body, from);
+    else
+        buffer_put_text(body->out, " ");
+    buffer_put_text(body->out, "}");
+    return stop;
+}
+
+static const char *put_if(const Body *body, const char *c, const char *from) {
+    const char *end = body->function->end, *open = token_peek(c + 2, end).at;
+    const char *close = token_closed(open, end);
+    put(body->out, c, open);
+    put_tokens(open, close, body->out);
+    const char *stop = put_branch(body, close, from), *next = stop;
+    if (!token_is(token_solid(&next, end), "else")) return stop;
+    buffer_put_text(body->out, " else");
+    const char *other = blank_end(next, end);
+    if (!token_is(token_peek(other, end), "if")) return put_branch(body, next, from);
+    put(body->out, next, other);
+    return put_if(body, other, from);
+}
+
+static const char *put_for(const Body *body, const char *c, const char *from) {
+    const char *end = body->function->end, *open = token_peek(c + 3, end).at;
+    const char *close = token_closed(open, end), *at = open + 1;
+    buffer_put_text(body->out, "for (");
+    for (int part = 0; part < 3; part++) {
+        const char *stop = part < 2 ? find_mark(at, close, ";") : close - 1, *first = blank_end(at, stop);
+        put(body->out, at, first);
+        put_action(body, first, stop);
+        if (part < 2) buffer_put_text(body->out, ";");
+        at = stop + 1;
+    }
+    buffer_put_text(body->out, ")");
+    return put_branch(body, close, from);
+}
+
+/* "case A: case B:" at c as "case A, B:"; behind it. */
+static const char *put_labels(const Body *body, const char *c, const char *end) {
+    Token label = token_solid(&c, end);
+    put_token(body->out, label);
+    for (;;) {
+        const char *colon = find_mark(c, end, ":"), *next = colon + 1;
+        if (token_is(label, "case")) put_expression(c, colon, body->out);
+        label = token_solid(&next, end);
+        if (!token_is(label, "case")) {
+            buffer_put_text(body->out, ": {");
+            return colon + 1;
+        }
+        buffer_put_text(body->out, ",");
+        c = next;
+    }
+}
+
+/* A case has braces, and nothing falls out of it. */
+static const char *put_case(const Body *body, const char *c, const char *end) {
+    size_t size;
+    Piece indent = indent_of(body, c);
+    c = put_labels(body, c, end);
+    size = body->out->size;
+    c = put_statements(body, c, end);
+    while (body->out->size > size && is_blank(body->out->bytes[body->out->size - 1])) body->out->size--;
+    if (body->out->size - size >= 6 && memcmp(body->out->bytes + body->out->size - 6, "break;", 6) == 0)
+        body->out->size -= 6;
+    while (body->out->size > size && is_blank(body->out->bytes[body->out->size - 1])) body->out->size--;
+    bool empty = body->out->size == size;
+    bool line = !empty && memchr(body->out->bytes + size, '\n', body->out->size - size);
+    buffer_put_text(body->out, empty ? "" : line ? "\n" : " ");
+    if (line) put(body->out, indent.at, indent.end);
+    buffer_put_text(body->out, "}");
+    return c;
+}
+
+static const char *put_switch(const Body *body, const char *c) {
+    const char *end = body->function->end, *open = token_peek(c + 6, end).at;
+    const char *brace = token_peek(token_closed(open, end), end).at, *close = token_closed(brace, end) - 1;
+    put(body->out, c, open);
+    put_tokens(open, brace, body->out);
+    put(body->out, brace, brace + 1);
+    for (c = brace + 1; blank_end(c, close) < close;) {
+        const char *first = blank_end(c, close);
+        put(body->out, c, first);
+        c = put_case(body, first, close);
+    }
+    put(body->out, c, close + 1);
+    return close + 1;
+}
+
+static const char *put_block(const Body *body, const char *c) {
+    const char *close = token_closed(c, body->function->end) - 1;
+    buffer_put_text(body->out, "{");
+    put(body->out, put_statements(body, c + 1, close), close + 1);
+    return close + 1;
+}
+
+static const char *put_while(const Body *body, const char *c, const char *from) {
+    const char *end = body->function->end, *open = token_peek(c + 5, end).at;
+    put(body->out, c, open);
+    put_tokens(open, token_closed(open, end), body->out);
+    return put_branch(body, token_closed(open, end), from);
+}
+
+/* The statement at c; behind it. */
+static const char *put_statement(const Body *body, const char *c, const char *from) {
+    const char *end = body->function->end, *stop;
+    Token first = token_peek(c, end);
+    if (token_is(first, "{")) return put_block(body, c);
+    if (token_is(first, "if")) return put_if(body, c, from);
+    if (token_is(first, "for")) return put_for(body, c, from);
+    if (token_is(first, "while")) return put_while(body, c, from);
+    if (token_is(first, "switch")) return put_switch(body, c);
+    stop = types_statement_end(c, end);
+    if (token_is(first, "return")) {
+        put_token(body->out, first);
+        put_expression(c + first.size, stop - 1, body->out);
+    } else {
+        put_action(body, c, stop - 1);
+    }
+    buffer_put_text(body->out, ";");
+    return stop;
+}
+
+static void put_parameters(const Item *function, const List *list, Buffer *out) {
+    const char *c = list->open + 1;
+    for (int k = 0; k < list->count; k++) {
+        Parameter parameter = types_parameter(list, k);
+        put(out, c, list->all[k].at);
+        put_token(out, parameter.name);
+        if (is_written(function, parameter.name)) buffer_put_text(out, "_in");
+        buffer_put_text(out, ": ");
+        put_token(out, parameter.type);
+        c = list->all[k].end;
+    }
+    put(out, c, list->close + 1);
+}
+
+/* "var x = x_in;" of what is written to. */
+static void put_copies(const Item *function, const List *list, const char *body, Buffer *out) {
+    bool line = !memchr(body, '\n', (size_t)(function->end - body));
+    for (int k = 0; k < list->count; k++) {
+        Parameter parameter = types_parameter(list, k);
+        if (!is_written(function, parameter.name)) continue;
+        buffer_put_text(out, line ? " var " : "\n    var ");
+        put_token(out, parameter.name);
+        buffer_put_text(out, " = ");
+        put_token(out, parameter.name);
+        buffer_put_text(out, "_in;");
+    }
+}
+
+void wgsl_put_function(const Item *function, Buffer *out) {
+    const Body body = {function, out};
+    const char *open, *c = function->code;
+    Token result = token_solid(&c, function->end);
+    List list = types_parameters(function, &open);
+    buffer_put_text(out, "fn ");
+    put_token(out, function->name);
+    buffer_put_text(out, "(");
+    put_parameters(function, &list, out);
+    if (!token_is(result, "void")) {
+        buffer_put_text(out, " -> ");
+        put_token(out, result);
+    }
+    buffer_put_text(out, " {");
+    put_copies(function, &list, open, out);
+    put(out, put_statements(&body, open + 1, function->end - 1), function->end);
+}
+
+/* "float a, b" as "a: float, b: float". */
+static void put_member(const char *c, const char *end, Buffer *out) {
+    Token type = token_solid(&c, end);
+    for (const char *comma; c < end; c = comma + 1) {
+        Token name = token_solid(&c, end);
+        comma = find_mark(c, end, ",");
+        put_token(out, name);
+        buffer_put_text(out, ": ");
+        put_type(type, c, comma, out);
+        if (comma < end) buffer_put_text(out, ", ");
+    }
+}
+
+void wgsl_put_members(const Item *record, Buffer *out) {
+    const char *c = find_mark(record->code, record->end, "{"), *close = token_closed(c, record->end) - 1;
+    bool line = !memchr(c, '\n', (size_t)(close - c));
+    put(out, c, c + 1);
+    for (c++; blank_end(c, close) < close;) {
+        const char *first = blank_end(c, close), *stop = find_mark(first, close, ";");
+        put(out, c, first);
+        put_member(first, stop, out);
+        c = stop + 1;
+        if (!line || blank_end(c, close) < close) buffer_put_text(out, ",");
+    }
+    put(out, c, close + 1);
+}
+
+bool wgsl_writes(const Item *function) {
+    const char *body;
+    List list = types_parameters(function, &body);
+    bool written = false;
+    for (int k = 0; k < list.count; k++) written |= types_parameter(&list, k).written;
+    return written;
+}
