@@ -210,11 +210,13 @@ def arc(radius, y, bevel, start, end, steps=6):
     return [(radius + bevel * math.cos(a), y + bevel * math.sin(a), math.cos(a), math.sin(a)) for a in t]
 
 
-def plinth_parts(segments=192):
+def plinth_parts(segments=192, top_rings=12, side_rings=6):
+    """Rings divide the top and the side, since shadows and occlusion may be kept at the vertices."""
     r, h, b = PLINTH_RADIUS, PLINTH_HEIGHT, PLINTH_BEVEL
     depth, gap = PLINTH_FOOT
-    edges = arc(r - b, h - b, b, 90, 0) + arc(r - b, gap + b, b, 0, -90)
-    body = [(0.0, h, 0, 1)] + edges + [(r - depth, gap, 0, -1)]
+    top = [(radius, h, 0, 1) for radius in np.linspace(0, r - b, top_rings, endpoint=False)]
+    side = [(r, y, 1, 0) for y in np.linspace(h - b, gap + b, side_rings, endpoint=False)[1:]]
+    body = top + arc(r - b, h - b, b, 90, 0) + side + arc(r - b, gap + b, b, 0, -90) + [(r - depth, gap, 0, -1)]
     foot = [(r - depth, gap, 1, 0), (r - depth, 0.0, 1, 0)]
     return [lathe_part(body, segments), lathe_part(foot, segments)]
 

@@ -2,7 +2,7 @@
 
 #include <pthread.h>
 
-/* What jansson allocated with before: the C library's, or those of a program that set its own. */
+/* The functions that jansson allocated with before: the C library's, or those that the program had set. */
 static json_malloc_t allocate;
 static json_free_t release;
 

@@ -399,8 +399,8 @@ static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog 
     return result;
 }
 
-/* What was heard of materials that are hardly real: one finding follows from several settings, and each
- * tells. */
+/* The warnings told so far of materials that are hardly real. Several settings lead to one finding, and each
+ * of them warns. */
 typedef struct Heard {
     const WeftLog *log;
     char lines[32][256];
@@ -435,8 +435,8 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
     WeftResult result = WEFT_OK;
     if (variant) result = weft_scene_set_variant(scene, variant, error);
     if (result == WEFT_OK) result = apply_dressings(dress, scene, log, error);
-    /* What is set warns of what it finds: so all of it twice, and only the second time, with the rest as it
-     * will be, is anything heard. */
+    /* A setting warns of the material as it stands then. So all are applied twice, and the user hears the
+     * second round alone, in which every other setting is in place. */
     Heard heard = {.log = log};
     const WeftLog once = {hear_once, &heard};
     for (int round = 0; round < 2; round++) {

@@ -77,11 +77,11 @@ WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error);
 /* The comment at the top. */
 void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buffer *out);
 
-/* What the drafts share comes once; where they differ an item goes by its draft's id. To be called when all
- * are cut. */
+/* Keeps one copy of the items that drafts share. Items of one name that differ are marked `own`: they go by
+ * the id of their draft. Call it when all drafts are cut. */
 void drafts_merge(Draft *drafts, int count);
 
-/* Their items: first what several share or none else has, then what each has of its own. */
+/* Puts the items: first those that several drafts share or one alone has, then each draft's own. */
 void drafts_spell(Draft *drafts, int count, Buffer *out);
 
 /* Shadertoy's: the ball and its light, behind the functions. */

@@ -114,7 +114,7 @@ static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer 
 
 static bool same_words(const char *a, const char *b) { return strcmp(a ? a : "", b ? b : "") == 0; }
 
-/* What one text says of all it holds. */
+/* The subjects of one text agree in target, tables, pi and prefix, for it has one head. */
 static WeftResult check_all(const WeftExportDesc *descs, int count, WeftError *error) {
     const char *subject = "export";
     if (!descs || count < 1 || count > WEFT_EXPORT_SUBJECTS_MAX)

@@ -131,7 +131,7 @@ static void put_tables(const WeftExport *uploads, bool bound, Buffer *out) {
     put_line(out, " * change those as your layout has it.");
 }
 
-/* What it is of, without what could end the comment. */
+/* Names the subject, without characters that could end the comment. */
 static void put_subject(const WeftExportDesc *desc, Buffer *out) {
     const char *what = desc->lobe      ? weft_lobe_info(desc->lobe->lobe)->id
                        : desc->profile ? desc->profile

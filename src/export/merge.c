@@ -45,7 +45,7 @@ static bool part(Draft *a, Draft *b) {
     return any;
 }
 
-/* What was put for a draft before is not put again. */
+/* Drops the items that an earlier draft has put. */
 static void drop_again(Draft *drafts, int which) {
     for (int k = 0; k < drafts[which].items.count; k++) {
         Item *item = &drafts[which].items.all[k];
@@ -70,7 +70,7 @@ void drafts_merge(Draft *drafts, int count) {
     for (int d = count - 1; d > 0; d--) drop_again(drafts, d);
 }
 
-/* What a file begins with was put with the first of its items. */
+/* Drops the comments at the top of files whose first item has been put. */
 static void drop_heads(Draft *drafts, int count, const Draft *from, bool late) {
     for (int k = 0; k < from->items.count; k++) {
         const Item *item = &from->items.all[k];

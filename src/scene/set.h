@@ -34,10 +34,10 @@ void material_set(Material *material, const Setting *setting);
 /* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
 void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
 
-/* The same of the inputs that a file names, one for each of SURFACE_INPUTS, each thing once. */
+/* Checks the inputs that a file names, a flag for each of SURFACE_INPUTS, and tells each finding once. */
 void plausible_check_named(const Material *material, const bool *named, const char *file, const WeftLog *log);
 
-/* The same of all settings, each thing once. */
+/* Checks all settings and tells each finding once. */
 void plausible_check_all(const Material *material, const char *target, const WeftLog *log);
 
 #endif

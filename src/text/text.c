@@ -151,7 +151,7 @@ static void check_macros(Text *text) {
     if (*text->macros.wrong) fail_dialect(text, text->macros.wrong);
 }
 
-/* What a file begins with. */
+/* Marks where a file begins, with the comment at its top. */
 static void put_head(Text *text, const char *file, const Buffer *source) {
     const char *stop = comment_end(source->bytes, source->bytes + source->size);
     text_line(text, TEXT_HEAD_MARK "%.*s", (int)(stop - source->bytes) - 2, source->bytes + 2);

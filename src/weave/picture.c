@@ -68,7 +68,7 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
     return WEFT_OK;
 }
 
-/* What a file is that is no picture that could be read: ": it is WebP", or nothing where that is not known.
+/* The end of a message about a picture that cannot be read: ": it is WebP", or nothing for an unknown format.
  */
 static const char *format_told(const WeftError *error) {
     const char *text = weft_message_text(WEFT_MESSAGE_IMAGE_FORMAT), *at = strstr(error->text, text);

@@ -159,6 +159,18 @@ static inline json_t *material_of(const json_t *state, int index) {
     return json_array_get(json_object_get(state, "materials"), (size_t)index);
 }
 
+/* Number k of a material's input; 3 is above 0 where the input has a map. */
+static inline double input_of(const json_t *state, int material, const char *input, int k) {
+    return json_number_value(json_array_get(json_object_get(material_of(state, material), input), (size_t)k));
+}
+
+/* The state that tells of a picture of that name. Release with json_decref. */
+static inline json_t *drive_picture(Drive *drive, const char *picture) {
+    char wrote[80];
+    snprintf(wrote, sizeof wrote, "wrote %s", picture);
+    return drive_until(drive, "message", wrote);
+}
+
 static inline WeftImage picture_read(const char *path) {
     WeftImage image;
     WeftError error;
@@ -183,6 +195,12 @@ static inline void say(const char *format, ...) {
 /* A picture, which is waited for. */
 static inline void say_picture(const char *path) {
     say("wait rest\npicture %s\nwait message wrote %s\n", path, path);
+}
+
+/* The same, and a rest behind it in which the window tells its state. */
+static inline void say_rested_picture(const char *path) {
+    say_picture(path);
+    say("wait rest\n");
 }
 
 /* relMSE of two pictures on disk. */

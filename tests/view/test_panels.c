@@ -40,42 +40,25 @@ static void write_map(const char *path, int red) {
     weft_image_free(&image);
 }
 
-static double value_of(const json_t *state, int material, const char *input, int k) {
-    return json_number_value(json_array_get(json_object_get(material_of(state, material), input), (size_t)k));
-}
-
-/* A picture, and a rest in which it is told of. */
-static void shoot(const char *path) {
-    say_picture(path);
-    say("wait rest\n");
-}
-
-/* The state at rest that follows a picture of that name. */
-static json_t *at(Drive *drive, const char *picture) {
-    char wrote[80];
-    snprintf(wrote, sizeof wrote, "wrote %s", picture);
-    return drive_until(drive, "message", wrote);
-}
-
 static void undo_brings_back_a_variant(void **state) {
     (void)state;
     need_gl();
     write_quads();
     script_begin();
-    shoot("own.png");
+    say_rested_picture("own.png");
     say("choose Material/variant blue\nwait 3\n");
-    shoot("blue.png");
+    say_rested_picture("blue.png");
     say("choose Material/variant red\nwait 3\n"); /* which says nothing of the quad */
-    shoot("red.png");
+    say_rested_picture("red.png");
     say("key control+z\nwait 3\n");
-    shoot("undone.png");
+    say_rested_picture("undone.png");
     say("key control+z\nwait 3\n");
-    shoot("first.png");
+    say_rested_picture("first.png");
     Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
     static const char *const pictures[] = {"own.png", "blue.png", "red.png", "undone.png", "first.png"};
     static const int variants[] = {-1, 1, 0, 1, -1}, materials[] = {1, 0, 2, 0, 2};
     for (int k = 0; k < 5; k++) {
-        json_t *now = at(&drive, pictures[k]);
+        json_t *now = drive_picture(&drive, pictures[k]);
         assert_int_equal(number_of(now, "variant"), variants[k]);
         if (k) assert_int_equal(number_of(now, "material"), materials[k]);
         json_decref(now);
@@ -93,15 +76,15 @@ static void the_menu_of_presets_follows_undo(void **state) {
     const char *preset = weft_preset_name(1);
     script_begin();
     say("wait rest\nchoose Material/preset %s\nwait 5\n", preset);
-    shoot("worn.png");
+    say_rested_picture("worn.png");
     say("key control+z\nwait 3\n");
-    shoot("undone.png");
+    say_rested_picture("undone.png");
     say("key control+shift+z\nwait 3\n");
-    shoot("again.png");
+    say_rested_picture("again.png");
     Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
     static const char *const pictures[] = {"worn.png", "undone.png", "again.png"};
     for (int k = 0; k < 3; k++) {
-        json_t *now = at(&drive, pictures[k]);
+        json_t *now = drive_picture(&drive, pictures[k]);
         assert_string_equal(word_of(material_of(now, 0), "preset"), k == 1 ? "" : preset);
         json_decref(now);
     }
@@ -119,19 +102,19 @@ static void a_scene_that_is_read_again_keeps_its_folder(void **state) {
     script_begin();
     say("wait rest\nmove 0.5 0.2\npress left\nrelease left\nwait rest\n");
     say("drop folder\nwait message 1 maps of folder\nwait rest\nset Material/roughness 0.25\nwait rest\n");
-    shoot("worn.png");
+    say_rested_picture("worn.png");
     say("wait message maps of folder\nwait 5\n");
-    shoot("again.png");
+    say_rested_picture("again.png");
     Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
-    json_t *now = at(&drive, "worn.png");
+    json_t *now = drive_picture(&drive, "worn.png");
     int material = (int)number_of(now, "material");
-    assert_true(value_of(now, 1, "base_color", 3) > 0.0); /* the cloth is what has a sheen */
+    assert_true(input_of(now, 1, "base_color", 3) > 0.0); /* the cloth is what has a sheen */
     json_decref(now);
     sleep_seconds(0.1);
     file_make("quads.gltf", quads, sizeof quads - 1);
-    now = at(&drive, "again.png");
-    assert_true(value_of(now, 1, "base_color", 3) > 0.0);
-    assert_true(fabs(value_of(now, material, "roughness", 0) - 0.25) < 1e-6);
+    now = drive_picture(&drive, "again.png");
+    assert_true(input_of(now, 1, "base_color", 3) > 0.0);
+    assert_true(fabs(input_of(now, material, "roughness", 0) - 0.25) < 1e-6);
     json_decref(now);
     drive_finish(&drive);
     assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
@@ -146,17 +129,17 @@ static void every_number_takes_a_map_and_shows_it(void **state) {
     script_begin();
     say("wait rest\nclick \"Material/roughness choose\"\nwait 3\nclick \"Choose a map/path\"\nkey "
         "control+a\ntype fine.png\nkey enter\nwait 3\n");
-    shoot("mapped.png");
+    say_rested_picture("mapped.png");
     say("click \"Material/roughness map\"\nwait 3\n");
-    shoot("plain.png");
+    say_rested_picture("plain.png");
     Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *now = at(&drive, "mapped.png");
-    assert_true(value_of(now, 0, "roughness", 3) > 0.0);
+    json_t *now = drive_picture(&drive, "mapped.png");
+    assert_true(input_of(now, 0, "roughness", 3) > 0.0);
     assert_non_null(json_object_get(json_object_get(now, "controls"), "Material/roughness thumb"));
     assert_true(is_true(now, "lost")); /* no line says which file */
     json_decref(now);
-    now = at(&drive, "plain.png");
-    assert_int_equal(value_of(now, 0, "roughness", 3), 0);
+    now = drive_picture(&drive, "plain.png");
+    assert_int_equal(input_of(now, 0, "roughness", 3), 0);
     assert_null(json_object_get(json_object_get(now, "controls"), "Material/roughness thumb"));
     json_decref(now);
     drive_finish(&drive);
@@ -168,27 +151,27 @@ static void a_swatch_sets_what_the_chart_says(void **state) {
     script_begin();
     say("wait rest\nclick \"Material/known base_color\"\nwait 3\nclick \"Material/colour gold\"\nwait "
         "rest\n");
-    shoot("gold.png");
+    say_rested_picture("gold.png");
     say("click \"Material/colour brick\"\nwait 3\nclick \"Material/known ior\"\nwait 3\nclick \"Material/F0 "
         "water\"\nwait rest\n");
-    shoot("brick.png");
+    say_rested_picture("brick.png");
     say("click \"Material/Models\"\nwait 3\nchoose Material/workflow specular\nwait 3\nclick "
         "\"Material/colour "
         "gold\"\nwait rest\n");
-    shoot("specular.png");
+    say_rested_picture("specular.png");
     Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *now = at(&drive, "gold.png");
-    assert_true(fabs(value_of(now, 0, "base_color", 1) - 0.782) < 1e-6);
-    assert_true(fabs(value_of(now, 0, "metallic", 0) - 1.0) < 1e-6);
+    json_t *now = drive_picture(&drive, "gold.png");
+    assert_true(fabs(input_of(now, 0, "base_color", 1) - 0.782) < 1e-6);
+    assert_true(fabs(input_of(now, 0, "metallic", 0) - 1.0) < 1e-6);
     json_decref(now);
-    now = at(&drive, "brick.png");
-    assert_true(fabs(value_of(now, 0, "base_color", 0) - 0.262) < 1e-6);
-    assert_true(fabs(value_of(now, 0, "metallic", 0)) < 1e-6);
-    assert_true(fabs(value_of(now, 0, "ior", 0) - 1.333) < 1e-6);
+    now = drive_picture(&drive, "brick.png");
+    assert_true(fabs(input_of(now, 0, "base_color", 0) - 0.262) < 1e-6);
+    assert_true(fabs(input_of(now, 0, "metallic", 0)) < 1e-6);
+    assert_true(fabs(input_of(now, 0, "ior", 0) - 1.333) < 1e-6);
     json_decref(now);
-    now = at(&drive, "specular.png");
-    assert_true(fabs(value_of(now, 0, "base_color", 0)) < 1e-6);
-    assert_true(fabs(value_of(now, 0, "specular_color", 2) - 0.344) < 1e-6);
+    now = drive_picture(&drive, "specular.png");
+    assert_true(fabs(input_of(now, 0, "base_color", 0)) < 1e-6);
+    assert_true(fabs(input_of(now, 0, "specular_color", 2) - 0.344) < 1e-6);
     json_decref(now);
     drive_finish(&drive);
 }
@@ -199,10 +182,10 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
     write_quads();
     script_begin();
     say("wait rest\nkey m\nclick Panel/Doctor\nwait rest\nwait 3\nwindow doctor.png\nwait 3\n");
-    shoot("open.png");
+    say_rested_picture("open.png");
     say("open builtin:cloth\nwait message triangles\nwait rest\n");
     Drive drive = drive_start(script, LIST(UNSEEN, "quads.gltf", FLAT));
-    json_t *now = at(&drive, "open.png");
+    json_t *now = drive_picture(&drive, "open.png");
     assert_non_null(json_object_get(json_object_get(now, "controls"), "Doctor/finding 0"));
     json_decref(now);
     drive_finish(&drive);

@@ -36,18 +36,6 @@ static void write_tga(const char *path, const unsigned char odd[3], const unsign
     file_make(path, (const char *)file, sizeof file);
 }
 
-static void shoot(const char *path) {
-    say_picture(path);
-    say("wait rest\n");
-}
-
-/* The state at rest that follows a picture of that name. */
-static json_t *state_at(Drive *drive, const char *picture) {
-    char wrote[80];
-    snprintf(wrote, sizeof wrote, "wrote %s", picture);
-    return drive_until(drive, "message", wrote);
-}
-
 static void keep(const char *window) {
     char path[512];
     WeftImage image = picture_read(window);
@@ -87,27 +75,25 @@ static void what_was_changed_is_there_when_it_is_opened_again(void **state) {
     say("wait rest\nchoose Material/variant \"Peacock Velvet\"\nwait 5\nwait rest\ndrop maps\n");
     say("wait message 3 maps of maps\nwait rest\nset Material/metallic 0\nset \"Material/sheen roughness\" "
         "0.45\n");
-    shoot("own.png");
+    say_rested_picture("own.png");
     say("window saved.png\nsave saved.glb\nwait message wrote saved.glb\nsave saved.gltf\n");
     say("wait message wrote saved.gltf\nwait rest\n");
     Drive drive = drive_start(script, LIST(SEEN, chair));
-    json_t *own = state_at(&drive, "own.png");
+    json_t *own = drive_picture(&drive, "own.png");
     drive_finish(&drive);
     const json_t *peacock = material_of(own, PEACOCK);
     assert_string_equal(word_of(peacock, "name"), "fabric Mystere Peacock Velvet");
     assert_int_equal(number_of(own, "material"), PEACOCK);
     static const char *const mapped[] = {"base_color", "normal", "roughness"};
-    for (int k = 0; k < 3; k++)
-        assert_true(json_number_value(json_array_get(json_object_get(peacock, mapped[k]), 3)) > 0.0);
-    assert_true(fabs(json_number_value(json_array_get(json_object_get(peacock, "sheen_roughness"), 0)) -
-                     0.45) < 1e-6);
+    for (int k = 0; k < 3; k++) assert_true(input_of(own, PEACOCK, mapped[k], 3) > 0.0);
+    assert_true(fabs(input_of(own, PEACOCK, "sheen_roughness", 0) - 0.45) < 1e-6);
     static const char *const files[] = {"saved.glb", "saved.gltf"};
     for (int f = 0; f < 2; f++) {
         script_begin();
-        shoot("again.png");
+        say_rested_picture("again.png");
         say("window reopened.png\nwait 3\n");
         drive = drive_start(script, LIST(SEEN, files[f]));
-        json_t *again = state_at(&drive, "again.png");
+        json_t *again = drive_picture(&drive, "again.png");
         drive_finish(&drive);
         assert_int_equal(json_array_size(json_object_get(again, "materials")), MATERIALS);
         assert_int_equal(number_of(again, "material"), PEACOCK); /* what it wore is what it wears */
@@ -133,22 +119,22 @@ static void the_first_minute(void **state) {
     NEEDED();
     file_make("broken.glb", "glTF\2\0\0\0nonsense", 16);
     script_begin();
-    shoot("opened.png");
+    say_rested_picture("opened.png");
     say("window first.png\nopen broken.glb\nwait message broken.glb: \n");
-    shoot("still.png");
+    say_rested_picture("still.png");
     say("move 0.679 0.706\npress left\nrelease left\nwait message wood Brown\nwait rest\n"); /* a leg */
     say("key m\nwait message metal\nkey shift+m\nwait message wood Brown\nwait rest\nkey g\n");
-    shoot("floor.png");
+    say_rested_picture("floor.png");
     say("window floor-drawn.png\nkey tab\nwait samples 2\nwindow floor-traced.png\nkey g\nwait 3\nwait "
         "samples "
         "2\nwindow plain-traced.png\nkey tab\n");
-    shoot("plain.png");
+    say_rested_picture("plain.png");
     Drive drive = drive_start(script, LIST(SEEN, chair));
-    json_t *now = state_at(&drive, "opened.png");
+    json_t *now = drive_picture(&drive, "opened.png");
     assert_int_equal(number_of(now, "material"), MANGO); /* the other fabric only a variant wears */
     static const char *const below[] = {"Material/metallic", "Material/roughness", "Material/normal"};
     for (int k = 0; k < 3; k++) assert_true(top_of(now, "Material/base color") < top_of(now, below[k]));
-    json_t *still = state_at(&drive, "still.png");
+    json_t *still = drive_picture(&drive, "still.png");
     assert_true(json_equal(json_object_get(still, "materials"), json_object_get(now, "materials")));
     assert_string_equal(word_of(still, "scene"), chair);
     json_decref(still);
