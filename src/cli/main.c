@@ -8,6 +8,7 @@
 #include "man.h"
 #include "names.h"
 #include "report.h"
+#include "uncaught.h"
 #include "verbs.h"
 #include "weft/version.h"
 
@@ -95,6 +96,7 @@ static int dispatch(int count, char **arguments) {
 }
 
 int main(int count, char **arguments) {
+    uncaught_begin();
     signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
     int result = dispatch(count, arguments);
     errno = 0;

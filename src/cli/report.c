@@ -1,10 +1,14 @@
 #include "report.h"
 
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
+
+static atomic_bool failed;
 
 int report(int result, const char *format, ...) {
     char line[1024];
+    if (result != WEFT_OK) atomic_store(&failed, true);
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
@@ -14,6 +18,8 @@ int report(int result, const char *format, ...) {
     fprintf(stderr, "weft: %s\n", line);
     return result;
 }
+
+bool report_failed(void) { return atomic_load(&failed); }
 
 int report_error(const WeftError *error) { return report((int)error->result, "%s", error->text); }
 

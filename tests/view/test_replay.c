@@ -203,10 +203,6 @@ static void its_command_line_makes_its_picture(void **state) {
 
 /* ---- comparing ---- */
 
-static double roughness_of(const json_t *state) {
-    return json_number_value(json_array_get(json_object_get(material_of(state, 0), "roughness"), 0));
-}
-
 static void two_settings_and_the_difference(void **state) {
     (void)state;
     need_gl();
@@ -226,9 +222,9 @@ static void two_settings_and_the_difference(void **state) {
     assert_int_equal(number_of(a, "split"), 1);
     assert_int_equal(number_of(b, "split"), 1);
     assert_int_equal(number_of(c, "split"), 0);
-    assert_true(fabs(roughness_of(a) - 0.25) < 1e-6);
-    assert_true(fabs(roughness_of(b) - 0.9) < 1e-6);
-    assert_true(fabs(roughness_of(c) - 0.25) < 1e-6);
+    assert_true(fabs(input_of(a, 0, "roughness", 0) - 0.25) < 1e-6);
+    assert_true(fabs(input_of(b, 0, "roughness", 0) - 0.9) < 1e-6);
+    assert_true(fabs(input_of(c, 0, "roughness", 0) - 0.25) < 1e-6);
     assert_true(number_of(c, "relmse") < 0.0);
     json_decref(a);
     json_decref(b);
@@ -244,215 +240,6 @@ static void two_settings_and_the_difference(void **state) {
     }
     drive_finish(&drive);
     assert_true(relmse >= 0.0 && relmse < 1.0);
-}
-
-/* ---- files that change while it runs ---- */
-
-static void write_texture(const char *path, int red, int green) {
-    WeftImage image;
-    WeftError error;
-    assert_int_equal(weft_image_create(8, 8, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
-    unsigned char *p = image.pixels;
-    for (int k = 0; k < 64; k++, p += 3) p[0] = (unsigned char)red, p[1] = (unsigned char)green, p[2] = 20;
-    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
-    weft_image_free(&image);
-}
-
-static void pass_by(Drive *drive, const char *message) {
-    json_decref(drive_until(drive, "message", message));
-}
-
-static void a_texture_is_read_again(void **state) {
-    (void)state;
-    need_gl();
-    write_texture("map.png", 220, 60);
-    script_begin();
-    say_picture("1.png");
-    say("wait message read again\n");
-    say_picture("2.png");
-    say("wait message map.png\n");
-    say_picture("3.png");
-    say("wait message read again\n");
-    say_picture("4.png");
-    say("wait rest\n");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--texture", "Cloth.base_color=map.png"));
-    pass_by(&drive, "wrote 1.png");
-    write_texture("map.png", 60, 220);
-    pass_by(&drive, "wrote 2.png");
-    file_make("map.png", "\x89PNG\r\n\x1a\nnonsense", 16);
-    pass_by(&drive, "wrote 3.png");
-    write_texture("map.png", 220, 60);
-    pass_by(&drive, "wrote 4.png");
-    drive_finish(&drive);
-    assert_true(pictures_most("1.png", "2.png") > 0.05);
-    assert_true(pictures_most("2.png", "3.png") < 0.5 / 255.0);
-    assert_true(pictures_most("1.png", "4.png") < 0.5 / 255.0);
-}
-
-/* The number by which a map is multiplied stays as it was set. */
-static void a_map_added_to_a_worn_folder_is_put_on(void **state) {
-    (void)state;
-    need_gl();
-    if (mkdir("maps", 0700) != 0) assert_int_equal(access("maps", F_OK), 0);
-    write_texture("maps/cloth_roughness.png", 200, 200);
-    script_begin();
-    say("wait rest\ndrop maps\nwait message 1 maps of maps\nwait rest\n");
-    say("set \"Material/roughness\" 0.5\nwait rest\n");
-    say_picture("1.png");
-    say("wait message 2 maps of maps\n");
-    say_picture("2.png");
-    say("wait rest\n");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *before = drive_until(&drive, "message", "wrote 1.png");
-    write_texture("maps/cloth_basecolor.png", 60, 220);
-    json_t *after = drive_until(&drive, "message", "wrote 2.png");
-    drive_finish(&drive);
-    assert_true(fabs(roughness_of(before) - 0.5) < 1e-6 && fabs(roughness_of(after) - 0.5) < 1e-6);
-    assert_true(pictures_most("1.png", "2.png") > 0.05);
-    json_decref(before);
-    json_decref(after);
-    unlink("maps/cloth_roughness.png");
-    unlink("maps/cloth_basecolor.png");
-    rmdir("maps");
-}
-
-static void write_lobe(const char *with) {
-    static const char from[] = "1.0f / PI";
-    const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
-    char *edited = at ? calloc(strlen(text) + strlen(with) + 1, 1) : NULL;
-    assert_non_null(edited);
-    int length = sprintf(edited, "%.*s%s%s", (int)(at - text), text, with, at + strlen(from));
-    file_make("text/shading/lobes/lambert.h", edited, (size_t)length);
-    free(edited);
-}
-
-static void shader_text_is_compiled_again(void **state) {
-    (void)state;
-    need_gl();
-    assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700),
-                     0);
-    write_lobe("1.0f / PI");
-    script_begin();
-    say_picture("1.png");
-    say("wait message shader:\n");
-    say_picture("2.png");
-    say("wait message compile again\n");
-    say_picture("3.png");
-    say("wait message shader:\n");
-    say_picture("4.png");
-    say("wait message compile again\n");
-    say_picture("5.png");
-    say("wait rest\n");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--shader-dir", "text"));
-    json_t *now = drive_until(&drive, "message", "wrote 1.png");
-    assert_string_equal(word_of(now, "complaint"), "");
-    json_decref(now);
-    write_lobe("1.0f / / PI");
-    now = drive_until(&drive, "message", "wrote 2.png");
-    assert_non_null(strstr(word_of(now, "complaint"), "lambert.h:"));
-    json_decref(now);
-    write_lobe("3.0f / PI");
-    now = drive_until(&drive, "message", "wrote 3.png");
-    assert_string_equal(word_of(now, "complaint"), "");
-    json_decref(now);
-    write_lobe("nothing(a) / PI");
-    pass_by(&drive, "wrote 4.png");
-    write_lobe("1.0f / PI /* mended */");
-    now = drive_until(&drive, "message", "wrote 5.png");
-    assert_string_equal(word_of(now, "complaint"), "");
-    json_decref(now);
-    drive_finish(&drive);
-    assert_true(pictures_most("1.png", "2.png") < 0.5 / 255.0); /* broken text leaves what there was */
-    assert_true(pictures_most("1.png", "3.png") > 0.1);
-    assert_true(pictures_most("3.png", "4.png") < 0.5 / 255.0);
-    assert_true(pictures_most("1.png", "5.png") < 0.5 / 255.0);
-}
-
-/* ---- the brush ---- */
-
-static void a_brushed_nap_is_kept(void **state) {
-    (void)state;
-    need_gl();
-    script_begin();
-    say("wait rest\nchoose \"Material/sheen lobe\" fibre\nset Material/nap 40\nwait rest\n");
-    say_picture("plain.exr");
-    say("key b\nmove 0.3 0.42\npress left\nwait rest\n");
-    for (int k = 1; k <= 8; k++) say("move %.3f %.3f\nwait rest\n", 0.3 + 0.04 * k, 0.42 + 0.02 * (k % 2));
-    say("release left\nwait rest\nkey b\n");
-    say_picture("brushed.exr");
-    say("save nap.glb\nwait message wrote nap.glb\nkey tab\nwait samples 24\npicture traced.exr\n");
-    say("wait message wrote traced.exr\n");
-    drive_through(script, LIST(UNSEEN, CHEAP));
-    double brushed = pictures_differ("plain.exr", "brushed.exr");
-    WeftImage size = picture_read("brushed.exr");
-    char shell[512];
-    snprintf(
-        shell, sizeof shell,
-        "\"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d --quiet --engine raster"
-        " --occlusion 0 -o again.exr && \"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d"
-        " --quiet --spp 24 -o truth.exr",
-        size.width, size.height, size.width, size.height);
-    weft_image_free(&size);
-    Ran ran = run_shell(shell);
-    if (ran.code != 0) fail_msg("%s", ran.err);
-    ran_free(&ran);
-    double again = pictures_differ("brushed.exr", "again.exr"),
-           traced = pictures_differ("traced.exr", "truth.exr");
-    print_message("brushed: %g; read again: %g, path traced %g\n", brushed, again, traced);
-    assert_true(brushed > 1e-3);
-    assert_true(again < 1e-5);
-    assert_true(traced < 0.01);
-}
-
-static double nap_of(const json_t *state) {
-    return json_number_value(json_array_get(json_object_get(material_of(state, 0), "nap"), 0));
-}
-
-/* How many of a hundred pixels differ. */
-static double share_that_differs(const char *a, const char *b) {
-    WeftImage x = picture_read(a), y = picture_read(b);
-    int count = 0, pixels = x.width * x.height;
-    assert_true(x.width == y.width && x.height == y.height && x.channels == y.channels);
-    for (int k = 0; k < pixels; k++)
-        count += memcmp((const unsigned char *)x.pixels + (size_t)(k * x.channels),
-                        (const unsigned char *)y.pixels + (size_t)(k * x.channels), 3) != 0;
-    weft_image_free(&x);
-    weft_image_free(&y);
-    return 100.0 * count / pixels;
-}
-
-static void a_stroke_naps_what_it_touches_or_nothing(void **state) {
-    (void)state;
-    need_gl();
-    script_begin();
-    say("wait rest\nkey b\ndrag left 0.45 0.5 0.55 0.5\nwait message no nap\nwait rest\n");
-    say("key control+z\nwait message nothing to undo\nwait seconds 0.5\nclick \"Make it fibre\"\nwait "
-        "rest\n");
-    say("click Panel/View\nset View/radius 0.02\n");
-    say_picture("plain.png");
-    say("move 0.45 0.5\npress left\nwait rest\n");
-    for (int k = 1; k <= 5; k++) say("move %.3f 0.5\nwait rest\n", 0.45 + 0.02 * k);
-    say("release left\nwait rest\n");
-    say_picture("stroked.png");
-    say("wait rest\nkey control+z\nwait message undone\n");
-    say_picture("undone.png");
-    say("wait rest\n");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *now = drive_until(&drive, "message", "nothing to undo");
-    assert_true(nap_of(now) <= 0.0);
-    json_decref(now);
-    now = drive_until(&drive, "message", "wrote stroked.png");
-    assert_true(fabs(nap_of(now) - 0.436332) < 1e-5);
-    json_decref(now);
-    now = drive_until(&drive, "message", "wrote undone.png");
-    assert_true(nap_of(now) <= 0.0);
-    json_decref(now);
-    drive_finish(&drive);
-    double touched = share_that_differs("plain.png", "stroked.png");
-    print_message("%.2f %% of the picture was stroked\n", touched);
-    assert_true(touched > 0.2 && touched < 15.0);
-    /* The mesh keeps the tangents that the map had made, which rounds a pixel or two otherwise. */
-    assert_true(pictures_most("plain.png", "undone.png") < 1.5 / 255.0);
 }
 
 /* ---- keys ---- */
@@ -521,11 +308,6 @@ int main(void) {
                                        cmocka_unit_test(its_command_line_makes_its_picture),
                                        cmocka_unit_test(its_command_line_has_the_folder_that_it_found),
                                        cmocka_unit_test(two_settings_and_the_difference),
-                                       cmocka_unit_test(a_texture_is_read_again),
-                                       cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
-                                       cmocka_unit_test(shader_text_is_compiled_again),
-                                       cmocka_unit_test(a_brushed_nap_is_kept),
-                                       cmocka_unit_test(a_stroke_naps_what_it_touches_or_nothing),
                                        cmocka_unit_test(panels_and_menus_are_reached_by_keys),
                                        cmocka_unit_test(a_script_that_is_wrong_ends_it),
                                        cmocka_unit_test(without_a_display_it_says_what_does_without)};

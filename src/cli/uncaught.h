@@ -1,0 +1,17 @@
+/* uncaught.h - threads of C++ libraries that run out of memory where no caller can catch it */
+#ifndef WEFT_CLI_UNCAUGHT_H
+#define WEFT_CLI_UNCAUGHT_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* From now on such a thread ends the program with WEFT_RESOURCES and one line, unless the program has
+ * reported a failure already. Any other uncaught exception still aborts. */
+void uncaught_begin(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,130 @@
+/* Files that change while the window runs: textures, folders of maps, shader text. */
+#include "drive.h"
+
+static void write_texture(const char *path, int red, int green) {
+    WeftImage image;
+    WeftError error;
+    assert_int_equal(weft_image_create(8, 8, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    unsigned char *p = image.pixels;
+    for (int k = 0; k < 64; k++, p += 3) p[0] = (unsigned char)red, p[1] = (unsigned char)green, p[2] = 20;
+    if (weft_image_write(path, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_image_free(&image);
+}
+
+static void pass_by(Drive *drive, const char *message) {
+    json_decref(drive_until(drive, "message", message));
+}
+
+static void a_texture_is_read_again(void **state) {
+    (void)state;
+    need_gl();
+    write_texture("map.png", 220, 60);
+    script_begin();
+    say_picture("1.png");
+    say("wait message read again\n");
+    say_picture("2.png");
+    say("wait message map.png\n");
+    say_picture("3.png");
+    say("wait message read again\n");
+    say_picture("4.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--texture", "Cloth.base_color=map.png"));
+    pass_by(&drive, "wrote 1.png");
+    write_texture("map.png", 60, 220);
+    pass_by(&drive, "wrote 2.png");
+    file_make("map.png", "\x89PNG\r\n\x1a\nnonsense", 16);
+    pass_by(&drive, "wrote 3.png");
+    write_texture("map.png", 220, 60);
+    pass_by(&drive, "wrote 4.png");
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") > 0.05);
+    assert_true(pictures_most("2.png", "3.png") < 0.5 / 255.0);
+    assert_true(pictures_most("1.png", "4.png") < 0.5 / 255.0);
+}
+
+/* The number by which a map is multiplied stays as it was set. */
+static void a_map_added_to_a_worn_folder_is_put_on(void **state) {
+    (void)state;
+    need_gl();
+    if (mkdir("maps", 0700) != 0) assert_int_equal(access("maps", F_OK), 0);
+    write_texture("maps/cloth_roughness.png", 200, 200);
+    script_begin();
+    say("wait rest\ndrop maps\nwait message 1 maps of maps\nwait rest\n");
+    say("set \"Material/roughness\" 0.5\nwait rest\n");
+    say_picture("1.png");
+    say("wait message 2 maps of maps\n");
+    say_picture("2.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *before = drive_until(&drive, "message", "wrote 1.png");
+    write_texture("maps/cloth_basecolor.png", 60, 220);
+    json_t *after = drive_until(&drive, "message", "wrote 2.png");
+    drive_finish(&drive);
+    assert_true(fabs(input_of(before, 0, "roughness", 0) - 0.5) < 1e-6 &&
+                fabs(input_of(after, 0, "roughness", 0) - 0.5) < 1e-6);
+    assert_true(pictures_most("1.png", "2.png") > 0.05);
+    json_decref(before);
+    json_decref(after);
+    unlink("maps/cloth_roughness.png");
+    unlink("maps/cloth_basecolor.png");
+    rmdir("maps");
+}
+
+static void write_lobe(const char *with) {
+    static const char from[] = "1.0f / PI";
+    const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
+    char *edited = at ? calloc(strlen(text) + strlen(with) + 1, 1) : NULL;
+    assert_non_null(edited);
+    int length = sprintf(edited, "%.*s%s%s", (int)(at - text), text, with, at + strlen(from));
+    file_make("text/shading/lobes/lambert.h", edited, (size_t)length);
+    free(edited);
+}
+
+static void shader_text_is_compiled_again(void **state) {
+    (void)state;
+    need_gl();
+    assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700),
+                     0);
+    write_lobe("1.0f / PI");
+    script_begin();
+    say_picture("1.png");
+    say("wait message shader:\n");
+    say_picture("2.png");
+    say("wait message compile again\n");
+    say_picture("3.png");
+    say("wait message shader:\n");
+    say_picture("4.png");
+    say("wait message compile again\n");
+    say_picture("5.png");
+    say("wait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--shader-dir", "text"));
+    json_t *now = drive_until(&drive, "message", "wrote 1.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    write_lobe("1.0f / / PI");
+    now = drive_until(&drive, "message", "wrote 2.png");
+    assert_non_null(strstr(word_of(now, "complaint"), "lambert.h:"));
+    json_decref(now);
+    write_lobe("3.0f / PI");
+    now = drive_until(&drive, "message", "wrote 3.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    write_lobe("nothing(a) / PI");
+    pass_by(&drive, "wrote 4.png");
+    write_lobe("1.0f / PI /* mended */");
+    now = drive_until(&drive, "message", "wrote 5.png");
+    assert_string_equal(word_of(now, "complaint"), "");
+    json_decref(now);
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") < 0.5 / 255.0); /* broken text leaves what there was */
+    assert_true(pictures_most("1.png", "3.png") > 0.1);
+    assert_true(pictures_most("3.png", "4.png") < 0.5 / 255.0);
+    assert_true(pictures_most("1.png", "5.png") < 0.5 / 255.0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_texture_is_read_again),
+                                       cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
+                                       cmocka_unit_test(shader_text_is_compiled_again)};
+    return cmocka_run_group_tests(tests, drive_begin, drive_end);
+}
