@@ -1,0 +1,82 @@
+/* loop.h - loops over arrays of pairs of directions, for arrays.c and for plugins (plugin.h)
+ *
+ * Only files with these loops are compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test
+ * is folded away, and a question about NaN has to be one about bits. */
+#ifndef WEFT_SHADING_LOOP_H
+#define WEFT_SHADING_LOOP_H
+
+#include <stddef.h>
+
+#include "shading/lobe.h"
+
+#if defined(CLONES) /* bench/ makes each clone by itself */
+#elif defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define CLONES
+#endif
+
+/* Whether both directions are above the horizon and none of their components is infinite or NaN, which
+ * their sum would show. */
+FN bool pair_counts(Dir o, Dir i) {
+    float sum = (o.x + i.x) + (o.y + i.y) + (o.z + i.z);
+    uint32_t bits;
+    memcpy(&bits, &sum, 4);
+    return ((int32_t)(bits & 0x7fffffffu) < 0x7f800000) & (o.z > 0.0f) & (i.z > 0.0f);
+}
+
+/* A pair; where it does not count the normal twice, which no formula minds. */
+#define TAKE_PAIR(o, i, counts)                                                                              \
+    Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                \
+    bool counts = pair_counts(o, i);                                                                         \
+    o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                \
+    i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
+
+#define PAIRS                                                                                                \
+    const float *restrict ox, const float *restrict oy, const float *restrict oz, const float *restrict ix,  \
+        const float *restrict iy, const float *restrict iz
+
+/* A loop whose elements know nothing of each other. Not `omp simd`: that makes an array over lanes of every
+ * record which travels by reference. */
+#ifdef __clang__
+#define EACH(k, n) _Pragma("clang loop vectorize(assume_safety)") for (size_t k = 0; k < n; k++)
+#else
+#define EACH(k, n) _Pragma("GCC ivdep") for (size_t k = 0; k < n; k++)
+#endif
+
+/* One member of a lobe's value: f, pdf or s. */
+#define LOBE_LOOP(question, name, Name)                                                                      \
+    CLONES static void name##_##question##_n(const Lobe *m, size_t n, PAIRS, float *restrict question) {     \
+        Name##Prepared p;                                                                                    \
+        name##_prepare(name##_of(m), &p);                                                                    \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            Angles a = angles_between(o, i);                                                                 \
+            Name##View w;                                                                                    \
+            name##_view(&p, o, &w);                                                                          \
+            float question##_k = name##_value(&p, &w, a).question;                                           \
+            question[k] = counts ? question##_k : 0.0f;                                                      \
+        }                                                                                                    \
+    }
+
+/* f of a tinted lobe in three channels, made of what has albedo c. */
+#define TINTED_LOOP(name, Name)                                                                              \
+    CLONES static void name##_tinted_n(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r,  \
+                                       float *restrict g, float *restrict b) {                               \
+        Name##Prepared p;                                                                                    \
+        name##_prepare(name##_of(m), &p);                                                                    \
+        float c_r = c[0], c_g = c[1], c_b = c[2];                                                            \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            Angles a = angles_between(o, i);                                                                 \
+            Name##View w;                                                                                    \
+            name##_view(&p, o, &w);                                                                          \
+            LobeValue v = name##_value(&p, &w, a);                                                           \
+            float f = counts ? v.f : 0.0f;                                                                   \
+            r[k] = f * tint_color(v.tint, c_r);                                                              \
+            g[k] = f * tint_color(v.tint, c_g);                                                              \
+            b[k] = f * tint_color(v.tint, c_b);                                                              \
+        }                                                                                                    \
+    }
+
+#endif
