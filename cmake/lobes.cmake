@@ -68,8 +68,8 @@ macro(weft_case variable statement)
   string(APPEND ${variable} "    case LOBE_${NAME}: ${statement}\n")
 endmacro()
 
-# lobes.gen.h and dispatch.gen.h of these lobes, in a folder.
-function(weft_dispatch folder)
+# lobes.gen.h and dispatch.gen.h of these lobes, in a folder; outside: a line that brings in those from outside.
+function(weft_dispatch folder outside)
   foreach(id ${ARGN})
     weft_read_lobe(${id})
     string(APPEND includes "#include \"shading/lobes/${name}.h\" /* LOBE_${NAME} */\n")
@@ -180,9 +180,9 @@ file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_ids.gen.h @ONLY CONTENT
 @places@")
 file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_infos.gen.h @ONLY CONTENT
 "/* lobe_infos.gen.h - made by cmake/lobes.cmake: what the lobes say of themselves, as data, and E of those that walk */
-@tables@static const WeftLobeInfo infos[LOBE_COUNT] = {
+@tables@static const WeftLobeInfo own_infos[LOBE_COUNT] = {
 @infos@};
-static const LobeNames names[LOBE_COUNT] = {
+static const LobeNames own_names[LOBE_COUNT] = {
 @names@};
 
 float lobe_walked_albedo(const Lobe *m, Dir o, int walks) {
@@ -192,5 +192,5 @@ float lobe_walked_albedo(const Lobe *m, Dir o, int walks) {
 }
 ")
 configure_file(cmake/loops.h.in ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY)
-weft_dispatch(${WEFT_GENERATED_DIR}/shading ${WEFT_LOBE_IDS})
-weft_dispatch(${WEFT_GENERATED_DIR}/text/shading ${WEFT_TEXT_LOBE_IDS}) # for half floats
+weft_dispatch(${WEFT_GENERATED_DIR}/shading "#include \"shading/outside.h\"\n" ${WEFT_LOBE_IDS})
+weft_dispatch(${WEFT_GENERATED_DIR}/text/shading "" ${WEFT_TEXT_LOBE_IDS}) # for half floats

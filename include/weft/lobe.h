@@ -53,6 +53,15 @@ WEFT_API const WeftLobeInfo *weft_lobe_info(int lobe);
 /* The index of an id, or -1. */
 WEFT_API int weft_lobe_find(const char *id);
 
+/* Takes a lobe of the user's own, in the dialect of docs/adding-a-lobe.md, from a file NAME.h: from here on
+ * it is a lobe as any other, with the index *lobe (may be NULL) and the id NAME, "-" for "_". The file runs
+ * as native code: the machine's C compiler ($CC, or cc) makes a library of it, which the user's cache keeps.
+ * A file of the same name takes the place of the one before; what is rendering goes on with that. May be
+ * called from any thread, while others use lobes too; a WeftLobeInfo stays as it was. Fails with
+ * WEFT_MESSAGE_LOBE_FILE, _LOBE_COMPILE, _TEXT_DIALECT, _COMPILER or as reading a file does; what there was
+ * then stays. */
+WEFT_API WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error);
+
 /* The layer rules by index, and a line on what each does; NULL past the end. */
 WEFT_API const char *weft_layer_id(int layer);
 WEFT_API const char *weft_layer_help(int layer);

@@ -86,7 +86,10 @@ typedef enum WeftResult {
     M(GL_MEMORY, RESOURCES, "does not fit the GPU")                                                          \
     M(DRAFT, INPUT, "is not a weaving draft that can be read")                                               \
     M(DRAFT_NOTATION, USAGE, "is not a weave")                                                               \
-    M(DRAFT_COMPLETED, WARNING, "was completed")
+    M(DRAFT_COMPLETED, WARNING, "was completed")                                                             \
+    M(LOBE_FILE, INPUT, "is not a lobe that can be taken")                                                   \
+    M(LOBE_COMPILE, INPUT, "does not compile")                                                               \
+    M(COMPILER, RESOURCES, "needs a C compiler, and there is none")
 
 /* What a warning's result would be; warnings are only ever logged, never returned. */
 #define WEFT_WARNING WEFT_OK

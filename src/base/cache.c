@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/fail.h"
 #include "base/file.h"
@@ -36,6 +37,14 @@ static void make_folders(char *path) {
             mkdir(path, 0700);
             *c = '/';
         }
+}
+
+bool cache_folder_make(void) {
+    char folder[CACHE_PATH_SIZE];
+    if (!cache_path(folder, 0, "")) return false;
+    make_folders(folder);
+    *strrchr(folder, '/') = 0;
+    return access(folder, W_OK | X_OK) == 0;
 }
 
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {

@@ -19,6 +19,9 @@ uint64_t cache_hash(uint64_t hash, const void *data, size_t size);
  * has none, or it is too long. */
 bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix);
 
+/* Makes the folder of the cache, where it is not there; false where there can be none. */
+bool cache_folder_make(void);
+
 /* Writes a file of the cache, complete or not at all, and the folders it is in. What fails is a warning
  * (WEFT_MESSAGE_CACHE_IGNORED). */
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "json.h"
 #include "layout.h"
+#include "lobes.h"
 #include "names.h"
 #include "output.h"
 #include "report.h"
@@ -289,8 +290,7 @@ static const Option bake_options[] = {
         "a color"),
     OPTION_NUMBER("--rounds", "COUNT", "120", 1, 1000, "of the search that makes a fibre-model"),
     OPTION_HEADING("Audit"),
-    OPTION_TEXT("--lobe", "LOBE", NULL,
-                "whose E the table should hold; any: the lobe and axes it is nearest to"),
+    OPTION_LOBES_OR("whose E the table should hold, any: the lobe and axes it is nearest to"),
     OPTION_TEXT("--channel", "CHANNEL", NULL, "r, g, b, a or its number from 0 [the only one]"),
     OPTION_NUMBER("--max", "ERROR", "0.01", 1e-9, 1e9, "exit 1 where a texel is off by more"),
     OPTION_HEADING("Reports"),

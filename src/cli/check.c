@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "given_lobe.h"
+#include "lobes.h"
 #include "names.h"
 #include "output.h"
 #include "passports.h"
@@ -177,6 +178,7 @@ static int check_run(const Options *options) {
 static const Option check_options[] = {
     OPTION_HEADING("Options"),
     OPTION_PARAMS("; but not the first, over which the rows of the passport run"),
+    OPTION_LOBES,
     OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
     OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
     OPTION_NUMBER("--threads", "COUNT", "0", 0, 256,

@@ -5,7 +5,7 @@
 #ifndef WEFT_CLI_DRESS_H
 #define WEFT_CLI_DRESS_H
 
-#include "options.h"
+#include "lobes.h"
 #include "weft/scene.h"
 
 enum { DRESS_LABEL = 96, DRESS_VARIANTS_MOST = 64, DRESS_VARIED_MOST = 2 };
@@ -28,7 +28,7 @@ typedef struct Dress {
 
 /* The rows of the option table. */
 #define DRESS_OPTIONS                                                                                        \
-    OPTION_HEADING("Materials, later ones win"),                                                             \
+    OPTION_HEADING("Materials, later ones win"), OPTION_LOBES,                                               \
         OPTION_TEXT("--variant", "NAME", NULL, "switch to a material variant of the file"),                  \
         OPTION_LIST("--preset", "[MAT=]NAME", "dress the cloth of the scene, or material MAT, in a preset"), \
         OPTION_LIST("--material", "[MAT=]FILE",                                                              \

@@ -10,6 +10,7 @@
 #include "decimal.h"
 #include "given_lobe.h"
 #include "json.h"
+#include "lobes.h"
 #include "report.h"
 #include "verbs.h"
 #include "weft/weft.h"
@@ -212,6 +213,7 @@ static int eval_run(const Options *options) {
 static const Option eval_options[] = {
     OPTION_HEADING("Options"),
     OPTION_PARAMS(""),
+    OPTION_LOBES,
     OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
     OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
     OPTION_END,

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "json.h"
 #include "layout.h"
+#include "lobes.h"
 #include "output.h"
 #include "report.h"
 #include "subject.h"
@@ -193,6 +194,7 @@ static const Option export_options[] = {
     OPTION_TEXT("--target", "TARGET", NULL, "the language, below"),
     OPTION_TEXT("--lut", "KIND", "c",
                 "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),
+    OPTION_LOBES,
     OPTION_HEADING("Text"),
     OPTION_TEXT("--light-pi", "HOW", "explicit",
                 "explicit: f has its 1/pi and lights are irradiances; folded: f times pi, for lights whose "

@@ -7,6 +7,7 @@
 #include "fit_sheet.h"
 #include "interrupt.h"
 #include "json.h"
+#include "lobes.h"
 #include "output.h"
 #include "path.h"
 #include "progress.h"
@@ -260,7 +261,7 @@ static const Option fit_options[] = {
     OPTION_HEADING("Fit"),
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
     OPTION_TEXT("--base", "LOBE", "lambert", "the diffuse lobe below, with its default parameters"),
-    OPTION_TEXT("--lobe", "LOBE", NULL, "fit this lobe alone"),
+    OPTION_LOBES_OR("fit this lobe alone"),
     OPTION_HEADING("Result"),
     OPTION_TEXT("-o", "FILE.json", NULL, "write the best as a material that weft render takes"),
     OPTION_TEXT("--plot", "FILE.png", NULL,

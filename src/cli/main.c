@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "layout.h"
+#include "lobes.h"
 #include "man.h"
 #include "names.h"
 #include "report.h"
@@ -44,6 +45,7 @@ static int verb_run(const Verb *verb, int count, char **arguments) {
         }
     Options options;
     int result = options_parse(verb, count, arguments, &options);
+    if (result == 0) result = lobes_take(&options);
     if (result == 0) result = verb->run(&options);
     options_free(&options);
     return result;

@@ -7,6 +7,7 @@
 
 #include "json.h"
 #include "layout.h"
+#include "lobes.h"
 #include "output.h"
 #include "path.h"
 #include "report.h"
@@ -261,6 +262,7 @@ static const Option match_options[] = {
     OPTION_SWITCH("--maps",
                   "match every sheen lobe to every other over a sweep of its width, and print a formula "
                   "where one adds no more than 0.03 to the error"),
+    OPTION_LOBES,
     OPTION_HEADING("A whole asset"),
     OPTION_TEXT("--from", "PROFILE", "khronos", "the engine it was made for"),
     OPTION_TEXT("--to", "PROFILE", NULL, "the engine it is for now: its sheens are rewritten"),

@@ -6,6 +6,7 @@
 #include "chart_sheet.h"
 #include "json.h"
 #include "layout.h"
+#include "lobes.h"
 #include "names.h"
 #include "page.h"
 #include "report.h"
@@ -311,6 +312,7 @@ static int models_run(const Options *options) {
 static const Option models_options[] = {
     OPTION_HEADING("Options"),
     OPTION_SWITCH("--json", "JSON instead of text: an object of lists, or for ID a list of what has that id"),
+    OPTION_LOBES,
     OPTION_TEXT("-o", "OUT", NULL, "with chart: only: write the swatches as a picture, .png"),
     OPTION_END,
 };

@@ -126,6 +126,15 @@ const char *option_next(const Options *options, const char *name, int *cursor) {
     return NULL;
 }
 
+const Option *option_row(const Options *options, const char *name) {
+    return row_find(options->verb, name, strlen(name));
+}
+
+void option_drop(Options *options, int at) {
+    options->given_count--;
+    for (int k = at; k < options->given_count; k++) options->given[k] = options->given[k + 1];
+}
+
 bool option_given(const Options *options, const char *name) {
     int cursor = 0;
     return option_next(options, name, &cursor) != NULL;
@@ -134,7 +143,7 @@ bool option_given(const Options *options, const char *name) {
 const char *option_text(const Options *options, const char *name) {
     int cursor = 0;
     const char *value = option_next(options, name, &cursor);
-    return value ? value : row_find(options->verb, name, strlen(name))->def;
+    return value ? value : option_row(options, name)->def;
 }
 
 bool numbers_parse(const char *text, int count, double *numbers) {
@@ -148,7 +157,7 @@ bool numbers_parse(const char *text, int count, double *numbers) {
 }
 
 static bool number_read(const Options *options, const char *name, bool whole, double *number) {
-    const Option *row = row_find(options->verb, name, strlen(name));
+    const Option *row = option_row(options, name);
     const char *text = option_text(options, name);
     double value;
     if (!text) return true;

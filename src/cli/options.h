@@ -68,6 +68,12 @@ const char *option_text(const Options *options, const char *name);
 /* The values of an option that repeats, in order: start with *cursor = 0; NULL after the last. */
 const char *option_next(const Options *options, const char *name, int *cursor);
 
+/* The row of a name that the verb has. */
+const Option *option_row(const Options *options, const char *name);
+
+/* Forgets what option_next has returned before it set its cursor to at + 1. */
+void option_drop(Options *options, int at);
+
 /* The value as a number in the table's range; on failure false after one line on standard error. An option
  * with neither value nor default leaves *number as it is. */
 bool option_integer(const Options *options, const char *name, int *number);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "layout.h"
+#include "lobes.h"
 #include "names.h"
 #include "output.h"
 #include "path.h"
@@ -181,6 +182,7 @@ static void plot_lists(void) {
 static const Option plot_options[] = {
     OPTION_HEADING("Options"),
     OPTION_TEXT("-o", "FILE", NULL, "write the figure: .png, .svg or .pdf; of report, .html"),
+    OPTION_LOBES,
     OPTION_LIST("--view", "DEGREES",
                 "angle of wo from the normal, below 90; of sphere, between light and viewer, below 180"),
     OPTION_SWITCH("--log", "f on a logarithmic scale; slice: in colours of a scale, not as a picture"),

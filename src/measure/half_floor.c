@@ -131,7 +131,8 @@ static void find_pair(const Lobe *given, const WeftParamInfo *p, WeftPassport *o
 void half_floor_measure(const Subject *subject, WeftPassport *out, int threads) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     unsigned traits = subject->whole ? 0u : weft_lobe_info(subject->lobe.id)->traits;
-    out->half_measured = half_here() && !subject->whole && !(traits & TRAIT_REFERENCE);
+    out->half_measured = half_here() && !subject->whole && !(traits & TRAIT_REFERENCE) &&
+                         !outside_lobe(subject->lobe.id); /* which are compiled as they are */
     if (!out->half_measured) return;
     if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
     Rows rows = {.subject = subject, .out = out};

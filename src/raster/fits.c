@@ -24,6 +24,8 @@ static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
     hash = cache_hash(hash, WEFT_VERSION, sizeof WEFT_VERSION);
     hash = cache_hash(hash, info->id, strlen(info->id));
+    const OutsideLobe *outside = outside_lobe(lobe->id);
+    if (outside) hash = cache_hash(hash, outside->text, strlen(outside->text));
     hash = cache_hash(hash, range, sizeof range);
     for (int k = 1; k < info->param_count; k++)
         if (k != azimuth) hash = cache_hash(hash, &lobe->params[k], sizeof lobe->params[k]);

@@ -8,6 +8,17 @@
 #include "shading/dispatch.gen.h"
 
 _Static_assert(LOBE_PARAMS_MAX == WEFT_LOBE_PARAMS_MAX, "the text and the public header differ");
+#define SAME_TRAIT(NAME)                                                                                     \
+    _Static_assert((int)TRAIT_##NAME == (int)WEFT_LOBE_##NAME, "the text and the public header differ")
+SAME_TRAIT(RECIPROCAL);
+SAME_TRAIT(CONSERVES);
+SAME_TRAIT(LOSSLESS);
+SAME_TRAIT(TWO_COLORS);
+SAME_TRAIT(ANISOTROPIC);
+SAME_TRAIT(REFERENCE);
+SAME_TRAIT(DIFFUSE);
+SAME_TRAIT(TABLE);
+SAME_TRAIT(TINTED);
 
 /* What a parameter of each type may be: a number, or an index into these. */
 #define choices_float                            NULL
@@ -22,25 +33,31 @@ static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};
     {#name, help, def, low, high, hard_low, hard_high, choices_##type},
 #include "shading/lobe_infos.gen.h"
 
-int weft_lobe_count(void) { return LOBE_COUNT; }
+int weft_lobe_count(void) { return LOBE_COUNT + outside_count(); }
 
-const WeftLobeInfo *weft_lobe_info(int lobe) { return lobe >= 0 && lobe < LOBE_COUNT ? &infos[lobe] : NULL; }
+const WeftLobeInfo *weft_lobe_info(int lobe) {
+    if (lobe >= 0 && lobe < LOBE_COUNT) return &own_infos[lobe];
+    const OutsideLobe *outside = outside_lobe(lobe);
+    return outside ? &outside->info : NULL;
+}
 
 int weft_lobe_find(const char *id) {
-    for (int k = 0; k < LOBE_COUNT; k++)
-        if (strcmp(infos[k].id, id) == 0) return k;
+    const WeftLobeInfo *info;
+    for (int k = 0; (info = weft_lobe_info(k)); k++)
+        if (strcmp(info->id, id) == 0) return k;
     return -1;
 }
 
-const LobeNames *lobe_names(int id) { return &names[id]; }
+const LobeNames *lobe_names(int id) { return id < LOBE_COUNT ? &own_names[id] : &outside_lobe(id)->names; }
 
 int lobe_param(int id, const char *name) {
-    for (int k = 0; k < infos[id].param_count; k++)
-        if (strcmp(infos[id].params[k].name, name) == 0) return k;
+    const WeftLobeInfo *info = weft_lobe_info(id);
+    for (int k = 0; k < info->param_count; k++)
+        if (strcmp(info->params[k].name, name) == 0) return k;
     return -1;
 }
 
 void lobe_set(Lobe *lobe, int k, float value) {
-    const WeftParamInfo *info = &infos[lobe->id].params[k];
+    const WeftParamInfo *info = &weft_lobe_info(lobe->id)->params[k];
     lobe->params[k] = clamp(value, info->hard_low, info->hard_high);
 }

@@ -10,20 +10,8 @@
 #include "shading/lobe.h"
 #include "shading/lobe_ids.gen.h"
 #include "shading/terms/d_ggx.h"
+#include "shading/traits.h"
 #include "weft/lobe.h"
-
-/* What holds of a lobe over its whole parameter range. The tests check each claim. */
-enum {
-    TRAIT_RECIPROCAL = WEFT_LOBE_RECIPROCAL,
-    TRAIT_CONSERVES = WEFT_LOBE_CONSERVES,
-    TRAIT_LOSSLESS = WEFT_LOBE_LOSSLESS,
-    TRAIT_TWO_COLORS = WEFT_LOBE_TWO_COLORS,
-    TRAIT_ANISOTROPIC = WEFT_LOBE_ANISOTROPIC,
-    TRAIT_REFERENCE = WEFT_LOBE_REFERENCE,
-    TRAIT_DIFFUSE = WEFT_LOBE_DIFFUSE,
-    TRAIT_TABLE = WEFT_LOBE_TABLE,
-    TRAIT_TINTED = WEFT_LOBE_TINTED
-};
 
 /* The names of things in a lobe's text: "ggx", "Ggx" and "GGX". */
 typedef struct LobeNames {
@@ -31,6 +19,21 @@ typedef struct LobeNames {
     bool strips; /* it has them: lobe.h */
 } LobeNames;
 const LobeNames *lobe_names(int id);
+
+/* A lobe from outside the catalogue (outside.h), which lives as long as the program. */
+typedef struct OutsideLobe {
+    WeftLobeInfo info;
+    LobeNames names;
+    const struct Plugin *plugin;
+    const struct OutsideLobe *before; /* that it has taken the place of; outside_take sets it */
+    const char *file, *text;          /* "shading/lobes/toy.h", as though it were there, and what is in it */
+} OutsideLobe;
+
+/* Takes one, in place of what has its name or behind the last; false where there is no room. From any thread,
+ * at any time. outside_lobe: NULL where the id is none of one. */
+bool outside_take(OutsideLobe *lobe, int *id);
+const OutsideLobe *outside_lobe(int id);
+int outside_count(void);
 
 /* What a lobe of any kind prepares and sees: lobes.gen.h. */
 typedef union LobePrepared LobePrepared;

@@ -1,5 +1,7 @@
 #include "text/buffer.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,6 +71,15 @@ void buffer_put(Buffer *buffer, const char *bytes, size_t size) {
     memcpy(buffer->bytes + buffer->size, bytes, size);
     buffer->size += size;
     buffer->bytes[buffer->size] = 0;
+}
+
+void buffer_print(Buffer *buffer, const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    buffer_put_text(buffer, text);
 }
 
 void buffer_put_text(Buffer *buffer, const char *text) { buffer_put(buffer, text, strlen(text)); }

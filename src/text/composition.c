@@ -92,7 +92,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
 void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
     static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
                                                 "HAS_COAT(m)", "HAS_DUST(m)"};
-    int ids[3 + TEXT_SLOTS * LOBE_COUNT] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    int ids[3 + TEXT_SLOTS * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
     for (int k = 0; k < TEXT_SLOTS; k++)
         for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
     char kind[16], tilts[16];

@@ -5,6 +5,7 @@
 
 #include "shading/lobe_tables.h"
 #include "shading/slots.h"
+#include "text/outside_text.h"
 #include "text/tables.h"
 #include "weft/lobe.h"
 
@@ -48,8 +49,9 @@ static void define_line(Text *text, const char *c, const char *end) {
  * the first that has the words `first` on and before `last`, NULL: all. An empty comment holds the place of a
  * line that is left out, so that the others are where they were. */
 static void put_lines(Text *text, const char *file, const char *first, const char *last,
-                      const bool there[LOBE_COUNT]) {
+                      const bool there[LOBE_MOST]) {
     Buffer chosen = {0};
+    text_outside_lines(text, there);
     const char *c = weft_catalogue_text(file + strlen("shading/")), *end = c + strlen(c);
     const char *from = first ? strstr(c, first) : c, *to = last ? strstr(c, last) : end;
     for (const char *stop; c < to; c = stop) {
@@ -75,7 +77,7 @@ void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
     enum { NAMES = sizeof names / sizeof *names };
     static const char *const own[TEXT_SLOTS][NAMES] = {SLOTS(SLOT_NAMES)};
     for (int k = 0; k < TEXT_SLOTS; k++) {
-        bool there[LOBE_COUNT] = {false};
+        bool there[LOBE_MOST] = {false};
         for (int j = 0; j < slots[k].count; j++) there[slots[k].lobes[j]] = true;
         for (int n = 0; n < NAMES; n++) text_define(text, names[n], own[k][n]);
         put_lines(text, "shading/lobes.gen.h", "UNION(LobePrepared)", NULL, there);
@@ -95,7 +97,7 @@ static void put_no_dust(Text *text) {
 }
 
 void text_dispatch(Text *text, const int *lobes, int lobe_count) {
-    bool there[LOBE_COUNT] = {false}, tinted = false;
+    bool there[LOBE_MOST] = {false}, tinted = false;
     for (int k = 0; k < lobe_count; k++) {
         there[lobes[k]] = true;
         tinted |= has(lobes[k], TRAIT_TINTED);
@@ -106,6 +108,7 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     if (!there[LOBE_COOK_TORRANCE]) text_define(text, "SHARE_IS_COSINE(s)", "false");
     if (!tinted) text_define(text, "IS_TINTED(t)", "false");
     text_include(text, "shading/lobe.h");
+    text_outside(text, there);
     put_lines(text, "shading/lobe_ids.gen.h", NULL, NULL, there);
     put_lines(text, "shading/lobes.gen.h", NULL, NULL, there);
     text_provide(text, "shading/lobes.gen.h");

@@ -4,6 +4,7 @@
 
 #include "text/text.h"
 
+#include "shading/outside.h"
 #include "shading/registry.h"
 
 /* The lobe's file. One with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
@@ -25,7 +26,7 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count);
 /* The lobes that a slot of a stack may hold. */
 enum { TEXT_SLOTS = 5 };
 typedef struct TextSlot {
-    int lobes[LOBE_COUNT];
+    int lobes[LOBE_MOST];
     int count;
 } TextSlot;
 

@@ -395,13 +395,13 @@ static bool find_file(Text *text, const char *file, Source *out) {
         if (!out->path) fail_memory(text);
         return true;
     }
-    for (const CatalogueFile *k = catalogue_files; k->name; k++)
-        if (strcmp(k->name, file) == 0) {
-            *out = (Source){k->name, k->bytes, k->end, NULL};
-            return true;
-        }
-    fail_missing(text, file);
-    return false;
+    CatalogueFile found;
+    if (!catalogue_find(file, &found)) {
+        fail_missing(text, file);
+        return false;
+    }
+    *out = (Source){found.name, found.bytes, found.end, NULL};
+    return true;
 }
 
 static void put_source(Text *text, const char *file, const Source *source) {

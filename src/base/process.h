@@ -1,0 +1,11 @@
+/* process.h - running another program to its end */
+#ifndef WEFT_BASE_PROCESS_H
+#define WEFT_BASE_PROCESS_H
+
+/* Runs arguments[0], found by $PATH, in the language "C"; arguments end with NULL. It reads nothing, and what
+ * it prints goes to the file `log`. Returns its exit code, 128 and more where a signal ended it, and
+ * PROCESS_MISSING where there is no such program or it cannot be started. */
+enum { PROCESS_MISSING = 127 };
+int process_run(const char *const *arguments, const char *log);
+
+#endif

@@ -1,0 +1,24 @@
+#include "lobes.h"
+
+#include <string.h>
+
+#include "report.h"
+#include "weft/lobe.h"
+
+/* No id has a dot. */
+static bool is_file(const char *value) { return strpbrk(value, "./") != NULL; }
+
+int lobes_take(Options *options) {
+    WeftError error;
+    int cursor = 0, ids = 0;
+    for (const char *value; (value = option_next(options, "--lobe", &cursor));) {
+        bool either = strchr(option_row(options, "--lobe")->value, '|') != NULL;
+        if (either && !is_file(value)) {
+            if (ids++) return report(WEFT_USAGE, "--lobe: is given twice");
+            continue;
+        }
+        if (weft_lobe_load(value, NULL, &error) != WEFT_OK) return report_error(&error);
+        option_drop(options, --cursor);
+    }
+    return 0;
+}

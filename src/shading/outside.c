@@ -1,0 +1,122 @@
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "shading/outside.h"
+
+#include "shading/loop.h"
+#include "shading/registry.h"
+
+static _Atomic(const OutsideLobe *) taken[OUTSIDE_MOST];
+static atomic_int taken_count;
+
+int outside_count(void) { return atomic_load(&taken_count); }
+
+const OutsideLobe *outside_lobe(int id) {
+    int k = id - LOBE_COUNT;
+    return k >= 0 && k < OUTSIDE_MOST ? atomic_load(&taken[k]) : NULL;
+}
+
+/* Where a lobe of that name is, or would be. */
+static int place_of(const char *id) {
+    int k = 0;
+    while (k < outside_count() && strcmp(outside_lobe(LOBE_COUNT + k)->info.id, id) != 0) k++;
+    return k;
+}
+
+bool outside_take(OutsideLobe *lobe, int *id) {
+    static pthread_mutex_t taking = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&taking);
+    int k = place_of(lobe->info.id);
+    if (k < OUTSIDE_MOST) {
+        lobe->before = atomic_load(&taken[k]);
+        atomic_store(&taken[k], lobe);
+        if (k == outside_count()) atomic_store(&taken_count, k + 1);
+        *id = LOBE_COUNT + k;
+    }
+    pthread_mutex_unlock(&taking);
+    return k < OUTSIDE_MOST;
+}
+
+/* What it takes no functions for: its parameters as data. */
+
+void outside_default(Lobe *m) {
+    const OutsideLobe *lobe = outside_lobe(m->id);
+    for (int k = 0; lobe && k < lobe->info.param_count; k++) m->params[k] = lobe->info.params[k].def;
+}
+
+void outside_rough(Lobe *m, float roughness) {
+    const OutsideLobe *lobe = outside_lobe(m->id);
+    if (!lobe || !lobe->info.param_count) return;
+    const WeftParamInfo *p = &lobe->info.params[0];
+    float value = mix(p->low, p->high, roughness);
+    if (strcmp(p->name, "alpha") == 0) value = roughness * roughness;
+    if (strcmp(p->name, "roughness") == 0) value = roughness;
+    m->params[0] = clamp(value, p->hard_low, p->hard_high);
+}
+
+void outside_fibres(Lobe *m, float density, float tilt, float azimuth) {
+    static const char *const names[] = {"density", "tilt", "azimuth"};
+    const float values[] = {density, tilt, azimuth};
+    for (int k = 0; outside_lobe(m->id) && k < 3; k++) {
+        int at = lobe_param(m->id, names[k]);
+        if (at > 0) lobe_set(m, at, values[k]);
+    }
+}
+
+/* Its functions. */
+
+static const Plugin *plugin_of(int id) {
+    const OutsideLobe *lobe = outside_lobe(id);
+    return lobe ? lobe->plugin : NULL;
+}
+
+void outside_prepare(Outside m, OutsidePrepared *p) {
+    p->by = plugin_of(m->id);
+    if (p->by) p->by->prepare(m, p->own);
+}
+
+void outside_view(const OutsidePrepared *p, Dir o, OutsideView *w) {
+    if (p->by) p->by->view(p->own, &o, w->own);
+}
+
+LobeValue outside_value(const OutsidePrepared *p, const OutsideView *w, Angles a) {
+    LobeValue v = lobe_value_of(0.0f, 0.0f, 0.0f);
+    if (p->by) p->by->value(p->own, w->own, &a, &v);
+    return v;
+}
+
+Dir outside_sample(const OutsidePrepared *p, const OutsideView *w, Dir o, float u, float v) {
+    Dir i = dir(0.0f, 0.0f, -1.0f);
+    if (p->by) p->by->sample(p->own, w->own, &o, u, v, &i);
+    return i;
+}
+
+Strip outside_strips(const Lobe *m, Dir o, float u, float v) {
+    Strip s = {.h = dir(0.0f, 0.0f, 1.0f)};
+    OutsidePrepared p;
+    outside_prepare(m, &p);
+    if (p.by && p.by->strip) p.by->strip(p.own, &o, u, v, &s);
+    return s;
+}
+
+float outside_seconds(const Lobe *m, float f0, float f90) {
+    const Plugin *plugin = plugin_of(m->id);
+    if (plugin && plugin->traits & TRAIT_TWO_COLORS) return plugin->second ? plugin->second(m, f0, f90) : f90;
+    return plugin && plugin->traits & TRAIT_TINTED ? 1.0f : f0;
+}
+
+/* Of an id that has no lobe. */
+static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
+static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,
+                      float *restrict b) {
+    no_loop(m, n, ox, oy, oz, ix, iy, iz, r);
+    no_loop(m, n, ox, oy, oz, ix, iy, iz, g);
+    no_loop(m, n, ox, oy, oz, ix, iy, iz, b);
+}
+
+const PluginLoops *outside_loops(int id) {
+    static const PluginLoops none = {no_loop, no_loop, no_loop, no_tinted};
+    const Plugin *plugin = plugin_of(id);
+    return plugin ? plugin->loops : &none;
+}

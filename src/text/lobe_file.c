@@ -1,0 +1,167 @@
+/* lobe_file.c - a lobe from a file of the user's */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "shading/outside.h"
+#include "text/plugin.h"
+#include "text/text.h"
+
+/* All that a lobe keeps, in one piece. */
+typedef struct LobeFile {
+    OutsideLobe lobe;
+    WeftParamInfo params[LOBE_PARAMS_MAX];
+    char id[48], prefix[48], record[48], macros[48], file[80];
+    char text[];
+} LobeFile;
+
+enum { NAME_MOST = 40, TEXT_MOST = 1 << 20 };
+
+static WeftResult refuse(WeftError *error, const char *path, const char *why) {
+    return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "%s", why);
+}
+
+/* The name in front of ".h", in which an id, functions and macros can be called; false where it is none. */
+static bool name_of(const char *path, char name[NAME_MOST + 1]) {
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    size_t size = strlen(base);
+    if (size < 3 || size - 2 > NAME_MOST || strcmp(base + size - 2, ".h") != 0) return false;
+    memcpy(name, base, size - 2);
+    name[size - 2] = 0;
+    for (const char *c = name; *c; c++)
+        if (!(*c >= 'a' && *c <= 'z') && (c == name || !((*c >= '0' && *c <= '9') || *c == '_')))
+            return false;
+    return true;
+}
+
+/* "two_words": two-words, TwoWords and TWO_WORDS, as cmake/lobes.cmake has them. */
+static void set_names(LobeFile *own, const char *name) {
+    char *record = own->record;
+    bool first = true;
+    for (int k = 0; name[k]; k++) {
+        bool gap = name[k] == '_';
+        own->prefix[k] = name[k];
+        own->id[k] = gap ? '-' : name[k];
+        own->macros[k] = (char)toupper((unsigned char)name[k]);
+        if (!gap) *record++ = first ? (char)toupper((unsigned char)name[k]) : name[k];
+        first = gap;
+    }
+    snprintf(own->file, sizeof own->file, "shading/lobes/%s.h", own->prefix);
+    own->lobe.file = own->file;
+    own->lobe.text = own->text;
+    own->lobe.info.id = own->id;
+    own->lobe.info.params = own->params;
+    own->lobe.names = (LobeNames){own->prefix, own->record, own->macros, false};
+}
+
+/* Whether what every file has is there, so that what is missing is called by its name. */
+static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *error) {
+    const char *const parts[][2] = {{own->macros, "_PARAMS("},
+                                    {own->macros, "_TRAITS"},
+                                    {own->prefix, "_value("},
+                                    {own->prefix, "_sample("}};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        char part[80];
+        snprintf(part, sizeof part, "%s%s", parts[k][0], parts[k][1]);
+        if (!strstr(own->text, part))
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "it has no %s%s", part,
+                        strchr(part, '(') ? "...)" : "");
+    }
+    return strstr(own->text, "shading/lobe_tables.h")
+               ? refuse(error, path, "tables are for the lobes of the catalogue")
+               : WEFT_OK;
+}
+
+/* Whether it is text of the dialect, which a shader can be made of. */
+static WeftResult check_dialect(const LobeFile *own, const char *path, WeftError *error) {
+    Text text;
+    Buffer bytes = {0};
+    buffer_put_text(&bytes, own->text);
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330});
+    text_source(&text, path, &bytes);
+    WeftResult result = text_end(&text, error);
+    text_free(&text);
+    buffer_free(&bytes);
+    return result;
+}
+
+static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *path, WeftError *error) {
+    if (plugin->param_count > LOBE_PARAMS_MAX)
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "it has %d parameters, and %d is the most",
+                    plugin->param_count, LOBE_PARAMS_MAX);
+    for (int k = 0; k < plugin->param_count; k++) {
+        const PluginParam *p = &plugin->params[k];
+        if (strcmp(p->type, "float") != 0)
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s is no float", p->name);
+        if (!(p->hard_low <= p->low && p->low <= p->def && p->def <= p->high && p->high <= p->hard_high))
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "the ranges of %s do not nest", p->name);
+        own->params[k] =
+            (WeftParamInfo){p->name, p->help, p->def, p->low, p->high, p->hard_low, p->hard_high, NULL};
+    }
+    own->lobe.info.param_count = plugin->param_count;
+    return WEFT_OK;
+}
+
+/* A record of so many bytes in a place of so many floats. */
+static WeftResult check_size(const char *record, const char *kind, size_t size, size_t most, const char *path,
+                             WeftError *error) {
+    if (size <= most * sizeof(float)) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "%s%s has %zu bytes, and %zu is the most", record, kind,
+                size, most * sizeof(float));
+}
+
+static WeftResult take_plugin(LobeFile *own, const Plugin *plugin, const char *path, WeftError *error) {
+    const char *record = own->record;
+    if (plugin->traits & (TRAIT_TABLE | TRAIT_REFERENCE))
+        return refuse(error, path, "tables and random walks are for the lobes of the catalogue");
+    WeftResult result =
+        check_size(record, "Prepared", plugin->prepared_size, OUTSIDE_PREPARED_FLOATS, path, error);
+    if (result == WEFT_OK)
+        result = check_size(record, "View", plugin->view_size, OUTSIDE_VIEW_FLOATS, path, error);
+    if (result == WEFT_OK) result = take_params(own, plugin, path, error);
+    own->lobe.info.traits = plugin->traits;
+    own->lobe.plugin = plugin;
+    return result;
+}
+
+static WeftResult take(LobeFile *own, const char *path, int *lobe, WeftError *error) {
+    char strip[80];
+    const Plugin *plugin;
+    int id = weft_lobe_find(own->id);
+    if (id >= 0 && id < LOBE_COUNT)
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
+                    "the catalogue has a lobe %s: give the file another name", own->id);
+    snprintf(strip, sizeof strip, "Strip %s_strip(", own->prefix);
+    own->lobe.names.strips = strstr(own->text, strip) != NULL;
+    WeftResult result = check_parts(own, path, error);
+    if (result == WEFT_OK) result = check_dialect(own, path, error);
+    if (result == WEFT_OK) result = plugin_make(&own->lobe.names, path, own->text, &plugin, error);
+    if (result == WEFT_OK) result = take_plugin(own, plugin, path, error);
+    if (result == WEFT_OK && !outside_take(&own->lobe, lobe))
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "there are %d already, and no more fit",
+                    OUTSIDE_MOST);
+    return result;
+}
+
+WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error) {
+    char name[NAME_MOST + 1];
+    FileBytes file;
+    int id;
+    WeftResult result = file_read(path, TEXT_MOST, &file, error);
+    if (result != WEFT_OK) return result;
+    if (!name_of(path, name)) {
+        free(file.data);
+        return refuse(error, path, "its name is to be lower-case letters, digits and _, and .h");
+    }
+    LobeFile *own = alloc_array(1, sizeof *own + file.size + 1);
+    if (own) memcpy(own->text, file.data, file.size);
+    free(file.data);
+    if (!own) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    set_names(own, name);
+    result = take(own, path, lobe ? lobe : &id, error);
+    if (result != WEFT_OK) free(own);
+    return result;
+}

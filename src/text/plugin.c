@@ -1,0 +1,253 @@
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "text/plugin.h"
+
+#include "base/cache.h"
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/process.h"
+#include "text/buffer.h"
+#include "text/catalogue.h"
+
+/* The text of C. */
+
+enum { INCLUDED_MAX = 128 };
+typedef struct Flat {
+    Buffer text;
+    const char *included[INCLUDED_MAX];
+    int count;
+} Flat;
+
+static void put_file(Flat *flat, const char *file, const char *bytes);
+
+/* A file of the catalogue, once. */
+static void put_included(Flat *flat, const char *file) {
+    CatalogueFile found;
+    if (!catalogue_find(file, &found) || flat->count == INCLUDED_MAX) {
+        buffer_print(&flat->text, "#error includes %s, which is not there\n", file);
+        return;
+    }
+    for (int k = 0; k < flat->count; k++)
+        if (flat->included[k] == found.name) return;
+    flat->included[flat->count++] = found.name;
+    put_file(flat, found.name, found.bytes);
+}
+
+/* A file, and what it includes in its place. */
+static void put_file(Flat *flat, const char *file, const char *bytes) {
+    int line = 1;
+    buffer_print(&flat->text, "#line 1 \"%s\"\n", file);
+    for (const char *c = bytes; *c; line++) {
+        size_t size = strcspn(c, "\n");
+        char name[128];
+        if (sscanf(c, "#include \"%127[^\"\n]\"", name) == 1) {
+            put_included(flat, name);
+            buffer_print(&flat->text, "#line %d \"%s\"\n", line + 1, file);
+        } else {
+            buffer_put(&flat->text, c, size);
+            buffer_put_text(&flat->text, "\n");
+        }
+        c += size + (c[size] == '\n');
+    }
+}
+
+static bool has_function(const LobeNames *names, const char *bytes, const char *type, const char *name) {
+    char head[160];
+    snprintf(head, sizeof head, "%s %s_%s(", type, names->prefix, name);
+    return strstr(bytes, head) != NULL;
+}
+
+/* Both halves of a plugin. */
+static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
+    const char *name = names->prefix, *record = names->record, *macros = names->macros;
+    bool second = has_function(names, bytes, "float", "second");
+    char file[128];
+    snprintf(file, sizeof file, "%s.h", name);
+    put_file(flat, file, bytes);
+    put_included(flat, "shading/plugin_lobe.h");
+    buffer_print(&flat->text, "PLUGIN_RECORD(%s, %s, %s)\n", name, record, macros);
+    buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s)\n#else\n", name, record);
+    if (second) buffer_print(&flat->text, "PLUGIN_SECOND(%s)\n", name);
+    if (names->strips) buffer_print(&flat->text, "PLUGIN_STRIP(%s)\n", name);
+    buffer_print(&flat->text, "PLUGIN_OF(%s, %s, %s, %s, %s)\n#endif\n", name, record, macros,
+                 second ? "plugin_second" : "NULL", names->strips ? "plugin_strip" : "NULL");
+}
+
+/* Compiling it. */
+
+/* As the library itself is: CMakeLists.txt says why. */
+#if defined(__AVX2__) && defined(__FMA__)
+#define ARCH "-march=x86-64-v3",
+#else
+#define ARCH
+#endif
+#define COMMON                                                                                               \
+    ARCH "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",         \
+        "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
+static const char *const half_flags[2][16] = {
+    {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-c"},
+    {COMMON, "-ffp-contract=off", "-shared"}};
+
+enum { COMPILER_SIZE = 256, PATH_SIZE = CACHE_PATH_SIZE + 32 };
+
+/* A folder of a compilation and what is in it. */
+typedef struct Work {
+    char folder[CACHE_PATH_SIZE];
+    char text[PATH_SIZE], loops[PATH_SIZE], library[PATH_SIZE], log[PATH_SIZE];
+} Work;
+
+/* Beside the cache's file, which the library is to become by a change of its name; or in /tmp. */
+static bool work_begin(Work *work, const char *cached) {
+    const char *slash = cached ? strrchr(cached, '/') : NULL;
+    snprintf(work->folder, sizeof work->folder, "%.*s/lobe-XXXXXX", slash ? (int)(slash - cached) : 4,
+             slash ? cached : "/tmp");
+    if (!mkdtemp(work->folder)) return false;
+    snprintf(work->text, sizeof work->text, "%s/lobe.c", work->folder);
+    snprintf(work->loops, sizeof work->loops, "%s/loops.o", work->folder);
+    snprintf(work->library, sizeof work->library, "%s/lobe.so", work->folder);
+    snprintf(work->log, sizeof work->log, "%s/log", work->folder);
+    return true;
+}
+
+static void work_end(const Work *work) {
+    unlink(work->text);
+    unlink(work->loops);
+    unlink(work->library);
+    unlink(work->log);
+    rmdir(work->folder);
+}
+
+/* $CC, in words, or cc. Returns how many words. */
+static int compiler(char text[COMPILER_SIZE], const char *words[8]) {
+    const char *chosen = getenv("CC");
+    int count = 0;
+    char *rest = NULL;
+    snprintf(text, COMPILER_SIZE, "%s", chosen && chosen[0] ? chosen : "cc");
+    for (char *word = strtok_r(text, " ", &rest); word && count < 8; word = strtok_r(NULL, " ", &rest))
+        words[count++] = word;
+    return count;
+}
+
+/* Half 0, the loops, or 1, all the rest with them. */
+static int compile_half(const Work *work, int half) {
+    const char *arguments[40] = {0};
+    char text[COMPILER_SIZE];
+    int count = compiler(text, arguments);
+    for (int k = 0; half_flags[half][k]; k++) arguments[count++] = half_flags[half][k];
+    arguments[count++] = work->text;
+    if (half) arguments[count++] = work->loops;
+    arguments[count++] = "-o";
+    arguments[count++] = half ? work->library : work->loops;
+    return process_run(arguments, work->log);
+}
+
+/* Errors. */
+
+/* "toy.h:12:5: error: WORDS" becomes "PATH:12: does not compile: WORDS". */
+static WeftResult fail_line(const char *line, const char *path, const char *file, int more,
+                            WeftError *error) {
+    char place[400], others[40] = "", words[300];
+    int number = 0;
+    size_t size = strlen(file);
+    const char *said = strstr(line, "error: ") + strlen("error: ");
+    const char *option = strstr(said, " [-W"); /* of the compiler, which nobody has typed */
+    int length = (int)(option ? (size_t)(option - said) : strlen(said));
+    snprintf(words, sizeof words, "%.*s", length, said);
+    if (more) snprintf(others, sizeof others, "; and %d more error%s", more, more > 1 ? "s" : "");
+    if (strncmp(line, file, size) != 0 || sscanf(line + size, ":%d", &number) != 1)
+        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "%.*s: %s%s", (int)strcspn(line, ":"), line,
+                    words, others);
+    snprintf(place, sizeof place, "%.380s:%d", path, number);
+    return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
+}
+
+/* The first error of those that the compiler has told. */
+static WeftResult fail_compile(const Work *work, const char *path, const char *file, WeftError *error) {
+    FileBytes log;
+    const char *first = NULL;
+    int count = 0;
+    if (file_read(work->log, 1 << 20, &log, NULL) != WEFT_OK)
+        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
+    char *rest = NULL;
+    for (char *line = strtok_r((char *)log.data, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        if (!strstr(line, "error: ")) continue;
+        if (!count++) first = line;
+    }
+    WeftResult result = first ? fail_line(first, path, file, count - 1, error)
+                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails");
+    free(log.data);
+    return result;
+}
+
+static WeftResult compile(const Work *work, const Buffer *text, const char *path, const char *file,
+                          WeftError *error) {
+    FILE *stream = fopen(work->text, "wb");
+    bool written = stream && fwrite(text->bytes, 1, text->size, stream) == text->size;
+    if (stream) written = fclose(stream) == 0 && written;
+    if (!written) return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, NULL);
+    for (int half = 0; half < 2; half++) {
+        int code = compile_half(work, half);
+        if (code == PROCESS_MISSING)
+            return fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
+        if (code != 0) return fail_compile(work, path, file, error);
+    }
+    return WEFT_OK;
+}
+
+/* Loading it. */
+
+static const Plugin *load(const char *library) {
+    void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL); /* never closed: stacks hold its functions */
+    void *symbol = handle ? dlsym(handle, PLUGIN_ENTRY) : NULL;
+    PluginEntry *entry;
+    memcpy(&entry, &symbol, sizeof entry);
+    return symbol ? entry() : NULL;
+}
+
+static uint64_t key_of(const Buffer *text) {
+    char words[COMPILER_SIZE];
+    const char *arguments[8];
+    uint64_t hash = cache_hash(CACHE_HASH, text->bytes, text->size);
+    for (int k = 0, count = compiler(words, arguments); k < count; k++)
+        hash = cache_hash(hash, arguments[k], strlen(arguments[k]) + 1);
+    for (int half = 0; half < 2; half++)
+        for (int k = 0; half_flags[half][k]; k++)
+            hash = cache_hash(hash, half_flags[half][k], strlen(half_flags[half][k]) + 1);
+    return hash;
+}
+
+static WeftResult make(const Buffer *text, const char *path, const char *file, const char *cached,
+                       const Plugin **out, WeftError *error) {
+    Work work;
+    if (!work_begin(&work, cached)) return fail(error, WEFT_MESSAGE_FILE_WRITE, work.folder, NULL);
+    WeftResult result = compile(&work, text, path, file, error);
+    if (result == WEFT_OK) {
+        *out = load(work.library);
+        if (!*out) result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded");
+        if (*out && cached) rename(work.library, cached);
+    }
+    work_end(&work);
+    return result;
+}
+
+WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
+                       WeftError *error) {
+    Flat flat = {0};
+    char cached[CACHE_PATH_SIZE], file[128];
+    put_plugin(&flat, names, bytes);
+    if (flat.text.failed) {
+        buffer_free(&flat.text);
+        return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    }
+    snprintf(file, sizeof file, "%s.h", names->prefix);
+    bool caches = cache_folder_make() && cache_path(cached, key_of(&flat.text), "so");
+    WeftResult result = WEFT_OK;
+    *out = caches ? load(cached) : NULL;
+    if (!*out) result = make(&flat.text, path, file, caches ? cached : NULL, out, error);
+    buffer_free(&flat.text);
+    return result;
+}

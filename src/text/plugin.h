@@ -1,0 +1,14 @@
+/* plugin.h - a plugin (shading/plugin.h) made of a lobe's file by the machine's C compiler */
+#ifndef WEFT_TEXT_PLUGIN_H
+#define WEFT_TEXT_PLUGIN_H
+
+#include "shading/plugin.h"
+#include "shading/registry.h"
+
+/* Compiles the text of a lobe, or takes from the user's cache what was made of the same text before, and
+ * loads it, for as long as the program runs. path: of its file, for messages. Fails with
+ * WEFT_MESSAGE_COMPILER, or with _LOBE_COMPILE and the line. */
+WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
+                       WeftError *error);
+
+#endif

@@ -1,0 +1,279 @@
+/* --lobe FILE.h: a lobe of the user's own gives the numbers, the pictures and the text that the same file
+ * gives as a row of lobes.list; and files that are none are told in one line */
+#include <sys/stat.h>
+
+#include "run.h"
+
+/* Lobes of the catalogue under another name: with one colour, two, a second of its own; with views and
+ * prepared records of their own; with parameters called as no record's member may be. */
+static const char *const twins[][3] = {{"lambert", "Lambert", "LAMBERT"},
+                                       {"wrap", "Wrap", "WRAP"},
+                                       {"patry", "Patry", "PATRY"},
+                                       {"eon", "Eon", "EON"},
+                                       {"threads", "Threads", "THREADS"},
+                                       {"burley", "Burley", "BURLEY"},
+                                       {"burley_coat", "BurleyCoat", "BURLEY_COAT"},
+                                       {"charlie_khronos", "CharlieKhronos", "CHARLIE_KHRONOS"}};
+enum { TWINS = sizeof twins / sizeof *twins };
+
+static const char *id_of(const char *name, char id[64]) {
+    snprintf(id, 64, "%s", name);
+    for (char *c = id; *c; c++)
+        if (*c == '_') *c = '-';
+    return id;
+}
+
+/* my_NAME.h, by one rule for all. */
+static void make_twin(int k, char file[64], char id[64]) {
+    char line[700];
+    const char *name = twins[k][0], *record = twins[k][1], *macros = twins[k][2];
+    snprintf(file, 64, "my_%s.h", name);
+    snprintf(line, sizeof line,
+             "sed 's/\\b%s_/my_%s_/g; s/(%s, %s)/(my_%s, %s)/g; s/\\b%s/My%s/g; s/\\b%s_/MY_%s_/g' "
+             "'" WEFT_SOURCE_DIR "/src/shading/lobes/%s.h' >%s",
+             name, name, name, record, name, record, record, record, macros, macros, name, file);
+    Ran ran = run_shell(line);
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    char own[64];
+    snprintf(own, sizeof own, "my_%.50s", name);
+    id_of(own, id);
+}
+
+static const char pairs[] = "60 0 30 40\n10 20 85 170\n0 0 0 0\n89 -30 70 200\n45 90 45 270\n";
+
+/* Leaves out every my-, my_, My and MY_. */
+static char *plain(char *bytes) {
+    char *to = bytes;
+    assert_non_null(bytes);
+    for (const char *c = bytes; *c;) {
+        if (strncmp(c, "my-", 3) == 0 || strncmp(c, "my_", 3) == 0 || strncmp(c, "MY_", 3) == 0)
+            c += 3;
+        else if (strncmp(c, "My", 2) == 0)
+            c += 2;
+        else
+            *to++ = *c++;
+    }
+    *to = 0;
+    return bytes;
+}
+
+/* Runs both and compares standard output but for the names; arguments of the twin end with --lobe FILE. */
+static void assert_same(const char *input, const char *const *twin, const char *const *original) {
+    Ran a = run_with(input, twin), b = run_with(input, original);
+    if (a.code || b.code) fail_msg("%d %s%d %s", a.code, a.err, b.code, b.err);
+    assert_string_equal(plain(a.out), b.out);
+    assert_true(strlen(a.out) > 20);
+    ran_free(&a);
+    ran_free(&b);
+}
+
+static void a_file_evaluates_as_a_row(void **state) {
+    (void)state;
+    char file[64], own[64], id[64];
+    for (int k = 0; k < TWINS; k++) {
+        make_twin(k, file, own);
+        id_of(twins[k][0], id);
+        assert_same(pairs, LIST("eval", own, "-p", "color=.5,.3,.2", "--lobe", file),
+                    LIST("eval", id, "-p", "color=.5,.3,.2"));
+        assert_same("0.3\n0.9\n", LIST("eval", own, "--albedo", "--lobe", file),
+                    LIST("eval", id, "--albedo"));
+    }
+}
+
+static void done(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code) fail_msg("%s %s: %d %s", arguments[0], arguments[1], ran.code, ran.err);
+    ran_free(&ran);
+}
+
+static void a_file_exports_as_a_row(void **state) {
+    (void)state;
+    static const char *const targets[] = {"glsl", "hlsl", "c"};
+    char file[64], own[64];
+    make_twin(3, file, own);
+    for (int k = 0; k < 3; k++) {
+        done(LIST("export", own, "--target", targets[k], "-o", "twin.txt", "--lobe", file));
+        done(LIST("export", "eon", "--target", targets[k], "-o", "eon.txt"));
+        size_t size;
+        char *a = plain(file_bytes("twin.txt", &size)), *b = file_bytes("eon.txt", &size);
+        const char *from_a = strstr(a, "*/"), *from_b = strstr(b, "*/"); /* the head names file and command */
+        assert_non_null(from_a);
+        assert_non_null(from_b);
+        assert_string_equal(from_a, from_b);
+        free(a);
+        free(b);
+    }
+}
+
+static void a_file_renders_as_a_row(void **state) {
+    (void)state;
+    char file[64], own[64], base[64], base_file[64];
+    size_t size;
+    make_twin(7, file, own);
+    make_twin(5, base_file, base);
+    for (int k = 0; k < 2; k++) {
+        const char *engine = k ? "raster" : "trace", *samples = k ? "--width" : "--spp";
+        done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
+                  own, "--diffuse", base, "--layer", "albedo-max", "--lobe", file, "--lobe", base_file, "-o",
+                  "twin.png"));
+        done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
+                  "charlie-khronos", "--diffuse", "burley", "--layer", "albedo-max", "-o", "row.png"));
+        char *bytes = file_bytes("row.png", &size);
+        assert_true(same_bytes("twin.png", bytes, size));
+        free(bytes);
+    }
+}
+
+static void a_file_is_plotted_matched_and_fitted(void **state) {
+    (void)state;
+    char file[64], own[64];
+    make_twin(2, file, own);
+    Ran ran = RUN("match", own, "patry", "--lobe", file);
+    assert_int_equal(ran.code, 0);
+    assert_non_null(strstr(ran.out, "cosine"));
+    ran_free(&ran);
+    assert_same(NULL, LIST("plot", "polar", own, "--title", "x", "--json", "--lobe", file),
+                LIST("plot", "polar", "patry", "--title", "x", "--json"));
+    ran = run_shell("for o in 10 30 50 70; do for i in 5 25 45 65; do echo $o 0 $i 60; done; done >asked && "
+                    "$0 eval patry -p roughness=0.3 <asked | paste -d ' ' asked - | "
+                    "sed 's/ /,/g; s/,[^,]*$//' >fit.csv && "
+                    "$0 fit fit.csv --lobe my_patry.h --lobe my-patry --json");
+    if (ran.code) fail_msg("%d %s", ran.code, ran.err);
+    assert_non_null(strstr(ran.out, "\"my-patry\""));
+    ran_free(&ran);
+}
+
+static void a_passport_is_that_of_a_row(void **state) {
+    (void)state;
+    char file[64], own[64];
+    make_twin(1, file, own);
+    Ran a = RUN("check", own, "--quick", "--lobe", file, "--json"),
+        b = RUN("check", "wrap", "--quick", "--json");
+    assert_int_equal(a.code, 0);
+    assert_int_equal(b.code, 0);
+    /* all but the name and the half floats, of which a lobe from outside has none */
+    const char *from_a = strstr(a.out, "\"albedo\""), *from_b = strstr(b.out, "\"albedo\"");
+    const char *to_a = strstr(a.out, "\"half"), *to_b = strstr(b.out, "\"half");
+    assert_true(from_a && from_b && to_a && to_b);
+    assert_int_equal(to_a - from_a, to_b - from_b);
+    assert_memory_equal(from_a, from_b, (size_t)(to_a - from_a));
+    ran_free(&a);
+    ran_free(&b);
+}
+
+/* The toy: a lobe of a new kind, with prepared state and a colour rule of its own. */
+#define TOY WEFT_SOURCE_DIR "/tests/lobes/toy.h"
+
+static void assert_near(double x, double expected) {
+    if (!(x > expected - 1e-6 && x < expected + 1e-6)) fail_msg("%g is not %g", x, expected);
+}
+
+static void the_toy_is_a_lobe(void **state) {
+    (void)state;
+    double f[4];
+    Ran ran = run_with("60 0 0 0\n",
+                       LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=0", "--lobe", TOY));
+    if (ran.code) fail_msg("%s", ran.err);
+    assert_int_equal(sscanf(ran.out, "%lf %lf %lf %lf", f, f + 1, f + 2, f + 3), 4);
+    /* in front s is 0: 3 / (2 pi) cos 60 c, and the density 3 / (2 pi) */
+    assert_near(f[0], 0.11936620);
+    assert_near(f[1], 0.23873241);
+    assert_near(f[3], 0.47746483);
+    ran_free(&ran);
+    ran = run_with("60 0 60 90\n",
+                   LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=1", "--lobe", TOY));
+    assert_int_equal(sscanf(ran.out, "%lf", f), 1);
+    assert_near(f[0], 0.5 / 3.14159265 * (0.75 + 0.25 * 0.5)); /* s = 1/4, second colour c c */
+    ran_free(&ran);
+    ran = RUN("models", "toy", "--lobe", TOY);
+    assert_non_null(strstr(ran.out, "how slowly it darkens"));
+    assert_non_null(strstr(ran.out, "scattered twice"));
+    ran_free(&ran);
+    ran = RUN("models", "--lobe", TOY);
+    assert_non_null(strstr(ran.out, "\n  toy "));
+    ran_free(&ran);
+    done(
+        LIST("check", "toy", "--quick", "--max-albedo", "1.001", "--max-reciprocity", "1e-5", "--lobe", TOY));
+}
+
+/* Bad files. */
+
+static void file_of(const char *name, const char *text) { file_make(name, text, strlen(text)); }
+
+/* The toy after an order to sed, as toy2.h. */
+static void toy_with(const char *order) {
+    char line[600];
+    snprintf(line, sizeof line, "sed 's/toy_/toy2_/g; s/Toy/Toy2/g; s/TOY_/TOY2_/g' '%s' | sed '%s' >toy2.h",
+             TOY, order);
+    Ran ran = run_shell(line);
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+}
+
+static void refused(const char *file, int code, const char *part) {
+    assert_complaint("0 0 0 0\n", LIST("eval", "lambert", "--lobe", file), code, part);
+}
+
+static void bad_files_are_told_in_one_line(void **state) {
+    (void)state;
+    refused("nowhere.h", 3, "nowhere.h: cannot be opened");
+    assert_int_equal(mkdir("folder.h", 0700), 0);
+    refused("folder.h", 3, "folder.h");
+    assert_int_equal(rmdir("folder.h"), 0);
+    file_of("lambert.h", "");
+    refused("lambert.h", 3, "the catalogue has a lobe lambert");
+    file_of("Bad Name.h", "");
+    refused("Bad Name.h", 3, "lower-case letters");
+    refused("lambert", 3, "lambert: cannot be opened");
+    file_of("empty.h", "");
+    refused("empty.h", 3, "it has no EMPTY_PARAMS(");
+
+    toy_with("s/p->power = 1.0f - m.roughness;/p->power = 1.0f - m.rougness;/");
+    refused("toy2.h", 3, "toy2.h:25: does not compile: ");
+    toy_with("s/p->power = 1.0f - m.roughness;/p->power = = 1;/");
+    refused("toy2.h", 3, "toy2.h:25: does not compile: ");
+    toy_with("s/#include \"shading.lobe.h\"/#include \"other.h\"/");
+    refused("toy2.h", 3, "toy2.h:14: is not shading text: includes other.h, which is not there");
+    toy_with("s/{ float power, scale, fade; }/{ float power, scale, fade, big[166]; }/");
+    refused("toy2.h", 3, "Toy2Prepared has 676 bytes, and 672 is the most");
+    toy_with("s/P(float, fade, 1.0f, 0.0f/P(float, fade, 1.0f, 2.0f/");
+    refused("toy2.h", 3, "the ranges of fade do not nest");
+    toy_with("s/TRAIT_CONSERVES/TRAIT_REFERENCE/");
+    refused("toy2.h", 3, "random walks are for the lobes of the catalogue");
+}
+
+/* The cache is new and $PATH has no cc, or $CC no program. */
+static void without_a_compiler_that_is_said(void **state) {
+    (void)state;
+    static const char *const none[] = {
+        "mkdir -p cache bin && ln -sf /usr/bin/env bin/env && XDG_CACHE_HOME=$PWD/cache CC= PATH=$PWD/bin "
+        "$0 models toy --lobe " TOY,
+        "XDG_CACHE_HOME=$PWD/cache CC='no-such-compiler -O' $0 models toy --lobe " TOY};
+    for (int k = 0; k < 2; k++) {
+        Ran ran = run_shell(none[k]);
+        if (ran.code != 4 || !one_complaint(ran.err) || !strstr(ran.err, "needs a C compiler"))
+            fail_msg("%d %s", ran.code, ran.err);
+        ran_free(&ran);
+    }
+    Ran ran = run_shell("XDG_CACHE_HOME=$PWD/cache $0 models toy --lobe " TOY " && ls cache/weft && "
+                        "XDG_CACHE_HOME=$PWD/cache PATH=$PWD/bin $0 models toy --lobe " TOY " && "
+                        "/bin/rm -r cache bin");
+    if (ran.code) fail_msg("what was compiled once is not taken: %s", ran.err);
+    assert_non_null(strstr(ran.out, ".so"));
+    ran_free(&ran);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_evaluates_as_a_row),
+        cmocka_unit_test(a_file_exports_as_a_row),
+        cmocka_unit_test(a_file_renders_as_a_row),
+        cmocka_unit_test(a_file_is_plotted_matched_and_fitted),
+        cmocka_unit_test(a_passport_is_that_of_a_row),
+        cmocka_unit_test(the_toy_is_a_lobe),
+        cmocka_unit_test(bad_files_are_told_in_one_line),
+        cmocka_unit_test(without_a_compiler_that_is_said),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}
