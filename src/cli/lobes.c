@@ -8,6 +8,17 @@
 /* No id has a dot. */
 static bool is_file(const char *value) { return strpbrk(value, "./") != NULL; }
 
+enum { TAKEN_MOST = 64 };
+static const char *taken[TAKEN_MOST + 1];
+
+const char *const *lobes_taken(void) { return taken; }
+
+static void keep(const char *path) {
+    int k = 0;
+    while (k < TAKEN_MOST && taken[k]) k++;
+    if (k < TAKEN_MOST) taken[k] = path;
+}
+
 int lobes_take(Options *options) {
     WeftError error;
     int cursor = 0, ids = 0;
@@ -18,6 +29,7 @@ int lobes_take(Options *options) {
             continue;
         }
         if (weft_lobe_load(value, NULL, &error) != WEFT_OK) return report_error(&error);
+        keep(value);
         option_drop(options, --cursor);
     }
     return 0;

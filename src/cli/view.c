@@ -96,6 +96,7 @@ static int view_verb_run(const Options *options) {
     desc.exposure = (float)staging.exposure;
     desc.shader_dir = option_text(options, "--shader-dir");
     if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
+    desc.lobes = lobes_taken();
     desc.script = option_text(options, "--script");
     desc.unseen = option_given(options, "--windowless");
     desc.forget = option_given(options, "--forget");
@@ -115,8 +116,8 @@ const Verb verb_view = {
     .operands_most = 1,
     .options = view_options,
     .notes = "SCENE is a .gltf or .glb file or builtin:NAME; without it, builtin:cloth. Files can be\n"
-             "dropped on the window: scenes, light (.hdr .exr), materials (.json), pictures. What\n"
-             "changes on disk is read again. ? in the window tells keys and mouse.\n\n"
+             "dropped on the window: scenes, light (.hdr .exr), materials (.json), lobes of your own (.h),\n"
+             "pictures. What changes on disk is read again. ? in the window tells keys and mouse.\n\n"
              "Examples\n"
              "  weft view SheenChair.glb\n"
              "  weft view builtin:cloth --preset velvet --light \"sun;-1,-2,-1;3,3,3\"\n"

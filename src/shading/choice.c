@@ -11,7 +11,7 @@ const char *choice_id(ChoiceId choice, int k) {
     case CHOICE_workflow: return weft_workflow_id(k);
     case CHOICE_profile: return weft_profile_id(k);
     case CHOICE_diffuse:
-    case CHOICE_sheen_lobe: return k >= 0 && k < LOBE_COUNT ? weft_lobe_info(k)->id : NULL;
+    case CHOICE_sheen_lobe: return weft_lobe_info(k) ? weft_lobe_info(k)->id : NULL;
     case CHOICE_sheen_d:
     case CHOICE_d: return weft_term_id(WEFT_TERM_D, k);
     case CHOICE_sheen_v:

@@ -170,6 +170,10 @@ char *command_line(const Viewer *v, bool *lost) {
     if (!line.text) return NULL;
     put(&line, "weft render");
     put_word(&line, v->facts.path);
+    for (int k = 0; k < v->lobe_count; k++) {
+        put(&line, " --lobe");
+        put_word(&line, v->lobes[k]);
+    }
     if (v->desc->options && v->desc->options[0] && strcmp(v->dressed, v->facts.path) == 0)
         put(&line, " %s", v->desc->options);
     if (v->desc->materials && strcmp(v->dressed, v->facts.path) == 0) { /* which the first look wears */

@@ -24,9 +24,10 @@ static const struct {
     void (*use)(Viewer *v, const char *path);
     const char *folder, *tip; /* NULL: folders are not taken */
 } choosers[] = {
-    {"Open", "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), pictures (.png .jpg .tga)",
-     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_PICTURE, viewer_open,
-     "Use this folder as maps",
+    {"Open",
+     "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
+     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE,
+     viewer_open, "Use this folder as maps",
      "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
     {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); the folder of a cubemap",
      1u << PATH_LIGHT | 1u << PATH_PICTURE, viewer_light_by, "Use this folder as a cubemap",

@@ -194,7 +194,9 @@ static WeftResult load(Loader *self, WeftError *error) {
     const WeftLog log = {on_said, loaded};
     const ViewDesc *desc = self->desc;
     Around around = around_studio();
-    WeftResult result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
+    WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, error) : WEFT_OK;
+    if (result != WEFT_OK) return result;
+    result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK && self->dressed && desc->dress)
         result = desc->dress(desc->user, loaded->scene, &around, &log, error);
@@ -235,6 +237,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
     self->loaded.again = reading->again;
     self->loaded.folders = *reading->folders;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
+    snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
     atomic_init(&self->thousandths, -1);
     atomic_init(&self->done, false);
     atomic_init(&self->stop, false);

@@ -37,15 +37,17 @@ typedef struct Loaded {
     char path[LOOK_PATH];
     WeftResult result;
     char failure[512];
-    char *said;         /* warnings, one a line; owned, may be NULL */
-    const char *camera; /* through which it is seen first; a constant, or the command line's */
-    bool again;         /* it is the scene that was there, read anew */
-    Folders folders;    /* that it wears */
+    char *said;           /* warnings, one a line; owned, may be NULL */
+    const char *camera;   /* through which it is seen first; a constant, or the command line's */
+    bool again;           /* it is the scene that was there, read anew */
+    Folders folders;      /* that it wears */
+    char lobe[LOOK_PATH]; /* file of a lobe that was taken before; "": none */
 } Loaded;
 
 /* What is to be read. */
 typedef struct Reading {
     const char *path;
+    const char *lobe;       /* file of a lobe to be taken before; may be NULL */
     bool again;             /* the scene that is there */
     bool dressed;           /* desc.dress is called, in that thread */
     const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */

@@ -11,7 +11,14 @@
 #include "weft/material.h"
 #include "weft/render.h"
 
-enum { LOOK_LIGHTS = 64, LOOK_PATH = 1024, LOOK_NAPS = 16, LOOK_FOLDERS = 16, NAP_SIDE = 512 };
+enum {
+    LOOK_LIGHTS = 64,
+    LOOK_PATH = 1024,
+    LOOK_NAPS = 16,
+    LOOK_FOLDERS = 16,
+    LOOK_LOBES = 8,
+    NAP_SIDE = 512
+};
 
 /* Folders of maps that materials wear, the latest of each; of index -1 the cloth of the scene. */
 typedef struct Folders {

@@ -20,17 +20,33 @@ static void let_go(Viewer *v) {
     v->loader = NULL;
 }
 
-void opening_start(Viewer *v, const char *path, bool again) {
+static void start_reading(Viewer *v, const char *path, const char *lobe, bool again) {
     if (v->loader) let_go(v);
     bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
     if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
     Folders folders = {0};
     if (dressed && !v->has_scene && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
-    const Reading reading = {path, again, dressed, again ? &v->folders : &folders, viewer_aspect(v)};
+    const Reading reading = {path, lobe, again, dressed, again ? &v->folders : &folders, viewer_aspect(v)};
     v->loader = loader_start(v->window, v->desc, &reading);
     if (v->loader) return;
     v->opened = WEFT_RESOURCES;
     viewer_say(v, true, "%.300s: out of memory", path);
+}
+
+void opening_start(Viewer *v, const char *path, bool again) { start_reading(v, path, NULL, again); }
+
+void opening_lobe(Viewer *v, const char *path) { start_reading(v, v->facts.path, path, true); }
+
+/* It is watched from now on. */
+static void keep_lobe(Viewer *v, const char *path) {
+    for (int k = 0; k < v->lobe_count; k++)
+        if (strcmp(v->lobes[k], path) == 0) return;
+    if (v->lobe_count < LOOK_LOBES) snprintf(v->lobes[v->lobe_count++], LOOK_PATH, "%s", path);
+}
+
+void opening_begin(Viewer *v) {
+    for (const char *const *lobe = v->desc->lobes; lobe && *lobe; lobe++) keep_lobe(v, *lobe);
+    opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
 }
 
 /* What a picture is for, by its name: "velvet_normal.png". */
@@ -55,6 +71,7 @@ void viewer_open(Viewer *v, const char *path) {
     case PATH_SCENE: opening_start(v, path, false); break;
     case PATH_LIGHT: viewer_light_by(v, path); break;
     case PATH_MATERIAL: viewer_task(v, TASK_DRESS, path, v->material, -1); break;
+    case PATH_LOBE: opening_lobe(v, path); break;
     case PATH_PICTURE:
         snprintf(v->dropped, sizeof v->dropped, "%s", path);
         v->dropped_input = guess_input(path);
@@ -67,8 +84,10 @@ void viewer_open(Viewer *v, const char *path) {
             viewer_task(v, TASK_WEAR, path, -1, -1);
         break;
     case PATH_UNKNOWN:
-        viewer_say(v, true,
-                   "%.300s: is no scene (.gltf .glb), light (.hdr .exr), material (.json) or picture", path);
+        viewer_say(
+            v, true,
+            "%.300s: is no scene (.gltf .glb), light (.hdr .exr), material (.json), lobe (.h) or picture",
+            path);
         break;
     }
 }
@@ -154,13 +173,14 @@ void opening_varied(Viewer *v, float **shares) {
     *shares = NULL;
 }
 
-enum { WATCH_SCENE, WATCH_LIGHT };
+enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
 
-/* The scene's own file and the light's; those of textures are the painter's to watch. */
+/* The files of scene, light and lobes; those of textures are the painter's to watch. */
 static void watch_files(Viewer *v) {
     watchman_forget(v->watchman);
     if (strncmp(v->facts.path, "builtin:", 8) != 0) watchman_watch(v->watchman, v->facts.path, WATCH_SCENE);
     if (v->look.around.kind == AROUND_FILE) watchman_watch(v->watchman, v->look.around.path, WATCH_LIGHT);
+    for (int k = 0; k < v->lobe_count; k++) watchman_watch(v->watchman, v->lobes[k], WATCH_LOBES + k);
     snprintf(v->watched, sizeof v->watched, "%s", v->look.around.path);
 }
 
@@ -170,6 +190,7 @@ bool opening_watch(Viewer *v, double seconds) {
     int changed = watchman_look(v->watchman, seconds);
     if (changed == WATCH_SCENE) opening_start(v, v->facts.path, true);
     if (changed == WATCH_LIGHT) viewer_light_by(v, v->look.around.path);
+    if (changed >= WATCH_LOBES) opening_lobe(v, v->lobes[changed - WATCH_LOBES]);
     return changed >= 0;
 }
 
@@ -227,6 +248,7 @@ void opening_take(Viewer *v, const News *news) {
         viewer_say(v, false, "%.200s: %lld triangles, %d materials%s%.200s", v->facts.path,
                    v->facts.info.triangle_count, v->facts.info.material_count,
                    v->folders.count ? ", maps of " : "", v->folders.count ? v->folders.paths[0] : "");
+        if (loaded.lobe[0]) viewer_say(v, false, "%.300s: read, and the scene again", loaded.lobe);
         snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
         window_title(v->window, title);
     }
@@ -244,6 +266,7 @@ void opening_poll(Viewer *v) {
     loader_finish(v->loader, &loaded);
     v->loader = NULL;
     v->opened = loaded.result;
+    if (loaded.scene && loaded.lobe[0]) keep_lobe(v, loaded.lobe);
     if (loaded.scene)
         hand_over(v, &loaded);
     else

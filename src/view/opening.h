@@ -5,8 +5,14 @@
 
 #include "view/viewer.h"
 
+/* Begins with the scene and the lobes that the window starts with. */
+void opening_begin(Viewer *v);
+
 /* Begins to read a scene; again: the one that is shown, whose file has changed. */
 void opening_start(Viewer *v, const char *path, bool again);
+
+/* Takes a lobe's file. What is made of a lobe is made with the scene, which is read again behind it. */
+void opening_lobe(Viewer *v, const char *path);
 
 /* Takes what has been read, where something has. */
 void opening_poll(Viewer *v);

@@ -23,8 +23,9 @@ typedef struct ViewDesc {
     bool hide_lights;
     WeftTonemap tonemap;
     float exposure;
-    const char *shader_dir; /* may be NULL */
-    const char *materials;  /* folder of maps to put onto the cloth; NULL: none */
+    const char *shader_dir;   /* may be NULL */
+    const char *const *lobes; /* files of the user's lobes that were taken, ended by NULL */
+    const char *materials;    /* folder of maps to put onto the cloth; NULL: none */
     int occlusion;
     int width, height;  /* of the window; 0: as it was last time */
     float scale;        /* of panels and words; 0: as the display asks, 1 without one */

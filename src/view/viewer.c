@@ -156,7 +156,7 @@ static bool start(Viewer *v, char why[512]) {
     v->browser = browser_create(v->settings.folder);
     if (!v->painter || !v->watchman || !v->browser) return false;
     lay_out(v);
-    opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
+    opening_begin(v);
     return true;
 }
 

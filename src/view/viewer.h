@@ -54,11 +54,13 @@ typedef struct Viewer {
 
     /* the scene */
     bool has_scene;
-    WeftResult opened;       /* why there is none, where the first could not be had */
-    char dressed[LOOK_PATH]; /* path of the scene that is dressed as the command line has it */
-    char watched[LOOK_PATH]; /* light whose file is watched */
-    unsigned scene, scenes;  /* number of the one that is shown; of the last one that was read */
-    Loaded pending;          /* read, and with the painter: its look and facts, until that has taken it */
+    WeftResult opened;                 /* why there is none, where the first could not be had */
+    char dressed[LOOK_PATH];           /* path of the scene that is dressed as the command line has it */
+    char watched[LOOK_PATH];           /* light whose file is watched */
+    char lobes[LOOK_LOBES][LOOK_PATH]; /* files of lobes, which are watched too */
+    int lobe_count;
+    unsigned scene, scenes; /* number of the one that is shown; of the last one that was read */
+    Loaded pending;         /* read, and with the painter: its look and facts, until that has taken it */
     bool has_pending;
     Facts facts;
     Look look, first, before, sent; /* as it is edited; as it was read; a frame ago; as last ordered */
@@ -144,7 +146,7 @@ typedef struct Viewer {
 void viewer_say(Viewer *v, bool grave, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Opens what a path is: a scene is read in the background; an environment lights the scene, a material file
- * dresses it, a picture asks what it is for, a folder of maps is worn. */
+ * dresses it, a lobe is taken, a picture asks what it is for, a folder of maps is worn. */
 void viewer_open(Viewer *v, const char *path);
 
 /* What the user asks for by menu, key or replay. */

@@ -70,6 +70,46 @@ static void a_map_added_to_a_worn_folder_is_put_on(void **state) {
     rmdir("maps");
 }
 
+/* tests/lobes/toy.h under another name, with another first factor of f. */
+static void write_toy(const char *file, const char *id, const char *factor) {
+    char line[600];
+    snprintf(line, sizeof line,
+             "sed 's/toy_/%s_/g; s/Toy/%c%s/g; s/TOY_/\\U%s_/g; s/lobe_value_of(/lobe_value_of(%s * /' "
+             "'" WEFT_SOURCE_DIR "/tests/lobes/toy.h' >%s",
+             id, id[0] - 'a' + 'A', id + 1, id, factor, file);
+    assert_int_equal(system(line), 0);
+}
+
+static void a_lobe_is_read_again(void **state) {
+    (void)state;
+    need_gl();
+    write_toy("toy.h", "toy", "1.0f");
+    write_toy("felt.h", "felt", "1.0f");
+    script_begin();
+    say("wait rest\n");
+    say_picture("1.png");
+    say("wait message toy.h: read\nwait rest\n");
+    say_picture("2.png");
+    say("wait message toy.h:40: does not compile\n");
+    say_picture("3.png");
+    say("drop felt.h\nwait message felt.h: read\nwait rest\ncommand line.txt\nwait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--preset", "velvet", "--lobe", "toy.h", "--sheen",
+                                           "toy", "--layer", "additive"));
+    pass_by(&drive, "wrote 1.png");
+    write_toy("toy.h", "toy", "0.0f");
+    pass_by(&drive, "wrote 2.png");
+    write_toy("toy.h", "toy", "no_such_number");
+    pass_by(&drive, "wrote 3.png");
+    drive_finish(&drive);
+    assert_true(pictures_most("1.png", "2.png") > 0.05);
+    assert_true(pictures_most("2.png", "3.png") < 0.5 / 255.0);
+    size_t size;
+    char *line = file_bytes("line.txt", &size);
+    assert_non_null(line);
+    assert_non_null(strstr(line, " --lobe toy.h --lobe felt.h"));
+    free(line);
+}
+
 static void write_lobe(const char *with) {
     static const char from[] = "1.0f / PI";
     const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
@@ -123,8 +163,8 @@ static void shader_text_is_compiled_again(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_texture_is_read_again),
-                                       cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
-                                       cmocka_unit_test(shader_text_is_compiled_again)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_texture_is_read_again), cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
+        cmocka_unit_test(a_lobe_is_read_again), cmocka_unit_test(shader_text_is_compiled_again)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }
