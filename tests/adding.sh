@@ -1,10 +1,11 @@
 #!/bin/sh
 # Adds the lobe of docs/adding-a-lobe.md to a copy of the sources, by one file and one row as that page says, and asks
-# the program for it. Then a second file, without a row, must fail shading/registry.
-# Arguments: source folder, C compiler. Exit 77: skipped.
+# the program for it; and tests/lobes/toy.h likewise, of which the program as it was must say the same by --lobe. Then a
+# file without a row must fail shading/registry. Arguments: source folder, C compiler, program. Exit 77: skipped.
 set -eu
 source="$1"
 compiler="$2"
+before="$3"
 for tool in "$compiler" cmake ninja; do
     if ! command -v "$tool" >/dev/null; then
         echo "skipped: there is no $tool"
@@ -29,7 +30,8 @@ for part in CMakeLists.txt bench cmake docs include scenes script src tests; do
 done
 cd "$work/weft"
 listing 1 >src/shading/lobes/minnaert.h
-sed -i '/^wrap$/a minnaert' src/shading/lobes.list
+cp tests/lobes/toy.h src/shading/lobes/
+sed -i '/^wrap$/a minnaert\ntoy' src/shading/lobes.list
 
 # Unoptimised, and then with warnings off: gcc 12 sees less then, and warns of more.
 cmake -G Ninja -S . -B build -DCMAKE_C_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
@@ -58,6 +60,35 @@ for kind in sheen diffuse; do
 done
 script/docs build/weft >"$work/log"
 grep -q 'Minnaert, The reciprocity principle' docs/lobes/minnaert.md || fail "script/docs made no page"
+
+# The toy: as a row, and by --lobe.
+near_all() {
+    paste "$work/row" "$work/lobe" | awk -v what="$1" '
+        { for (k = 1; k <= NF / 2; k++) { d = $k - $(k + NF / 2); if (d * d > 1e-10 * $k * $k + 1e-14) bad = 1 } }
+        END { if (bad || !NR) { print what " differs"; exit 1 } }' || fail "the toy as a row and by --lobe"
+}
+for row in 1 ""; do
+    toy() { if [ -n "$row" ]; then build/weft "$@"; else "$before" "$@" --lobe tests/lobes/toy.h; fi; }
+    name="$work/${row:+row}"
+    [ -n "$row" ] || name="$work/lobe"
+    printf '60 0 30 40\n10 20 85 170\n45 0 45 180\n' | toy eval toy -p color=.5,.3,.2 -p roughness=0.2 >"$name"
+    printf '0.1\n0.9\n' | toy eval toy --albedo >>"$name"
+    toy plot polar toy --json | tr -c '0-9.e\n+-' ' ' | awk 'NF > 20' >>"$name"
+    toy check toy --quick --max-albedo 1.001 --max-reciprocity 1e-5 >"$name.check" || fail "weft check toy"
+    toy export toy --target glsl -o "$name.glsl" 2>/dev/null
+    sed -n '/\*\//,$p' "$name.glsl" >"$name.text"
+    for engine in trace raster; do
+        toy render builtin:spheres --engine "$engine" --width 24 --height 12 --spp 4 --sheen toy \
+            -o "$name.$engine.exr" 2>/dev/null || fail "weft render --engine $engine --sheen toy"
+    done
+done
+near_all "eval or plot"
+cmp "$work/row.text" "$work/lobe.text" || fail "the exports of the toy differ"
+grep -q 'at most 1 (roughness 0, cos_o 1)' "$work/row.check" && grep -q 'at most 1 (roughness 0, cos_o 1)' "$work/lobe.check" ||
+    fail "the passports of the toy differ"
+for engine in trace raster; do
+    weft diff "$work/row.$engine.exr" "$work/lobe.$engine.exr" --max 1e-6 >"$work/log" || { cat "$work/log"; fail "$engine"; }
+done
 
 build/tests/test_shading_registry >"$work/log" 2>&1 || { cat "$work/log"; fail "shading/registry does not take it"; }
 cp src/shading/lobes/minnaert.h src/shading/lobes/unlisted.h

@@ -197,6 +197,20 @@ static void the_toy_is_a_lobe(void **state) {
         LIST("check", "toy", "--quick", "--max-albedo", "1.001", "--max-reciprocity", "1e-5", "--lobe", TOY));
 }
 
+/* Its loops over arrays are ones of vectors, as those of the catalogue: the test vector. */
+static void the_toy_vectorises(void **state) {
+    (void)state;
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+    Ran ran = run_shell("XDG_CACHE_HOME=$PWD/cache CC= $0 models toy --lobe '" TOY "' >/dev/null && "
+                        "'" WEFT_SOURCE_DIR
+                        "/tests/vector.sh' cache/weft/*.so 4; code=$?; rm -r cache; exit $code");
+    if (ran.code != 0 && ran.code != 77) fail_msg("%s%s", ran.out, ran.err);
+    ran_free(&ran);
+#else
+    skip();
+#endif
+}
+
 /* Bad files. */
 
 static void file_of(const char *name, const char *text) { file_make(name, text, strlen(text)); }
@@ -272,6 +286,7 @@ int main(void) {
         cmocka_unit_test(a_file_is_plotted_matched_and_fitted),
         cmocka_unit_test(a_passport_is_that_of_a_row),
         cmocka_unit_test(the_toy_is_a_lobe),
+        cmocka_unit_test(the_toy_vectorises),
         cmocka_unit_test(bad_files_are_told_in_one_line),
         cmocka_unit_test(without_a_compiler_that_is_said),
     };
