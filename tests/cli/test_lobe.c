@@ -58,11 +58,25 @@ static char *plain(char *bytes) {
     return bytes;
 }
 
+/* The same words, and numbers that differ by rounding at the most: the library may come from another
+ * compiler. */
+static void assert_alike(const char *a, const char *b) {
+    while (*a && *b) {
+        char *end_a, *end_b;
+        double x = strtod(a, &end_a), y = strtod(b, &end_b), bound = 1e-9 + 2e-5 * (x < 0.0 ? -x : x);
+        if (end_a > a && end_b > b && x - y < bound && y - x < bound)
+            a = end_a, b = end_b;
+        else if (*a++ != *b++)
+            fail_msg("\"%.60s\" is not \"%.60s\"", a - 1, b - 1);
+    }
+    assert_int_equal(*a, *b);
+}
+
 /* Runs both and compares standard output but for the names; arguments of the twin end with --lobe FILE. */
 static void assert_same(const char *input, const char *const *twin, const char *const *original) {
     Ran a = run_with(input, twin), b = run_with(input, original);
     if (a.code || b.code) fail_msg("%d %s%d %s", a.code, a.err, b.code, b.err);
-    assert_string_equal(plain(a.out), b.out);
+    assert_alike(plain(a.out), b.out);
     assert_true(strlen(a.out) > 20);
     ran_free(&a);
     ran_free(&b);
@@ -109,19 +123,16 @@ static void a_file_exports_as_a_row(void **state) {
 static void a_file_renders_as_a_row(void **state) {
     (void)state;
     char file[64], own[64], base[64], base_file[64];
-    size_t size;
     make_twin(7, file, own);
     make_twin(5, base_file, base);
     for (int k = 0; k < 2; k++) {
         const char *engine = k ? "raster" : "trace", *samples = k ? "--width" : "--spp";
         done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
                   own, "--diffuse", base, "--layer", "albedo-max", "--lobe", file, "--lobe", base_file, "-o",
-                  "twin.png"));
+                  "twin.exr"));
         done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
-                  "charlie-khronos", "--diffuse", "burley", "--layer", "albedo-max", "-o", "row.png"));
-        char *bytes = file_bytes("row.png", &size);
-        assert_true(same_bytes("twin.png", bytes, size));
-        free(bytes);
+                  "charlie-khronos", "--diffuse", "burley", "--layer", "albedo-max", "-o", "row.exr"));
+        done(LIST("diff", "twin.exr", "row.exr", "--max", "1e-8"));
     }
 }
 
@@ -152,12 +163,13 @@ static void a_passport_is_that_of_a_row(void **state) {
         b = RUN("check", "wrap", "--quick", "--json");
     assert_int_equal(a.code, 0);
     assert_int_equal(b.code, 0);
+    plain(a.out);
     /* all but the name and the half floats, of which a lobe from outside has none */
     const char *from_a = strstr(a.out, "\"albedo\""), *from_b = strstr(b.out, "\"albedo\"");
     const char *to_a = strstr(a.out, "\"half"), *to_b = strstr(b.out, "\"half");
     assert_true(from_a && from_b && to_a && to_b);
-    assert_int_equal(to_a - from_a, to_b - from_b);
-    assert_memory_equal(from_a, from_b, (size_t)(to_a - from_a));
+    a.out[to_a - a.out] = b.out[to_b - b.out] = '\0';
+    assert_alike(from_a, from_b);
     ran_free(&a);
     ran_free(&b);
 }
