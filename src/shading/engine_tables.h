@@ -13,14 +13,18 @@
  * The 1024 points of ggx leave it up to .009 off the integral, most of all near grazing.
  *   Babylon.js ships an image of 256 x 256, which fits that same procedure. Substitute: its 8 bits a channel
  * and the spacing of ggx at 256 rows are left out. */
-#define ENGINE_FILAMENT_SHEEN 0
-#define ENGINE_FILAMENT_GGX   1
-#define ENGINE_BABYLON_SHEEN  2
-#define ENGINE_BABYLON_GGX    3
+/* three.js ships E of white ggx. mrdoob/three.js, src/renderers/shaders/DFGLUTData.js, 16 x 16.
+ *
+ * One row a table: T(NAME, name, rows and columns, points, of the sheen and not of ggx, rows are shifted). */
+#define ENGINE_TABLES(T)                                                                                     \
+    T(FILAMENT_SHEEN, filament_sheen, 128, 4096, true, true)                                                 \
+    T(FILAMENT_GGX, filament_ggx, 128, 1024, false, true)                                                    \
+    T(BABYLON_SHEEN, babylon_sheen, 256, 4096, true, true)                                                   \
+    T(BABYLON_GGX, babylon_ggx, 256, 1024, false, true)                                                      \
+    T(THREE_GGX, three_ggx, 16, 4096, false, false)
 
-/* E of white ggx. mrdoob/three.js, src/renderers/shaders/DFGLUTData.js, 16 x 16. */
-#define ENGINE_THREE_GGX 4
-#define ENGINE_COUNT     5
+#define ENGINE_TABLE_ID(NAME, name, side, points, sheen, shifted) ENGINE_##NAME,
+enum { ENGINE_TABLES(ENGINE_TABLE_ID) ENGINE_COUNT };
 
 /* Made at the first call, which any number of threads may make at once; read-only afterwards. */
 TableRef engine_table(int which);

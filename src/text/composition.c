@@ -106,20 +106,13 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_slots(text, found->slots);
 }
 
-#define ENGINE_NAME(name)                                                                                    \
-    { "ENGINE_" #name, ENGINE_##name }
-static const struct {
-    const char *name;
-    int which;
-} engines[] = {ENGINE_NAME(FILAMENT_SHEEN), ENGINE_NAME(FILAMENT_GGX), ENGINE_NAME(BABYLON_SHEEN),
-               ENGINE_NAME(BABYLON_GGX), ENGINE_NAME(THREE_GGX)};
-
 /* The engines' tables that the composition names: each takes a while to make. */
 static void put_engines(Text *text, const char *const formulas[2]) {
+#define ENGINE_TABLE_NAME(NAME, name, side, points, sheen, shifted) "ENGINE_" #NAME,
+    static const char *const names[ENGINE_COUNT] = {ENGINE_TABLES(ENGINE_TABLE_NAME)};
     int which[ENGINE_COUNT], count = 0;
-    for (size_t k = 0; k < sizeof engines / sizeof engines[0]; k++)
-        if (strstr(formulas[0], engines[k].name) || strstr(formulas[1], engines[k].name))
-            which[count++] = engines[k].which;
+    for (int k = 0; k < ENGINE_COUNT; k++)
+        if (strstr(formulas[0], names[k]) || strstr(formulas[1], names[k])) which[count++] = k;
     text_engine_tables(text, which, count);
 }
 

@@ -8,12 +8,6 @@
 #include "shading/lobe_tables.h"
 #include "text/number.h"
 
-static const char *const engine_names[ENGINE_COUNT] = {[ENGINE_FILAMENT_SHEEN] = "filament_sheen",
-                                                       [ENGINE_FILAMENT_GGX] = "filament_ggx",
-                                                       [ENGINE_BABYLON_SHEEN] = "babylon_sheen",
-                                                       [ENGINE_BABYLON_GGX] = "babylon_ggx",
-                                                       [ENGINE_THREE_GGX] = "three_ggx"};
-
 /* Lines that fill `t` with what e is, the table being a layer of its own of so many rows. */
 static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {
     bool own = e->kind == TABLE_ROOTS || e->kind == TABLE_TINTED;
@@ -65,8 +59,11 @@ static TableRef smaller(Text *text, TableRef e) {
 }
 
 void text_engine_tables(Text *text, const int *which, int count) {
-    /* the names of the tables, and the function's declaration */
-    text_include(text, "shading/engine_tables.h");
+#define ENGINE_TABLE_NAMES(NAME, name, side, points, sheen, shifted) {"ENGINE_" #NAME, #name},
+    static const char *const names[ENGINE_COUNT][2] = {ENGINE_TABLES(ENGINE_TABLE_NAMES)};
+    if (!text_provide(text, "shading/engine_tables.h")) return;
+    text_include(text, "shading/table.h");
+    for (int k = 0; k < ENGINE_COUNT; k++) text_line(text, "const int %s = %d;", names[k][0], k);
     text_line(
         text,
         "\nTableRef engine_table(int which) {\n    TableRef t;\n    t.texels = 0;\n    t.kind = TABLE_NONE;\n"
@@ -75,7 +72,7 @@ void text_engine_tables(Text *text, const int *which, int count) {
     for (int k = 0; k < count; k++) {
         TableRef e = smaller(text, engine_table(which[k]));
         text_line(text, "    if (which == %d) {", which[k]);
-        put_reference(text, &e, e.rows, engine_names[which[k]], "        ");
+        put_reference(text, &e, e.rows, names[which[k]][1], "        ");
         text_line(text, "    }");
     }
     text_line(text, "    return t;\n}");
