@@ -57,22 +57,28 @@ static double difference(const VertexArrays *a, const VertexArrays *b) {
 
 int main(int argc, char **argv) {
     static VertexArrays first, a;
-    VertexRun *run[MODULES_MAX];
-    double best[MODULES_MAX][VERTEX_MATERIALS][2];
-    int count = argc - 1;
-    if (count < 1 || count > MODULES_MAX) {
+    VertexRun *run[2 * MODULES_MAX];
+    const char *name[2 * MODULES_MAX];
+    double best[2 * MODULES_MAX][VERTEX_MATERIALS][2];
+    int count = 0;
+    if (argc < 2 || argc > 1 + MODULES_MAX) {
         fputs("bench_vertex MODULE... (up to 4)\n", stderr);
         return 2;
     }
-    for (int m = 0; m < count; m++) {
-        void *module = dlopen(argv[m + 1], RTLD_NOW | RTLD_LOCAL);
-        void *symbol = module ? dlsym(module, "vertex_run") : NULL;
-        if (!symbol) {
-            fprintf(stderr, "bench_vertex: %s\n", dlerror());
-            return 1;
+    for (int m = 1; m < argc; m++) {
+        void *module = dlopen(argv[m], RTLD_NOW | RTLD_LOCAL);
+        for (int kind = 0; kind < 2; kind++) {
+            void *symbol = module ? dlsym(module, kind ? "vertex_run_kind" : "vertex_run") : NULL;
+            if (!symbol && kind) break; /* an older build has none */
+            if (!symbol) {
+                fprintf(stderr, "bench_vertex: %s\n", dlerror());
+                return 1;
+            }
+            *(void **)&run[count] = symbol;
+            name[count] = kind ? "its kind" : argv[m];
+            for (int k = 0; k < 2 * VERTEX_MATERIALS; k++) best[count][k / 2][k % 2] = 1e30;
+            count++;
         }
-        *(void **)&run[m] = symbol;
-        for (int k = 0; k < 2 * VERTEX_MATERIALS; k++) best[m][k / 2][k % 2] = 1e30;
     }
     fill(&first), fill(&a);
     for (int round = 0; round < ROUNDS; round++)
@@ -89,7 +95,7 @@ int main(int argc, char **argv) {
             run[m](&a, k / 2, k % 2);
             printf("%-6s %-14s %8.1f %6.3f %8.1e  %s\n", k / 2 ? "floor" : "cloth",
                    k % 2 ? "made once" : "made each time", 1e9 * best[m][k / 2][k % 2] / VERTEX_COUNT,
-                   best[m][k / 2][k % 2] / best[0][k / 2][k % 2], difference(&first, &a), argv[m + 1]);
+                   best[m][k / 2][k % 2] / best[0][k / 2][k % 2], difference(&first, &a), name[m]);
         }
     return 0;
 }

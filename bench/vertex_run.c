@@ -1,7 +1,8 @@
 /* vertex_run.c - the module of bench_vertex: this build's stacks, as the path tracer calls them */
 #include "vertex.h"
 
-#include "shading/material_stack.h"
+#include "shading/albedo.h"
+#include "shading/kind.h"
 
 #define DEFAULT_SCALAR(d)                                                 d
 #define DEFAULT_COLOR(d)                                                  rgb_grey(d)
@@ -30,21 +31,33 @@ static TableRef table(void) {
     return albedo_table_ref(&made);
 }
 
-__attribute__((visibility("default"))) void vertex_run(VertexArrays *a, int material, int once) {
+static void run(VertexArrays *a, int material, int once, bool known) {
     const Choices choices = choices_unmade();
     const TableRef e = table();
-    static SeenStack m;
+    static Stack m;
+    static StackView w;
+    Surface s = surface_of(a, 0, material);
+    stack_make(&m, &s, &choices, e);
+    const StackKind *kind = stack_kind(known ? &m : NULL, &choices);
     for (int k = 0; k < VERTEX_COUNT; k++) {
-        if (!once || k == 0) {
-            Surface s = surface_of(a, k, material);
-            stack_make(&m.stack, &s, &choices, e);
+        if (!once) {
+            s = surface_of(a, k, material);
+            kind->make(&m, &s, &choices, e);
         }
-        stack_see(&m.stack, dir(a->o[0][k], a->o[1][k], a->o[2][k]), &m.view);
-        StackValue x = seen_eval(&m, dir(a->light[0][k], a->light[1][k], a->light[2][k]), 0);
-        Dir i = seen_sample(&m, a->u[k], a->v[k]);
-        StackValue y = seen_eval(&m, i, 0);
+        const Dir o = dir(a->o[0][k], a->o[1][k], a->o[2][k]);
+        const Dir light = dir(a->light[0][k], a->light[1][k], a->light[2][k]);
+        StackValue x, y;
+        Dir i;
+        kind->see(&m, &o, &w);
+        kind->eval(&m, &w, &light, 0, &x);
+        kind->sample(&m, &w, a->u[k], a->v[k], &i);
+        kind->eval(&m, &w, &i, 0, &y);
         const float all[] = {x.f_cos.r, x.f_cos.g, x.f_cos.b, x.pdf,     i.x,  i.y,
                              i.z,       y.f_cos.r, y.f_cos.g, y.f_cos.b, y.pdf};
         for (int c = 0; c < 11; c++) a->out[c][k] = all[c];
     }
 }
+
+#define EXPORTED __attribute__((visibility("default")))
+EXPORTED void vertex_run(VertexArrays *a, int material, int once) { run(a, material, once, false); }
+EXPORTED void vertex_run_kind(VertexArrays *a, int material, int once) { run(a, material, once, true); }

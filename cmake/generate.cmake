@@ -4,6 +4,7 @@ set(WEFT_GENERATED_DIR ${CMAKE_CURRENT_BINARY_DIR}/generated)
 set(WEFT_GENERATED "")
 
 include(cmake/lobes.cmake)
+include(cmake/kinds.cmake)
 
 # Appends to the variable `assembly` what puts a file as it is, and a zero after it, at `symbol`.
 function(weft_embed symbol file)

@@ -190,12 +190,12 @@ static void put_shade(Draft *draft, const Subject *subject) {
     if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (subject->table) text_line(text, "    m.table = sheen_table();");
     if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)
-        text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, m.at);");
+        text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.at));");
     if (subject->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
     /* A lobe that a slot does not hold leaves its part of the view alone, of which a compiler of C warns. */
     bool c = draft->desc->target == WEFT_EXPORT_C;
-    text_line(text, "    stack_prepare_lobes(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
+    text_line(text, "    stack_prepare(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(subject)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
     if (subject->slots.slots[2].count) text_line(text, "    view_keep(m, w);");

@@ -12,6 +12,8 @@
 #include "half/shading/terms.h"
 #include "shading/lobe_ids.gen.h"
 
+#include "half/shading/lobes.gen.h"
+
 #include "half/shading/dispatch.gen.h"
 
 __typeof__(half_table_refs) half_table_refs;

@@ -1,6 +1,5 @@
 /* arrays.c - the same text over arrays: one loop per lobe and question, the widest instructions chosen at
  * start-up */
-#include "shading/lobes.gen.h"
 #include "shading/loop.h"
 #include "shading/registry.h"
 

@@ -59,8 +59,9 @@ FN Lobe compose_terms(Lobe lobe, int d, int v, int f, const Surface *s) {
 
 /* A distribution that knows no direction is laid on a base that is not brushed: it is as wide as the
  * roughness says, which for workflow disney is sqrt(alpha_x alpha_y), and anisotropy is not read. */
+FN bool compose_evens(Choices c) { return c.d >= 0 && c.d != D_GGX_ANISO; }
 FN void compose_surface(Surface *s, Choices c) {
-    if (c.d >= 0 && c.d != D_GGX_ANISO) s->anisotropy = 0.0f;
+    if (compose_evens(c)) s->anisotropy = 0.0f;
 }
 
 /* Returns true where terms of the sheen are chosen, or the lobe that is made of terms. */
@@ -120,7 +121,8 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
 FN SheenE stack_albedo(const Stack *m, Dir w) {
     float cosine = w.z;
     WEFT_ALBEDO_FORMULAS(COMPOSE_ALBEDO)
-    return table_sheen_nap(m->table, w, m->nap, m->at);
+    if (!SHEEN_IS_OWN(m->table)) return sheen_e_of(table_engine(m->table, cosine, m->at));
+    return table_sheen_nap(m->table, w, m->nap, m->rows);
 }
 
 /* Dust over all of it, where dust_settle found some. */
@@ -131,6 +133,20 @@ FN void compose_dust(Stack *m, const Surface *s) {
     m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
 
+/* The stack of a surface whose inputs are those of its workflow and stay as they are. */
+FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
+    compose_begin(m, s, c);
+    compose_choices(m, s, c);
+    compose_dust(m, s);
+    m->table = e;
+    stack_prepare(m);
+    if (HAS_SHEEN(m)) m->e_avg = table_sheen_nap_average(e, m->nap, m->rows);
+    if (m->layer == LAYER_MULTIPLICATIVE) {
+        m->sheen.f0 = rgb_grey(0.0f);
+        m->sheen.f90 = rgb_grey(0.0f);
+    }
+}
+
 /* The stack of a surface. e is the table of E of the sheen's lobe over its first parameter, where the stack
  * without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust is what lies at this point:
  * dust_settle says. */
@@ -138,16 +154,7 @@ FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     Choices d = convert_choices(c);
     Surface t = convert_surface(*s, c);
     compose_surface(&t, d);
-    compose_begin(m, &t, d);
-    compose_choices(m, &t, d);
-    compose_dust(m, &t);
-    m->table = e;
-    if (HAS_SHEEN(m)) m->e_avg = table_sheen_nap_average(e, m->nap, m->at);
-    if (m->layer == LAYER_MULTIPLICATIVE) {
-        m->sheen.f0 = rgb_grey(0.0f);
-        m->sheen.f90 = m->sheen.f0;
-    }
-    stack_prepare_lobes(m);
+    compose_stack(m, &t, d, e);
 }
 
 FN void view_coat(const Stack *m, StackView *w) {
@@ -188,14 +195,18 @@ FN void view_begin(const Stack *m, Dir o, StackView *w) {
     w->e_o = sheen_e_of(0.0f);
     w->keep = rgb_grey(1.0f);
     SLOTS(SCALE_ONE)
-    WEFT_VIEWS(COMPOSE_VIEW)
+    if (m->view != VIEW_PLAIN) {
+        WEFT_VIEWS(COMPOSE_VIEW)
+    }
     if (HAS_COAT(m)) view_coat(m, w);
     if (HAS_DUST(m)) view_dust(m, w);
-    float left = w->coat_keep * w->dust_keep;
-    w->scale.diffuse = w->scale.diffuse * left;
-    w->scale.specular = w->scale.specular * left;
-    w->scale.sheen = w->scale.sheen * left;
-    w->scale.coat = w->scale.coat * w->dust_keep;
+    if (HAS_COAT(m) || HAS_DUST(m)) {
+        float left = w->coat_keep * w->dust_keep;
+        w->scale.diffuse = w->scale.diffuse * left;
+        w->scale.specular = w->scale.specular * left;
+        w->scale.sheen = w->scale.sheen * left;
+        w->scale.coat = w->scale.coat * w->dust_keep;
+    }
     stack_view_lobes(m, w);
 }
 
@@ -208,32 +219,39 @@ FN void view_keep(const Stack *m, StackView *w) {
 FN float pick_of(const Slot *s, float schlick, float share, float scale) {
     return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * share, 1e-3f) : 0.0f;
 }
-#define PICK_SUM(name, NAME, Name, wo)   +p->name
-#define PICK_USED(name, NAME, Name, wo)  +(p->name > 0.0f ? 1.0f : 0.0f)
-#define PICK_SCALE(name, NAME, Name, wo) w->pick.name = p->name > 0.0f ? most * p->name + least : 0.0f;
-/* Of n slots that are used each gets (p / sum 15/16 + 1/64) / (15/16 + n/64). */
-FN void view_picks_of(const Scales *p, StackView *w) {
-    float sum = 0.0f SLOTS(PICK_SUM), used = 0.0f SLOTS(PICK_USED);
-    float least = 1.0f / (60.0f + used), most = 60.0f * least / max(sum, 1e-30f);
-    SLOTS(PICK_SCALE)
-}
+#define PICK_OF(name, NAME, Name, wo)                                                                        \
+    p.name = 0.0f;                                                                                           \
+    if (HAS_##NAME(m)) p.name = pick_of(&m->name, s, w->pick.name, w->scale.name);
+#define PICK_SUM(name, NAME, Name, wo)   +p.name
+#define PICK_USED(name, NAME, Name, wo)  +(p.name > 0.0f ? 1.0f : 0.0f)
+#define PICK_SCALE(name, NAME, Name, wo) w->pick.name = p.name > 0.0f ? most * p.name + least : 0.0f;
 
-/* The chance of each lobe to be sampled; before, what of it wo decides. */
+/* The chance of each lobe to be sampled; before, what of it wo decides. Of n slots that are used each gets
+ * (p / sum 15/16 + 1/64) / (15/16 + n/64). */
 FN void view_picks(const Stack *m, StackView *w) {
-    float s = schlick_s(w->o.z), below = w->coat_keep, clear = w->dust_keep, keep = 1.0f;
+    float s = schlick_s(w->o.z), keep = 1.0f;
     Scales p;
-    p.diffuse = clear * pick_of(&m->diffuse, s, w->pick.diffuse * below, w->scale.diffuse);
-    p.specular = clear * pick_of(&m->specular, s, w->pick.specular * below, w->scale.specular);
-    p.sheen = clear * pick_of(&m->sheen, s, w->pick.sheen * below, w->scale.sheen);
-    p.coat = clear * pick_of(&m->coat, s, w->pick.coat, w->scale.coat);
-    p.dust = pick_of(&m->dust, s, w->pick.dust, w->scale.dust);
+    if (HAS_COAT(m)) {
+        w->pick.diffuse = w->pick.diffuse * w->coat_keep;
+        w->pick.specular = w->pick.specular * w->coat_keep;
+        w->pick.sheen = w->pick.sheen * w->coat_keep;
+    }
+    SLOTS(PICK_OF)
+    if (HAS_DUST(m)) {
+        p.diffuse = w->dust_keep * p.diffuse;
+        p.specular = w->dust_keep * p.specular;
+        p.sheen = w->dust_keep * p.sheen;
+        p.coat = w->dust_keep * p.coat;
+    }
     if (HAS_SHEEN(m)) {
         keep = rgb_mean(w->keep);
         p.sheen = m->layer == LAYER_MULTIPLICATIVE ? 0.0f : max(p.sheen * w->e_o.e, 1e-3f);
         p.diffuse = p.diffuse * keep;
         if (!IS_BELOW_F(m)) p.specular = p.specular * keep;
     }
-    view_picks_of(&p, w);
+    float sum = 0.0f SLOTS(PICK_SUM), used = 0.0f SLOTS(PICK_USED);
+    float least = 1.0f / (60.0f + used), most = 60.0f * least / max(sum, 1e-30f);
+    SLOTS(PICK_SCALE)
 }
 
 /* What wo (shading frame, z > 0) adds to a stack. */
@@ -244,11 +262,6 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_picks(m, w);
 }
 
-/* Adds what a slot reflects: f times its scale, which is one for each channel. */
-FN void value_add(StackValue *sum, const LobeReflected *v, Rgb scale, float pick) {
-    sum->f_cos = rgb_add(sum->f_cos, rgb_mul(scale, v->f));
-    sum->pdf = sum->pdf + pick * v->pdf;
-}
 #define SLOT_VALUE(slot, pair)                                                                               \
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_seen, pair, &m->slot.f0, &m->slot.f90, &v);
@@ -256,26 +269,19 @@ FN void value_add(StackValue *sum, const LobeReflected *v, Rgb scale, float pick
 /* The same as stack_value for some of the slots: what the others do to these stays. */
 FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
                              const Angles *coat) {
-    bool worn = IS_WORN(m);
-    Rgb keep = w->keep;
-    if (worn && m->layer >= LAYER_ALBEDO_MIN) {
-        SheenE e_i = sheen_e_of(0.0f);
-        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
-        keep = stack_keep(m, w, e_i);
-    }
-    Rgb under = stack_under(m, w, a), over = rgb_grey(1.0f), specular_keep = keep;
-    if (IS_BELOW_F(m) && worn) {
-        under = stack_let_through(m, w, a);
-        over = under;
-        specular_keep = rgb_grey(1.0f);
-    }
-    StackValue sum;
+    bool worn = IS_WORN(m), below_f = IS_BELOW_F(m) && worn;
+    Rgb f = rgb_grey(0.0f), through = f; /* by the interface that lies over all of diffuse and sheen */
+    float pdf = 0.0f;
     LobeReflected v;
-    sum.f_cos = rgb_grey(0.0f);
-    sum.pdf = 0.0f;
+    if (below_f) through = stack_let_through(m, w, a);
     if (only.diffuse && HAS_DIFFUSE(m)) {
         SLOT_VALUE(diffuse, a)
-        value_add(&sum, &v, rgb_scale(rgb_mul(keep, under), w->scale.diffuse), w->pick.diffuse);
+        f = rgb_scale(v.f, w->scale.diffuse);
+        pdf = w->pick.diffuse * v.pdf;
+        if (below_f)
+            f = rgb_mul(rgb_mul(f, through), w->keep);
+        else if (m->under != UNDER_NONE)
+            f = rgb_mul(f, stack_under(m, w, a));
     }
     if (only.specular && HAS_SPECULAR(m)) {
         if (HAS_MORE(m)) {
@@ -286,21 +292,39 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
         } else {
             SLOT_VALUE(specular, a)
         }
-        value_add(&sum, &v, rgb_scale(specular_keep, w->scale.specular), w->pick.specular);
+        f = rgb_add(f, rgb_scale(v.f, w->scale.specular));
+        pdf = pdf + w->pick.specular * v.pdf;
+    }
+    if (worn && !below_f) {
+        Rgb keep = w->keep;
+        if (m->layer >= LAYER_ALBEDO_MIN) {
+            SheenE e_i = sheen_e_of(0.0f);
+            if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+            keep = stack_keep(m, w, e_i);
+        }
+        f = rgb_mul(f, keep);
     }
     if (only.sheen && HAS_SHEEN(m)) {
         SLOT_VALUE(sheen, a)
-        value_add(&sum, &v, rgb_scale(over, w->scale.sheen), w->pick.sheen);
+        v.f = rgb_scale(v.f, w->scale.sheen);
+        if (below_f) v.f = rgb_mul(v.f, through);
+        f = rgb_add(f, v.f);
+        pdf = pdf + w->pick.sheen * v.pdf;
     }
     if (only.dust && HAS_DUST(m)) {
         SLOT_VALUE(dust, a)
-        value_add(&sum, &v, rgb_grey(w->scale.dust), w->pick.dust);
+        f = rgb_add(f, rgb_scale(v.f, w->scale.dust));
+        pdf = pdf + w->pick.dust * v.pdf;
     }
-    sum.f_cos = rgb_scale(sum.f_cos, a->i.z);
+    f = rgb_scale(f, a->i.z);
     if (only.coat && HAS_COAT(m) && coat->o.z > 0.0f && coat->i.z > 0.0f) {
         SLOT_VALUE(coat, coat)
-        value_add(&sum, &v, rgb_grey(w->scale.coat * coat->i.z), w->pick.coat);
+        f = rgb_add(f, rgb_scale(v.f, w->scale.coat * coat->i.z));
+        pdf = pdf + w->pick.coat * v.pdf;
     }
+    StackValue sum;
+    sum.f_cos = f;
+    sum.pdf = pdf;
     return sum;
 }
 

@@ -46,4 +46,15 @@ FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
     return x;
 }
 
+/* The same of a lobe of one colour. */
+FN LobeReflected lobe_reflected_one(LobeValue v, Rgb color) {
+    LobeReflected x;
+    x.f.r = v.f * color.r;
+    x.f.g = v.f * color.g;
+    x.f.b = v.f * color.b;
+    x.pdf = v.pdf;
+    x.f_s2 = 0.0f;
+    return x;
+}
+
 #endif

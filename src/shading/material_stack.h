@@ -5,7 +5,8 @@
 #include "shading/albedo.h"
 #include "shading/compose.h"
 
-/* One copy of each: the catalogue's text in every caller would be many times the program. */
+/* One copy of each: the catalogue's text in every caller would be many times the program. Records go by
+ * reference: by value they would be packed into registers and come out slower than they are computed. */
 #define ONE_COPY __attribute__((noinline))
 
 /* Fills stack for a surface, once for all directions. e is the table of the sheen's E that surface_stack asks
@@ -13,17 +14,18 @@
 ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e);
 
 /* Fills view for wo (shading frame, z > 0), once for all wi. It holds for that stack alone. */
-ONE_COPY void stack_see(const Stack *stack, Dir o, StackView *view);
+ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
 
 /* f cos and pdf for wi; 0 below the horizon. seed: of the random walk that layer rule stochastic takes
  * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
-ONE_COPY StackValue stack_eval(const Stack *stack, const StackView *view, Dir i, uint32_t seed);
+ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
+                         StackValue *value);
 
 /* The same of some of the slots, and of layer rule stochastic without its walk. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
 /* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
-ONE_COPY Dir stack_sample(const Stack *stack, const StackView *view, float u, float v);
+ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);
 
 /* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left
  * of it, again in [0, 1). */
@@ -42,10 +44,14 @@ void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, 
 /* The view of a stack whose lobes have been put in by hand. */
 void seen_settle(SeenStack *seen, Dir o);
 static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {
-    return stack_eval(&seen->stack, &seen->view, i, seed);
+    StackValue value;
+    stack_eval(&seen->stack, &seen->view, &i, seed, &value);
+    return value;
 }
 static inline Dir seen_sample(const SeenStack *seen, float u, float v) {
-    return stack_sample(&seen->stack, &seen->view, u, v);
+    Dir i;
+    stack_sample(&seen->stack, &seen->view, u, v, &i);
+    return i;
 }
 
 #endif

@@ -53,7 +53,7 @@
 
 /* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \
-    A(khronos, ALBEDO_KHRONOS, khronos_albedo(m->table, cosine, m->at))                                      \
+    A(khronos, ALBEDO_KHRONOS, khronos_albedo(m, cosine))                                                    \
     A(three, ALBEDO_THREE, three_albedo(cosine, m->at))                                                      \
     A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->at))           \
     A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->at))              \

@@ -1,4 +1,3 @@
-#define LOBE_TABLES_MAKE(id) lobe_tables_make_for(id)
 #include "shading/registry.h"
 
 #include "shading/lobe_tables.h"

@@ -7,8 +7,13 @@
 
 #include <stddef.h>
 
-#include "shading/lobe.h"
+/* A lobe's tables: lobe_tables.h. */
+void lobe_tables_make_for(int id);
+#undef LOBE_TABLES_MAKE
+#define LOBE_TABLES_MAKE(id) lobe_tables_make_for(id)
+
 #include "shading/lobe_ids.gen.h"
+#include "shading/lobes.gen.h"
 #include "shading/terms/d_ggx.h"
 #include "shading/traits.h"
 #include "weft/lobe.h"
@@ -35,15 +40,8 @@ bool outside_take(OutsideLobe *lobe, int *id);
 const OutsideLobe *outside_lobe(int id);
 int outside_count(void);
 
-/* What a lobe of any kind prepares and sees: lobes.gen.h. */
-typedef union LobePrepared LobePrepared;
-typedef union LobeView LobeView;
-
 /* The functions of dispatch.gen.h, one copy of each. */
 #define LOBE_COPY __attribute__((noinline))
-LOBE_COPY Lobe lobe_default(int id);
-LOBE_COPY Lobe lobe_rough(int id, float roughness);
-LOBE_COPY Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth);
 LOBE_COPY void lobe_prepare(const Lobe *m, LobePrepared *p);
 LOBE_COPY void lobe_view(int id, const LobePrepared *p, const Dir *o, LobeView *w);
 LOBE_COPY void lobe_value_at(int id, const LobePrepared *p, const LobeView *w, const Angles *a, LobeValue *v);
@@ -54,7 +52,6 @@ LOBE_COPY void lobe_sample_at(int id, const LobePrepared *p, const LobeView *w, 
 LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
 LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
-LOBE_COPY float lobe_second(const Lobe *m, float f0, float f90);
 
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }

@@ -34,7 +34,8 @@ static void turn(Sheet *sheet, Dir o) {
 static bool walk_on(uint32_t *walk, Sheet *layer, Dir *o, Rgb *weight) {
     float u = walk_random(walk), v = walk_random(walk);
     turn(layer, *o);
-    Dir i = stack_sample(layer->stack, &layer->view, u, v);
+    Dir i;
+    stack_sample(layer->stack, &layer->view, u, v, &i);
     if (i.z <= 0.0f) return false;
     StackValue value = stack_eval_of(layer->stack, &layer->view, layer->own, i);
     if (!(value.pdf > 0.0f)) return false;

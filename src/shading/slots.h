@@ -2,7 +2,6 @@
 #ifndef WEFT_SHADING_SLOTS_H
 #define WEFT_SHADING_SLOTS_H
 
-#include "shading/lobes.gen.h"
 #include "shading/registry.h"
 
 /* S(name, NAME, Name, wo in the frame of the slot), in the order in which sampling asks them. */

@@ -80,6 +80,7 @@ STRUCT(Stack) {
     TableRef table;
     Nap nap;                    /* of the sheen */
     float at;                   /* the parameter with which E is asked for */
+    Taps rows;                  /* where that falls in the table, of weft's own */
     SheenE e_avg;               /* E of the white sheen on cosine average */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
 };
@@ -144,13 +145,12 @@ STRUCT(StackValue) {
 #define SHOWS_DUST     true
 #endif
 
-FN void slot_clear(Slot *s) {
-    s->lobe = lobe_default(LOBE_LAMBERT);
-    s->f0 = rgb_grey(0.0f);
-    s->f90 = s->f0;
-    s->normal = 0.0f;
-    s->grazing = 0.0f;
-}
+#define CLEAR_SLOT(name, NAME, Name, wo)                                                                     \
+    m->name.lobe = lobe_default(LOBE_LAMBERT);                                                               \
+    m->name.f0 = rgb_grey(0.0f);                                                                             \
+    m->name.f90 = rgb_grey(0.0f);                                                                            \
+    m->name.normal = 0.0f;                                                                                   \
+    m->name.grazing = 0.0f;
 
 /* A lobe of a colour and, where it has two, of a second one; normal and grazing are about what it reflects.
  */
@@ -170,17 +170,13 @@ FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
 }
 
 FN void stack_clear(Stack *m) {
-    slot_clear(&m->diffuse);
-    m->specular = m->diffuse;
-    m->sheen = m->diffuse;
-    m->coat = m->diffuse;
-    m->dust = m->diffuse;
+    SLOTS(CLEAR_SLOT)
     m->under = UNDER_NONE;
     m->under_f0 = rgb_grey(0.0f);
     m->under_f90 = 0.0f;
-    m->more_f0 = m->under_f0;
-    m->more_f90 = m->under_f0;
-    m->more_sag = m->under_f0;
+    m->more_f0 = rgb_grey(0.0f);
+    m->more_f90 = rgb_grey(0.0f);
+    m->more_sag = rgb_grey(0.0f);
     m->gloss = 0.0f;
     m->view = VIEW_PLAIN;
     m->coat_rule = COAT_BARE;
@@ -189,7 +185,7 @@ FN void stack_clear(Stack *m) {
     m->layer = LAYER_ADDITIVE;
     m->by = LAYER_BY_MAX;
     m->color = rgb_grey(0.0f);
-    m->sheen_color = m->color;
+    m->sheen_color = rgb_grey(0.0f);
     m->amount = 0.0f;
     m->albedo = ALBEDO_TABLE;
     m->table.texels = TABLE_OF_NOTHING;
@@ -202,6 +198,7 @@ FN void stack_clear(Stack *m) {
     m->table.tilt = 0.0f;
     m->nap = nap_of(0.0f, dir(1.0f, 0.0f, 0.0f));
     m->at = 0.0f;
+    m->rows = table_taps(0.0f, 4);
     m->e_avg = sheen_e_of(0.0f);
     m->coat_x = dir(1.0f, 0.0f, 0.0f);
     m->coat_y = dir(0.0f, 1.0f, 0.0f);
@@ -219,10 +216,14 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-/* What the lobes' parameters make, once they are settled. */
+/* What the lobes' parameters make, and where E is in its table, once they are settled. */
 #define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
-FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}
+FN void stack_prepare(Stack *m) {
+    SLOTS(PREPARE_SLOT)
+    if (HAS_SHEEN(m) && m->albedo <= ALBEDO_KHRONOS && SHEEN_IS_OWN(m->table))
+        m->rows = table_rows(m->table, m->at);
+}
 
 /* What wo adds to that, where it is above the slot's horizon: a coat's normal may turn it away. */
 #define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
@@ -261,11 +262,11 @@ FN Rgb stack_fresnel(const Stack *m, const StackView *w, float d) {
 /* 1 - F, not below 0. */
 FN Rgb stack_rest(Rgb f) { return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f)); }
 
+/* For the diffuse lobe, of a stack that has an interface over it. */
 FN Rgb stack_under(const Stack *m, const StackView *w, const Angles *a) {
-    Rgb f = rgb_grey(0.0f);
-    if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN) f = stack_fresnel(m, w, a->d);
-    if (m->under == UNDER_LEAST) f = rgb_grey(rgb_max3(stack_fresnel(m, w, min(a->d, min(a->o.z, a->i.z)))));
-    return stack_rest(f);
+    if (m->under != UNDER_LEAST) return stack_rest(stack_fresnel(m, w, a->d));
+    float s = schlick_s(min(a->d, min(a->o.z, a->i.z)));
+    return rgb_grey(max(1.0f - mix(rgb_max3(w->under_f0), w->under_f90, s), 0.0f));
 }
 
 /* For the rules whose interface lies over diffuse and sheen, what it lets through: 1 - F of whatever the

@@ -82,12 +82,14 @@ FN float table_height(TableRef m, float p) {
 /* Where a cosine and a parameter fall in weft's maps. */
 STRUCT(TablePlace) { Taps x, y; };
 
-FN TablePlace table_place(TableRef m, float cos_o, float p) {
+/* The parameter's part of it, which may be kept. */
+FN Taps table_rows(TableRef m, float p) { return table_taps(table_height(m, p), m.rows < 4 ? 4 : m.rows); }
+
+FN TablePlace table_place(TableRef m, float cos_o, Taps rows) {
     float y_o = 1.0f - sqrt(max(1.0f - sqrt(sqrt(max(cos_o, 0.0f))), 0.0f));
     TablePlace at;
     at.x = table_taps(y_o * to_float(m.columns - 1), m.columns);
-    at.y = at.x;
-    if (m.rows > 1) at.y = table_taps(table_height(m, p), m.rows);
+    at.y = rows;
     return at;
 }
 
@@ -99,13 +101,12 @@ FN float table_map(TableRef m, int map, TablePlace at) {
 }
 
 FN float table_roots(TableRef m, float cos_o, float p) {
-    return max(table_map(m, 0, table_place(m, cos_o, p)), 0.0f);
+    return max(table_map(m, 0, table_place(m, cos_o, table_rows(m, p))), 0.0f);
 }
 
 /* E on cosine average, or what another map has of it. */
-FN float table_map_average(TableRef m, int map, float p) {
+FN float table_map_average(TableRef m, int map, Taps y) {
     if (m.rows < 2) return table_texel(m.texels, m.columns + 1, map, m.columns);
-    Taps y = table_taps(table_height(m, p), m.rows);
     int row = map * m.rows + y.first;
     return y.a * table_texel(m.texels, m.columns + 1, row, m.columns) +
            y.b * table_texel(m.texels, m.columns + 1, row + 1, m.columns) +
@@ -160,15 +161,24 @@ FN float sheen_e_in(SheenE x, float color) {
     return IS_TINTED(x.tint) ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
 }
 
-/* E towards a direction of that cosine, for parameter p of the lobe (TABLE_LINEAR: whatever its engine puts
- * there). */
-FN SheenE table_sheen(TableRef m, float cos_o, float p) {
-    if (SHEEN_KIND(m) == TABLE_LINEAR) return sheen_e_of(table_linear(m, cos_o, p));
-    if (SHEEN_KIND(m) == TABLE_NONE) return sheen_e_of(0.0f);
-    TablePlace at = table_place(m, cos_o, p);
+/* Whether it is one of weft's, whose rows may be kept and which knows E on average. */
+#define SHEEN_IS_OWN(m) (SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED)
+
+FN SheenE table_sheen_at(TableRef m, TablePlace at) {
     float e = max(table_map(m, 0, at), 0.0f);
     if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
     return sheen_e_tinted(e, table_map(m, 1, at), table_map(m, 2, at), table_map(m, 3, at));
+}
+
+/* E of one that is not, p being whatever its engine puts there. */
+FN float table_engine(TableRef m, float cos_o, float p) {
+    return SHEEN_KIND(m) == TABLE_LINEAR ? table_linear(m, cos_o, p) : 0.0f;
+}
+
+/* E towards a direction of that cosine, for parameter p of the lobe. */
+FN SheenE table_sheen(TableRef m, float cos_o, float p) {
+    if (!SHEEN_IS_OWN(m)) return sheen_e_of(table_engine(m, cos_o, p));
+    return table_sheen_at(m, table_place(m, cos_o, table_rows(m, p)));
 }
 /* E of any table, the sheen's or not. */
 FN float table_albedo(TableRef m, float cos_o, float p) {
@@ -204,37 +214,37 @@ FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
            t.d * table_turned(m, map + 3 * TABLE_HEADINGS, h, at);
 }
 
-/* E towards w of a sheen with a nap. Colour changes it as it does across the nap. */
-FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, float p) {
-    SheenE x = table_sheen(m, w.z, p);
-    if ((SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED) && SHEEN_TILTS(m) > 0)
-        x.e = clamp(table_leaning(m, nap, nap_heading(nap, w), table_place(m, w.z, p)), 0.0f, 1.0f);
+/* E towards w of a sheen with a nap, of a table of weft's whose rows are known. Colour changes it as it does
+ * across the nap. */
+FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, Taps rows) {
+    TablePlace at = table_place(m, w.z, rows);
+    SheenE x = table_sheen_at(m, at);
+    if (SHEEN_TILTS(m) > 0) x.e = clamp(table_leaning(m, nap, nap_heading(nap, w), at), 0.0f, 1.0f);
     return x;
 }
 
-/* E on cosine average, 2 integral of E(mu) mu dmu; only weft's tables know it, others count as 0. */
-FN SheenE table_sheen_average(TableRef m, float p) {
-    if (SHEEN_KIND(m) == TABLE_LINEAR || SHEEN_KIND(m) == TABLE_NONE) return sheen_e_of(0.0f);
-    float e = max(table_map_average(m, 0, p), 0.0f);
+/* E on cosine average, 2 integral of E(mu) mu dmu; of other tables it counts as 0. */
+FN SheenE table_sheen_average(TableRef m, Taps rows) {
+    if (!SHEEN_IS_OWN(m)) return sheen_e_of(0.0f);
+    float e = max(table_map_average(m, 0, rows), 0.0f);
     if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
-    return sheen_e_tinted(e, table_map_average(m, 1, p), table_map_average(m, 2, p),
-                          table_map_average(m, 3, p));
+    return sheen_e_tinted(e, table_map_average(m, 1, rows), table_map_average(m, 2, rows),
+                          table_map_average(m, 3, rows));
 }
-FN float table_average(TableRef m, float p) { return table_sheen_average(m, p).e; }
 
 /* The same of a sheen with a nap, and on average over the azimuth, which is what the maps of all headings
  * have. */
-FN SheenE table_sheen_nap_average(TableRef m, Nap nap, float p) {
-    SheenE x = table_sheen_average(m, p);
-    if ((SHEEN_KIND(m) != TABLE_ROOTS && SHEEN_KIND(m) != TABLE_TINTED) || SHEEN_TILTS(m) < 1) return x;
+FN SheenE table_sheen_nap_average(TableRef m, Nap nap, Taps rows) {
+    SheenE x = table_sheen_average(m, rows);
+    if (!SHEEN_IS_OWN(m) || SHEEN_TILTS(m) < 1) return x;
     int map = table_headings(m);
-    x.e = table_map_average(m, map, p);
+    x.e = table_map_average(m, map, rows);
     if (SHEEN_TILTS(m) > 1) {
         Taps t = table_tilt(m, nap.tilt);
         map = map + TABLE_HEADINGS * t.first;
-        x.e = t.a * table_map_average(m, map, p) + t.b * table_map_average(m, map + TABLE_HEADINGS, p) +
-              t.c * table_map_average(m, map + 2 * TABLE_HEADINGS, p) +
-              t.d * table_map_average(m, map + 3 * TABLE_HEADINGS, p);
+        x.e = t.a * table_map_average(m, map, rows) + t.b * table_map_average(m, map + TABLE_HEADINGS, rows) +
+              t.c * table_map_average(m, map + 2 * TABLE_HEADINGS, rows) +
+              t.d * table_map_average(m, map + 3 * TABLE_HEADINGS, rows);
     }
     x.e = clamp(x.e, 0.0f, 1.0f);
     return x;

@@ -10,6 +10,7 @@ typedef struct ShadingPoint {
     Frame frame;
     Dir wo;
     const Stack *stack; /* the material's, or the point's own; NULL: it only shines */
+    const StackKind *kind;
     StackView view;
     Stack own;
 } ShadingPoint;
@@ -66,12 +67,13 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
     p->frame = frame_of(at, surface, dir_of(wo));
     p->wo = to_local(p, wo);
     p->stack = &known->stack;
+    p->kind = known->kind;
     if (textured || surface.dust > 0.0f) {
         surface = dust_settle(frame_surface(surface), p->frame.z, dir_of(vertex.position));
-        stack_make(&p->own, &surface, &known->choices, known->sheen_e);
+        p->kind->make(&p->own, &surface, &known->choices, known->sheen_e);
         p->stack = &p->own;
     }
-    stack_see(p->stack, p->wo, &p->view);
+    p->kind->see(p->stack, &p->wo, &p->view);
     return emission;
 }
 
@@ -109,7 +111,8 @@ static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb th
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
     Dir wi = to_local(p, light.wi);
-    StackValue value = stack_eval(p->stack, &p->view, wi, key);
+    StackValue value;
+    p->kind->eval(p->stack, &p->view, &wi, key, &value);
     Rgb f = value.f_cos;
     if (light.sky && context->sky_in_parts) f = f_cos_of_sky(context, p, wi, key, f);
     if (!(f.r * light.radiance.r + f.g * light.radiance.g + f.b * light.radiance.b > 0.0f)) return;
@@ -150,11 +153,13 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
         TwoPoints uv = sampler_next(sampler);
         add_direct(context, &p, throughput, uv.first, hash32(ray.key), &sum, rays);
 
-        Dir wi = stack_sample(p.stack, &p.view, uv.second.u, uv.second.v);
+        Dir wi;
+        p.kind->sample(p.stack, &p.view, uv.second.u, uv.second.v, &wi);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
         uint32_t seed = hash32(ray.key ^ 0x68e31da4u);
-        StackValue value = stack_eval(p.stack, &p.view, wi, seed);
+        StackValue value;
+        p.kind->eval(p.stack, &p.view, &wi, seed, &value);
         if (!(value.pdf > 0.0f)) return sum;
         float k = 1.0f / value.pdf;
         throughput = (Rgb){throughput.r * value.f_cos.r * k, throughput.g * value.f_cos.g * k,

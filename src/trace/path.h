@@ -3,7 +3,7 @@
 #define WEFT_TRACE_PATH_H
 
 #include "scene/material.h"
-#include "shading/material_stack.h"
+#include "shading/kind.h"
 #include "trace/geometry.h"
 #include "trace/lights.h"
 #include "trace/sampler.h"
@@ -17,6 +17,7 @@ typedef struct PathMaterial {
     bool textured;    /* has any */
     TableRef sheen_e; /* TABLE_NONE without a sheen */
     Stack stack;      /* of plain, where no point has one of its own */
+    const StackKind *kind;
 } PathMaterial;
 
 typedef struct PathContext {

@@ -112,6 +112,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
+        known->kind = stack_kind(&known->stack, &known->choices);
     }
     return WEFT_OK;
 }

@@ -660,12 +660,14 @@ static void fill_cosine(Random *random, int which, float *row) {
 static void answer_tables(int which, const float *row, float *answers) {
     TableRef e = lobe_table_charlie_neubelt();
     const float all[] = {table_albedo(e, row[0], row[1]),
-                         table_average(e, row[1]),
+                         table_sheen_average(e, table_rows(e, row[1])).e,
                          table_albedo(engine_table(ENGINE_THREE_GGX), row[0], row[1]),
                          table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]),
                          0.0f,
                          sheen_e_in(table_sheen(albedo_table_ref(&tinted), row[0], row[1]), row[2]),
-                         sheen_e_in(table_sheen_average(albedo_table_ref(&tinted), row[1]), row[2])};
+                         sheen_e_in(table_sheen_average(albedo_table_ref(&tinted),
+                                                        table_rows(albedo_table_ref(&tinted), row[1])),
+                                    row[2])};
     memcpy(answers, all, sizeof all);
 }
 
@@ -673,13 +675,14 @@ static void answer_tables(int which, const float *row, float *answers) {
 static void tables_agree(void **state) {
     (void)state;
     static const Subject subject = {
-        .body = "    TableRef e = lobe_table_charlie_neubelt();\n"
-                "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_average(e, in0.y),\n"
-                "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
-                "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
-                "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n"
-                "    out1.y = sheen_e_in(table_sheen(tinted(), in0.x, in0.y), in0.z);\n"
-                "    out1.z = sheen_e_in(table_sheen_average(tinted(), in0.y), in0.z);\n",
+        .body =
+            "    TableRef e = lobe_table_charlie_neubelt();\n"
+            "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_sheen_average(e, table_rows(e, in0.y)).e,\n"
+            "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
+            "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
+            "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n"
+            "    out1.y = sheen_e_in(table_sheen(tinted(), in0.x, in0.y), in0.z);\n"
+            "    out1.z = sheen_e_in(table_sheen_average(tinted(), table_rows(tinted(), in0.y)), in0.z);\n",
         .inputs = 1,
         .answers = "nnnnnnn",
         .put = put_tables,
@@ -709,10 +712,10 @@ static void answer_nap(int which, const float *row, float *answers) {
     Dir w = dir(row[0], row[1], row[2]);
     Nap nap = nap_of(row[6], dir(row[4], row[5], 0.0f));
     TableRef one = albedo_table_ref(&leaning), all = albedo_table_ref(&scaled);
-    const float e[] = {table_sheen_nap(one, w, nap, row[3]).e,
-                       sheen_e_in(table_sheen_nap(all, w, nap, row[3]), row[7]),
-                       table_sheen_nap_average(one, nap, row[3]).e,
-                       sheen_e_in(table_sheen_nap_average(all, nap, row[3]), row[7])};
+    const float e[] = {table_sheen_nap(one, w, nap, table_rows(one, row[3])).e,
+                       sheen_e_in(table_sheen_nap(all, w, nap, table_rows(all, row[3])), row[7]),
+                       table_sheen_nap_average(one, nap, table_rows(one, row[3])).e,
+                       sheen_e_in(table_sheen_nap_average(all, nap, table_rows(all, row[3])), row[7])};
     memcpy(answers, e, sizeof e);
 }
 
@@ -721,10 +724,12 @@ static void naps_agree(void **state) {
     static const Subject subject = {
         .body =
             "    Dir w = dir(in0.x, in0.y, in0.z);\n    Nap nap = nap_of(in1.z, dir(in1.x, in1.y, 0.0));\n"
-            "    out0.x = table_sheen_nap(leaning(), w, nap, in0.w).e;\n"
-            "    out0.y = sheen_e_in(table_sheen_nap(scaled(), w, nap, in0.w), in1.w);\n"
-            "    out0.z = table_sheen_nap_average(leaning(), nap, in0.w).e;\n"
-            "    out0.w = sheen_e_in(table_sheen_nap_average(scaled(), nap, in0.w), in1.w);\n",
+            "    out0.x = table_sheen_nap(leaning(), w, nap, table_rows(leaning(), in0.w)).e;\n"
+            "    out0.y = sheen_e_in(table_sheen_nap(scaled(), w, nap, table_rows(scaled(), in0.w)), "
+            "in1.w);\n"
+            "    out0.z = table_sheen_nap_average(leaning(), nap, table_rows(leaning(), in0.w)).e;\n"
+            "    out0.w = sheen_e_in(table_sheen_nap_average(scaled(), nap, table_rows(scaled(), in0.w)), "
+            "in1.w);\n",
         .inputs = 2,
         .answers = "nnnn",
         .put = put_leaning,

@@ -222,7 +222,7 @@ static const char stack_text[] =
     "    slot_even(m.coat, lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0);\n"
     "    stack_coat_frame(m, n);\n    m.under = UNDER_LEAST;\n    m.under_f0 = rgb_grey(0.04);\n"
     "    m.under_f90 = 1.0;\n    m.layer = LAYER_ALBEDO_MAX;\n    m.color = blue;\n"
-    "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    stack_prepare_lobes(m);\n"
+    "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    stack_prepare(m);\n"
     "    return m;\n}";
 
 static void begin_text(Text *text, TextLanguage language) {

@@ -348,7 +348,7 @@ static void one_stack_serves_all_directions(void **state) {
         for (int k = 0; k < 3; k++) {
             Dir o = random_direction(&random), i = random_direction(&random);
             SeenStack fresh = made(&s, c, o);
-            stack_see(&kept.stack, o, &kept.view);
+            stack_see(&kept.stack, &o, &kept.view);
             StackValue a = seen_eval(&kept, i, 1), b = seen_eval(&fresh, i, 1);
             assert_memory_equal(&a, &b, sizeof a);
             Dir v = seen_sample(&kept, 0.3f, 0.7f), w = seen_sample(&fresh, 0.3f, 0.7f);

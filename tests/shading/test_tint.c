@@ -131,7 +131,7 @@ static void the_table_knows_every_colour(void **state) {
             albedo_in_color(&lobe, direction_cos(mu, 0.0), w, 1e-4, e);
             for (int c = 0; c < 3; c++) sum[c] += 2.0 * mu * (double)e[c] / STEPS;
         }
-        SheenE mean = table_sheen_average(ref, lobe.params[0]);
+        SheenE mean = table_sheen_average(ref, table_rows(ref, lobe.params[0]));
         for (int c = 0; c < 3; c++)
             average = fmax(average, fabs((double)(w[c] * sheen_e_in(mean, w[c])) - sum[c]));
         print_message("%s: E of colours up to %.4f too much, %.4f too little, on average within %.4f;\n"

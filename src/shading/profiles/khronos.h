@@ -23,8 +23,9 @@
 
 #include "shading/workflows/metallic.h"
 
-FN float khronos_albedo(TableRef lobe, float cosine, float alpha) {
-    return min(table_albedo(lobe, cosine, alpha), 1.0f);
+FN float khronos_albedo(const Stack *m, float cosine) {
+    if (!SHEEN_IS_OWN(m->table)) return min(table_engine(m->table, cosine, m->at), 1.0f);
+    return min(table_sheen_at(m->table, table_place(m->table, cosine, m->rows)).e, 1.0f);
 }
 
 FN void khronos_stack(Stack *m, const Surface *s) {

@@ -1,0 +1,42 @@
+/* kind_slot.h - the lobe of a slot, as the text of stacks asks for it where that is known (slots.h) */
+#ifndef WEFT_SHADING_KIND_SLOT_H
+#define WEFT_SHADING_KIND_SLOT_H
+
+#define SHEEN_KIND(m)  TABLE_ROOTS
+#define SHEEN_TILTS(m) 0
+#include "shading/registry.h"
+
+#define OF_SLOT(Name, Record)   Lobe##Record
+#define IN_SLOT(name, function) name##_##function
+
+/* The functions of dispatch.gen.h for one lobe. */
+#define KIND_HOLDS(slot, name, NAME)                                                                         \
+    enum { slot##_lobe = LOBE_##NAME };                                                                      \
+    FN void slot##_prepare(const Lobe *m, LobePrepared *p) { name##_prepare(name##_of(m), &p->name); }       \
+    FN void slot##_view(int id, const LobePrepared *p, const Dir *o, LobeView *w) {                          \
+        name##_view(&p->name, *o, &w->name);                                                                 \
+    }                                                                                                        \
+    FN void slot##_reflect(int id, const LobePrepared *p, const LobeView *w, const Angles *a, const Rgb *f0, \
+                           const Rgb *f90, LobeReflected *s) {                                               \
+        LobeValue v = name##_value(&p->name, &w->name, *a);                                                  \
+        bool one = (NAME##_TRAITS & (TRAIT_TWO_COLORS | TRAIT_TINTED)) == 0;                                 \
+        *s = one ? lobe_reflected_one(v, *f0) : lobe_reflected(v, *f0, *f90);                                \
+    }                                                                                                        \
+    FN void slot##_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u,        \
+                             float v, Dir *i) {                                                              \
+        *i = name##_sample(&p->name, &w->name, *o, u, v);                                                    \
+    }
+
+/* Of a slot that holds none they are never asked. */
+#define KIND_EMPTY(slot)                                                                                     \
+    enum { slot##_lobe = -1 };                                                                               \
+    FN void slot##_prepare(const Lobe *m, LobePrepared *p) {}                                                \
+    FN void slot##_view(int id, const LobePrepared *p, const Dir *o, LobeView *w) {}                         \
+    FN void slot##_reflect(int id, const LobePrepared *p, const LobeView *w, const Angles *a, const Rgb *f0, \
+                           const Rgb *f90, LobeReflected *s) {                                               \
+        *s = (LobeReflected){0};                                                                             \
+    }                                                                                                        \
+    FN void slot##_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u,        \
+                             float v, Dir *i) {}
+
+#endif
