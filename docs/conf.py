@@ -15,11 +15,11 @@ html_show_sphinx = False
 # What stands in the sidebar, in this order; a page that is not named comes at the end of the last part, and a name
 # without a page is passed over.
 parts = {
-    "First": ["getting-started", "cloth", "engines", "sources"],
+    "First": ["getting-started", "cloth", "engines", "charlie", "sources"],
     "Catalogue": ["lobes", "terms", "layers", "workflows", "profiles"],
     "The program": ["cli", "view", "materials", "chart", "gltf", "images", "render", "raster", "check", "bake", "diff",
-                    "export", "plots", "match", "fit", "doctor"],
-    "The library": ["library", "reference", "adding-a-lobe", "architecture"],
+                    "export", "plots", "match", "rosetta", "fit", "doctor", "weave"],
+    "The library": ["library", "reference", "adding-a-lobe", "architecture", "glossary"],
     "How it works": ["fibre", "dust", "ltc", "area-lights", "environment", "cost"],
 }
 
