@@ -1,0 +1,153 @@
+/* weft_lobe_load: lobes that come, change while others use them, and are too many */
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "weft/lobe.h"
+
+static char folder[] = "/tmp/weft-lobe-file-XXXXXX";
+
+static int begin(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    char line[80];
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    return chdir("/") == 0 && system(line) == 0 ? 0 : -1;
+}
+
+/* A Lambert that is so bright. In its text @ is the record, $ the name. */
+static void write_lobe(const char *name, const char *bright) {
+    static const char form[] =
+        "#include \"shading/lobe.h\"\n#include \"shading/warp.h\"\n"
+        "#define @_PARAMS(P) P(float, level, BRIGHT, 0.0f, 9.0f, 0.0f, 9.0f, \"how bright it is\")\n"
+        "#define @_TRAITS TRAIT_RECIPROCAL\n"
+        "STRUCT(@){@_PARAMS(FIELD)};\nPREPARED_AS_IT_IS($, @)\nSEEN_AS_IT_IS($, @)\n"
+        "FN LobeValue $_value(const @Prepared *p, const @View *w, Angles a) {\n"
+        "    return lobe_value_of(BRIGHT * p->m.level, 0.0f, warp_cosine_pdf(a.i));\n}\n"
+        "FN Dir $_sample(const @Prepared *p, const @View *w, Dir o, float u, float v) {\n"
+        "    return warp_cosine(u, v);\n}\n";
+    char file[32];
+    snprintf(file, sizeof file, "%s.h", name);
+    FILE *stream = fopen(file, "wb");
+    assert_non_null(stream);
+    fprintf(stream, "#define BRIGHT %s\n", bright);
+    for (const char *c = form; *c; c++)
+        fputc(*c == '@' ? name[0] - 'a' + 'A' : *c == '$' ? name[0] : *c, stream);
+    assert_int_equal(fclose(stream), 0);
+}
+
+static int load(const char *file) {
+    WeftError error;
+    int lobe = -1;
+    if (weft_lobe_load(file, &lobe, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return lobe;
+}
+
+static float value_of(int index) {
+    static const float up[3] = {0.0f, 0.0f, 1.0f};
+    WeftLobe lobe = {.lobe = index, .params = {1.0f}, .f0 = {1.0f, 1.0f, 1.0f}};
+    float f[3];
+    weft_lobe_eval(&lobe, up, up, f);
+    return f[0];
+}
+
+static bool is(float x, float y) { return !(x < y) && !(x > y); }
+
+static void another_file_of_the_name_takes_its_place(void **state) {
+    (void)state;
+    int before = weft_lobe_count();
+    assert_null(weft_lobe_info(before));
+    write_lobe("a", "1.0f");
+    int a = load("a.h");
+    const WeftLobeInfo *info = weft_lobe_info(a);
+    assert_int_equal(a, before);
+    assert_int_equal(weft_lobe_count(), before + 1);
+    assert_int_equal(weft_lobe_find("a"), a);
+    assert_string_equal(info->id, "a");
+    assert_true(is(value_of(a), 1.0f) && is(info->params[0].def, 1.0f));
+    write_lobe("a", "2.0f");
+    assert_int_equal(load("a.h"), a);
+    assert_true(is(value_of(a), 2.0f) && is(weft_lobe_info(a)->params[0].def, 2.0f));
+    assert_true(is(info->params[0].def, 1.0f)); /* as it was */
+    assert_non_null(strstr(weft_catalogue_text("lobes/a.h"), "2.0f"));
+
+    WeftError error;
+    FILE *stream = fopen("a.h", "ab");
+    assert_non_null(stream);
+    assert_true(fputs("nonsense\n", stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+    assert_int_equal(weft_lobe_load("a.h", NULL, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_LOBE_COMPILE);
+    assert_true(is(value_of(a), 2.0f)); /* what there was stays */
+}
+
+typedef struct User {
+    int lobe;
+    atomic_bool stop;
+    long asked, wrong;
+} User;
+
+static void *ask(void *user) {
+    User *self = user;
+    while (!atomic_load(&self->stop)) {
+        float f = value_of(self->lobe);
+        self->asked++;
+        self->wrong += !is(f, 3.0f) && !is(f, 4.0f);
+    }
+    return NULL;
+}
+
+static void one_that_is_used_may_change(void **state) {
+    (void)state;
+    write_lobe("b", "3.0f");
+    User user = {.lobe = load("b.h")};
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, ask, &user), 0);
+    for (int k = 0; k < 20; k++) {
+        write_lobe("b", k & 1 ? "3.0f" : "4.0f"); /* compiled twice, then in the cache */
+        load("b.h");
+    }
+    atomic_store(&user.stop, true);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    print_message("asked %ld times\n", user.asked);
+    assert_int_equal(user.wrong, 0);
+}
+
+static void there_is_room_for_eight(void **state) {
+    (void)state;
+    char name[2] = "c", file[8];
+    for (; name[0] < 'i'; name[0]++) {
+        write_lobe(name, "1.0f");
+        snprintf(file, sizeof file, "%s.h", name);
+        load(file);
+    }
+    WeftError error;
+    int count = weft_lobe_count();
+    write_lobe("i", "1.0f");
+    assert_int_equal(weft_lobe_load("i.h", NULL, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_LOBE_FILE);
+    assert_non_null(strstr(error.text, "there are 8 already"));
+    assert_int_equal(weft_lobe_count(), count);
+    assert_true(is(value_of(count), 0.0f)); /* no lobe, no light */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(another_file_of_the_name_takes_its_place),
+                                       cmocka_unit_test(one_that_is_used_may_change),
+                                       cmocka_unit_test(there_is_room_for_eight)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
