@@ -155,7 +155,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     Text *text = &draft->text;
     rename_own(text, own->prefix);
     text_include(text, "shading/angles.h");
-    if (lobe->lobe != LOBE_COOK_TORRANCE) text_define(text, "SHARE_IS_COSINE(s)", "false");
+    if (!text_shares_cosine(lobe->lobe)) text_define(text, "SHARE_IS_COSINE(s)", "false");
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);
     if (draft_lobe_rough(lobe)) put_rough(text, lobe, own);

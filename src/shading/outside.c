@@ -47,7 +47,7 @@ void outside_default(Lobe *m) {
 
 void outside_rough(Lobe *m, float roughness) {
     const OutsideLobe *lobe = outside_lobe(m->id);
-    if (!lobe || !lobe->info.param_count) return;
+    if (!lobe || !lobe->info.param_count || lobe->info.params[0].choices) return;
     const WeftParamInfo *p = &lobe->info.params[0];
     float value = mix(p->low, p->high, roughness);
     if (strcmp(p->name, "alpha") == 0) value = roughness * roughness;

@@ -32,6 +32,13 @@ static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};
     {#name, help, def, low, high, hard_low, hard_high, choices_##type},
 #include "shading/lobe_infos.gen.h"
 
+const char *const *lobe_choices(const char *type) {
+    return strcmp(type, "DTerm") == 0   ? choices_DTerm
+           : strcmp(type, "VTerm") == 0 ? choices_VTerm
+           : strcmp(type, "FTerm") == 0 ? choices_FTerm
+                                        : NULL;
+}
+
 int weft_lobe_count(void) { return LOBE_COUNT + outside_count(); }
 
 const WeftLobeInfo *weft_lobe_info(int lobe) {

@@ -56,6 +56,9 @@ LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
+/* What a parameter of a type of terms, "DTerm", may be, as WeftParamInfo has it; NULL of others. */
+const char *const *lobe_choices(const char *type);
+
 /* Index of a parameter by name, or -1. */
 int lobe_param(int id, const char *name);
 

@@ -21,6 +21,11 @@ void text_lobe(Text *text, int id) {
     text_include(text, file);
 }
 
+bool text_shares_cosine(int id) {
+    const OutsideLobe *lobe = outside_lobe(id);
+    return lobe ? strstr(lobe->text, "share_of(") || strstr(lobe->text, "term_f(") : id == LOBE_COOK_TORRANCE;
+}
+
 /* The lobe whose LOBE_ constant a line names, in a comment too; -1: it is not one lobe's alone. */
 static int owner_of(const char *c, const char *end) {
     for (; c + 5 < end; c++) {
@@ -97,15 +102,16 @@ static void put_no_dust(Text *text) {
 }
 
 void text_dispatch(Text *text, const int *lobes, int lobe_count) {
-    bool there[LOBE_MOST] = {false}, tinted = false;
+    bool there[LOBE_MOST] = {false}, tinted = false, cosine = false;
     for (int k = 0; k < lobe_count; k++) {
         there[lobes[k]] = true;
         tinted |= has(lobes[k], TRAIT_TINTED);
+        cosine |= text_shares_cosine(lobes[k]);
         lobe_tables_make_for(lobes[k]); /* before the first asks for all there are */
     }
     for (int k = 0; k < lobe_count; k++)
         if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);
-    if (!there[LOBE_COOK_TORRANCE]) text_define(text, "SHARE_IS_COSINE(s)", "false");
+    if (!cosine) text_define(text, "SHARE_IS_COSINE(s)", "false");
     if (!tinted) text_define(text, "IS_TINTED(t)", "false");
     text_include(text, "shading/lobe.h");
     text_outside(text, there);

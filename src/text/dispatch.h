@@ -10,6 +10,9 @@
 /* The lobe's file. One with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
 void text_lobe(Text *text, int id);
 
+/* Whether the share of its second colour may be a cosine (shading/share.h). */
+bool text_shares_cosine(int id);
+
 /* The lobes behind one signature, as registry.h has them for C, whose place this takes; call it once:
  *
  *   const int LOBE_GGX = ..., GGX_ANISOTROPY = ...;

@@ -94,12 +94,14 @@ static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *p
                     plugin->param_count, LOBE_PARAMS_MAX);
     for (int k = 0; k < plugin->param_count; k++) {
         const PluginParam *p = &plugin->params[k];
-        if (strcmp(p->type, "float") != 0)
-            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s is no float", p->name);
+        const char *const *choices = lobe_choices(p->type);
+        if (!choices && strcmp(p->type, "float") != 0)
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s is neither a float nor a term",
+                        p->name);
         if (!(p->hard_low <= p->low && p->low <= p->def && p->def <= p->high && p->high <= p->hard_high))
             return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "the ranges of %s do not nest", p->name);
         own->params[k] =
-            (WeftParamInfo){p->name, p->help, p->def, p->low, p->high, p->hard_low, p->hard_high, NULL};
+            (WeftParamInfo){p->name, p->help, p->def, p->low, p->high, p->hard_low, p->hard_high, choices};
     }
     own->lobe.info.param_count = plugin->param_count;
     return WEFT_OK;

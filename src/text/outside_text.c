@@ -12,7 +12,8 @@ static void put_params(const OutsideLobe *lobe, Buffer *out) {
     const char *name = lobe->names.prefix, *record = lobe->names.record;
     buffer_print(out, "FN %s %s_of(const Lobe *m) {\n    %s r;\n", record, name, record);
     for (int k = 0; k < lobe->info.param_count; k++)
-        buffer_print(out, "    r.%s = m->params[%d];\n", lobe->info.params[k].name, k);
+        buffer_print(out, "    r.%s = %s(m->params[%d]);\n", lobe->info.params[k].name,
+                     lobe->info.params[k].choices ? "to_int" : "to_float", k);
     if (!lobe->info.param_count) buffer_print(out, "    r.none = 0.0f;\n");
     buffer_print(out, "    return r;\n}\nFN void %s_default(Lobe *m) {\n", name);
     for (int k = 0; k < lobe->info.param_count; k++)
@@ -30,7 +31,7 @@ static void put_common(const OutsideLobe *lobe, Buffer *out) {
     const WeftParamInfo *p = lobe->info.params;
     char mixed[120];
     buffer_print(out, "FN void %s_rough(Lobe *m, float roughness) {\n", lobe->names.prefix);
-    if (lobe->info.param_count) {
+    if (lobe->info.param_count && !p->choices) {
         snprintf(mixed, sizeof mixed, "mix(%sf, %sf, roughness)", number(p->low).text, number(p->high).text);
         put_clamped(p, 0,
                     strcmp(p->name, "alpha") == 0       ? "roughness * roughness"
