@@ -228,29 +228,68 @@ static void put_row(Gpu *gpu, const char *name, Text *text, int inputs, const ch
 
 #define ANGLES "    Angles a = angles_between(dir(u[0], u[1], u[2]), dir(u[3], u[4], u[5]));\n"
 
-/* f and s, without pdf. Choices are constants, as in a program made for a material. */
-static void lobe_row(Gpu *gpu, int id) {
+/* How a shader knows the parameters of a lobe. */
+typedef enum Known { KNOWN_BY_THREAD, KNOWN_PREPARED, KNOWN_COMPILED, KNOWN_COUNT } Known;
+
+/* The parameters as a Lobe m, read by the thread or constants; returns how many numbers a thread reads. */
+static int put_params(Buffer *lines, int id, bool read) {
     const WeftLobeInfo *info = weft_lobe_info(id);
-    Lobe lobe = lobe_default(id);
+    const Lobe lobe = lobe_default(id);
+    int inputs = 6;
+    buffer_print(lines, "    Lobe m = lobe_default(%d);\n", id);
+    for (int p = 0; p < info->param_count; p++) {
+        if (info->params[p].choices || !read)
+            buffer_print(lines, "    m.params[%d] = %s;\n", p, number(lobe.params[p]).text);
+        else
+            buffer_print(lines, "    m.params[%d] = u[%d];\n", p, inputs++);
+    }
+    return inputs;
+}
+
+/* The same as a record that was prepared before and lies in a uniform block. */
+static void put_prepared(Text *text, Buffer *lines, int id) {
+    const WeftLobeInfo *info = weft_lobe_info(id);
+    const LobeNames *n = lobe_names(id);
+    const Lobe lobe = lobe_default(id);
+    text_line(text, "\nlayout(std140, set = 0, binding = 3) uniform Material { %sPrepared prepared; };",
+              n->record);
+    buffer_print(lines, "    %sPrepared p = prepared;\n", n->record);
+    for (int p = 0; p < info->param_count; p++)
+        if (info->params[p].choices)
+            buffer_print(lines, "    p.m.%s = %d;\n", info->params[p].name, (int)lobe.params[p]);
+}
+
+/* f and s, without pdf. Choices are constants, as in a program made for a material. */
+static Cost lobe_cost(Gpu *gpu, int id, Known known) {
+    const LobeNames *n = lobe_names(id);
     Text text;
     Buffer lines = {0};
-    char line[96];
     int inputs = 6;
-    snprintf(line, sizeof line, "    Lobe m = lobe_default(%d);\n", id);
-    buffer_put_text(&lines, line);
-    for (int p = 0; p < info->param_count; p++) {
-        if (info->params[p].choices)
-            snprintf(line, sizeof line, "    m.params[%d] = %s;\n", p, number(lobe.params[p]).text);
-        else
-            snprintf(line, sizeof line, "    m.params[%d] = u[%d];\n", p, inputs++);
-        buffer_put_text(&lines, line);
-    }
-    buffer_put_text(&lines, ANGLES "    f = lobe_f(m, a);\n    s = lobe_share(m, a);\n");
-    if (lines.failed) stop("short of memory");
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
     text_dispatch(&text, &id, 1);
-    put_row(gpu, info->id, &text, inputs, lines.bytes);
+    if (known == KNOWN_PREPARED)
+        put_prepared(&text, &lines, id);
+    else
+        inputs = put_params(&lines, id, known == KNOWN_BY_THREAD);
+    if (known != KNOWN_PREPARED)
+        buffer_print(&lines, "    %sPrepared p;\n    %s_prepare(%s_of(m), p);\n", n->record, n->prefix,
+                     n->prefix);
+    buffer_print(&lines,
+                 ANGLES "    %sView w;\n    %s_view(p, a.o, w);\n    LobeValue v = %s_value(p, w, a);\n"
+                        "    f = v.f;\n    s = v.s;\n",
+                 n->record, n->prefix, n->prefix);
+    if (lines.failed) stop("short of memory");
+    Cost cost = cost_added(gpu, &text, inputs, true, lines.bytes);
     buffer_free(&lines);
+    return cost;
+}
+
+static void lobe_row(Gpu *gpu, int id) {
+    Cost c[KNOWN_COUNT];
+    for (int k = 0; k < KNOWN_COUNT; k++) c[k] = lobe_cost(gpu, id, (Known)k);
+    printf("| %s | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f |\n", weft_lobe_info(id)->id,
+           c[0].instructions, c[1].instructions, c[2].instructions, c[0].cycles, c[1].cycles, c[2].cycles,
+           c[0].registers, c[1].registers, c[2].registers);
 }
 
 /* u[6] is alpha, or the index of refraction; u[7] the width along x, or k. */
@@ -269,7 +308,8 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
 
 /* Fibres as an engine has them, beside the tightest transformed cosine: tables are filtered by the GPU, four
  * numbers a texel, and what belongs to the material alone lies in a uniform buffer. Fibres stand upright.
- * u[6] is the row of a table that is read by pixel, u[6 .. 9] what was kept of wo. */
+ * u[6] is the row of a table that is read by pixel, u[6 .. 9] what was kept of wo. Those that lean are no
+ * sharper than alpha 0.19. */
 #define UPRIGHT "    FibreModel m = model;\n    m.s = 0.0;\n    m.n.thin = 0.0;\n"
 #define SINGLE  "    f = flake_single_upright(flakes, a.o, a.i);\n"
 #define MULTIPLE(o)                                                                                          \
@@ -296,6 +336,11 @@ static const struct {
     {"fibre, fixed material, view side kept", 10,
      ANGLES UPRIGHT SINGLE
      "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
+    {"fibre, fixed material, leaning, in a colour", 6,
+     ANGLES "    FibrePrepared p = leaning;\n    p.model.n.thin = 0.0;\n    FibreView w;\n"
+            "    fibre_view(p, a.o, w);\n"
+            "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"
+            "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"},
 };
 
 static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
@@ -304,8 +349,11 @@ static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
     text_include(&text, "shading/fibre_medium.h");
     text_lobe_tables(&text);
     text_include(&text, "shading/lobes/fibre_table.h");
+    text_include(&text, "shading/rgb.h");
+    text_include(&text, "shading/lobes/fibre.h");
     text_line(&text, "\nlayout(std140, set = 0, binding = 3) uniform Material {\n    FibreModel model;\n"
-                     "    FlakeUpright flakes;\n    float row, alpha, power;\n};\n\n"
+                     "    FlakeUpright flakes;\n    float row, alpha, power;\n    FibrePrepared leaning;\n   "
+                     " Rgb color;\n};\n\n"
                      "FibreSide side_of(float mu, vec4 t) {\n"
                      "    return FibreSide(mu, mu, t.x, t.y, t.z, t.w, 0.0, 0.0, 0.0, 0.0);\n}\n\n"
                      "FibreTableSide read_side(float mu, float y) {\n"
@@ -342,8 +390,12 @@ int main(void) {
         "* Registers are the vector registers of the whole shader, in the steps of 8 that the GPU gives "
         "out.\n"
         "* The terms of cook-torrance are those of its defaults, constants as in a program made for one\n"
-        "  material; all other parameters are read per thread.\n\n"
-        "| lobe | instructions | cycles | registers |\n|---|---|---|---|\n",
+        "  material.\n"
+        "\nThree programs for each lobe: its parameters read per thread, as from textures; prepared before, "
+        "in\n"
+        "a uniform block; and known to the compiler.\n\n"
+        "| lobe | instructions, textured | prepared | known | cycles, textured | prepared | known |"
+        " registers, textured | prepared | known |\n|---|---|---|---|---|---|---|---|---|---|\n",
         gpu.driver.driverName, gpu.driver.driverInfo, gpu.properties.properties.deviceName);
     for (int id = 0; id < weft_lobe_count(); id++)
         if (!(weft_lobe_info(id)->traits & WEFT_LOBE_REFERENCE)) lobe_row(&gpu, id);
