@@ -3,6 +3,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_S
 file(STRINGS src/shading/kinds.list kinds REGEX "^[a-z]")
 file(READ src/shading/profile.h profiles)
 set(rows "")
+set(kind_files "")
 foreach(kind ${kinds})
   string(REGEX REPLACE " +" ";" kind "${kind}")
   list(POP_FRONT kind id profile)
@@ -26,9 +27,12 @@ foreach(kind ${kinds})
   endforeach()
   list(POP_FRONT kind layer under albedo)
   configure_file(cmake/kind.c.in ${WEFT_GENERATED_DIR}/kind_${name}.c @ONLY)
-  list(APPEND WEFT_GENERATED ${WEFT_GENERATED_DIR}/kind_${name}.c)
+  list(APPEND kind_files ${WEFT_GENERATED_DIR}/kind_${name}.c)
   string(APPEND rows "K(${name})\n")
 endforeach()
+# Their records are written number by number and soon read again: read two at a time they would have to wait.
+set_source_files_properties(src/shading/material_stack.c ${kind_files} PROPERTIES COMPILE_OPTIONS -fno-tree-slp-vectorize)
+list(APPEND WEFT_GENERATED ${kind_files})
 file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/kinds.gen.h @ONLY CONTENT
 "/* kinds.gen.h - made by cmake/kinds.cmake of kinds.list: K(name), one a row */
 @rows@")
