@@ -7,6 +7,7 @@
 #   dispatch.gen.h    all of them behind one signature; in the dialect
 #   lobe_infos.gen.h  their tables as data, for registry.c
 #   loops.gen.h       their loops over arrays, for arrays.c
+#   each.gen.h        those with parameters of each element, for arrays_each.c
 #
 # A line that is one lobe's alone names its LOBE_ constant: of those in the dialect src/text/dispatch.c takes the lines
 # of lobes that a shader needs.
@@ -139,7 +140,39 @@ function(weft_dispatch folder outside)
   configure_file(cmake/dispatch.h.in ${folder}/dispatch.gen.h @ONLY)
 endfunction()
 
+# Appends the loops in which each element has parameters and colours of its own.
+macro(weft_each_loops)
+  set(each_arrays "")
+  set(each_own "")
+  set(k 0)
+  foreach(param ${params})
+    string(APPEND each_arrays "    const float *own_${param} = e->params[${k}];\n")
+    list(APPEND each_own "own_${param}[k]")
+    math(EXPR k "${k} + 1")
+  endforeach()
+  list(JOIN each_own ", " each_own)
+  if(params STREQUAL "")
+    set(each_own "0.0f")
+  endif()
+  if(is_TINTED)
+    set(each_color "        Tint t = value.tint;\n        PUT_COLORS(f, TINTED_COLOR);\n")
+  elseif(is_TWO_COLORS AND second EQUAL -1)
+    set(each_color "        float s = value.s;\n        PUT_COLORS(f, MIXED_COLOR);\n")
+  elseif(is_TWO_COLORS)
+    set(each_color "        float s = value.s;
+#define COLOR(first, second) mix(first, ${name}_second(m, first, second), s)
+        PUT_COLORS(f, COLOR);
+#undef COLOR
+")
+  else()
+    set(each_color "        PUT_COLORS(f, FIRST_COLOR);\n")
+  endif()
+  string(CONFIGURE "${each_loop}" text @ONLY)
+  string(APPEND each_loops "${text}")
+endmacro()
+
 set(pairs "n, ox, oy, oz, ix, iy, iz")
+file(READ cmake/each_loop.h.in each_loop)
 set(count 0)
 foreach(id ${WEFT_LOBE_IDS})
   weft_read_lobe(${id})
@@ -165,7 +198,10 @@ foreach(id ${WEFT_LOBE_IDS})
     if(is_TWO_COLORS)
       string(APPEND loops "LOBE_LOOP(s, ${name}, ${Name})\n")
     endif()
+    weft_each_loops()
   endif()
+  weft_case(each_cases "${name}_each_n(e, n); break;")
+  weft_case(drawn_each_cases "${name}_drawn_each_n(e, n); break;")
   weft_case(f_cases "${name}_f_n(m, ${pairs}, f); break;")
   weft_case(pdf_cases "${name}_pdf_n(m, ${pairs}, pdf); break;")
   if(is_TWO_COLORS)
@@ -196,5 +232,6 @@ float lobe_walked_albedo(const Lobe *m, Dir o, int walks) {
 }
 ")
 configure_file(cmake/loops.h.in ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY)
+configure_file(cmake/each.h.in ${WEFT_GENERATED_DIR}/shading/each.gen.h @ONLY)
 weft_dispatch(${WEFT_GENERATED_DIR}/shading "#include \"shading/outside.h\"\n" ${WEFT_LOBE_IDS})
 weft_dispatch(${WEFT_GENERATED_DIR}/text/shading "" ${WEFT_TEXT_LOBE_IDS}) # for half floats

@@ -1,14 +1,16 @@
 #!/bin/sh
 # Each loop over arrays of a lobe is one of vectors: its machine code, as built for AVX2, has a loop of packed arithmetic
-# without any of single numbers. Arguments: the compiled src/shading/arrays.c, or a plugin, and the least number of loops
+# without any of single numbers. Arguments: the compiled src/shading/arrays.c, arrays_each.c or a plugin, and the least number of loops
 # (40). Exit 77: skipped.
 set -eu
 command -v objdump >/dev/null || {
     echo "skipped: there is no objdump"
     exit 77
 }
-# charlie-neubelt-normalised picks taps and texels of a table; F = none (mixed_0) has nothing to work out.
-exceptions="charlie_neubelt_normalised_f_n mixed_0_n"
+# charlie-neubelt-normalised picks taps and texels of a table, as ltc-fibre and fibre-table do where each element has a
+# row of its own; F = none (mixed_0) has nothing to work out.
+exceptions="charlie_neubelt_normalised_f_n charlie_neubelt_normalised_each_n ltc_fibre_each_n ltc_fibre_drawn_each_n \
+fibre_table_each_n mixed_0_n"
 objdump -d --no-show-raw-insn "$1" | awk -v exceptions="$exceptions" -v least="${2-40}" '
 function judge(k, j, packed, single, best) {
     if (name == "" || (count <= 2 && op[1] ~ /^jmp/)) return # another with the same code

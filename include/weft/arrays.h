@@ -52,6 +52,26 @@ WEFT_API WeftResult weft_sample_n(const WeftLobe *lobe, size_t n, WeftDirections
 WEFT_API WeftResult weft_albedo_n(const WeftLobe *lobe, size_t n, const float *cos_o, WeftColors e,
                                   WeftError *error);
 
+/* Lobes of one kind, each with numbers of its own. Arrays of n, each of which may be NULL: then `lobe` has
+ * that number for all of them. A parameter that is a choice (WeftParamInfo.choices) is one for all. */
+typedef struct WeftLobes {
+    WeftLobe lobe; /* which lobe; and what no array says */
+    const float
+        *params[WEFT_LOBE_PARAMS_MAX]; /* in the order of WeftLobeInfo.params; clamped as lobe's are */
+    const float *f0[3], *f90[3];       /* colours, each channel */
+} WeftLobes;
+
+/* weft_eval_n and weft_pdf_n at once, of the lobe of each pair. pdf may be NULL too. What depends on
+ * parameters alone is made for each element: with one lobe for all, the calls above are faster. Fails as they
+ * do, and with WEFT_MESSAGE_DESC where there is an array for a choice. */
+WEFT_API WeftResult weft_eval_each(const WeftLobes *lobes, size_t n, WeftDirections wo, WeftDirections wi,
+                                   WeftColors f, float *pdf, WeftError *error);
+
+/* weft_sample_n, of the lobe of each pair; fails likewise. */
+WEFT_API WeftResult weft_sample_each(const WeftLobes *lobes, size_t n, WeftDirections wo, const float *u,
+                                     const float *v, float *wi_x, float *wi_y, float *wi_z, float *pdf,
+                                     WeftError *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -40,8 +40,10 @@
 #define FN static inline __attribute__((always_inline, unused))
 #endif
 /* One that is to stay out of its callers: long text that runs once for many pairs, or has loops, which only
- * lobes with TRAIT_REFERENCE may. */
+ * lobes with TRAIT_REFERENCE may. A file in which it runs for each pair says otherwise. */
+#ifndef FN_APART
 #define FN_APART static __attribute__((noinline, unused))
+#endif
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \
     struct Name

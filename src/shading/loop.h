@@ -1,4 +1,4 @@
-/* loop.h - loops over arrays of pairs of directions, for arrays.c and for plugins (plugin.h)
+/* loop.h - loops over arrays of pairs of directions, for arrays.c, arrays_each.c and plugins (plugin.h)
  *
  * Only files with these loops are compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test
  * is folded away, and a question about NaN has to be one about bits. */

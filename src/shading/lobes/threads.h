@@ -129,12 +129,15 @@ FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, 
     float warp = (1.0f - m.weft) / view->all, weft = m.weft / view->all;
     float a = warp * threads_seen(o.x, o.z, m.warp_crimp), b = warp * threads_seen(o.x, o.z, -m.warp_crimp);
     float c = weft * threads_seen(o.y, o.z, m.weft_crimp), d = weft * threads_seen(o.y, o.z, -m.weft_crimp);
-    bool second = u >= a + b && c + d > 0.0f;
+    /* numbers are chosen here, and not conditions, which would keep a loop from being one of vectors */
+    float behind = c + d > 0.0f ? u - (a + b) : -1.0f;
+    bool second = behind >= 0.0f;
     float w = second ? u - a - b : u, first = second ? c : a, other = second ? d : b;
-    bool down = w >= first && other > 0.0f;
+    float past = other > 0.0f ? w - first : -1.0f;
+    bool down = past >= 0.0f;
     float slope = second ? m.weft_crimp : m.warp_crimp;
     slope = down ? -slope : slope;
-    w = clamp(down ? (w - first) / other : w / max(first, 1e-30f), 0.0f, 1.0f);
+    w = clamp(down ? past / other : w / max(first, 1e-30f), 0.0f, 1.0f);
 
     Dir to = threads_turn(o, second, slope);
     float scale = threads_scale(second ? m.weft_width : m.warp_width);

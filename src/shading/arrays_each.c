@@ -1,0 +1,166 @@
+/* arrays_each.c - the loops over arrays in which each element is a lobe of its own: one that evaluates and
+ * one that samples for each kind of lobe
+ *
+ * What depends on parameters alone is made anew for each element, so these take longer than those of
+ * arrays.c, which make it once. */
+#define FN_APART FN /* no loop of vectors has a call */
+#include "shading/each.h"
+#include "shading/loop.h"
+#include "shading/registry.h"
+
+/* The arrays of a pair in variables of their own, as loops want them. */
+#define TAKE_PAIRS(e)                                                                                        \
+    const float *ox = (e)->o[0], *oy = (e)->o[1], *oz = (e)->o[2], *ix = (e)->i[0], *iy = (e)->i[1],         \
+                *iz = (e)->i[2];                                                                             \
+    float *r = (e)->f[0]
+#define TAKE_COLORS(e)                                                                                       \
+    const float *r0 = (e)->f0[0], *g0 = (e)->f0[1], *b0 = (e)->f0[2];                                        \
+    const float *r90 = (e)->f90[0], *g90 = (e)->f90[1], *b90 = (e)->f90[2];                                  \
+    float *g = (e)->f[1], *b = (e)->f[2]
+
+/* The colours of an element, and f in them; a lobe of one colour leaves the second alone. */
+#define PUT_COLORS(value, color)                                                                             \
+    r[k] = (value)*color(r0[k], r90[k]);                                                                     \
+    g[k] = (value)*color(g0[k], g90[k]);                                                                     \
+    b[k] = (value)*color(b0[k], b90[k])
+#define FIRST_COLOR(first, second)  ((void)(second), (first))
+#define MIXED_COLOR(first, second)  mix(first, second, s)
+#define TINTED_COLOR(first, second) ((void)(second), tint_color(t, first))
+
+#define TAKE_DRAWS(e)                                                                                        \
+    const float *ox = (e)->o[0], *oy = (e)->o[1], *oz = (e)->o[2], *us = (e)->u, *vs = (e)->v;               \
+    float *x = (e)->drawn[0], *y = (e)->drawn[1], *z = (e)->drawn[2]
+
+/* An o that counts, or the normal. */
+#define TAKE_ONE(o, counts)                                                                                  \
+    Dir o = {ox[k], oy[k], oz[k]};                                                                           \
+    bool counts = pair_counts(o, dir(0.0f, 0.0f, 1.0f));                                                     \
+    o = (Dir) { counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f }
+#define PUT_DRAWN(i, counts)                                                                                 \
+    x[k] = counts ? (i).x : 0.0f;                                                                            \
+    y[k] = counts ? (i).y : 0.0f;                                                                            \
+    z[k] = counts ? (i).z : 0.0f
+
+/* The composed lobe, one term at a time as in arrays.c. */
+#define TAKE_TERMS(e)                                                                                        \
+    CookTorrance terms = cook_torrance_of(&(e)->lobe);                                                       \
+    const float *alpha = (e)->params[COOK_TORRANCE_ALPHA], *stretch = (e)->params[COOK_TORRANCE_STRETCH],    \
+                *ior = (e)->params[COOK_TORRANCE_IOR], *extinction = (e)->params[COOK_TORRANCE_K]
+#define TAKE_OWN_TERMS(choice, NAME)                                                                         \
+    CookTorrance m = {alpha[k], terms.d, terms.v, terms.f, stretch[k], ior[k], extinction[k]};               \
+    m.choice = NAME
+
+#define SPREAD_EACH(id, NAME, ...)                                                                           \
+    CLONES static void spread_##NAME##_each_n(const Each *e, size_t n) {                                     \
+        TAKE_PAIRS(e);                                                                                       \
+        float *pdf = e->pdf;                                                                                 \
+        TAKE_TERMS(e);                                                                                       \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            TAKE_OWN_TERMS(d, NAME);                                                                         \
+            Angles a = angles_between(o, i);                                                                 \
+            float spread = cook_torrance_spread(m, a), density = cook_torrance_drawn(m, spread, a);          \
+            r[k] = counts ? spread : 0.0f;                                                                   \
+            pdf[k] = counts ? density : 0.0f;                                                                \
+        }                                                                                                    \
+    }
+#define SHADOW_EACH(id, NAME, ...)                                                                           \
+    CLONES static void shadow_##NAME##_each_n(const Each *e, size_t n) {                                     \
+        TAKE_PAIRS(e);                                                                                       \
+        TAKE_TERMS(e);                                                                                       \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            TAKE_OWN_TERMS(v, NAME);                                                                         \
+            float shadow = cook_torrance_shadow(m, angles_between(o, i));                                    \
+            r[k] = counts ? r[k] * shadow : 0.0f;                                                            \
+        }                                                                                                    \
+    }
+#define TERM_COLOR(first, second) share_mix(s, first, cook_torrance_second(m, first, second))
+#define MIXED_EACH(id, NAME, ...)                                                                            \
+    CLONES static void mixed_##NAME##_each_n(const Each *e, size_t n) {                                      \
+        TAKE_PAIRS(e);                                                                                       \
+        TAKE_COLORS(e);                                                                                      \
+        TAKE_TERMS(e);                                                                                       \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            TAKE_OWN_TERMS(f, NAME);                                                                         \
+            float s = cook_torrance_share(m, angles_between(o, i)), f = counts ? r[k] : 0.0f;                \
+            PUT_COLORS(f, TERM_COLOR);                                                                       \
+        }                                                                                                    \
+    }
+#define DRAWN_EACH(id, NAME, ...)                                                                            \
+    CLONES static void drawn_##NAME##_each_n(const Each *e, size_t n) {                                      \
+        TAKE_DRAWS(e);                                                                                       \
+        TAKE_TERMS(e);                                                                                       \
+        EACH(k, n) {                                                                                         \
+            TAKE_ONE(o, counts);                                                                             \
+            TAKE_OWN_TERMS(d, NAME);                                                                         \
+            CookTorrancePrepared p = {m};                                                                    \
+            CookTorranceView w = {0.0f};                                                                     \
+            Dir i = cook_torrance_sample(&p, &w, o, us[k], vs[k]);                                           \
+            PUT_DRAWN(i, counts);                                                                            \
+        }                                                                                                    \
+    }
+WEFT_D_TERMS(SPREAD_EACH)
+WEFT_V_TERMS(SHADOW_EACH)
+WEFT_F_TERMS(MIXED_EACH)
+WEFT_D_TERMS(DRAWN_EACH)
+
+#define CALL_SPREAD(id, NAME, ...)                                                                           \
+    case NAME:                                                                                               \
+        spread_##NAME##_each_n(e, n);                                                                        \
+        break;
+#define CALL_SHADOW(id, NAME, ...)                                                                           \
+    case NAME:                                                                                               \
+        shadow_##NAME##_each_n(e, n);                                                                        \
+        break;
+#define CALL_MIXED(id, NAME, ...)                                                                            \
+    case NAME:                                                                                               \
+        mixed_##NAME##_each_n(e, n);                                                                         \
+        break;
+#define CALL_DRAWN(id, NAME, ...)                                                                            \
+    case NAME: drawn_##NAME##_each_n(e, n); break;
+
+static void cook_torrance_each_n(const Each *e, size_t n) {
+    switch (cook_torrance_of(&e->lobe).d) { WEFT_D_TERMS(CALL_SPREAD) }
+    switch (cook_torrance_of(&e->lobe).v) { WEFT_V_TERMS(CALL_SHADOW) }
+    switch (cook_torrance_of(&e->lobe).f) { WEFT_F_TERMS(CALL_MIXED) }
+}
+static void cook_torrance_drawn_each_n(const Each *e, size_t n) {
+    switch (cook_torrance_of(&e->lobe).d) { WEFT_D_TERMS(CALL_DRAWN) }
+}
+
+/* A walk is no loop of vectors. */
+static Lobe lobe_of_each(const Each *e, size_t k) {
+    Lobe m = e->lobe;
+    for (int p = 0; p < LOBE_PARAMS_MAX; p++)
+        if (e->params[p]) m.params[p] = e->params[p][k];
+    return m;
+}
+
+static void walk_each_n(const Each *e, size_t n) {
+    TAKE_PAIRS(e);
+    TAKE_COLORS(e);
+    float *pdf = e->pdf;
+    for (size_t k = 0; k < n; k++) {
+        TAKE_PAIR(o, i, counts);
+        Lobe m = lobe_of_each(e, k);
+        LobeValue v = lobe_value(&m, angles_between(o, i));
+        float f = counts ? v.f : 0.0f;
+#define WALKED_COLOR(first, second) lobe_color(v, first, lobe_second(&m, first, second))
+        PUT_COLORS(f, WALKED_COLOR);
+        pdf[k] = counts ? v.pdf : 0.0f;
+    }
+}
+
+static void walk_drawn_each_n(const Each *e, size_t n) {
+    TAKE_DRAWS(e);
+    for (size_t k = 0; k < n; k++) {
+        TAKE_ONE(o, counts);
+        Lobe m = lobe_of_each(e, k);
+        Dir i = lobe_sample(&m, o, us[k], vs[k]);
+        PUT_DRAWN(i, counts);
+    }
+}
+
+#include "shading/each.gen.h"
