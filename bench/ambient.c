@@ -1,6 +1,6 @@
 /* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
  *
- *   bench_ambient [--lamps N] [--quick] [--only LOBE] [--tables] [--rows] MAP.hdr ...
+ *   bench_ambient [--lamps N] [--quick] [--only LOBE]... [--tables] [--rows] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
  * over roughness 0.1 .. 1 together, and of the default strategy the roughness with the greatest, which for a
@@ -210,10 +210,13 @@ static SeenStack subject_stack(int subject, float roughness, Dir o, const Albedo
     return seen;
 }
 
-static const char *only; /* this subject alone */
+static const char *only[SUBJECTS]; /* these subjects alone, where there are some */
+static int only_count;
 
 static bool used(int subject) {
-    if (only && strcmp(only, name_of(subject)) != 0) return false;
+    bool named = only_count == 0;
+    for (int k = 0; k < only_count; k++) named |= strcmp(only[k], name_of(subject)) == 0;
+    if (!named) return false;
     return subject >= BASE || (subject != LOBE_BURLEY_COAT && subject != LOBE_COOK_TORRANCE &&
                                !(weft_lobe_info(subject)->traits & TRAIT_REFERENCE));
 }
@@ -344,51 +347,61 @@ static void measure(void *user, int item, int thread) {
     free(draws);
 }
 
+/* Sums of differences and of the reference. */
 typedef struct Error {
-    double all, worst, at; /* over all roughnesses; at that roughness */
+    double off, all;
 } Error;
 
-static Error error_of(int subject, int strategy, int map) {
-    Error error = {0.0, 0.0, 0.0};
-    double off = 0.0, all = 0.0;
-    for (int r = 0; r < ROUGHNESSES; r++) {
-        const double *sum = results[subject][r][strategy][map];
-        if (!(sum[1] > 0.0)) continue;
-        off += sum[0], all += sum[1];
-        if (sum[0] / sum[1] > error.worst) error.worst = sum[0] / sum[1], error.at = 0.1 * (r + 1);
-    }
-    error.all = off / all;
-    return error;
+static void error_add(Error *to, const double sum[2]) {
+    to->off += sum[0];
+    to->all += sum[1];
 }
+static double error_part(Error e) { return 100.0 * e.off / fmax(e.all, 1e-30); }
 
-static int best_of(int subject) {
-    return subject < BASE    ? ambient_strategy(subject, true)
-           : subject == BASE ? AMBIENT_FITTED
-                             : AMBIENT_SAMPLED;
+/* The default strategy at that roughness. */
+static int best_of(int subject, int r) {
+    static AmbientFit fit;
+    if (subject >= BASE) return subject == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
+    Lobe lobe = lobe_rough(subject, 0.1f * (float)(r + 1));
+    ambient_fit(&fit, &lobe, lobe.params[0], lobe.params[0], 0);
+    return ambient_strategy(subject, fit.turning, fit.denser > AMBIENT_DENSER);
 }
 
 static bool by_row; /* one line a roughness */
 
-static void print_subject(int subject, int k) {
-    static const char *const names[AMBIENT_STRATEGIES] = {"irradiance", "mirror", "fitted", "sampled"};
-    int best = best_of(subject);
-    printf("%-27s", name_of(subject));
-    for (int s = 0; s < AMBIENT_STRATEGIES; s++) printf(" %10.1f", 100.0 * error_of(subject, s, k).all);
-    Error error = error_of(subject, best, k);
-    printf("  %s, %.1f at %.1f\n", names[best], 100.0 * error.worst, error.at);
-    for (int r = 0; by_row && r < ROUGHNESSES; r++) {
-        if (!(results[subject][r][0][k][1] > 0.0)) continue;
-        printf("%27.1f", 0.1 * (r + 1));
-        for (int s = 0; s < AMBIENT_STRATEGIES; s++)
-            printf(" %10.1f", 100.0 * results[subject][r][s][k][0] / results[subject][r][s][k][1]);
-        printf("\n");
+static void print_row(int subject, int k, int r, int best) {
+    printf("%27.1f", 0.1 * (r + 1));
+    for (int s = 0; s <= AMBIENT_STRATEGIES; s++) {
+        Error error = {0.0, 0.0};
+        error_add(&error, results[subject][r][s < AMBIENT_STRATEGIES ? s : best][k]);
+        printf(" %10.1f", error_part(error));
     }
+    printf("\n");
+}
+
+static void print_subject(int subject, int k) {
+    Error sums[AMBIENT_STRATEGIES + 1] = {{0.0, 0.0}};
+    double worst = 0.0;
+    int at = 0, best[ROUGHNESSES];
+    for (int r = 0; r < ROUGHNESSES; r++) {
+        Error own = {0.0, 0.0};
+        best[r] = best_of(subject, r);
+        for (int s = 0; s < AMBIENT_STRATEGIES; s++) error_add(&sums[s], results[subject][r][s][k]);
+        error_add(&sums[AMBIENT_STRATEGIES], results[subject][r][best[r]][k]);
+        error_add(&own, results[subject][r][best[r]][k]);
+        if (error_part(own) > worst) worst = error_part(own), at = r;
+    }
+    printf("%-27s", name_of(subject));
+    for (int s = 0; s <= AMBIENT_STRATEGIES; s++) printf(" %10.1f", error_part(sums[s]));
+    printf("  %.1f at %.1f\n", worst, 0.1 * (at + 1));
+    for (int r = 0; by_row && r < ROUGHNESSES; r++)
+        if (results[subject][r][0][k][1] > 0.0) print_row(subject, k, r, best[r]);
 }
 
 static void print_results(void) {
     for (int k = 0; k < map_count; k++) {
         printf("\n%s, %d lamps\n%-27s", maps[k].name, maps[k].parts.lamp_count, "lobe");
-        printf(" irradiance     mirror     fitted    sampled  default, worst at\n");
+        printf(" irradiance     mirror     fitted    sampled    default  worst\n");
         for (int subject = 0; subject < SUBJECTS; subject++)
             if (used(subject)) print_subject(subject, k);
     }
@@ -434,8 +447,8 @@ int main(int argc, char **argv) {
             tables_only = true;
         else if (strcmp(argv[k], "--lamps") == 0 && k + 1 < argc)
             lamp_count = atoi(argv[++k]);
-        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc)
-            only = argv[++k];
+        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < SUBJECTS)
+            only[only_count++] = argv[++k];
         else if (map_count < 16 && !load(&maps[map_count++], argv[k]))
             return 3;
     }

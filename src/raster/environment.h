@@ -55,7 +55,8 @@ void environment_place(const GlEnvironment *self, const Environment *environment
 int environment_lamps(const GlEnvironment *environment, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]);
 
 /* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes one sampler.
- * AmbientWeights ambient_held(Frame, int) and float ambient_seen(Frame, int, float) are left to the caller.
+ * AmbientWeights ambient_held(Frame, int), float ambient_seen(Frame, int, float) and float
+ * ambient_seen_at(Frame, Dir, float) are left to the caller.
  */
 void environment_text(Text *text);
 

@@ -93,10 +93,11 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
         if (!held->made || !ambient_alike(&held->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
             ambient_hold(fit, uniforms->fits + k * AMBIENT_HELD);
-            *held = (MaterialFit){true, fit->turning, fit->finest, *lobe};
+            *held = (MaterialFit){true, fit->turning, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
         }
         self->finest[k] = held->finest;
         self->key.turning |= held->turning << k;
+        self->key.dense |= held->dense << k;
     }
     free(fit);
     return true;

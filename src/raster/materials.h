@@ -11,7 +11,8 @@
 /* The table of a slot that is held in the uniforms, or was when the slot last asked for one. */
 typedef struct MaterialFit {
     bool made, turning; /* as AmbientFit has it */
-    float finest;       /* likewise */
+    bool dense;         /* its `denser` is above AMBIENT_DENSER */
+    float finest;       /* as AmbientFit has it */
     Lobe lobe;
 } MaterialFit;
 

@@ -303,10 +303,12 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
     static const char *const names[SHADER_SLOTS] = {"diffuse", "specular", "sheen", "coat", "dust"};
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
     int layer = 0;
+    bool dense = key->dense >> slot & 1;
     if (lobe && !shader_holds(key, slot)) {
         const AmbientFit *fit = fits_get(fits, lobe);
         if (!fit) return false;
         t = ambient_table(fit, AMBIENT_FITTED);
+        dense = fit->denser > AMBIENT_DENSER;
         int sides = t.turning ? AMBIENT_SIDES : 1;
         layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
@@ -321,7 +323,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
     if (key->ambient > 1)
         t.strategy = key->ambient - 2;
     else if (lobe)
-        t.strategy = ambient_strategy(lobe->id, t.turning);
+        t.strategy = ambient_strategy(lobe->id, t.turning, dense);
     put_ambient_table(text, names[slot], t, layer);
     return true;
 }

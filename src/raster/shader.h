@@ -42,6 +42,7 @@ typedef struct ShaderKey {
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
     int focus, narrow, turning; /* bit k: those of AmbientTable for slot k, whose table is held */
+    int dense;                  /* bit k: so is the lobe of slot k, by AMBIENT_DENSER, whose table is held */
     int ranged;                 /* no table is held: there are too many materials to fit one for each */
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */

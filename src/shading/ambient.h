@@ -13,7 +13,8 @@
  *   sampled      the mean over samples of the lobe of f cos_i / pdf L(i, kappa), kappa by their density:
  *                Jaroslav Krivanek, Mark Colbert, "Real-time Shading with Filtered Importance Sampling",
  *                Computer Graphics Forum 27(4), 2008; joined with the lamps where they are the denser. For a
- *                highlight that is drawn out, whose normals come in strips (terms/d_ggx.h)
+ *                highlight that is drawn out, whose normals come in strips (terms/d_ggx.h), and for
+ *                a lobe that is a ring, which one axis and one width say little of
  *
  * Why lamps: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
  * lamps for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
@@ -64,8 +65,9 @@
 
 /* Planes of a table, `rows` rows each, in groups of four: of the first colour w_1 .. w_3 as parts of E, and
  * E; the sine of the angle of the lobe's mean direction, which is above 0 on the side of wo, log2 of its
- * kappa, and its tail, 0 of a Gaussian and 1 of ggx, the fourth unused; of the second colour w_0 .. w_3. The
- * last plane is the sum of these. Parts of E are smooth where E itself goes to 0. */
+ * kappa, its tail, 0 of a Gaussian and 1 of ggx, and log2 of the kappa of a lobe as dense, which no strategy
+ * reads; of the second colour w_0 .. w_3. The last plane is the sum of these. Parts of E are smooth where E
+ * itself goes to 0. */
 #define AMBIENT_GROUP_FIRST  0
 #define AMBIENT_GROUP_SHAPE  1
 #define AMBIENT_GROUP_SECOND 2
@@ -344,6 +346,15 @@ FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
 }
 
+/* What is seen of the mean `all` about w: of what the lamps leave as much as is open, and of the rest of it,
+ * which the nearest lamp stands for, as much as is seen of that, times `part`. */
+FN Rgb ambient_seen_of(AmbientSource s, Dir w, Rgb all, float kappa, float part, float open) {
+    Rgb rest = ambient_rest(s, w, kappa);
+    rest = rgb(min(rest.r, all.r), min(rest.g, all.g), min(rest.b, all.b));
+    return rgb_add(rgb_scale(rest, open),
+                   rgb_scale(rgb_add(all, rgb_scale(rest, -1.0f)), part * ambient_seen_at(s, w, open)));
+}
+
 /* 0 below, 1 above, and smooth between. */
 FN float ambient_beyond(float log2_kappa, float edge) {
     float x = clamp(0.5f + 0.5f * (log2_kappa - edge) / AMBIENT_BLEND, 0.0f, 1.0f);
@@ -380,9 +391,9 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, bool str
             float drawn = max(x.pdf * dense * n, 1e-20f), w = x.f * i.z / drawn;
             float kappa = clamp(PI * drawn, 0.5f, 1e4f), part = ambient_power(drawn, lamps);
             Dir out_i = ambient_out(v, i);
-            Rgb all = ambient_radiance(s, out_i, kappa), rest = ambient_rest(s, out_i, kappa);
-            rest = rgb(min(rest.r, all.r), min(rest.g, all.g), min(rest.b, all.b));
-            Rgb l = rgb_scale(rgb_mix(rest, all, part), w * ambient_open(s, out_i, i.z, v.occlusion));
+            Rgb all = ambient_radiance(s, out_i, kappa);
+            float open = ambient_open(s, out_i, i.z, v.occlusion);
+            Rgb l = rgb_scale(ambient_seen_of(s, out_i, all, kappa, part, open), w);
             p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(l, x.s));
             e = e + w;
@@ -459,7 +470,8 @@ FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, Ambi
     Rgb wide = rgb_scale(ambient_rest(s, out_axis, kappa), seen);
     a.of = ambient_pair_mix(a.of, ambient_one(wide, l.first, l.second), close);
     if (!t.narrow) return a;
-    Rgb sharp = rgb_scale(ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f)), seen);
+    Rgb sharp = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
+    sharp = ambient_seen_of(s, out_axis, sharp, kappa, 1.0f, seen);
     a.of = ambient_pair_mix(a.of, ambient_one(sharp, l.first, l.second), narrow);
     return a;
 }

@@ -6,6 +6,7 @@
  *   ambient_count(s)               how many there are
  *   ambient_seen(s, k, occlusion)  the part of lamp k that is seen, where that part of the sky is: no more is
  *                                  known of it in C
+ *   ambient_seen_at(s, w, open)    the same of the lamp nearest to w; `open` where that is not known
  *   ambient_open(s, w, cos_i, occlusion)
  *                                  the part of the sky about w that is seen, where that part of the
  *                                  cosine-weighted sky is; cos_i is that of its look-up's axis to the normal
@@ -56,6 +57,7 @@ FN float ambient_lamp_kappa(AmbientSource s) { return s->lamp_kappa; }
 FN AmbientWeights ambient_held(AmbientSource s, int k) { return s->held[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 FN float ambient_seen(AmbientSource s, int k, float occlusion) { return occlusion; }
+FN float ambient_seen_at(AmbientSource s, Dir w, float open) { return open; }
 FN float ambient_open(AmbientSource s, Dir w, float cos_i, float occlusion) {
     return occlusion_cone(occlusion, cos_i);
 }

@@ -14,7 +14,7 @@
  * with a_kl the Legendre coefficients of G_k about its axis. C_l falls as (l + 1)^-2.5: Ron Dror, Alan
  * Willsky, Edward Adelson, "Statistical Characterization of Real-World Illumination", Journal of Vision 4(9),
  * 2004, find powers between 2 and 3. */
-enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL };
+enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENSE };
 enum { BANDS = 24, GRAIN = 256, KERNELS = 3, ATOMS = 4, SAMPLES = 1024 };
 
 typedef struct Kernel {
@@ -95,6 +95,7 @@ typedef struct Cloud {
     Dir i[SAMPLES];
     float w[2][SAMPLES]; /* of the first colour and of the second */
     double e[2];
+    double dense; /* mean of log2(f cos_i) over all that is sent on */
 } Cloud;
 
 /* The bits of k mirrored behind the point, for Hammersley's points. J. M. Hammersley, "Monte Carlo Methods
@@ -111,7 +112,7 @@ static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimut
     float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), ty = sin(azimuth);
     Dir o = dir(s * tx, s * ty, cos_o);
     cloud->count = 0;
-    cloud->e[0] = cloud->e[1] = 0.0;
+    cloud->e[0] = cloud->e[1] = cloud->dense = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
         Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)k));
         if (!(i.z > 0.0f)) continue;
@@ -123,7 +124,9 @@ static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimut
         cloud->w[0][n] = w * (1.0f - share_plain(value.s));
         cloud->w[1][n] = w * share_plain(value.s);
         for (int c = 0; c < 2; c++) cloud->e[c] += (double)cloud->w[c][n];
+        cloud->dense += (double)(w * log2(max(value.f * i.z, 1e-30f)));
     }
+    cloud->dense /= fmax(cloud->e[0] + cloud->e[1], 1e-30);
 }
 
 /* The least of w^T A w - 2 w^T b over w >= 0, one after the other until none moves; then their sum is made e.
@@ -168,13 +171,16 @@ static float *entry(AmbientFit *fit, int side, int plane, int row, int column) {
 }
 
 /* Half of what exp(kappa (mu - 1)) weighs is within kappa (1 - mu) = ln 2, and three quarters within twice
- * that, of ggx within thrice. */
+ * that, of ggx within thrice. Of its density, the mean of the logarithm by
+ * itself is ln(kappa / (2 pi e)). */
 static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int side) {
     if (!(cloud->e[0] + cloud->e[1] > 0.0)) return; /* there is nothing to be narrow */
     double half = cloud_within(cloud, axis, 0.5), more = cloud_within(cloud, axis, 0.75);
+    double e = cloud->e[0] + cloud->e[1];
     *entry(fit, side, PLANE_AXIS, row, column) = axis.x;
     *entry(fit, side, PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
     *entry(fit, side, PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
+    *entry(fit, side, PLANE_DENSE, row, column) = (float)cloud->dense + log2((float)(17.0794684453471 / e));
 }
 
 static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int side) {
@@ -247,11 +253,21 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
 }
 
 void ambient_fit_finish(AmbientFit *fit) {
+    float denser = 0.0f, light = 1e-20f;
     fit->finest = -100.0f;
     for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
         for (int row = 0; row < fit->rows; row++)
-            for (int column = 0; column < AMBIENT_COLUMNS; column++)
-                fit->finest = max(fit->finest, *entry(fit, side, PLANE_KAPPA, row, column));
+            for (int column = 0; column < AMBIENT_COLUMNS; column++) {
+                float kappa = *entry(fit, side, PLANE_KAPPA, row, column);
+                float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = 1.0f - y * y;
+                float e = *entry(fit, side, AMBIENT_PLANE_E, row, column) +
+                          *entry(fit, side, AMBIENT_PLANE_E_SECOND, row, column);
+                float part = e * x * x * x * y; /* of the light of a sphere: cos_o = x^2 */
+                fit->finest = max(fit->finest, kappa);
+                denser += part * (*entry(fit, side, PLANE_DENSE, row, column) - kappa);
+                light += part;
+            }
+    fit->denser = denser / light;
 }
 
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
@@ -384,6 +400,6 @@ void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]) {
         hold_side(fit, fit->turning ? side : 0, out + side * AMBIENT_SIDE);
 }
 
-int ambient_strategy(int lobe, bool turning) {
-    return turning && lobe_names(lobe)->strips ? AMBIENT_SAMPLED : AMBIENT_FITTED;
+int ambient_strategy(int lobe, bool turning, bool dense) {
+    return dense || (turning && lobe_names(lobe)->strips) ? AMBIENT_SAMPLED : AMBIENT_FITTED;
 }

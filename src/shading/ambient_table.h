@@ -13,6 +13,7 @@ typedef struct AmbientFit {
     float low, high; /* the range asked for */
     float root_low, root_high;
     float finest; /* the greatest log2 kappa */
+    float denser; /* mean over its light of log2 of how much denser it is than lobes as wide about one axis */
     bool turning; /* there are planes for AMBIENT_SIDES headings */
     float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
 } AmbientFit;
@@ -39,8 +40,12 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy);
 /* The polynomials of a fit of one row, by least squares over its nodes. */
 void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]);
 
-/* The strategy with the least error for that lobe, with or without an azimuth that matters
- * (docs/environment.md). */
-int ambient_strategy(int lobe, bool turning);
+/* A lobe that is so much denser than one as wide, log2 of it, is a ring or a streak: one axis and one width
+ * say little of it. */
+#define AMBIENT_DENSER 2.5f
+
+/* The strategy with the least error for that lobe, with or without an azimuth that matters, and dense as
+ * AMBIENT_DENSER has it or not (docs/environment.md). */
+int ambient_strategy(int lobe, bool turning, bool dense);
 
 #endif

@@ -144,7 +144,7 @@ static void held_tables_fade_away(void **state) {
         for (size_t k = 0; asked(id) && k < sizeof roughnesses / sizeof roughnesses[0]; k++) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, roughnesses[k]);
-            AmbientTable t = hold(&lobe, ambient_strategy(id, true), held);
+            AmbientTable t = hold(&lobe, ambient_strategy(id, true, false), held);
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
                 SeenStack m = tabled(lobe, o, &albedo);

@@ -3,7 +3,7 @@
  * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
  * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/ambient.h: environment_terms of irradiance over pi,
  * without degree 3; environment_rest of what the lamps leave. All are of the image as it is, lamps too.
- * ambient_held is whoever's who has held tables, ambient_seen whoever's who knows what hides lamps. */
+ * ambient_held is whoever's who has held tables, ambient_seen and ambient_seen_at whoever's who knows what hides lamps. */
 #include "shading/frame.h"
 #include "shading/rgb.h"
 
@@ -85,6 +85,19 @@ int ambient_count(Frame f) { return int(environment_place.w); }
 
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
+
+/* The lamp nearest to w; -1 where there is none. */
+int environment_nearest(Frame f, Dir w) {
+    vec3 d = environment_image(f, w);
+    float most = -2.0;
+    int nearest = -1;
+    for (int k = 0; k < ambient_count(f); k++) {
+        float mu = dot(d, environment_lamps[2 * k].xyz);
+        if (mu > most) nearest = k;
+        most = max(most, mu);
+    }
+    return nearest;
+}
 
 AmbientLight ambient_light(Frame f, int k) {
     vec3 d = environment_world(environment_lamps[2 * k].xyz);

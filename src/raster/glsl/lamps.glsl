@@ -29,8 +29,15 @@ Dir ambient_bent(Frame f, Dir w, float kappa, float open) {
     return dir_normal_or(dir_add(w, dir_scale(slope, open < 1.0 ? by : 0.0)), w);
 }
 
+/* -1 is unknown; beside their triangle fragments are a little out of range. */
+float lamp_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4]; }
+
 float ambient_seen(Frame f, int k, float occlusion) {
-    float seen = k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4];
-    /* -1 is unknown; beside their triangle fragments are a little out of range */
+    float seen = lamp_seen(k);
     return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion;
+}
+
+float ambient_seen_at(Frame f, Dir w, float open) {
+    float seen = lamp_seen(environment_nearest(f, w));
+    return seen < -0.5 ? open : clamp(seen, 0.0, 1.0) * texture_occlusion;
 }
