@@ -16,7 +16,7 @@
 enum { BLOCK = 256 }; /* vertices in one go */
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 3 };
+enum { LOOK = 4 };
 
 struct Occlusion {
     WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
@@ -44,10 +44,8 @@ typedef struct Ramp {
     float mean, x, y, z;
 } Ramp;
 
-/* By so many times its slope. */
-static float ramp_at(const Ramp *r, float steeper, Dir w) {
-    float slope = r->x * w.x + r->y * w.y + r->z * (w.z - 0.5f);
-    return clamp(r->mean + steeper * slope, 0.0f, 1.0f);
+static float ramp_at(const Ramp *r, Dir w) {
+    return clamp(r->mean + r->x * w.x + r->y * w.y + r->z * (w.z - 0.5f), 0.0f, 1.0f);
 }
 
 static Dir sky_ray(int k, int rays, float turn) {
@@ -55,16 +53,28 @@ static Dir sky_ray(int k, int rays, float turn) {
     return warp_uniform(((float)k + 0.5f) / (float)rays, v - floor(v));
 }
 
+/* So many times as steep, its mean over the rays as it was when it is cut off. */
+static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, float turn) {
+    Ramp out = {r->mean, by * r->x, by * r->y, by * r->z};
+    for (int round = 0; round < 4; round++) {
+        float mean = 0.0f;
+        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, sky_ray(k, self->rays, turn));
+        out.mean = clamp(out.mean + r->mean - mean / (float)self->rays, -1.0f, 2.0f);
+    }
+    return out;
+}
+
 /* Nearest to what is seen, V, over the hemisphere, whose x, y, z have the means 0, 0, 1/2 and the variances
  * 1/3, 1/3, 1/12:
  *
  *   mean(V) + 3 mean(V x) x + 3 mean(V y) y + 12 mean(V (z - 1/2)) (z - 1/2)
  *
- * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there. */
+ * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there, and as much
+ * higher as cutting it off takes from its mean. */
 static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *out) {
     static const float steps[] = {1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
     Ramp r = {0.0f, 0.0f, 0.0f, 0.0f};
-    float least = INFINITY, best = 1.0f, share = 1.0f / (float)self->rays;
+    float least = INFINITY, share = 1.0f / (float)self->rays;
     for (int k = 0; k < self->rays; k++) {
         Dir w = sky_ray(k, self->rays, turn);
         if (!seen[k]) continue;
@@ -73,15 +83,16 @@ static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *
         r.y += 3.0f * share * w.y;
         r.z += 12.0f * share * (w.z - 0.5f);
     }
+    *out = r;
     for (size_t n = 0; n < sizeof steps / sizeof steps[0]; n++) {
+        Ramp steep = ramp_steeper(self, &r, steps[n], turn);
         float off = 0.0f;
         for (int k = 0; k < self->rays; k++) {
-            float d = ramp_at(&r, steps[n], sky_ray(k, self->rays, turn)) - (seen[k] ? 1.0f : 0.0f);
+            float d = ramp_at(&steep, sky_ray(k, self->rays, turn)) - (seen[k] ? 1.0f : 0.0f);
             off += d * d;
         }
-        if (off < least) least = off, best = steps[n];
+        if (off < least) least = off, *out = steep;
     }
-    *out = (Ramp){r.mean, best * r.x, best * r.y, best * r.z};
 }
 
 /* The part of the cosine-weighted sky above n that a point sees, and which. Directions are even over the

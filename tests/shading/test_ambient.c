@@ -343,8 +343,8 @@ static void make_sharp(Sharp *s) {
     assert_int_equal(ambient_split(&e, AMBIENT_LAMPS, &s->parts, NULL), WEFT_OK);
 }
 
-/* Over a sphere: the reference sums f over the texels, each in 4 by 4 parts. */
-static double sphere_error(Sharp *s, const AmbientFit *table, int strategy) {
+/* Over a sphere, of three roughnesses: the reference sums f over the texels, each in 4 by 4 parts. */
+static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, float rough, float step) {
     AmbientSourceCalls calls = {sharp_radiance,      sharp_irradiance,    sharp_rest, sharp_lamp, s,
                                 s->parts.lamp_count, s->parts.lamp_kappa, NULL};
     double off = 0.0, all = 0.0;
@@ -354,7 +354,7 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy) {
         s->z = vec3(side * cos(turn), side * sin(turn), z);
         s->x = vec3_normal_or(vec3_madd(eye, s->z, -z), eye);
         s->y = vec3_cross(s->z, s->x);
-        Lobe lobe = lobe_rough(table->lobe.id, 0.4f + 0.3f * (float)(n % 3));
+        Lobe lobe = lobe_rough(table->lobe.id, rough + step * (float)(n % 3));
         Dir o = sharp_local(s, eye);
         double truth[3] = {0.0};
         for (int k = 0; k < 16 * WIDTH * HEIGHT; k++) {
@@ -411,11 +411,43 @@ static void sharp_light_is_met(void **state) {
     for (size_t k = 0; k < sizeof lobes / sizeof lobes[0]; k++) {
         if (test_short() && k % 8) continue;
         fit(&table, lobes[k]);
-        double fitted = sphere_error(&s, &table, AMBIENT_FITTED),
-               plain = sphere_error(&s, &table, AMBIENT_IRRADIANCE);
+        double fitted = sphere_error(&s, &table, AMBIENT_FITTED, 0.4f, 0.3f),
+               plain = sphere_error(&s, &table, AMBIENT_IRRADIANCE, 0.4f, 0.3f);
         if (!(fitted < 0.05)) fail_msg("%s: %.1f %%", weft_lobe_info(lobes[k])->id, 100.0 * fitted);
         /* what a matt surface gets is already right */
         if (k > 1) assert_true(fitted < plain);
+    }
+    weft_image_free(&s.image);
+}
+
+static void fit_one(AmbientFit *to, int id, float roughness) {
+    Lobe lobe = lobe_rough(id, roughness);
+    ambient_fit(to, &lobe, lobe.params[0], lobe.params[0], 0);
+}
+
+/* A lobe that is a ring is known by its density, and then its samples are much nearer than one axis is. */
+static void rings_are_sampled(void **state) {
+    (void)state;
+    static const int rings[] = {LOBE_FIBRE, LOBE_LTC_FIBRE, LOBE_FIBRE_TABLE};
+    static AmbientFit table;
+    Sharp s = {0};
+    make_sharp(&s);
+    for (int id = 0; id < LOBE_COUNT; id++) {
+        if (!asked(id)) continue;
+        bool ring = false;
+        for (size_t k = 0; k < sizeof rings / sizeof rings[0]; k++) ring |= rings[k] == id;
+        fit_one(&table, id, 0.35f);
+        if (ring != (table.denser > AMBIENT_DENSER))
+            fail_msg("%s: denser by 2^%g", weft_lobe_info(id)->id, (double)table.denser);
+    }
+    for (size_t k = 0; k < sizeof rings / sizeof rings[0]; k++) {
+        fit_one(&table, rings[k], 0.35f);
+        double sampled = sphere_error(&s, &table, AMBIENT_SAMPLED, 0.35f, 0.0f),
+               fitted = sphere_error(&s, &table, AMBIENT_FITTED, 0.35f, 0.0f);
+        print_message("%s: sampled %.1f %%, fitted %.1f %%\n", weft_lobe_info(rings[k])->id, 100.0 * sampled,
+                      100.0 * fitted);
+        assert_true(sampled < 0.5 * fitted);
+        assert_int_equal(ambient_strategy(rings[k], false, true), AMBIENT_SAMPLED);
     }
     weft_image_free(&s.image);
 }
@@ -429,6 +461,7 @@ int main(void) {
                                        cmocka_unit_test(no_light_is_lost),
                                        cmocka_unit_test(held_tables_fade_away),
                                        cmocka_unit_test(sharp_light_is_met),
+                                       cmocka_unit_test(rings_are_sampled),
                                        cmocka_unit_test(faint_sheens_keep_albedo_under_a_white_sky)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
