@@ -47,6 +47,12 @@ bool cache_folder_make(void) {
     return access(folder, W_OK | X_OK) == 0;
 }
 
+bool cache_is_private(const char *path) {
+    struct stat status;
+    return lstat(path, &status) == 0 && !S_ISLNK(status.st_mode) && status.st_uid == geteuid() &&
+           !(status.st_mode & (S_IWGRP | S_IWOTH));
+}
+
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
     char path[CACHE_PATH_SIZE];
     OutputFile file;

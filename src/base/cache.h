@@ -22,6 +22,10 @@ bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix);
 /* Makes the folder of the cache, where it is not there; false where there can be none. */
 bool cache_folder_make(void);
 
+/* Whether a file or folder is the user's own and nobody else may write to it, so that what is in it may be
+ * run; false of links, and where there is none. */
+bool cache_is_private(const char *path);
+
 /* Writes a file of the cache, complete or not at all, and the folders it is in. What fails is a warning
  * (WEFT_MESSAGE_CACHE_IGNORED). */
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);

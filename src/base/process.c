@@ -26,6 +26,6 @@ int process_run(const char *const *arguments, const char *log) {
     posix_spawn_file_actions_destroy(&files);
     if (failed) return PROCESS_MISSING;
     while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return PROCESS_MISSING;
+        if (errno != EINTR) return PROCESS_LOST;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

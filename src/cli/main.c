@@ -100,6 +100,8 @@ static int dispatch(int count, char **arguments) {
 int main(int count, char **arguments) {
     uncaught_begin();
     signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
+    signal(SIGCHLD,
+           SIG_DFL); /* whoever ignores it, and started this, keeps compilers from being waited for */
     int result = dispatch(count, arguments);
     errno = 0;
     int flushed = fflush(stdout);

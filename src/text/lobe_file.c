@@ -1,12 +1,15 @@
 /* lobe_file.c - a lobe from a file of the user's */
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/mark.h"
 #include "base/memory.h"
 #include "shading/outside.h"
+#include "text/catalogue.h"
 #include "text/plugin.h"
 #include "text/text.h"
 
@@ -34,7 +37,7 @@ static bool name_of(const char *path, char name[NAME_MOST + 1]) {
     for (const char *c = name; *c; c++)
         if (!(*c >= 'a' && *c <= 'z') && (c == name || !((*c >= '0' && *c <= '9') || *c == '_')))
             return false;
-    return true;
+    return !strstr(name, "__") && name[strlen(name) - 1] != '_'; /* "a_" and "a__b" would have A and AB */
 }
 
 /* "two_words": two-words, TwoWords and TWO_WORDS, as cmake/lobes.cmake has them. */
@@ -55,6 +58,55 @@ static void set_names(LobeFile *own, const char *name) {
     own->lobe.info.id = own->id;
     own->lobe.info.params = own->params;
     own->lobe.names = (LobeNames){own->prefix, own->record, own->macros, false};
+}
+
+static const char *const records[] = {"", "Prepared", "View"};
+enum { RECORDS = sizeof records / sizeof *records };
+
+/* Whether one of its records has the name of one of another lobe's. */
+static bool shares_record(const char *record, const char *other) {
+    char a[64], b[64];
+    for (int k = 0; k < RECORDS * RECORDS; k++) {
+        snprintf(a, sizeof a, "%s%s", record, records[k % RECORDS]);
+        snprintf(b, sizeof b, "%s%s", other, records[k / RECORDS]);
+        if (strcmp(a, b) == 0) return true;
+    }
+    return false;
+}
+
+/* Whether a text defines a record, a type or a macro that it defines. */
+static bool is_defined(const LobeFile *own, const char *text) {
+    static const char *const around[][2] = {{"STRUCT(", ")"},     {"STRUCT(", "Prepared)"},
+                                            {"STRUCT(", "View)"}, {"} ", ";"},
+                                            {" *", ";"},          {"#define ", " "}};
+    char words[80];
+    for (size_t k = 0; k < sizeof around / sizeof *around; k++) {
+        snprintf(words, sizeof words, "%s%s%s", around[k][0], own->record, around[k][1]);
+        if (strstr(text, words)) return true;
+    }
+    snprintf(words, sizeof words, "#define %s_PARAMS(", own->macros);
+    return strstr(text, words) != NULL;
+}
+
+/* Its names are those of no other lobe, nor of the dialect. */
+static WeftResult check_names(const LobeFile *own, const char *path, WeftError *error) {
+    int id = weft_lobe_find(own->id);
+    if (id >= 0 && id < LOBE_COUNT)
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
+                    "the catalogue has a lobe %s: give the file another name", own->id);
+    for (int k = 0, count = weft_lobe_count(); k < count; k++) {
+        const OutsideLobe *outside = outside_lobe(k);
+        if (k != id && (shares_record(own->record, lobe_names(k)->record) ||
+                        (outside && is_defined(own, outside->text))))
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
+                        "its %s would be that of the lobe %s: give the file another name", own->record,
+                        weft_lobe_info(k)->id);
+    }
+    for (const CatalogueFile *file = catalogue_files; file->name; file++)
+        if (is_defined(own, file->bytes))
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
+                        "its %s would be that of %s: give the file another name", own->record, file->name);
+    return WEFT_OK;
 }
 
 /* Whether what every file has is there, so that what is missing is called by its name. */
@@ -88,6 +140,30 @@ static WeftResult check_dialect(const LobeFile *own, const char *path, WeftError
     return result;
 }
 
+/* It is written into the comments of what is exported. */
+static bool fits_comment(const char *help) {
+    for (const char *c = help; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) return false;
+    return !strstr(help, "*/");
+}
+
+/* A whole number among the choices, in all its range. */
+static bool is_choice(const PluginParam *p, const char *const *choices) {
+    int count = 0;
+    while (choices[count]) count++;
+    return p->hard_low >= 0.0f && p->hard_high < (float)count && !(floorf(p->def) < p->def);
+}
+
+/* Why it is no parameter; NULL where it is one. */
+static const char *fault_of(const PluginParam *p, const char *const *choices) {
+    const float numbers[] = {p->def, p->low, p->high, p->hard_low, p->hard_high};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (!isfinite(numbers[k])) return "has a number that is not finite";
+    if (!choices && strcmp(p->type, "float") != 0) return "is neither a float nor a term";
+    if (choices && !is_choice(p, choices)) return "has a range or a default that its terms do not have";
+    return fits_comment(p->help) ? NULL : "has a help text with a control character or the end of a comment";
+}
+
 static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *path, WeftError *error) {
     if (plugin->param_count > LOBE_PARAMS_MAX)
         return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "it has %d parameters, and %d is the most",
@@ -95,9 +171,8 @@ static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *p
     for (int k = 0; k < plugin->param_count; k++) {
         const PluginParam *p = &plugin->params[k];
         const char *const *choices = lobe_choices(p->type);
-        if (!choices && strcmp(p->type, "float") != 0)
-            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s is neither a float nor a term",
-                        p->name);
+        const char *fault = fault_of(p, choices);
+        if (fault) return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s %s", p->name, fault);
         if (!(p->hard_low <= p->low && p->low <= p->def && p->def <= p->high && p->high <= p->hard_high))
             return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "the ranges of %s do not nest", p->name);
         own->params[k] =
@@ -132,13 +207,10 @@ static WeftResult take_plugin(LobeFile *own, const Plugin *plugin, const char *p
 static WeftResult take(LobeFile *own, const char *path, int *lobe, WeftError *error) {
     char strip[80];
     const Plugin *plugin;
-    int id = weft_lobe_find(own->id);
-    if (id >= 0 && id < LOBE_COUNT)
-        return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
-                    "the catalogue has a lobe %s: give the file another name", own->id);
     snprintf(strip, sizeof strip, "Strip %s_strip(", own->prefix);
     own->lobe.names.strips = strstr(own->text, strip) != NULL;
-    WeftResult result = check_parts(own, path, error);
+    WeftResult result = check_names(own, path, error);
+    if (result == WEFT_OK) result = check_parts(own, path, error);
     if (result == WEFT_OK) result = check_dialect(own, path, error);
     if (result == WEFT_OK) result = plugin_make(&own->lobe.names, path, own->text, &plugin, error);
     if (result == WEFT_OK) result = take_plugin(own, plugin, path, error);
@@ -156,10 +228,16 @@ WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error) {
     if (result != WEFT_OK) return result;
     if (!name_of(path, name)) {
         free(file.data);
-        return refuse(error, path, "its name is to be lower-case letters, digits and _, and .h");
+        return refuse(error, path,
+                      "its name is to be lower-case letters, digits and single _ between, and .h");
+    }
+    if (memchr(file.data, 0, file.size)) {
+        free(file.data);
+        return refuse(error, path, "it has a zero byte");
     }
     LobeFile *own = alloc_array(1, sizeof *own + file.size + 1);
-    if (own) memcpy(own->text, file.data, file.size);
+    size_t mark = mark_size(file.data, file.size);
+    if (own) memcpy(own->text, file.data + mark, file.size - mark);
     free(file.data);
     if (!own) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     set_names(own, name);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "text/plugin.h"
@@ -92,7 +93,7 @@ static const char *const half_flags[2][16] = {
     {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-c"},
     {COMMON, "-ffp-contract=off", "-shared"}};
 
-enum { COMPILER_SIZE = 256, PATH_SIZE = CACHE_PATH_SIZE + 32 };
+enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
 /* A folder of a compilation and what is in it. */
 typedef struct Work {
@@ -121,22 +122,31 @@ static void work_end(const Work *work) {
     rmdir(work->folder);
 }
 
-/* $CC, in words, or cc. Returns how many words. */
-static int compiler(char text[COMPILER_SIZE], const char *words[8]) {
+typedef struct Compiler {
+    char text[COMPILER_SIZE];
+    const char *words[COMPILER_WORDS];
+    int count;
+} Compiler;
+
+/* $CC, in words, or cc; false where it is too long. */
+static bool compiler_choose(Compiler *compiler) {
     const char *chosen = getenv("CC");
-    int count = 0;
     char *rest = NULL;
-    snprintf(text, COMPILER_SIZE, "%s", chosen && chosen[0] ? chosen : "cc");
-    for (char *word = strtok_r(text, " ", &rest); word && count < 8; word = strtok_r(NULL, " ", &rest))
-        words[count++] = word;
-    return count;
+    if (!chosen || !chosen[strspn(chosen, " ")]) chosen = "cc";
+    compiler->count = 0;
+    if ((size_t)snprintf(compiler->text, COMPILER_SIZE, "%s", chosen) >= COMPILER_SIZE) return false;
+    for (char *word = strtok_r(compiler->text, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        if (compiler->count == COMPILER_WORDS) return false;
+        compiler->words[compiler->count++] = word;
+    }
+    return true;
 }
 
 /* Half 0, the loops, or 1, all the rest with them. */
-static int compile_half(const Work *work, int half) {
+static int compile_half(const Work *work, const Compiler *compiler, int half) {
     const char *arguments[40] = {0};
-    char text[COMPILER_SIZE];
-    int count = compiler(text, arguments);
+    int count = compiler->count;
+    memcpy(arguments, compiler->words, (size_t)count * sizeof *arguments);
     for (int k = 0; half_flags[half][k]; k++) arguments[count++] = half_flags[half][k];
     arguments[count++] = work->text;
     if (half) arguments[count++] = work->loops;
@@ -165,34 +175,39 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
     return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
 }
 
-/* The first error of those that the compiler has told. */
+/* The first error of those that the compiler has told, else its last line. */
 static WeftResult fail_compile(const Work *work, const char *path, const char *file, WeftError *error) {
     FileBytes log;
-    const char *first = NULL;
+    const char *first = NULL, *last = NULL;
     int count = 0;
     if (file_read(work->log, 1 << 20, &log, NULL) != WEFT_OK)
         return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
     char *rest = NULL;
     for (char *line = strtok_r((char *)log.data, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        last = line;
         if (!strstr(line, "error: ")) continue;
         if (!count++) first = line;
     }
     WeftResult result = first ? fail_line(first, path, file, count - 1, error)
-                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails");
+                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails%s%s",
+                                     last ? ": " : "", last ? last : "");
     free(log.data);
     return result;
 }
 
-static WeftResult compile(const Work *work, const Buffer *text, const char *path, const char *file,
-                          WeftError *error) {
+static WeftResult compile(const Work *work, const Compiler *compiler, const Buffer *text, const char *path,
+                          const char *file, WeftError *error) {
     FILE *stream = fopen(work->text, "wb");
     bool written = stream && fwrite(text->bytes, 1, text->size, stream) == text->size;
     if (stream) written = fclose(stream) == 0 && written;
     if (!written) return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, NULL);
     for (int half = 0; half < 2; half++) {
-        int code = compile_half(work, half);
+        int code = compile_half(work, compiler, half);
         if (code == PROCESS_MISSING)
             return fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
+        if (code == PROCESS_LOST)
+            return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path,
+                        "the compiler cannot be waited for; is SIGCHLD ignored?");
         if (code != 0) return fail_compile(work, path, file, error);
     }
     return WEFT_OK;
@@ -200,6 +215,7 @@ static WeftResult compile(const Work *work, const Buffer *text, const char *path
 
 /* Loading it. */
 
+/* NULL where it cannot be: dlerror says why. */
 static const Plugin *load(const char *library) {
     void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL); /* never closed: stacks hold its functions */
     void *symbol = handle ? dlsym(handle, PLUGIN_ENTRY) : NULL;
@@ -208,27 +224,44 @@ static const Plugin *load(const char *library) {
     return symbol ? entry() : NULL;
 }
 
-static uint64_t key_of(const Buffer *text) {
-    char words[COMPILER_SIZE];
-    const char *arguments[8];
+static uint64_t key_of(const Buffer *text, const Compiler *compiler) {
     uint64_t hash = cache_hash(CACHE_HASH, text->bytes, text->size);
-    for (int k = 0, count = compiler(words, arguments); k < count; k++)
-        hash = cache_hash(hash, arguments[k], strlen(arguments[k]) + 1);
+    for (int k = 0; k < compiler->count; k++)
+        hash = cache_hash(hash, compiler->words[k], strlen(compiler->words[k]) + 1);
     for (int half = 0; half < 2; half++)
         for (int k = 0; half_flags[half][k]; k++)
             hash = cache_hash(hash, half_flags[half][k], strlen(half_flags[half][k]) + 1);
     return hash;
 }
 
-static WeftResult make(const Buffer *text, const char *path, const char *file, const char *cached,
-                       const Plugin **out, WeftError *error) {
+/* Where it is to be in the cache; false where there is none, or others can write there: what is loaded runs.
+ */
+static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
+    if (!cache_folder_make() || !cache_path(cached, key, "so")) return false;
+    char *slash = strrchr(cached, '/');
+    *slash = 0;
+    bool is_private = cache_is_private(cached);
+    *slash = '/';
+    return is_private;
+}
+
+/* A library that is not kept is made again. */
+static void keep(const char *library, const char *cached) {
+    if (chmod(library, 0700) == 0) (void)rename(library, cached);
+}
+
+static WeftResult make(const Compiler *compiler, const Buffer *text, const char *path, const char *file,
+                       const char *cached, const Plugin **out, WeftError *error) {
     Work work;
     if (!work_begin(&work, cached)) return fail(error, WEFT_MESSAGE_FILE_WRITE, work.folder, NULL);
-    WeftResult result = compile(&work, text, path, file, error);
+    WeftResult result = compile(&work, compiler, text, path, file, error);
     if (result == WEFT_OK) {
         *out = load(work.library);
-        if (!*out) result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded");
-        if (*out && cached) rename(work.library, cached);
+        const char *why = *out ? NULL : dlerror();
+        if (!*out)
+            result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded%s%s", why ? ": " : "",
+                          why ? why : "");
+        if (*out && cached) keep(work.library, cached);
     }
     work_end(&work);
     return result;
@@ -237,17 +270,21 @@ static WeftResult make(const Buffer *text, const char *path, const char *file, c
 WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
                        WeftError *error) {
     Flat flat = {0};
+    Compiler compiler;
     char cached[CACHE_PATH_SIZE], file[128];
+    if (!compiler_choose(&compiler))
+        return fail(error, WEFT_MESSAGE_COMPILER, path, "$CC has more than %d characters or %d words",
+                    COMPILER_SIZE - 1, COMPILER_WORDS);
     put_plugin(&flat, names, bytes);
     if (flat.text.failed) {
         buffer_free(&flat.text);
         return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     }
     snprintf(file, sizeof file, "%s.h", names->prefix);
-    bool caches = cache_folder_make() && cache_path(cached, key_of(&flat.text), "so");
+    bool caches = find_place(cached, key_of(&flat.text, &compiler));
     WeftResult result = WEFT_OK;
-    *out = caches ? load(cached) : NULL;
-    if (!*out) result = make(&flat.text, path, file, caches ? cached : NULL, out, error);
+    *out = caches && cache_is_private(cached) ? load(cached) : NULL;
+    if (!*out) result = make(&compiler, &flat.text, path, file, caches ? cached : NULL, out, error);
     buffer_free(&flat.text);
     return result;
 }
