@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "layout.h"
 #include "lobes.h"
@@ -109,5 +110,8 @@ int main(int count, char **arguments) {
         (result == 0 || result == WEFT_FAILED)) /* which only stdout tells */
         result = report(WEFT_RESOURCES, "standard output: cannot be written%s%s", errno ? ": " : "",
                         errno ? strerror(errno) : "");
+    /* Threads of TBB may still work on what failed for want of memory, and would do so on what exit()
+     * destroys. */
+    if (result == WEFT_RESOURCES) _exit(result);
     return result;
 }

@@ -109,6 +109,7 @@ static bool attach(Geometry *geometry, uint32_t id) {
 
 /* Up to here the slower build that traces faster takes less than the eye notices. */
 enum { FINE_BUILD_TRIANGLES = 200000 };
+enum { SERIAL_BUILD_TRIANGLES = 4096 };
 
 static void note_error(void *user, enum RTCError code, const char *text) {
     Geometry *geometry = user;
@@ -116,12 +117,22 @@ static void note_error(void *user, enum RTCError code, const char *text) {
     atomic_compare_exchange_strong(&geometry->complaint, &none, (int)code);
 }
 
+static uint32_t count_triangles(const Geometry *geometry) {
+    uint32_t count = 0;
+    for (int k = 0; k < geometry->meshes; k++) count += geometry->scene->meshes[k].triangle_count;
+    return count;
+}
+
 /* Makes what Embree holds; `built` where all of it stands. */
 static void build(void *user) {
     Geometry *geometry = user;
     const WeftScene *scene = geometry->scene;
+    const uint32_t triangles = count_triangles(geometry);
     char config[64];
-    snprintf(config, sizeof config, "threads=%d,set_affinity=0", geometry->threads);
+    /* Few triangles are not worth threads: and where memory runs out, tasks of Embree's may outlive the call
+     * that started them. */
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0",
+             triangles <= SERIAL_BUILD_TRIANGLES ? 1 : geometry->threads);
     geometry->device = rtcNewDevice(config);
     if (!geometry->device) {
         note_error(geometry, rtcGetDeviceError(NULL), NULL);
@@ -130,11 +141,9 @@ static void build(void *user) {
     rtcSetDeviceErrorFunction(geometry->device, note_error, geometry);
     geometry->accel = rtcNewScene(geometry->device);
     bool made = geometry->accel != NULL;
-    uint32_t triangles = 0;
     for (int k = 0; made && k < geometry->meshes; k++) {
         if (!scene->meshes[k].triangle_count) continue;
         made = attach(geometry, (uint32_t)k);
-        triangles += scene->meshes[k].triangle_count;
     }
     if (!made) return;
     rtcSetSceneFlags(geometry->accel, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
