@@ -196,6 +196,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     Around around = around_studio();
     WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, error) : WEFT_OK;
     if (result != WEFT_OK) return result;
+    loaded->taken = loaded->lobe[0] != 0;
     result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK && self->dressed && desc->dress)
@@ -249,6 +250,11 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
 float loader_share(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
 
 bool loader_done(Loader *self) { return atomic_load(&self->done); }
+
+const char *loader_path(const Loader *self, bool *again) {
+    *again = self->loaded.again;
+    return self->loaded.path;
+}
 
 void loader_stop(Loader *self) { atomic_store(&self->stop, true); }
 

@@ -41,7 +41,8 @@ typedef struct Loaded {
     const char *camera;   /* through which it is seen first; a constant, or the command line's */
     bool again;           /* it is the scene that was there, read anew */
     Folders folders;      /* that it wears */
-    char lobe[LOOK_PATH]; /* file of a lobe that was taken before; "": none */
+    char lobe[LOOK_PATH]; /* file of a lobe that was to be taken before; "": none */
+    bool taken;           /* it was, whatever became of the scene */
 } Loaded;
 
 /* What is to be read. */
@@ -60,6 +61,9 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
 /* The finished share, or -1 while it is not known. */
 float loader_share(Loader *loader);
 bool loader_done(Loader *loader);
+
+/* The scene that it reads, as long as it is there itself; again: as in Reading. */
+const char *loader_path(const Loader *loader, bool *again);
 
 /* Asks it to end soon, without waiting. */
 void loader_stop(Loader *loader);

@@ -12,9 +12,41 @@
 #include "view/paths.h"
 #include "view/survey.h"
 
+enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
+
+/* The files of scene, light and lobes; those of textures are the painter's to watch. */
+static void watch_files(Viewer *v) {
+    watchman_forget(v->watchman);
+    if (strncmp(v->facts.path, "builtin:", 8) != 0) watchman_watch(v->watchman, v->facts.path, WATCH_SCENE);
+    if (v->look.around.kind == AROUND_FILE) watchman_watch(v->watchman, v->look.around.path, WATCH_LIGHT);
+    for (int k = 0; k < v->lobe_count; k++) watchman_watch(v->watchman, v->lobes[k], WATCH_LOBES + k);
+    snprintf(v->watched, sizeof v->watched, "%s", v->look.around.path);
+}
+
+/* It is watched from now on. */
+static void keep_lobe(Viewer *v, const char *path) {
+    for (int k = 0; k < v->lobe_count; k++)
+        if (strcmp(v->lobes[k], path) == 0) return;
+    if (v->lobe_count == LOOK_LOBES) return;
+    snprintf(v->lobes[v->lobe_count++], LOOK_PATH, "%s", path);
+    if (v->has_scene) watch_files(v);
+}
+
+/* A scene that nobody waits for; its lobe is taken all the same, or was not. */
+static void leave(Viewer *v) {
+    Loaded loaded;
+    loader_finish(v->leaving, &loaded);
+    v->leaving = NULL;
+    if (loaded.taken)
+        keep_lobe(v, loaded.lobe);
+    else if (loaded.lobe[0])
+        viewer_say(v, true, "%s", loaded.failure);
+    loaded_free(&loaded);
+}
+
 /* Another one takes its place; it may take a while to stop, which is not waited for. */
 static void let_go(Viewer *v) {
-    if (v->leaving) loader_finish(v->leaving, NULL);
+    if (v->leaving) leave(v);
     loader_stop(v->loader);
     v->leaving = v->loader;
     v->loader = NULL;
@@ -35,13 +67,17 @@ static void start_reading(Viewer *v, const char *path, const char *lobe, bool ag
 
 void opening_start(Viewer *v, const char *path, bool again) { start_reading(v, path, NULL, again); }
 
-void opening_lobe(Viewer *v, const char *path) { start_reading(v, v->facts.path, path, true); }
-
-/* It is watched from now on. */
-static void keep_lobe(Viewer *v, const char *path) {
-    for (int k = 0; k < v->lobe_count; k++)
-        if (strcmp(v->lobes[k], path) == 0) return;
-    if (v->lobe_count < LOOK_LOBES) snprintf(v->lobes[v->lobe_count++], LOOK_PATH, "%s", path);
+/* With the scene that is being read, that is with the painter, or that is there. */
+void opening_lobe(Viewer *v, const char *path) {
+    bool again = true;
+    const char *scene = v->facts.path;
+    if (v->loader) {
+        scene = loader_path(v->loader, &again);
+    } else if (v->has_pending) {
+        scene = v->pending.path;
+        again = v->pending.again;
+    }
+    start_reading(v, scene, path, again);
 }
 
 void opening_begin(Viewer *v) {
@@ -173,17 +209,6 @@ void opening_varied(Viewer *v, float **shares) {
     *shares = NULL;
 }
 
-enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
-
-/* The files of scene, light and lobes; those of textures are the painter's to watch. */
-static void watch_files(Viewer *v) {
-    watchman_forget(v->watchman);
-    if (strncmp(v->facts.path, "builtin:", 8) != 0) watchman_watch(v->watchman, v->facts.path, WATCH_SCENE);
-    if (v->look.around.kind == AROUND_FILE) watchman_watch(v->watchman, v->look.around.path, WATCH_LIGHT);
-    for (int k = 0; k < v->lobe_count; k++) watchman_watch(v->watchman, v->lobes[k], WATCH_LOBES + k);
-    snprintf(v->watched, sizeof v->watched, "%s", v->look.around.path);
-}
-
 bool opening_watch(Viewer *v, double seconds) {
     if (v->has_scene && strcmp(v->watched, v->look.around.path) != 0) watch_files(v);
     if (v->loader || v->has_pending) return false;
@@ -258,15 +283,12 @@ void opening_take(Viewer *v, const News *news) {
 
 void opening_poll(Viewer *v) {
     Loaded loaded;
-    if (v->leaving && loader_done(v->leaving)) {
-        loader_finish(v->leaving, NULL);
-        v->leaving = NULL;
-    }
+    if (v->leaving && loader_done(v->leaving)) leave(v);
     if (!v->loader || !loader_done(v->loader)) return;
     loader_finish(v->loader, &loaded);
     v->loader = NULL;
     v->opened = loaded.result;
-    if (loaded.scene && loaded.lobe[0]) keep_lobe(v, loaded.lobe);
+    if (loaded.taken) keep_lobe(v, loaded.lobe);
     if (loaded.scene)
         hand_over(v, &loaded);
     else

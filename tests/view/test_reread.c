@@ -110,6 +110,26 @@ static void a_lobe_is_read_again(void **state) {
     free(line);
 }
 
+/* Neither the scene nor the first of two lobes is lost to what is dropped behind them. */
+static void what_is_dropped_together_is_all_taken(void **state) {
+    (void)state;
+    need_gl();
+    scene_make();
+    write_toy("toy.h", "toy", "0.75f");
+    write_toy("felt.h", "felt", "0.75f");
+    script_begin();
+    say("wait rest\ndrop scene.gltf\ndrop felt.h\ndrop toy.h\nwait message toy.h: read\nwait rest\n");
+    say("command line.txt\nwait rest\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    drive_finish(&drive);
+    size_t size;
+    char *line = file_bytes("line.txt", &size);
+    assert_non_null(line);
+    assert_non_null(strstr(line, "weft render scene.gltf"));
+    if (!strstr(line, " --lobe felt.h") || !strstr(line, " --lobe toy.h")) fail_msg("%s", line);
+    free(line);
+}
+
 static void write_lobe(const char *with) {
     static const char from[] = "1.0f / PI";
     const char *text = weft_catalogue_text("lobes/lambert.h"), *at = text ? strstr(text, from) : NULL;
@@ -165,6 +185,7 @@ static void shader_text_is_compiled_again(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_texture_is_read_again), cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
-        cmocka_unit_test(a_lobe_is_read_again), cmocka_unit_test(shader_text_is_compiled_again)};
+        cmocka_unit_test(a_lobe_is_read_again), cmocka_unit_test(what_is_dropped_together_is_all_taken),
+        cmocka_unit_test(shader_text_is_compiled_again)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }
