@@ -115,15 +115,14 @@ static WeftResult take_text(Draft *draft, Buffer *next, WeftError *error) {
     return WEFT_OK;
 }
 
-/* WGSL has no references, but for pointers to whole variables. */
-static WeftResult check_writes(const Draft *draft, WeftError *error) {
+/* WGSL has not all of the dialect. */
+static WeftResult check_lacks(const Draft *draft, WeftError *error) {
     for (int k = 0; k < draft->items.count && draft->speller.language == SPELL_WGSL; k++) {
         const Item *item = &draft->items.all[k];
         char name[SPELL_NAME];
         snprintf(name, sizeof name, "%.*s", (int)item->name.size, item->name.at);
-        if (item->kept && item->kind == ITEM_FUNCTION && wgsl_writes(item))
-            return fail(error, WEFT_MESSAGE_TEXT_DIALECT, name,
-                        "it returns something and writes to a parameter, or writes to several");
+        const char *lack = item->kept && item->kind == ITEM_FUNCTION ? wgsl_lacks(item) : NULL;
+        if (lack) return fail(error, WEFT_MESSAGE_TEXT_DIALECT, name, lack);
     }
     return WEFT_OK;
 }
@@ -135,7 +134,7 @@ static WeftResult cut(Draft *draft, WeftError *error) {
     if (result == WEFT_OK && draft->speller.language != SPELL_C) { /* which has pointers for it */
         returned_put(&draft->items, draft->folded.bytes, draft->speller.language == SPELL_WGSL, &next);
         result = take_text(draft, &next, error);
-        if (result == WEFT_OK) result = check_writes(draft, error);
+        if (result == WEFT_OK) result = check_lacks(draft, error);
     }
     while (result == WEFT_OK && unused_cut(&draft->items, draft->folded.bytes, draft->whole, &next))
         result = take_text(draft, &next, error);

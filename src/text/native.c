@@ -60,8 +60,8 @@ static void put_form(const Form *form, const List *arguments, Buffer *out) {
             buffer_put(out, token.at, token.size);
         else if (form->bond == BOND_CALL)
             put_operand(arguments->all[place], among ? BOND_CHOICE : BOND_CALL, out);
-        else
-            put_operand(arguments->all[place], form->bond, out);
+        else /* the order of the operations stays */
+            put_operand(arguments->all[place], place ? form->bond + 1 : form->bond, out);
         if (token.kind != TOKEN_BLANK) before = token;
     }
 }
@@ -90,7 +90,7 @@ static Bond put_range(const char *c, const char *end, Buffer *out) {
         const Form *form = is_call(before, token, c, end) ? find_form(token) : NULL;
         if (form) {
             List arguments = list_of(c, end);
-            c = arguments.close + 1;
+            c = list_end(&arguments, end);
             bool apart = form->bond < bond_between(before, token_peek(c, end));
             if (apart) buffer_put_text(out, "(");
             put_form(form, &arguments, out);

@@ -25,8 +25,14 @@ static const char *put_parameter(const Buffer *source, const char *c, const char
 
 /* An operator behind this has one operand. */
 static bool is_open(Token last) {
-    if (last.kind == TOKEN_NAME) return token_is(last, "return");
+    if (last.kind == TOKEN_NAME)
+        return token_is(last, "return") || token_is(last, "else") || token_is(last, "do");
     return last.kind == TOKEN_MARK && !token_is(last, ")") && !token_is(last, "]");
+}
+
+/* What stands in brackets behind this is no operand. */
+static bool has_condition(Token last) {
+    return token_is(last, "if") || token_is(last, "for") || token_is(last, "while");
 }
 
 /* A token of a function's body, without what makes or follows a reference. Returns where to go on. */
@@ -49,7 +55,7 @@ static const char *put_body(const Buffer *source, Token token, Token last, const
 
 void reference_put(const Buffer *source, Buffer *out) {
     const char *c = source->bytes, *end = c + source->size;
-    int depth = 0, list = 0;
+    int depth = 0, list = 0, condition = 0; /* the level of brackets of a condition */
     Token last = {0};
     while (c < end) {
         const char *start = c;
@@ -68,6 +74,11 @@ void reference_put(const Buffer *source, Buffer *out) {
             put(source, token, out);
         depth += token_is(token, "{") - token_is(token, "}");
         list += token_is(token, "(") - token_is(token, ")");
+        if (token_is(token, "(") && has_condition(last)) condition = list;
         if (token.kind != TOKEN_BLANK) last = token;
+        if (token_is(token, ")") && list + 1 == condition) {
+            last = (Token){TOKEN_MARK, ";", 1};
+            condition = 0;
+        }
     }
 }

@@ -85,6 +85,15 @@ static const char *declared_bare(const char *body, const char *call, Piece path)
     return found;
 }
 
+/* Whether a loop begins between, so that what follows may run again. */
+static bool has_loop(const char *c, const char *end) {
+    static const char *const words[] = {"for", "while", "do"};
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
+        for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+            if (token_is(token, words[k])) return true;
+    return false;
+}
+
 /* Whether nothing was written before the call to what it passes. */
 static bool is_fresh(const Returned *self, const Item *caller, const char *body, const char *call,
                      Piece path) {
@@ -96,7 +105,7 @@ static bool is_fresh(const Returned *self, const Item *caller, const char *body,
         from = types_statement_end(declared, call);
     else if (!outer || outer->takes || !token_same(outer->filled.name, base))
         return false;
-    return !is_named(from, call, path);
+    return !is_named(from, call, path) && !has_loop(from, call);
 }
 
 /* A call of a filler. */

@@ -111,29 +111,18 @@ static void put_word(const Speller *speller, const Items *items, Token name, con
 
 /* Returns true if a function's parameter of that place is written. */
 static bool is_written(const Item *function, int place) {
-    const char *c = function->code;
-    while (c < function->end && *c != '(') c++;
-    bool written = false;
-    for (Token token; (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
-        if (token_is(token, ")")) return written && place == 0;
-        if (token_is(token, ",")) {
-            if (place-- == 0) return written;
-            written = false;
-        }
-        written |= token_is(token, "inout");
-    }
-    return false;
+    const char *body;
+    const List list = types_parameters(function, &body);
+    return place < list.count && types_parameter(&list, place).written;
 }
 
 /* Returns true if the function has a written parameter of that name. */
 static bool is_reference(const Item *function, Token name) {
-    const char *c = function ? function->code : NULL;
-    bool written = false;
-    for (Token token; c && (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
-        if (token_is(token, "{")) return false;
-        if (token_is(token, ",")) written = false;
-        if (token_is(token, "inout")) written = true;
-        if (written && token_same(token, name)) return true;
+    const char *body;
+    const List list = types_parameters(function, &body);
+    for (int k = 0; k < list.count; k++) {
+        const Parameter parameter = types_parameter(&list, k);
+        if (parameter.written && token_same(parameter.name, name)) return true;
     }
     return false;
 }
@@ -212,7 +201,7 @@ static void put_c_code(const Speller *speller, const Items *items, const Item *f
             bool written = argument && calls.depth > 0 && calls.depth < 64 &&
                            calls.open[calls.depth].function &&
                            is_written(calls.open[calls.depth].function, calls.open[calls.depth].place);
-            bool declared = token_is(before, "*");
+            bool declared = token_is(before, "inout");
             if (written && (follows || !own)) buffer_put_text(out, "&");
             if (own && !follows && !written && !declared) buffer_put_text(out, "*");
             put_word(speller, items, token, c, end, out);
@@ -227,8 +216,7 @@ static void put_c_code(const Speller *speller, const Items *items, const Item *f
             buffer_put(out, token.at, token.size);
         }
         calls_follow(&calls, items, before, token);
-        if (token.kind != TOKEN_BLANK)
-            before = token_is(token, "inout") ? (Token){TOKEN_MARK, "*", 1} : token;
+        if (token.kind != TOKEN_BLANK) before = token;
     }
 }
 

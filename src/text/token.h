@@ -56,7 +56,7 @@ static inline const char *blank_end(const char *c, const char *end) {
 static inline Token token_next(const char **cursor, const char *end) {
     const char *c = *cursor;
     Token token = {TOKEN_NONE, c, 0};
-    if (c == end) return token;
+    if (c >= end) return token;
     if (is_blank(*c) || is_comment(c, end)) {
         token.kind = TOKEN_BLANK;
         c = blank_end(c, end);

@@ -40,11 +40,13 @@ List list_of(const char *c, const char *end) {
     return list;
 }
 
+const char *list_end(const List *list, const char *end) { return list->close < end ? list->close + 1 : end; }
+
 List types_parameters(const Item *function, const char **body) {
     const char *c = function->code;
     while (c < function->end && *c != '(') c++;
     List list = list_of(c, function->end);
-    *body = token_peek(list.close + 1, function->end).at;
+    *body = token_peek(list_end(&list, function->end), function->end).at;
     return list;
 }
 
@@ -54,6 +56,14 @@ Parameter types_parameter(const List *list, int place) {
     bool written = token_is(first, "inout");
     Token type = written ? token_solid(&c, end) : first;
     return (Parameter){type, token_solid(&c, end), written};
+}
+
+bool types_writes(const Item *function) {
+    const char *body;
+    List list = types_parameters(function, &body);
+    bool written = false;
+    for (int k = 0; k < list.count; k++) written |= types_parameter(&list, k).written;
+    return written;
 }
 
 const char *types_statement_end(const char *c, const char *end) {

@@ -20,6 +20,9 @@ typedef struct List {
 /* c is at the opening bracket. What is more than a list holds is not counted: its length is then 0. */
 List list_of(const char *c, const char *end);
 
+/* Behind the bracket that closes it, or end. */
+const char *list_end(const List *list, const char *end);
+
 /* The parameters of a function, and the brace that its body begins with. */
 List types_parameters(const Item *function, const char **body);
 
@@ -29,6 +32,9 @@ typedef struct Parameter {
     bool written;
 } Parameter;
 Parameter types_parameter(const List *list, int place);
+
+/* Whether the function writes through a parameter. */
+bool types_writes(const Item *function);
 
 /* The type of a member, and of what a function returns: a token of kind TOKEN_NONE where there is none. */
 Token types_member(const Items *items, Token record, Token member);

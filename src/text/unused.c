@@ -25,6 +25,21 @@ static bool is_whole(Token record, const char *const *whole) {
     return false;
 }
 
+/* Whether [c, end) does more than give a value: it calls what writes through a parameter, or counts. */
+static bool has_effect(const Items *items, const char *c, const char *end) {
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        const Item *called =
+            token.kind == TOKEN_NAME && token_is(token_peek(c, end), "(") ? items_find(items, token) : NULL;
+        bool counts = (token_is(token, "+") || token_is(token, "-")) && c < end && *c == *token.at;
+        if (counts || (called && called->kind == ITEM_FUNCTION && types_writes(called))) return true;
+    }
+    return false;
+}
+
+static bool piece_has_effect(const Items *items, Piece piece) {
+    return has_effect(items, piece.at, piece.end);
+}
+
 /* The first piece of a list goes with the comma behind it, another one with that before it. */
 static void drop_piece(Unused *self, List list, int place) {
     const char *from = place ? list.all[place - 1].end : list.all[0].at;
@@ -76,9 +91,12 @@ static void visit_stored(void *user, const Access *access) {
     if (member && !member->read) edit_drop(&self->edits, access->statement, access->statement_end);
 }
 
-/* A write through a path whose record is not known cannot be told from one to a member that goes. */
+/* A write through a path whose record is not known cannot be told from one to a member that goes; and a
+ * statement that does more than write stays, with its member. */
 static void visit_unknown(void *user, const Access *access) {
-    if (access->statement && access->record.kind != TOKEN_NAME)
+    const Unused *self = user;
+    if (access->statement && (access->record.kind != TOKEN_NAME ||
+                              has_effect(self->items, access->statement, access->statement_end)))
         visit_read(user, &(Access){access->record, access->member, NULL, NULL});
 }
 
@@ -140,7 +158,8 @@ static void cut_members(Unused *self, const char *const *whole) {
     }
 }
 
-static void drop_arguments(Unused *self, const Item *function, int place) {
+/* Drops the arguments of a place, or tells whether they all could be. */
+static bool take_arguments(Unused *self, const Item *function, int place, bool drop) {
     for (int k = 0; k < self->items->count; k++) {
         const Item *caller = &self->items->all[k];
         const char *c;
@@ -149,9 +168,14 @@ static void drop_arguments(Unused *self, const Item *function, int place) {
         for (Token token; (token = token_next(&c, caller->end)).kind != TOKEN_NONE;) {
             if (!token_same(token, function->name) || !token_is(token_peek(c, caller->end), "(")) continue;
             List arguments = list_of(c, caller->end);
-            if (place < arguments.count) drop_piece(self, arguments, place);
+            if (place >= arguments.count) continue;
+            if (drop)
+                drop_piece(self, arguments, place);
+            else if (piece_has_effect(self->items, arguments.all[place]))
+                return false;
         }
     }
+    return true;
 }
 
 /* One a function: the places of the others move. */
@@ -163,8 +187,9 @@ static void cut_parameters(Unused *self) {
         List parameters = types_parameters(item, &body);
         for (int n = 0; n < parameters.count; n++) {
             if (token_found(body, item->end, types_parameter(&parameters, n).name)) continue;
+            if (!take_arguments(self, item, n, false)) continue;
             drop_piece(self, parameters, n);
-            drop_arguments(self, item, n);
+            take_arguments(self, item, n, true);
             break;
         }
     }
@@ -173,7 +198,9 @@ static void cut_parameters(Unused *self) {
 /* A variable of a function. */
 typedef struct Use {
     Token name;
-    int named, stored; /* how often it is named behind its declaration, and written to by a statement */
+    /* how often it is named behind its declaration, and written to by a statement that does nothing else; a
+     * declaration that does more names it too */
+    int named, stored;
 } Use;
 
 typedef struct Uses {
@@ -208,19 +235,30 @@ static Token next_token(const char **c, const char *end, Token *before, Statemen
     return token;
 }
 
-static void list_uses(const char *c, const char *end, Uses *out) {
+static void add_uses(const Items *items, const List *names, Uses *out) {
+    for (int k = 0; k < names->count && out->count < USES_MAX; k++) {
+        Token name = token_peek(names->all[k].at, names->all[k].end);
+        Use *use = find_use(out, name);
+        if (!use) {
+            use = &out->all[out->count++];
+            *use = (Use){name, -1, 0};
+        }
+        use->named += piece_has_effect(items, names->all[k]);
+    }
+}
+
+static void list_uses(const Items *items, const char *c, const char *end, Uses *out) {
     Token before = {TOKEN_NONE, "", 0}, token;
     Statement statement;
     out->count = 0;
     for (; (token = next_token(&c, end, &before, &statement)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
-        for (int k = 0; k < statement.names.count && out->count < USES_MAX; k++) {
-            Token name = token_peek(statement.names.all[k].at, statement.names.all[k].end);
-            if (!find_use(out, name)) out->all[out->count++] = (Use){name, -1, 0};
-        }
+        add_uses(items, &statement.names, out);
         Use *use = token.kind == TOKEN_NAME && !token_is(before, ".") ? find_use(out, token) : NULL;
         if (use) use->named++;
-        if (use && statement.stored) use->stored++;
+        if (use && statement.stored &&
+            !has_effect(items, statement.at, types_statement_end(statement.at, end)))
+            use->stored++;
         before = token;
     }
 }
@@ -232,7 +270,7 @@ static void cut_variables(Unused *self, const Item *function) {
     Statement statement;
     Uses uses;
     types_parameters(function, &c);
-    list_uses(c, end, &uses);
+    list_uses(self->items, c, end, &uses);
     for (; (token = next_token(&c, end, &before, &statement)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
         const Use *use = statement.stored ? find_use(&uses, token) : NULL;
@@ -253,7 +291,9 @@ static void cut_value(Unused *self, const Statement *declared, const char *end) 
     const char *c = types_statement_end(declared->at, end), *piece = declared->names.all[0].at;
     Token name = token_solid(&piece, declared->names.all[0].end), before = {TOKEN_MARK, ";", 1}, token;
     Statement statement;
-    if (!token_is(token_peek(piece, declared->names.all[0].end), "=")) return;
+    if (!token_is(token_peek(piece, declared->names.all[0].end), "=") ||
+        piece_has_effect(self->items, declared->names.all[0]))
+        return;
     for (int depth = 0; (token = next_token(&c, end, &before, &statement)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
         depth += token_depth(token);
@@ -296,8 +336,9 @@ static void cut_calls(Unused *self, const Item *function) {
         if (!called || called->kind != ITEM_FUNCTION) continue;
         const char *body;
         types_parameters(called, &body);
-        if (blank_end(body + 1, called->end) == called->end - 1)
-            edit_drop(&self->edits, at, types_statement_end(at, function->end));
+        const char *stop = types_statement_end(at, function->end);
+        if (blank_end(body + 1, called->end) == called->end - 1 && !has_effect(self->items, c, stop))
+            edit_drop(&self->edits, at, stop);
     }
 }
 

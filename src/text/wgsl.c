@@ -7,7 +7,9 @@ typedef struct Body {
     Buffer *out;
 } Body;
 
-static void put(Buffer *out, const char *c, const char *end) { buffer_put(out, c, (size_t)(end - c)); }
+static void put(Buffer *out, const char *c, const char *end) {
+    if (c < end) buffer_put(out, c, (size_t)(end - c));
+}
 
 static void put_token(Buffer *out, Token token) { buffer_put(out, token.at, token.size); }
 
@@ -36,6 +38,20 @@ static const char *find_colon(const char *c, const char *end) {
     return end;
 }
 
+static bool is_label(Token token) { return token_is(token, "case") || token_is(token, "default"); }
+
+/* Behind the colon of the label whose word ends at c. */
+static const char *label_end(const char *c, const char *end) {
+    const char *colon = find_mark(c, end, ":");
+    return colon < end ? colon + 1 : end;
+}
+
+/* The first "||" outside of brackets, or end. */
+static const char *find_or(const char *c, const char *end) {
+    while ((c = find_mark(c, end, "|")) < end && (c + 1 == end || c[1] != '|')) c++;
+    return c;
+}
+
 static void put_expression(const char *c, const char *end, Buffer *out);
 
 /* What stands between brackets, an expression behind each comma. */
@@ -62,7 +78,7 @@ static void put_tokens(const char *c, const char *end, Buffer *out) {
 
 /* WGSL does not say which of && and || binds closer. */
 static void put_alternatives(const char *c, const char *end, Buffer *out) {
-    const char *bar = find_mark(c, end, "|");
+    const char *bar = find_or(c, end);
     bool several = bar < end;
     for (;;) {
         const char *first = blank_end(c, bar), *last = trimmed_end(first, bar);
@@ -75,7 +91,7 @@ static void put_alternatives(const char *c, const char *end, Buffer *out) {
         if (bar == end) return;
         buffer_put_text(out, "||");
         c = bar + 2;
-        bar = find_mark(c, end, "|");
+        bar = find_or(c, end);
     }
 }
 
@@ -185,11 +201,13 @@ static void put_declaration(const Body *body, const char *c, Token type, const L
 
 /* "a = b" and "f(a)", without a semicolon. */
 static void put_action(const Body *body, const char *c, const char *end) {
-    Token type;
+    const char *from = c;
+    Token type, first = token_peek(c, end);
+    if (token_is(first, "const")) c = blank_end(first.at + first.size, end);
     List names = types_declared(c, body->function->end, &type);
     const char *value = find_mark(c, end, "=");
     if (names.count) {
-        put_declaration(body, c, type, &names);
+        put_declaration(body, from, type, &names);
     } else if (value < end) {
         put_tokens(c, value + 1, body->out);
         put_expression(value + 1, end, body->out);
@@ -205,8 +223,7 @@ static const char *put_statements(const Body *body, const char *c, const char *e
     for (;;) {
         const char *first = blank_end(c, end);
         Token token = token_peek(first, end);
-        bool over = token_is(token, "}") || token_is(token, "case") || token_is(token, "default");
-        if (first == end || over) return c;
+        if (first >= end || token_is(token, "}") || is_label(token)) return c;
         put(body->out, c, first);
         c = put_statement(body, first, first);
     }
@@ -257,21 +274,25 @@ static const char *put_for(const Body *body, const char *c, const char *from) {
     return put_branch(body, close, from);
 }
 
-/* "case A: case B:" at c as "case A, B:"; behind it. */
+/* "case A: default:" at c as "case A, default: {"; behind it. */
 static const char *put_labels(const Body *body, const char *c, const char *end) {
     Token label = token_solid(&c, end);
-    put_token(body->out, label);
+    const char *next = label_end(c, end);
+    bool alone = token_is(label, "default") && !is_label(token_peek(next, end));
+    if (!alone) buffer_put_text(body->out, "case");
     for (;;) {
-        const char *colon = find_mark(c, end, ":"), *next = colon + 1;
-        if (token_is(label, "case")) put_expression(c, colon, body->out);
-        label = token_solid(&next, end);
-        if (!token_is(label, "case")) {
-            buffer_put_text(body->out, ": {");
-            return colon + 1;
-        }
+        if (!token_is(label, "default"))
+            put_expression(c, next - 1, body->out);
+        else
+            buffer_put_text(body->out, alone ? "default" : " default");
+        if (!is_label(token_peek(next, end))) break;
         buffer_put_text(body->out, ",");
         c = next;
+        label = token_solid(&c, end);
+        next = label_end(c, end);
     }
+    buffer_put_text(body->out, ": {");
+    return next;
 }
 
 /* A case has braces, and nothing falls out of it. */
@@ -353,7 +374,7 @@ static void put_parameters(const Item *function, const List *list, Buffer *out) 
         put_token(out, parameter.type);
         c = list->all[k].end;
     }
-    put(out, c, list->close + 1);
+    put(out, c, list_end(list, function->end));
 }
 
 /* "var x = x_in;" of what is written to. */
@@ -415,10 +436,41 @@ void wgsl_put_members(const Item *record, Buffer *out) {
     put(out, c, close + 1);
 }
 
-bool wgsl_writes(const Item *function) {
-    const char *body;
-    List list = types_parameters(function, &body);
-    bool written = false;
-    for (int k = 0; k < list.count; k++) written |= types_parameter(&list, k).written;
-    return written;
+/* Whether the labels of the switch whose brace is at open are reached from what stands before them. */
+static bool falls_through(const char *open, const char *end) {
+    const char *close = token_closed(open, end) - 1, *c = open + 1;
+    Token before = {TOKEN_MARK, ";", 1};
+    bool left = true; /* what stands before leaves the switch */
+    for (Token token; (token = token_next(&c, close)).kind != TOKEN_NONE;) {
+        if (token.kind == TOKEN_BLANK) continue;
+        bool begins = types_begins(before) && !token_is(before, ":"), brace = token_is(token, "{");
+        before = token;
+        if (is_label(token)) {
+            if (!left) return true;
+            c = label_end(c, close);
+            before = (Token){TOKEN_MARK, ";", 1};
+        } else if (brace) {
+            if (!begins) c = token_closed(token.at, close);
+            if (!begins) before = (Token){TOKEN_MARK, "}", 1};
+            left = false;
+        } else if (begins && token.kind == TOKEN_NAME) {
+            left = token_is(token, "return") || token_is(token, "break") || token_is(token, "continue");
+        }
+    }
+    return false;
+}
+
+const char *wgsl_lacks(const Item *function) {
+    const char *c, *end = function->end;
+    Token result = token_peek(function->code, end);
+    types_parameters(function, &c);
+    if (types_writes(function))
+        return token_is(result, "void") ? "it writes to several parameters"
+                                        : "it returns something and writes to a parameter";
+    for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
+        if (token_is(token, "do")) return "it has a loop with do";
+        if (token_is(token, "switch") && falls_through(find_mark(c, end, "{"), end))
+            return "it has a case that ends neither in break nor in return";
+    }
+    return NULL;
 }

@@ -19,7 +19,8 @@ void wgsl_put_function(const Item *function, Buffer *out);
 /* Appends the members of a record, in braces. */
 void wgsl_put_members(const Item *record, Buffer *out);
 
-/* Whether the function writes through a parameter, which WGSL has no word for here. */
-bool wgsl_writes(const Item *function);
+/* The part of the function that WGSL has no word for here, as a sentence; NULL: none. It writes through a
+ * parameter, has a loop with do, or a case that goes on into the next. */
+const char *wgsl_lacks(const Item *function);
 
 #endif

@@ -210,6 +210,52 @@ static void the_toy_is_a_lobe(void **state) {
         LIST("check", "toy", "--quick", "--max-albedo", "1.001", "--max-reciprocity", "1e-5", "--lobe", TOY));
 }
 
+/* The writer: what functions write through references is the same in the text of every language. */
+#define WRITER WEFT_SOURCE_DIR "/tests/lobes/writer.h"
+
+static const char writer_main[] =
+    "#include \"writer.c\"\n"
+    "#include <stdio.h>\n"
+    "int main(void) {\n"
+    "    WeftDir o = {0.6f, 0.0f, 0.8f}, i[2] = {{0.0f, 0.6f, 0.8f}, {0.96f, 0.0f, 0.28f}};\n"
+    "    WeftRgb c = {0.5f, 1.0f, 0.25f};\n"
+    "    for (int k = 0; k < 2; k++) {\n"
+    "        WeftRgb f = weft_writer_eval(weft_writer_default(), c, c, o, i[k]);\n"
+    "        printf(\"%.8g %.8g %.8g %.8g\\n\", f.r, f.g, f.b,\n"
+    "               weft_writer_pdf(weft_writer_default(), o, i[k]));\n"
+    "    }\n"
+    "    return 0;\n"
+    "}\n";
+
+static void what_is_written_is_exported(void **state) {
+    (void)state;
+    done(LIST("export", "writer", "--target", "c", "-o", "writer.c", "--lobe", WRITER));
+    file_make("main.c", writer_main, strlen(writer_main));
+    Ran made = run_shell("cc -std=c99 -Wall -Wextra -Wno-unused-variable -Werror -O1 main.c -o writer -lm && "
+                         "./writer");
+    if (made.code) fail_msg("%s", made.err);
+    Ran asked = run_with("36.8698976 0 36.8698976 90\n36.8698976 0 73.7397953 0\n",
+                         LIST("eval", "writer", "-p", "color=.5,1,.25", "--lobe", WRITER));
+    if (asked.code) fail_msg("%s", asked.err);
+    const char *a = made.out, *b = asked.out;
+    for (int k = 0; k < 8; k++) {
+        char *end_a, *end_b;
+        double x = strtod(a, &end_a), y = strtod(b, &end_b);
+        assert_true(end_a > a && end_b > b && y > 0.0);
+        if (!(x > y * 0.9999 && x < y * 1.0001)) fail_msg("%g is not %g", x, y);
+        a = end_a, b = end_b;
+    }
+    ran_free(&made);
+    ran_free(&asked);
+    done(LIST("export", "writer", "--target", "glsl", "-o", "writer.glsl", "--lobe", WRITER));
+    made = run_shell("command -v glslangValidator >/dev/null || exit 0; { echo '#version 330 core'; cat "
+                     "writer.glsl; echo 'out vec4 c; void main() { c = vec4(weft_writer_eval("
+                     "weft_writer_default(), vec3(1), vec3(1), vec3(0, 0, 1), vec3(0, 0, 1)), 1); }'; } "
+                     ">writer.frag && glslangValidator writer.frag && grep -q writer_halve writer.frag");
+    if (made.code) fail_msg("%s%s", made.out, made.err);
+    ran_free(&made);
+}
+
 /* Its loops over arrays are ones of vectors, as those of the catalogue: the test vector. */
 static void the_toy_vectorises(void **state) {
     (void)state;
@@ -299,6 +345,7 @@ int main(void) {
         cmocka_unit_test(a_file_is_plotted_matched_and_fitted),
         cmocka_unit_test(a_passport_is_that_of_a_row),
         cmocka_unit_test(the_toy_is_a_lobe),
+        cmocka_unit_test(what_is_written_is_exported),
         cmocka_unit_test(the_toy_vectorises),
         cmocka_unit_test(bad_files_are_told_in_one_line),
         cmocka_unit_test(without_a_compiler_that_is_said),

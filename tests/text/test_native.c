@@ -11,7 +11,10 @@
 #include <cmocka.h>
 
 #include "text/native.h"
+#include "text/reference.h"
 #include "text/returned.h"
+#include "text/spell.h"
+#include "text/types.h"
 #include "text/unused.h"
 
 /* The text without the blanks that no one asked about. */
@@ -37,6 +40,9 @@ static void calls_become_operators(void **state) {
         {"c = rgb_scale(a, x - y);", "c = a * (x - y);"},
         {"c = rgb_scale(a, p ? x : y);", "c = a * (p ? x : y);"},
         {"c = rgb_scale(a, f(x + y));", "c = a * f(x + y);"},
+        {"c = rgb_scale(a, b * d);", "c = a * (b * d);"},
+        {"c = rgb_add(a, b - d);", "c = a + (b - d);"},
+        {"c = rgb_add(a - b, d);", "c = a - b + d;"},
         {"c = rgb_scale(a, -k);", "c = a * (-k);"},
         {"x = rgb_add(a, b).r;", "x = (a + b).r;"},
         {"x = dir_scale(a, k).x;", "x = (a * k).x;"},
@@ -77,6 +83,13 @@ static void filled_records_are_returned(void **state) {
         /* what was written before may be read */
         {"void grow(inout T p) { p.a = p.a + 1.0; } float shade() { T p; p.a = 1.0; grow(p); return p.a; }",
          "void grow(inout T p) { p.a = p.a + 1.0; } float shade() { T p; p.a = 1.0; grow(p); return p.a; }"},
+        /* another round of a loop may read it */
+        {"void most(float v, inout float m) { m = max(m, v); } float shade() { float m; for (int k = 0; k < "
+         "3; "
+         "k++) { most(v, m); } return m; }",
+         "void most(float v, inout float m) { m = max(m, v); } float shade() { float m; for (int k = 0; k < "
+         "3; "
+         "k++) { most(v, m); } return m; }"},
         /* a part of what a caller fills */
         {"void part(inout U q) { q.b = 1.0; } void fill(inout T p) { p.a = 2.0; part(p.u); } float shade() { "
          "T p; "
@@ -125,6 +138,23 @@ static void idle_parts_go(void **state) {
         /* a write that a condition guards stays: nothing else would be its branch */
         {"struct T { float a, b; }; float shade() { T t; t.a = 1.0; if (t.a > 0.0) t.b = 1.0; return t.a; }",
          NULL},
+        /* what a call writes to may be read, whatever becomes of its value */
+        {"float bump(inout float y) { y = 2.0; return y; } float shade() { float y = 1.0; float idle = "
+         "bump(y); return y; }",
+         NULL},
+        {"float bump(inout float y) { y = 2.0; return y; } float shade() { float y = 1.0; float idle; idle = "
+         "bump(y); return y; }",
+         NULL},
+        {"float bump(inout float y) { y = 2.0; return y; } float shade() { float y = 1.0; float x = bump(y); "
+         "x = 3.0; return x + y; }",
+         NULL},
+        {"struct T { float a, b; }; float bump(inout T t) { t.a = 2.0; return t.a; } float shade() { T t; "
+         "t.b = bump(t); return t.a; }",
+         NULL},
+        {"float bump(inout float y) { y = 2.0; return y; } float f(float x, float z) { return x; } float "
+         "shade() { float y = 1.0; return f(y, bump(y)); }",
+         NULL},
+        {"float shade(float x) { float a = x; float b = a++; return a; }", NULL},
         /* what is copied whole keeps what is read of the copy */
         {"struct T { float a, b; }; float shade(T t) { T u = t; return u.a + u.b; }", NULL},
     };
@@ -147,11 +177,64 @@ static void idle_parts_go(void **state) {
     }
 }
 
+/* A list that nothing closes ends with its function. */
+static void open_lists_end(void **state) {
+    (void)state;
+    static const char text[] = "float shade(float x { return x; } float other() { return 1.0; }";
+    Items items;
+    const char *body;
+    cut(text, &items);
+    types_parameters(&items.all[0], &body);
+    assert_ptr_equal(body, items.all[0].end);
+    items_free(&items);
+    Buffer out = {0};
+    native_put("c = rgb_add(a", &out);
+    assert_false(out.failed);
+    buffer_free(&out);
+}
+
+static void references_lose_their_marks(void **state) {
+    (void)state;
+    static const char *const cases[][2] = {
+        {"void f(float *m, float v) { if (c) *m = v; else *m = v * *m; }",
+         "void f(inout float m, float v) { if (c) m = v; else m = v * m; }"},
+        {"void f(float *m) { for (int k = 0; k < (a + 1) * b; k++) *m = (k) * c; while (g(h)) *m = 1.0; }",
+         "void f(inout float m) { for (int k = 0; k < (a + 1) * b; k++) m = (k) * c; while (g(h)) m = 1.0; "
+         "}"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Buffer source = {0}, out = {0};
+        buffer_put_text(&source, cases[k][0]);
+        reference_put(&source, &out);
+        assert_words(out.bytes, cases[k][1]);
+        buffer_free(&source);
+        buffer_free(&out);
+    }
+}
+
+static void pointers_are_spelt_in_c(void **state) {
+    (void)state;
+    static const char text[] =
+        "void f(inout float m, float v) { m = v * m; } void shade(inout float v, float "
+        "m) { f(v, m); v = float(1); }";
+    Items items;
+    Buffer out = {0};
+    cut(text, &items);
+    spell_items(&(Speller){.language = SPELL_C}, &items, false, &out);
+    assert_words(out.bytes, "static inline void f(float *m, float v) { *m = v * *m; } static inline void "
+                            "shade(float *v, float m) { f(v, m); *v = (float)(1); }");
+    items_free(&items);
+    buffer_free(&out);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(calls_become_operators),
         cmocka_unit_test(filled_records_are_returned),
         cmocka_unit_test(idle_parts_go),
+        cmocka_unit_test(open_lists_end),
+        cmocka_unit_test(references_lose_their_marks),
+        cmocka_unit_test(pointers_are_spelt_in_c),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

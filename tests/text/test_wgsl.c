@@ -74,6 +74,13 @@ static void functions_are_translated(void **state) {
          "return 2.0; }",
          "fn f(k: int) -> float { switch (k) { case A, B: { return 1.0; } case C: { g(); } default: {} } "
          "return 2.0; }"},
+        {"float f(int k) { switch (k) { case A: default: return 1.0; } }",
+         "fn f(k: int) -> float { switch (k) { case A, default: { return 1.0; } } }"},
+        {"float f(int k) { switch (k) { default: case A: return 1.0; } }",
+         "fn f(k: int) -> float { switch (k) { case default, A: { return 1.0; } } }"},
+        {"int f(int a, int b) { return a | b; }", "fn f(a: int, b: int) -> int { return a | b; }"},
+        {"float f(float x) { const float a = x, b = a; return b; }",
+         "fn f(x: float) -> float { let a = x; let b = a; return b; }"},
         /* comments stay */
         {"float f() { /* a ? b */ float a = 1.0; /* c */ return a; }",
          "fn f() -> float { /* a ? b */ let a = 1.0; /* c */ return a; }"},
@@ -136,9 +143,34 @@ static void written_parameters_are_returned(void **state) {
         returned_put(&items, cases[k][0], true, &out);
         assert_false(out.failed);
         assert_string_equal(out.bytes, cases[k][1] ? cases[k][1] : cases[k][0]);
-        assert_int_equal(wgsl_writes(&items.all[0]), true);
+        assert_non_null(wgsl_lacks(&items.all[0]));
         items_free(&items);
         buffer_free(&out);
+    }
+}
+
+static void some_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *part;
+    } cases[] = {
+        {"void f(inout T p, inout T q) { p = q; }", "several"},
+        {"float f(inout float p) { p = 1.0; return p; }", "returns something"},
+        {"void f(int k) { do { g(); } while (k > 0); }", "do"},
+        {"void f(int k) { switch (k) { case 0: g(); case 1: h(); break; } }", "neither"},
+        {"void f(int k) { switch (k) { case 0: if (g()) { break; } case 1: h(); break; } }", "neither"},
+        {"void f(int k) { switch (k) { case 0: { g(); break; } case 1: h(); } }", NULL},
+        {"float f(int k) { switch (k) { case 0: return k > 1 ? a : b; default: break; } return c; }", NULL},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Items items;
+        items_cut(cases[k].text, &items);
+        const char *lack = wgsl_lacks(&items.all[0]);
+        if (!cases[k].part)
+            assert_null(lack);
+        else if (!lack || !strstr(lack, cases[k].part))
+            fail_msg("%s: %s", cases[k].text, lack ? lack : "nothing");
+        items_free(&items);
     }
 }
 
@@ -147,6 +179,7 @@ int main(void) {
         cmocka_unit_test(functions_are_translated),
         cmocka_unit_test(records_are_translated),
         cmocka_unit_test(written_parameters_are_returned),
+        cmocka_unit_test(some_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
