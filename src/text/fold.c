@@ -376,7 +376,7 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
 /* One of "x = ..., y = ..." in a declaration. */
 typedef struct Declared {
     const char *start, *end;
-    bool read;
+    bool read; /* or set to what has brackets: a call may write to something else: see unused.h */
 } Declared;
 
 enum { DECLARED_MAX = 16 };
@@ -395,11 +395,13 @@ static int find_declared(const char *c, const char *end, Declared all[DECLARED_M
     do {
         Token name = token_solid(&c, end);
         if (name.kind != TOKEN_NAME || !take(&c, end, "=") || count == DECLARED_MAX) return 0;
+        bool calls = false;
         do {
             mark = token_next(&c, end);
+            calls |= token_is(mark, "(");
             if (token_is(mark, "(")) c = token_closed(mark.at, end);
         } while (mark.kind != TOKEN_NONE && !token_is(mark, ",") && !token_is(mark, ";"));
-        all[count++] = (Declared){name.at, mark.at, is_read(name, c, end)};
+        all[count++] = (Declared){name.at, mark.at, calls || is_read(name, c, end)};
     } while (token_is(mark, ","));
     *stop = c;
     return count;
