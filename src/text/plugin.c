@@ -1,8 +1,10 @@
+#include <dirent.h>
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "text/plugin.h"
@@ -101,16 +103,20 @@ typedef struct Work {
     char text[PATH_SIZE], loops[PATH_SIZE], library[PATH_SIZE], log[PATH_SIZE];
 } Work;
 
+static void work_name(Work *work) {
+    snprintf(work->text, sizeof work->text, "%s/lobe.c", work->folder);
+    snprintf(work->loops, sizeof work->loops, "%s/loops.o", work->folder);
+    snprintf(work->library, sizeof work->library, "%s/lobe.so", work->folder);
+    snprintf(work->log, sizeof work->log, "%s/log", work->folder);
+}
+
 /* Beside the cache's file, which the library is to become by a change of its name; or in /tmp. */
 static bool work_begin(Work *work, const char *cached) {
     const char *slash = cached ? strrchr(cached, '/') : NULL;
     snprintf(work->folder, sizeof work->folder, "%.*s/lobe-XXXXXX", slash ? (int)(slash - cached) : 4,
              slash ? cached : "/tmp");
     if (!mkdtemp(work->folder)) return false;
-    snprintf(work->text, sizeof work->text, "%s/lobe.c", work->folder);
-    snprintf(work->loops, sizeof work->loops, "%s/loops.o", work->folder);
-    snprintf(work->library, sizeof work->library, "%s/lobe.so", work->folder);
-    snprintf(work->log, sizeof work->log, "%s/log", work->folder);
+    work_name(work);
     return true;
 }
 
@@ -120,6 +126,23 @@ static void work_end(const Work *work) {
     unlink(work->library);
     unlink(work->log);
     rmdir(work->folder);
+}
+
+/* Removes what compilations have left that were interrupted more than an hour ago. */
+static void sweep(const char *folder) {
+    DIR *entries = opendir(folder);
+    Work work;
+    struct stat status;
+    for (struct dirent *entry; entries && (entry = readdir(entries));) {
+        if (strncmp(entry->d_name, "lobe-", 5) != 0) continue;
+        if ((size_t)snprintf(work.folder, sizeof work.folder, "%s/%s", folder, entry->d_name) >=
+                sizeof work.folder ||
+            lstat(work.folder, &status) != 0 || status.st_mtime > time(NULL) - 3600)
+            continue;
+        work_name(&work);
+        work_end(&work);
+    }
+    if (entries) closedir(entries);
 }
 
 typedef struct Compiler {
@@ -241,6 +264,7 @@ static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
     char *slash = strrchr(cached, '/');
     *slash = 0;
     bool is_private = cache_is_private(cached);
+    if (is_private) sweep(cached);
     *slash = '/';
     return is_private;
 }

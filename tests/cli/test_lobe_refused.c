@@ -87,7 +87,7 @@ static void done(const char *line, int code, const char *part) {
 
 static void compilers_that_cannot_be_run(void **state) {
     (void)state;
-    done(CACHE "trap '' CHLD; $0 models toy --lobe " TOY, 0, "toy");
+    done(CACHE "env --ignore-signal=CHLD $0 models toy --lobe " TOY, 0, "toy");
     done(CACHE "CC='cc 1 2 3 4 5 6 7 8' $0 models toy --lobe " TOY, 4, "255 characters or 8 words");
     done(CACHE "CC=$(printf %0300d 1) $0 models toy --lobe " TOY, 4, "255 characters or 8 words");
     done("printf '#!/bin/sh\\necho first; echo no room left; exit 3\\n' >bad; chmod +x bad; " CACHE
@@ -125,10 +125,21 @@ static void a_library_of_somebody_else_is_not_run(void **state) {
          0, "toy"); /* what is made is private */
 }
 
+static void what_was_interrupted_is_removed(void **state) {
+    (void)state;
+    done(CACHE "mkdir -p cache && chmod 700 cache && mkdir -m 700 cache/weft cache/weft/lobe-old "
+               "cache/weft/lobe-new && touch cache/weft/lobe-old/lobe.c && "
+               "touch -d '2 hours ago' cache/weft/lobe-old && $0 models toy --lobe " TOY
+               " && [ ! -e cache/weft/lobe-old ] && [ -e cache/weft/lobe-new ] && rm -r cache",
+         0, "toy");
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_name_that_others_have), cmocka_unit_test(a_parameter_that_is_none),
-        cmocka_unit_test(bytes_that_are_no_text), cmocka_unit_test(compilers_that_cannot_be_run),
-        cmocka_unit_test(a_library_of_somebody_else_is_not_run)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_name_that_others_have),
+                                       cmocka_unit_test(a_parameter_that_is_none),
+                                       cmocka_unit_test(bytes_that_are_no_text),
+                                       cmocka_unit_test(compilers_that_cannot_be_run),
+                                       cmocka_unit_test(a_library_of_somebody_else_is_not_run),
+                                       cmocka_unit_test(what_was_interrupted_is_removed)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }
