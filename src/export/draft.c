@@ -122,7 +122,7 @@ static WeftResult check_lacks(const Draft *draft, WeftError *error) {
         char name[SPELL_NAME];
         snprintf(name, sizeof name, "%.*s", (int)item->name.size, item->name.at);
         const char *lack = item->kept && item->kind == ITEM_FUNCTION ? wgsl_lacks(item) : NULL;
-        if (lack) return fail(error, WEFT_MESSAGE_TEXT_DIALECT, name, lack);
+        if (lack) return fail(error, WEFT_MESSAGE_TEXT_DIALECT, name, "%s", lack);
     }
     return WEFT_OK;
 }
