@@ -85,13 +85,14 @@ static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, doub
     }
     float *share = f[1];
     lobe_eval_n(asked->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
-    for (size_t k = 0; k < n; k++) {
-        double plain = (double)share_plain(share[k]), weight = w[k] * (double)f[0][k];
-        const double parts[2] = {1.0 - plain, plain};
-        for (int p = 0; asked->w && p < 3; p++)
-            sum.part[p] += weight * (double)share_mix(share[k], asked->w[p], 1.0f);
-        for (int p = 0; !asked->w && p < 2; p++) sum.part[p] += weight * parts[p];
+    for (size_t k = 0; k < n && !asked->w; k++) {
+        double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)share_plain(share[k]);
+        sum.part[0] += weight - of_f90;
+        sum.part[1] += of_f90;
     }
+    for (size_t k = 0; k < n && asked->w; k++)
+        for (int p = 0; p < 3; p++)
+            sum.part[p] += w[k] * (double)f[0][k] * (double)share_mix(share[k], asked->w[p], 1.0f);
     return sum;
 }
 
