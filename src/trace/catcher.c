@@ -2,10 +2,10 @@
 
 #include "shading/terms/d_ggx.h"
 
-/* One light sample at a point of a white floor. */
-static void add_light(const PathContext *context, Vec3 point, float share, Point uv, uint32_t key,
-                      Caught *caught, long long *rays) {
-    LightSample light = lights_sample(context->lights, point, uv.u, uv.v);
+/* One light sample of a group at a point of a white floor. */
+static void add_light(const PathContext *context, LightGroup group, Vec3 point, float share, Point uv,
+                      uint32_t key, Caught *caught, long long *rays) {
+    LightSample light = lights_sample(context->lights, group, point, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || !(light.wi.y > 0.0f)) return;
     float whole = rgb_luminance(light.radiance) * light.wi.y / light.pdf;
     if (!(whole > 0.0f && whole < INFINITY)) return;
@@ -36,9 +36,12 @@ void catcher_sample(const PathContext *context, const Floor *floor, const Ray *r
     Vec3 point = vec3_madd(ray->origin, ray->direction, t);
     float share = floor_share(floor, point), r = share * floor->reflection, c = 0.0f;
     Rgb mirror = {0};
-    TwoPoints uv = sampler_next(sampler);
-    add_light(context, point, share, uv.first, hash32(ray->key), caught, rays);
-    if (r > 0.0f && mirrored(context, floor, point, ray, uv.second, sampler, &mirror, rays)) c = r;
+    TwoPoints two = sampler_next(sampler), four = sampler_next(sampler);
+    const Point uv[LIGHT_GROUPS] = {two.first, two.second, four.first};
+    for (int g = 0; g < LIGHT_GROUPS; g++)
+        if (lights_shine(context->lights, (LightGroup)g))
+            add_light(context, (LightGroup)g, point, share, uv[g], hash32(ray->key), caught, rays);
+    if (r > 0.0f && mirrored(context, floor, point, ray, four.second, sampler, &mirror, rays)) c = r;
     const float M[3] = {mirror.r, mirror.g, mirror.b};
     for (int k = 0; k < 3; k++) {
         float seen = behind[k] * (1.0f - c);

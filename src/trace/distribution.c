@@ -1,23 +1,63 @@
 #include "trace/distribution.h"
 
-double distribution_make(Distribution *distribution, int n, Step *steps) {
-    double sum = 0.0, running = 0.0;
-    for (int k = 1; k <= n; k++) sum += (double)steps[k].cdf;
-    steps[0].cdf = 0.0f;
-    for (int k = 1; k <= n; k++) {
-        running += sum > 0.0 ? (double)steps[k].cdf / sum : 1.0 / n;
-        steps[k].cdf = (float)running;
+#include <stdint.h>
+
+enum { LINE = 64 };
+
+static int padded(int n) { return (n + DISTRIBUTION_FAN - 1) / DISTRIBUTION_FAN * DISTRIBUTION_FAN; }
+
+/* The levels above n leaves; returns their floats together. */
+static int lay_out(Distribution *d, int n) {
+    int size = 0;
+    *d = (Distribution){.n = n};
+    do {
+        d->first[d->levels++] = size;
+        size += padded(n);
+        n = padded(n) / DISTRIBUTION_FAN;
+    } while (n > 1);
+    return size;
+}
+
+size_t distribution_size(int n) {
+    Distribution d;
+    return (size_t)lay_out(&d, n) + DISTRIBUTION_FAN;
+}
+
+float *distribution_room(Arena *arena, size_t floats) {
+    char *block = arena_array(arena, floats + LINE / sizeof(float), sizeof(float));
+    return block ? (float *)(void *)(block + (LINE - (uintptr_t)block % LINE) % LINE) : NULL;
+}
+
+/* From the last thing with any weight on, exactly 1, so that no u < 1 finds one without; past the end more
+ * than any u. */
+static void fill_leaves(float *ends, int n, const float *weights, double sum) {
+    double running = 0.0;
+    for (int k = 0; k < n; k++) {
+        running += sum > 0.0 ? (double)weights[k] / sum : 1.0 / n;
+        ends[k] = (float)running;
     }
-    /* from the last thing with any weight on, exactly 1, so that no u < 1 finds one without */
-    float last = steps[n].cdf;
-    for (int k = n; k > 0 && !(steps[k].cdf < last); k--) steps[k].cdf = 1.0f;
-    uint32_t k = 0;
-    for (int part = 0; part < n; part++) {
-        /* u * n may round up across a boundary: one before is safe */
-        float u = (float)part / (float)n * (1.0f - 0x1p-22f);
-        while (steps[k + 1].cdf <= u) k++;
-        steps[part].guide = k;
+    float last = ends[n - 1];
+    for (int k = n - 1; k >= 0 && !(ends[k] < last); k--) ends[k] = 1.0f;
+    for (int k = n; k < padded(n); k++) ends[k] = 2.0f;
+}
+
+static void fill_nodes(float *nodes, int n, const float *children) {
+    for (int k = 0; k < padded(n); k++)
+        nodes[k] = k < n ? children[DISTRIBUTION_FAN * k + DISTRIBUTION_FAN - 1] : 2.0f;
+}
+
+double distribution_make(Distribution *distribution, int n, const float *weights, float *room) {
+    double sum = 0.0;
+    for (int k = 0; k < n; k++) sum += (double)weights[k];
+    lay_out(distribution, n);
+    float *ends =
+        room + DISTRIBUTION_FAN; /* what lies before the first leaf keeps groups on lines of memory */
+    for (int k = 0; k < DISTRIBUTION_FAN; k++) room[k] = 0.0f;
+    fill_leaves(ends, n, weights, sum);
+    for (int level = 1; level < distribution->levels; level++) {
+        n = padded(n) / DISTRIBUTION_FAN;
+        fill_nodes(ends + distribution->first[level], n, ends + distribution->first[level - 1]);
     }
-    *distribution = (Distribution){n, steps};
+    distribution->ends = ends;
     return sum;
 }

@@ -1,23 +1,40 @@
 /* distribution.h - choosing one of n things with given weights, by inversion: well-spread u give well-spread
- * choices */
+ * choices
+ *
+ * The cumulative weights are the leaves of a tree in which every node has sixteen children: a search looks at
+ * sixteen numbers a level and never branches on them. */
 #ifndef WEFT_TRACE_DISTRIBUTION_H
 #define WEFT_TRACE_DISTRIBUTION_H
 
-#include <stdint.h>
+#include <stddef.h>
 
-typedef struct Step {
-    float cdf;      /* cumulative weight of all things before this one: 0 at the first, 1 past the last */
-    uint32_t guide; /* where the search begins for the u of this one of n equal parts; Chen, Asau 1974 */
-} Step;
+#include "base/memory.h"
+
+#define DISTRIBUTION_FAN    16
+#define DISTRIBUTION_LEVELS 8 /* 16^7 < INT_MAX < 16^8 */
 
 typedef struct Distribution {
-    int n;
-    Step *steps; /* n + 1 */
+    int n, levels;
+    int first[DISTRIBUTION_LEVELS]; /* of each level in ends, the leaves' first */
+    const float
+        *ends; /* of a leaf the cumulative weight with it, of a node that of its last child; 0 before them */
 } Distribution;
 
-/* Turns n weights >= 0 in steps[1 .. n].cdf into the distribution and returns their sum. The array (n + 1
- * entries) stays the caller's. A sum of 0 gives equal shares. */
-double distribution_make(Distribution *distribution, int n, Step *steps);
+/* The floats that distribution_make needs for n things, n >= 1. */
+size_t distribution_size(int n);
+
+/* So many floats, so that groups of children lie on lines of memory; NULL when that is short. */
+float *distribution_room(Arena *arena, size_t floats);
+
+/* Makes the distribution of n weights >= 0 and returns their sum. room (distribution_size(n) floats) stays
+ * the caller's. A sum of 0 gives equal shares. */
+double distribution_make(Distribution *distribution, int n, const float *weights, float *room);
+
+/* One of the same size, so many floats further on. */
+static inline Distribution distribution_beside(Distribution distribution, size_t floats) {
+    distribution.ends += floats;
+    return distribution;
+}
 
 typedef struct Choice {
     int index;
@@ -25,16 +42,27 @@ typedef struct Choice {
     float rest; /* what is left of u, uniform in [0, 1) again */
 } Choice;
 
+/* How many of the children begin at or before u. */
+static inline int distribution_count(const float *children, float u) {
+    int count = 0;
+    for (int k = 0; k < DISTRIBUTION_FAN; k++) count += children[k] <= u;
+    return count;
+}
+
 /* u in [0, 1). */
 static inline Choice distribution_choose(const Distribution *distribution, float u) {
-    const Step *step = &distribution->steps[distribution->steps[(int)(u * (float)distribution->n)].guide];
-    while (step[1].cdf <= u) step++;
-    float width = step[1].cdf - step[0].cdf, rest = (u - step[0].cdf) / width;
-    return (Choice){(int)(step - distribution->steps), width, rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f};
+    int k = 0;
+    for (int level = distribution->levels - 1; level >= 0; level--) {
+        const float *children = distribution->ends + distribution->first[level] + DISTRIBUTION_FAN * k;
+        k = DISTRIBUTION_FAN * k + distribution_count(children, u);
+    }
+    float begin = distribution->ends[k - 1], width = distribution->ends[k] - begin,
+          rest = (u - begin) / width;
+    return (Choice){k, width, rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f};
 }
 
 static inline float distribution_probability(const Distribution *distribution, int k) {
-    return distribution->steps[k + 1].cdf - distribution->steps[k].cdf;
+    return distribution->ends[k] - distribution->ends[k - 1];
 }
 
 #endif

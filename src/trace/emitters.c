@@ -64,11 +64,12 @@ bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
         if (emits(&scene->materials[scene->meshes[m].material])) count += scene->meshes[m].triangle_count;
     if (!count) return true;
     if (count > 1 << 30) return false;
-    Step *steps = arena_array(arena, count + 1, sizeof(Step));
+    float *room = distribution_room(arena, distribution_size((int)count));
+    float *power = alloc_array(count, sizeof(float));
     emitters->triangles = arena_array(arena, count, sizeof(Emitter));
     emitters->mesh_first = arena_array(arena, (size_t)scene->mesh_count, sizeof(uint32_t));
-    if (!steps || !emitters->triangles || !emitters->mesh_first) return false;
-    for (int m = 0; m < scene->mesh_count; m++) {
+    bool made = room && power && emitters->triangles && emitters->mesh_first;
+    for (int m = 0; made && m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         if (!emits(&scene->materials[mesh->material])) continue;
         emitters->mesh_first[m] = (uint32_t)emitters->count + 1;
@@ -76,12 +77,13 @@ bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
             float area = 0.5f * vec3_length(normal_area(corners(mesh, t)));
             int k = emitters->count++;
             emitters->triangles[k] = (Emitter){(uint32_t)m, t, area};
-            steps[k + 1].cdf = area > 0.0f ? triangle_power(scene, mesh, t, area) : 0.0f;
+            power[k] = area > 0.0f ? triangle_power(scene, mesh, t, area) : 0.0f;
         }
     }
-    emitters->power = distribution_make(&emitters->choice, emitters->count, steps);
-    if (!(emitters->power > 0.0)) emitters->count = 0;
-    return true;
+    bool shine = made && distribution_make(&emitters->choice, emitters->count, power, room) > 0.0;
+    if (!shine) emitters->count = 0;
+    free(power);
+    return made;
 }
 
 EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float u, float v) {

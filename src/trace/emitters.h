@@ -12,7 +12,6 @@ typedef struct Emitters {
     struct Emitter *triangles;
     Distribution choice;
     uint32_t *mesh_first; /* emitter of a mesh's triangle 0, + 1; 0: emits nothing */
-    double power;         /* luminance, W */
 } Emitters;
 
 /* Fills emitters; its arrays come from arena. false when memory is short. */

@@ -1,6 +1,8 @@
-/* lights.h - everything that shines, as one thing to sample: environment, emissive triangles, punctual lights
+/* lights.h - everything that shines, in groups each of which is sampled by itself: environment, emissive
+ * triangles, punctual lights
  *
- * A group is chosen by its power, an element within it by its own; the pdfs returned contain both choices. */
+ * One sample of each group that shines at a point estimates all light there. Within a group an element is
+ * chosen by its power; the pdfs returned contain that choice. */
 #ifndef WEFT_TRACE_LIGHTS_H
 #define WEFT_TRACE_LIGHTS_H
 
@@ -9,8 +11,13 @@
 
 typedef struct Lights Lights;
 
+typedef enum LightGroup { LIGHTS_SKY, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL, LIGHT_GROUPS } LightGroup;
+
 WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error);
 void lights_free(Lights *lights);
+
+/* Whether there is any light of that group. */
+bool lights_shine(const Lights *lights, LightGroup group);
 
 typedef struct LightSample {
     Vec3 wi;        /* unit, from the point to the light */
@@ -21,7 +28,8 @@ typedef struct LightSample {
     bool sky;       /* from the environment */
 } LightSample;
 
-LightSample lights_sample(const Lights *lights, Vec3 point, float u, float v);
+/* Of a group that shines, for (u, v) in [0, 1)^2. */
+LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v);
 
 /* What comes from where nothing is hit, and the density with which lights_sample finds that direction. */
 LightSample lights_environment(const Lights *lights, Vec3 direction);

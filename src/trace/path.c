@@ -104,10 +104,10 @@ static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir w
 
 static float ratio(float a, float b) { return b > 0.0f ? a / b : 0.0f; }
 
-/* One light sample. */
-static void add_direct(const PathContext *context, const ShadingPoint *p, Rgb throughput, Point uv,
-                       uint32_t key, Rgb *sum, long long *rays) {
-    LightSample light = lights_sample(context->lights, p->origin, uv.u, uv.v);
+/* One light sample of a group. */
+static void add_direct(const PathContext *context, const ShadingPoint *p, LightGroup group, Rgb throughput,
+                       Point uv, uint32_t key, Rgb *sum, long long *rays) {
+    LightSample light = lights_sample(context->lights, group, p->origin, uv.u, uv.v);
     if (!(light.pdf > 0.0f) || vec3_dot(light.wi, p->geometric) <= 0.0f) return;
     if (!light.punctual && context->sampling == WEFT_SAMPLING_LOBE) return;
     Dir wi = to_local(p, light.wi);
@@ -150,11 +150,14 @@ __attribute__((flatten)) Rgb path_radiance(const PathContext *context, Ray ray, 
             add(&sum, throughput, emission, weight);
         }
         if (depth == context->max_depth || !p.stack) return sum;
-        TwoPoints uv = sampler_next(sampler);
-        add_direct(context, &p, throughput, uv.first, hash32(ray.key), &sum, rays);
+        TwoPoints two = sampler_next(sampler), four = sampler_next(sampler);
+        const Point uv[LIGHT_GROUPS] = {two.first, two.second, four.first};
+        for (int g = 0; g < LIGHT_GROUPS; g++)
+            if (lights_shine(context->lights, (LightGroup)g))
+                add_direct(context, &p, (LightGroup)g, throughput, uv[g], hash32(ray.key), &sum, rays);
 
         Dir wi;
-        p.kind->sample(p.stack, &p.view, uv.second.u, uv.second.v, &wi);
+        p.kind->sample(p.stack, &p.view, four.second.u, four.second.v, &wi);
         ray.direction = to_world(&p, wi);
         if (wi.z <= 0.0f || vec3_dot(ray.direction, p.geometric) <= 0.0f) return sum;
         uint32_t seed = hash32(ray.key ^ 0x68e31da4u);

@@ -4,9 +4,8 @@
 
 #define TWO_PI 6.28318530717959f
 
-/* The importance map is never finer than this: two dependent look-ups a light sample should stay in the near
- * caches. */
-enum { MAP_WIDTH_MAX = 256, MAP_HEIGHT_MAX = 128 };
+/* The importance map is never finer than this: beyond, a cell has several texels. */
+enum { MAP_WIDTH_MAX = 4096, MAP_HEIGHT_MAX = 2048 };
 
 /* acos to 1e-6 and atan to 2e-6: Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions",
  * 1964, 4.4.46 and 4.4.49. A texel of a 16k map spans 4e-4 radians; the library's calls cost more than the
@@ -124,10 +123,15 @@ static Rgb constant(const Environment *e) {
     return (Rgb){e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength};
 }
 
+static Distribution columns_of(const Sky *sky, int row) {
+    return distribution_beside(sky->columns, (size_t)row * sky->stride);
+}
+
 /* Density over the sphere at a point of cell (row, column), from that on the unit square. */
 static float map_pdf(const Sky *sky, int row, int column, float sin_theta) {
-    float square = distribution_probability(&sky->rows, row) *
-                   distribution_probability(&sky->columns[row], column) * (float)(sky->height * sky->width);
+    const Distribution columns = columns_of(sky, row);
+    float square = distribution_probability(&sky->rows, row) * distribution_probability(&columns, column) *
+                   (float)(sky->height * sky->width);
     return square / (TWO_PI * PI * max(sin_theta, 1e-7f));
 }
 
@@ -148,8 +152,9 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
         float z = 1.0f - 2.0f * u, r = sqrt(max(1.0f - z * z, 0.0f));
         return sky_at(sky, vec3(r * cos(TWO_PI * v), r * sin(TWO_PI * v), z));
     }
-    Choice row = distribution_choose(&sky->rows, v),
-           column = distribution_choose(&sky->columns[row.index], u);
+    Choice row = distribution_choose(&sky->rows, v);
+    const Distribution columns = columns_of(sky, row.index);
+    Choice column = distribution_choose(&columns, u);
     float mu = ((float)column.index + column.rest) / (float)sky->width;
     float mv = ((float)row.index + row.rest) / (float)sky->height;
     SkyPoint point = {.direction = from_map(sky, mu, mv), .radiance = image_at(sky, mu, mv)};
@@ -159,24 +164,94 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
     return point;
 }
 
-/* Luminance times solid angle summed over the image's texels in each cell of the map. */
-static void sum_cells(Sky *sky, double *cells) {
-    const WeftImage *image = &sky->environment->image;
+static double sin_of_row(int y, int height) { return (sin)(3.14159265358979 * (y + 0.5) / height); }
+
+static float luminance_of(const WeftImage *image, int x, int y) {
     size_t channels = (size_t)image->channels;
-    double total = 0.0;
-    for (int y = 0; y < image->height; y++) {
-        const float *p = (const float *)image->pixels + (size_t)y * (size_t)image->width * channels;
-        double solid = (sin)(3.14159265358979 * (y + 0.5) / image->height);
-        double *row = cells + (size_t)((long long)y * sky->height / image->height) * (size_t)sky->width;
-        for (int x = 0; x < image->width; x++, p += channels) {
-            float luminance = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
-            luminance = max(luminance, 0.0f); /* a file may hold negative colours */
-            row[(long long)x * sky->width / image->width] += (double)luminance * solid;
-            sky->mean += (double)luminance * solid;
-            total += solid;
-        }
+    const float *p = (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * channels;
+    float luminance = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
+    return max(luminance, 0.0f); /* a file may hold negative colours */
+}
+
+/* The luminance of a row of texels, and the same on average over each texel of what is looked up bilinearly
+ * along the row: 3/4 of a texel's own and 1/8 of either neighbour's. */
+static void blur_row(const WeftImage *image, int y, float *row) {
+    int w = image->width;
+    float first = luminance_of(image, 0, y), left = luminance_of(image, w - 1, y), own = first;
+    for (int x = 0; x < w; x++) {
+        float right = x + 1 < w ? luminance_of(image, x + 1, y) : first;
+        row[x] = 0.75f * own + 0.125f * (left + right);
+        left = own;
+        own = right;
     }
-    sky->mean /= total;
+}
+
+/* Adds to the cells of row y's texels their luminance as it is looked up, times their solid angle; rows:
+ * those above, at and below y as blur_row has them. */
+static void add_row(Sky *sky, int y, float *const rows[3], float *cells) {
+    const WeftImage *image = &sky->environment->image;
+    float solid = (float)sin_of_row(y, image->height);
+    float *row = cells + (size_t)((long long)y * sky->height / image->height) * (size_t)sky->width;
+    double sum = 0.0;
+    for (int x = 0; x < image->width; x++) {
+        float light = (0.75f * rows[1][x] + 0.125f * (rows[0][x] + rows[2][x])) * solid;
+        row[(long long)x * sky->width / image->width] += light;
+        sum += (double)light;
+    }
+    sky->mean += sum;
+}
+
+/* Light over solid angle in each cell of the map, and its mean; lines: room for three rows of texels. */
+static void sum_cells(Sky *sky, float *lines, float *cells) {
+    const WeftImage *image = &sky->environment->image;
+    int last = image->height - 1;
+    size_t w = (size_t)image->width;
+    float *rows[3] = {lines, lines + w, lines + 2 * w};
+    double whole = 0.0;
+    blur_row(image, 0, rows[0]);
+    blur_row(image, 0, rows[1]);
+    for (int y = 0; y <= last; y++) {
+        blur_row(image, y < last ? y + 1 : last, rows[2]);
+        add_row(sky, y, rows, cells);
+        whole += sin_of_row(y, image->height) * image->width;
+        float *above = rows[0];
+        rows[0] = rows[1], rows[1] = rows[2], rows[2] = above;
+    }
+    sky->mean /= whole;
+}
+
+/* Every cell gets a little on top of its own, so that none with any light in it is hardly ever chosen. */
+static void distribute(Sky *sky, float *cells, float *weights, float *rows, float *columns) {
+    const WeftImage *image = &sky->environment->image;
+    double texels = (double)image->width * image->height / ((double)sky->width * sky->height);
+    for (int r = 0; r < sky->height; r++) {
+        float *row = cells + (size_t)r * (size_t)sky->width;
+        float least = (float)(0.02 * sky->mean * sin_of_row(r, sky->height) * texels);
+        for (int c = 0; c < sky->width; c++) row[c] += least;
+        Distribution made;
+        weights[r] = (float)distribution_make(&made, sky->width, row, columns + (size_t)r * sky->stride);
+        if (r == 0) sky->columns = made;
+    }
+    distribution_make(&sky->rows, sky->height, weights, rows);
+}
+
+static bool map_make(Sky *sky, Arena *arena) {
+    const WeftImage *image = &sky->environment->image;
+    sky->width = image->width < MAP_WIDTH_MAX ? image->width : MAP_WIDTH_MAX;
+    sky->height = image->height < MAP_HEIGHT_MAX ? image->height : MAP_HEIGHT_MAX;
+    size_t w = (size_t)sky->width, h = (size_t)sky->height;
+    sky->stride = distribution_size(sky->width);
+    float *rows = distribution_room(arena, distribution_size(sky->height));
+    float *columns = distribution_room(arena, h * sky->stride);
+    float *cells = alloc_array(w * h, sizeof(float)), *weights = alloc_array(h, sizeof(float));
+    float *lines = alloc_array((size_t)image->width, 3 * sizeof(float));
+    bool made = rows && columns && cells && weights && lines;
+    if (made) sum_cells(sky, lines, cells);
+    if (made) distribute(sky, cells, weights, rows, columns);
+    free(lines);
+    free(weights);
+    free(cells);
+    return made;
 }
 
 bool sky_make(Sky *sky, const Environment *environment, Arena *arena) {
@@ -188,25 +263,7 @@ bool sky_make(Sky *sky, const Environment *environment, Arena *arena) {
         sky->mean = (double)(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
         return true;
     }
-    const WeftImage *image = &environment->image;
-    int w = sky->width = image->width < MAP_WIDTH_MAX ? image->width : MAP_WIDTH_MAX;
-    int h = sky->height = image->height < MAP_HEIGHT_MAX ? image->height : MAP_HEIGHT_MAX;
-    Step *rows = arena_array(arena, (size_t)h + 1, sizeof(Step));
-    Step *columns = arena_array(arena, (size_t)h * ((size_t)w + 1), sizeof(Step));
-    sky->columns = arena_array(arena, (size_t)h, sizeof(Distribution));
-    double *cells = alloc_array((size_t)w * (size_t)h, sizeof(double));
-    bool made = rows && columns && sky->columns && cells;
-    if (made) sum_cells(sky, cells);
-    for (int r = 0; made && r < h; r++, columns += w + 1) {
-        /* every cell gets a little, so that interpolation between texels never shines where the pdf is 0 */
-        double solid =
-            (sin)(3.14159265358979 * (r + 0.5) / h) * image->width * image->height / ((double)w * h);
-        for (int c = 0; c < w; c++)
-            columns[c + 1].cdf = (float)(cells[(size_t)r * (size_t)w + (size_t)c] + 0.02 * sky->mean * solid);
-        rows[r + 1].cdf = (float)distribution_make(&sky->columns[r], w, columns);
-    }
-    if (made) distribution_make(&sky->rows, h, rows);
-    if (made) pack_image(sky, arena);
-    free(cells);
-    return made;
+    if (!map_make(sky, arena)) return false;
+    pack_image(sky, arena);
+    return true;
 }

@@ -11,9 +11,10 @@ typedef struct Sky {
     const Environment *environment; /* borrowed */
     float cos_turn, sin_turn;       /* of the environment's rotation */
     double mean;                    /* radiance's luminance, over the sphere */
-    int width, height;              /* of the importance map */
-    Distribution rows, *columns;    /* columns: one a row */
-    uint32_t *packed;               /* the image as RGBE, where that loses nothing; else NULL */
+    int width, height;              /* of the importance map: the image's, up to a limit */
+    Distribution rows, columns;     /* columns: of row 0; those of row k are k * stride floats further on */
+    size_t stride;
+    uint32_t *packed; /* the image as RGBE, where that loses nothing; else NULL */
 } Sky;
 
 typedef struct SkyPoint {
