@@ -1,6 +1,6 @@
 /* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
  *
- *   bench_ambient [--lamps N] [--quick] [--only LOBE]... [--tables] [--rows] MAP.hdr ...
+ *   bench_ambient [--lights N] [--quick] [--only LOBE]... [--tables] [--rows] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
  * over roughness 0.1 .. 1 together, and of the default strategy the roughness with the greatest, which for a
@@ -162,9 +162,9 @@ static Rgb look_rest(const void *user, Dir w, float kappa) {
 }
 static AmbientLight look_light(const void *user, int k) {
     const Look *look = user;
-    const AmbientLamp *lamp = &look->map->parts.lamps[k];
-    return (AmbientLight){to_local(look->pixel, lamp->direction),
-                          rgb(lamp->color[0], lamp->color[1], lamp->color[2])};
+    const EnvLight *light = &look->map->parts.env_lights[k];
+    return (AmbientLight){to_local(look->pixel, light->direction),
+                          rgb(light->color[0], light->color[1], light->color[2])};
 }
 
 static const char *const own_names[SUBJECTS - BASE] = {"base", "brushed", "disney", "satin"};
@@ -232,7 +232,7 @@ typedef struct Draw2 {
 } Draw2;
 
 static double (*results)[ROUGHNESSES][AMBIENT_STRATEGIES][16][2]; /* sum of differences, of the reference */
-static int map_count, lamp_count = AMBIENT_LAMPS, step = 1;
+static int map_count, env_light_count = AMBIENT_LIGHTS, step = 1;
 
 static float radical(uint32_t k) {
     float x = 0.0f;
@@ -263,33 +263,33 @@ static Rgb reference(const Map *map, const Pixel *p, const SeenStack *m, const D
 }
 
 static AmbientFit *fits; /* of each lobe */
-static bool tables_only; /* nothing is held */
+static bool tables_only; /* nothing is baked */
 
-/* The tables of one subject, held where a shader would hold them. */
-typedef struct Held {
-    AmbientWeights polynomials[3 * AMBIENT_HELD];
+/* The tables of one subject, baked where a shader would hold them. */
+typedef struct Baked {
+    AmbientWeights polynomials[3 * AMBIENT_BAKED];
     AmbientFit fit;
-} Held;
+} Baked;
 
-static AmbientTable table_of(Held *held, int slot, const Lobe *lobe) {
+static AmbientTable table_of(Baked *baked, int slot, const Lobe *lobe) {
     AmbientTable t = ambient_table(&fits[lobe->id], AMBIENT_FITTED);
     if (tables_only) return t;
-    ambient_fit(&held->fit, lobe, lobe->params[0], lobe->params[0], 1);
-    ambient_hold(&held->fit, held->polynomials + slot * AMBIENT_HELD);
-    t.focus = held->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
-    t.turning = held->fit.turning;
+    ambient_fit(&baked->fit, lobe, lobe->params[0], lobe->params[0], 1);
+    ambient_bake(&baked->fit, baked->polynomials + slot * AMBIENT_BAKED);
+    t.focus = baked->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
+    t.turning = baked->fit.turning;
     t.strips = lobe_names(lobe->id)->strips;
     t.lossless = false;
-    t.held = slot * AMBIENT_HELD;
+    t.baked = slot * AMBIENT_BAKED;
     return t;
 }
 
-static AmbientTables tables_of(Held *held, const Stack *m) {
+static AmbientTables tables_of(Baked *baked, const Stack *m) {
     AmbientTable none = ambient_table(&fits[LOBE_LAMBERT], AMBIENT_FITTED);
     AmbientTables tables = {none, none, none, none, none};
-    if (HAS_DIFFUSE(m)) tables.diffuse = table_of(held, 0, &m->diffuse.lobe);
-    if (HAS_SPECULAR(m)) tables.specular = table_of(held, 1, &m->specular.lobe);
-    if (HAS_SHEEN(m)) tables.sheen = table_of(held, 2, &m->sheen.lobe);
+    if (HAS_DIFFUSE(m)) tables.diffuse = table_of(baked, 0, &m->diffuse.lobe);
+    if (HAS_SPECULAR(m)) tables.specular = table_of(baked, 1, &m->specular.lobe);
+    if (HAS_SHEEN(m)) tables.sheen = table_of(baked, 2, &m->sheen.lobe);
     return tables;
 }
 
@@ -303,7 +303,7 @@ static void measure(void *user, int item, int thread) {
     int subject = item / ROUGHNESSES, r = item % ROUGHNESSES;
     if (!used(subject) || r % step != step - 1) return;
     Draw2 *draws = alloc_array(LOBE_DRAWS, sizeof *draws);
-    Held *held = alloc_array(1, sizeof *held);
+    Baked *baked = alloc_array(1, sizeof *baked);
     AlbedoTable *albedo = is_sheen(subject) ? alloc_array(1, sizeof *albedo) : NULL;
     float roughness = 0.1f * (float)(r + 1);
     if (albedo) {
@@ -311,7 +311,7 @@ static void measure(void *user, int item, int thread) {
         albedo_table_fill(albedo, &lobe, lobe.params[0], lobe.params[0], 1);
     }
     SeenStack some = subject_stack(subject, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
-    AmbientTables tables = tables_of(held, &some.stack);
+    AmbientTables tables = tables_of(baked, &some.stack);
     for (int n = 0; n < PIXELS; n++) {
         const Pixel *p = &pixels[n];
         SeenStack m = subject_stack(subject, roughness, p->o, albedo);
@@ -329,9 +329,9 @@ static void measure(void *user, int item, int thread) {
                                         look_rest,
                                         look_light,
                                         &look,
-                                        maps[k].parts.lamp_count,
-                                        maps[k].parts.lamp_kappa,
-                                        held->polynomials};
+                                        maps[k].parts.env_light_count,
+                                        maps[k].parts.env_light_kappa,
+                                        baked->polynomials};
             Rgb truth = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);
@@ -343,7 +343,7 @@ static void measure(void *user, int item, int thread) {
         }
     }
     free(albedo);
-    free(held);
+    free(baked);
     free(draws);
 }
 
@@ -400,7 +400,7 @@ static void print_subject(int subject, int k) {
 
 static void print_results(void) {
     for (int k = 0; k < map_count; k++) {
-        printf("\n%s, %d lamps\n%-27s", maps[k].name, maps[k].parts.lamp_count, "lobe");
+        printf("\n%s, %d lights\n%-27s", maps[k].name, maps[k].parts.env_light_count, "lobe");
         printf(" irradiance     mirror     fitted    sampled    default  worst\n");
         for (int subject = 0; subject < SUBJECTS; subject++)
             if (used(subject)) print_subject(subject, k);
@@ -426,7 +426,7 @@ static bool load(Map *map, const char *path) {
     if (latlong_resize(&map->environment.image, CELLS_WIDTH, CELLS_HEIGHT, &map->cells, &error) != WEFT_OK ||
         latlong_resize(&map->environment.image, SMALL_WIDTH, SMALL_WIDTH / 2, &map->small, &error) !=
             WEFT_OK ||
-        ambient_split(&map->environment, lamp_count, &map->parts, &error) != WEFT_OK)
+        ambient_split(&map->environment, env_light_count, &map->parts, &error) != WEFT_OK)
         return false;
     prepare_draws(map);
     return true;
@@ -445,8 +445,8 @@ int main(int argc, char **argv) {
             step = 3;
         else if (strcmp(argv[k], "--tables") == 0)
             tables_only = true;
-        else if (strcmp(argv[k], "--lamps") == 0 && k + 1 < argc)
-            lamp_count = atoi(argv[++k]);
+        else if (strcmp(argv[k], "--lights") == 0 && k + 1 < argc)
+            env_light_count = atoi(argv[++k]);
         else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < SUBJECTS)
             only[only_count++] = argv[++k];
         else if (map_count < 16 && !load(&maps[map_count++], argv[k]))

@@ -48,7 +48,7 @@ typedef struct WeftRasterDesc {
     const char *shader_dir;
     int threads;   /* for tables, textures and shaders, up to WEFT_THREADS_MAX; 0: one a processor */
     int occlusion; /* rays a vertex, to find in the background what it sees of the sky and of the
-                      environment's lamps, up to 4096; 0: none */
+                      environment's lights, up to 4096; 0: none */
     int no_cache;  /* not 0: the filtered environment, the tables by which lobes meet it and occlusion are
                       neither read from the user's cache nor written */
     /* May be NULL. Called while the environment is filtered, with the finished share in [0, 1]; a result
@@ -86,7 +86,7 @@ typedef enum WeftAmbient {
     WEFT_AMBIENT_BEST = 0,   /* for each lobe the one that is nearest to the path tracer */
     WEFT_AMBIENT_IRRADIANCE, /* irradiance times albedo, the cheapest */
     WEFT_AMBIENT_MIRROR,     /* one look-up where a mirror would look, as engines do */
-    WEFT_AMBIENT_FITTED,     /* lamps for what is bright, and a few look-ups fitted to the lobe */
+    WEFT_AMBIENT_FITTED,     /* lights for what is bright, and a few look-ups fitted to the lobe */
     WEFT_AMBIENT_NONE        /* no light from the environment */
 } WeftAmbient;
 

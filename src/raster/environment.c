@@ -27,8 +27,8 @@ enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
 
 /* The block Environment, as the shader has it. */
 typedef struct Block {
-    float place[4], parts[4], terms[IRRADIANCE_TERMS][4], rest[AMBIENT_REST_TERMS][4],
-        lamps[2 * AMBIENT_LAMPS_MAX][4];
+    float place[4], parts[4], terms[IRRADIANCE_TERMS][4], residual[AMBIENT_RESIDUAL_TERMS][4],
+        env_lights[2 * AMBIENT_LIGHTS_MAX][4];
 } Block;
 
 /* One level of a cube, and where it comes from. */
@@ -335,15 +335,15 @@ static void make_buffer(GlEnvironment *self) {
     for (int k = 0; k < IRRADIANCE_TERMS; k++)
         memcpy(block.terms[k], self->parts.terms[k < DEGREE_3 ? k : k - DEGREE_3 + DEGREE_4],
                3 * sizeof(float));
-    for (int k = 0; k < AMBIENT_REST_TERMS; k++)
-        memcpy(block.rest[k], self->parts.rest_terms[k], 3 * sizeof(float));
-    for (int k = 0; k < self->parts.lamp_count; k++) {
-        const AmbientLamp *lamp = &self->parts.lamps[k];
-        const float d[3] = {lamp->direction.x, lamp->direction.y, lamp->direction.z};
-        memcpy(block.lamps[2 * k], d, sizeof d);
-        memcpy(block.lamps[2 * k + 1], lamp->color, sizeof lamp->color);
+    for (int k = 0; k < AMBIENT_RESIDUAL_TERMS; k++)
+        memcpy(block.residual[k], self->parts.residual_sh[k], 3 * sizeof(float));
+    for (int k = 0; k < self->parts.env_light_count; k++) {
+        const EnvLight *light = &self->parts.env_lights[k];
+        const float d[3] = {light->direction.x, light->direction.y, light->direction.z};
+        memcpy(block.env_lights[2 * k], d, sizeof d);
+        memcpy(block.env_lights[2 * k + 1], light->color, sizeof light->color);
     }
-    block.terms[0][3] = self->parts.lamp_kappa;
+    block.terms[0][3] = self->parts.env_light_kappa;
     glGenBuffers(1, &self->buffer);
     glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
@@ -351,13 +351,13 @@ static void make_buffer(GlEnvironment *self) {
 
 WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
                               const WeftLog *log, WeftError *error) {
-    int lamps = how->lamps ? how->lamps > 0 ? how->lamps : 0 : AMBIENT_LAMPS;
+    int env_lights = how->env_lights ? how->env_lights > 0 ? how->env_lights : 0 : AMBIENT_LIGHTS;
     WeftError local = {0};
     *out = (GlEnvironment){0};
     glActiveTexture(GL_TEXTURE0);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    WeftResult result = ambient_split(environment, lamps, &out->parts, &local);
+    WeftResult result = ambient_split(environment, env_lights, &out->parts, &local);
     if (result == WEFT_OK && stopped(how, 0.1f)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK) result = find_cube(out, environment, how, log, &local);
     if (result == WEFT_OK && environment->kind != ENVIRONMENT_CONSTANT)
@@ -391,21 +391,21 @@ void environment_destroy(GlEnvironment *self) {
 }
 
 void environment_place(const GlEnvironment *self, const Environment *e) {
-    const float lamps = (float)self->parts.lamp_count;
-    const float place[2][4] = {{cosf(e->rotation), sinf(e->rotation), e->strength, lamps},
+    const float env_lights = (float)self->parts.env_light_count;
+    const float place[2][4] = {{cosf(e->rotation), sinf(e->rotation), e->strength, env_lights},
                                {e->ambient, e->reflection}};
     glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
 }
 
-int environment_lamps(const GlEnvironment *self, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]) {
+int environment_lights(const GlEnvironment *self, float rotation, EnvLight env_lights[AMBIENT_LIGHTS_MAX]) {
     float c = cosf(rotation), s = sinf(rotation);
-    for (int k = 0; k < self->parts.lamp_count; k++) {
-        Vec3 d = self->parts.lamps[k].direction;
-        lamps[k] = self->parts.lamps[k];
-        lamps[k].direction = vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
+    for (int k = 0; k < self->parts.env_light_count; k++) {
+        Vec3 d = self->parts.env_lights[k].direction;
+        env_lights[k] = self->parts.env_lights[k];
+        env_lights[k].direction = vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
     }
-    return self->parts.lamp_count;
+    return self->parts.env_light_count;
 }
 
 void environment_text(Text *text) {

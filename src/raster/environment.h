@@ -30,7 +30,7 @@ typedef struct GlEnvironment {
 typedef struct EnvironmentHow {
     TextLanguage language; /* of the context */
     const char *folder;    /* TextDesc.folder; may be NULL */
-    int lamps;             /* 0: AMBIENT_LAMPS; below 0: none, all light is the rest's */
+    int env_lights;        /* 0: AMBIENT_LIGHTS; below 0: none, all light is the residual's */
     bool no_cache;
     bool (*progress)(void *user, float done); /* between steps, done in [0, 1]; true to stop. May be NULL */
     void *user;
@@ -51,12 +51,13 @@ void environment_destroy(GlEnvironment *environment);
 /* Takes over the rotation and the factors of `environment`. */
 void environment_place(const GlEnvironment *self, const Environment *environment);
 
-/* The lamps in the world, of an environment so rotated; how many there are. */
-int environment_lamps(const GlEnvironment *environment, float rotation, AmbientLamp lamps[AMBIENT_LAMPS_MAX]);
+/* The lights in the world, of an environment so rotated; how many there are. */
+int environment_lights(const GlEnvironment *environment, float rotation,
+                       EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
 /* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes one sampler.
- * AmbientWeights ambient_held(Frame, int), float ambient_seen(Frame, int, float) and float
- * ambient_seen_at(Frame, Dir, float) are left to the caller.
+ * AmbientWeights ambient_baked(Frame, int), float ambient_light_visibility(Frame, int, float) and float
+ * ambient_nearest_visibility(Frame, Dir, float) are left to the caller.
  */
 void environment_text(Text *text);
 

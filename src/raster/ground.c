@@ -12,31 +12,31 @@
 
 enum { SIDE = 96, RAYS = 256 };
 
-/* The sky as so many lamps, by its radiance: w is the light of each on a level plane. */
-typedef struct Lamps {
+/* The sky as so many lights, by its radiance: w is the light of each on a level plane. */
+typedef struct SkyLights {
     Vec3 wi[RAYS];
     float w[RAYS], whole;
-} Lamps;
+} SkyLights;
 
 typedef struct Look {
     const Ground *ground;
-    const Lamps *lamps;
+    const SkyLights *lights;
     float *texels;
 } Look;
 
-static bool find_lamps(Lamps *lamps, const WeftScene *scene) {
+static bool find_sky_lights(SkyLights *lights, const WeftScene *scene) {
     Arena arena = {0};
     Sky sky;
     bool made = sky_make(&sky, &scene->environment, &arena);
-    lamps->whole = 0.0f;
+    lights->whole = 0.0f;
     for (int k = 0; made && k < RAYS; k++) {
         float turn = (float)k * 0.618033989f;
         SkyPoint p = sky_sample(&sky, ((float)k + 0.5f) / RAYS, turn - floorf(turn));
         float light = rgb_luminance(p.radiance);
         bool shines = p.pdf > 0.0f && p.direction.y > 0.0f && light > 0.0f;
-        lamps->wi[k] = p.direction;
-        lamps->w[k] = shines ? light * p.direction.y / (p.pdf * RAYS) : 0.0f;
-        lamps->whole += lamps->w[k];
+        lights->wi[k] = p.direction;
+        lights->w[k] = shines ? light * p.direction.y / (p.pdf * RAYS) : 0.0f;
+        lights->whole += lights->w[k];
     }
     arena_free(&arena);
     return made;
@@ -45,11 +45,11 @@ static bool find_lamps(Lamps *lamps, const WeftScene *scene) {
 static float reached(const Look *look, Vec3 point) {
     float sum = 0.0f;
     for (int k = 0; k < RAYS; k++) {
-        Ray ray = {point, look->lamps->wi[k], 0.0f, INFINITY, (uint32_t)k, false};
-        if (look->lamps->w[k] > 0.0f && !geometry_occluded(look->ground->geometry, ray))
-            sum += look->lamps->w[k];
+        Ray ray = {point, look->lights->wi[k], 0.0f, INFINITY, (uint32_t)k, false};
+        if (look->lights->w[k] > 0.0f && !geometry_occluded(look->ground->geometry, ray))
+            sum += look->lights->w[k];
     }
-    return look->lamps->whole > 0.0f ? sum / look->lamps->whole : 1.0f;
+    return look->lights->whole > 0.0f ? sum / look->lights->whole : 1.0f;
 }
 
 static void look_along_row(void *user, int row, int thread) {
@@ -84,7 +84,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
                        WeftError *error) {
     const Environment *e = &scene->environment;
     WeftResult result = WEFT_OK;
-    Lamps lamps;
+    SkyLights lights;
     if (is_known(self, e, floor)) return WEFT_OK;
     self->known = false;
     if (self->stale) geometry_free(self->geometry), self->geometry = NULL;
@@ -94,7 +94,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
         result = geometry_create(scene, scene_own_meshes(scene), threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     float *texels = alloc_array((size_t)SIDE * SIDE, sizeof(float));
-    if (!texels || !find_lamps(&lamps, scene)) {
+    if (!texels || !find_sky_lights(&lights, scene)) {
         free(texels);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
@@ -102,8 +102,8 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
     self->turn = e->turn;
     self->rotation = e->rotation;
     self->strength = e->strength;
-    self->light = lamps.whole;
-    parallel_for(threads, SIDE, look_along_row, &(Look){self, &lamps, texels});
+    self->light = lights.whole;
+    parallel_for(threads, SIDE, look_along_row, &(Look){self, &lights, texels});
     upload(self, texels);
     free(texels);
     result = gl_check(error, "a floor");

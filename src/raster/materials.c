@@ -17,7 +17,7 @@ typedef struct Uniforms {
     float places[INPUT_COUNT][2][4];
     float e[4];    /* layer, low, high, tilt */
     float more[4]; /* alpha cutoff */
-    AmbientWeights fits[SHADER_SLOTS * AMBIENT_HELD];
+    AmbientWeights fits[SHADER_SLOTS * AMBIENT_BAKED];
 } Uniforms;
 
 static bool is_all(const Input *input, int count, float x) {
@@ -89,15 +89,15 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
     for (int k = 0; k < SHADER_SLOTS; k++) {
         const Lobe *lobe = &slots[k]->lobe;
         if (!(slots[k]->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
-        MaterialFit *held = &self->fits[k];
-        if (!held->made || !ambient_alike(&held->lobe, lobe)) {
+        MaterialFit *baked = &self->fits[k];
+        if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
-            ambient_hold(fit, uniforms->fits + k * AMBIENT_HELD);
-            *held = (MaterialFit){true, fit->turning, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
+            ambient_bake(fit, uniforms->fits + k * AMBIENT_BAKED);
+            *baked = (MaterialFit){true, fit->turning, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
         }
-        self->finest[k] = held->finest;
-        self->key.turning |= held->turning << k;
-        self->key.dense |= held->dense << k;
+        self->finest[k] = baked->finest;
+        self->key.turning |= baked->turning << k;
+        self->key.dense |= baked->dense << k;
     }
     free(fit);
     return true;
@@ -256,11 +256,11 @@ void materials_destroy(GlMaterials *self) {
     *self = (GlMaterials){0};
 }
 
-void material_in_light(const GlMaterial *self, float lamp_kappa, ShaderKey *key) {
+void material_in_light(const GlMaterial *self, float env_light_kappa, ShaderKey *key) {
     key->focus = key->narrow = 0;
     for (int k = 0; k < SHADER_SLOTS; k++) {
         key->focus |= (self->finest[k] > AMBIENT_CLOSE - AMBIENT_BLEND) << k;
-        key->narrow |= (self->finest[k] > lamp_kappa - AMBIENT_FINER - AMBIENT_BLEND) << k;
+        key->narrow |= (self->finest[k] > env_light_kappa - AMBIENT_FINER - AMBIENT_BLEND) << k;
     }
 }
 

@@ -8,7 +8,7 @@
 #include "raster/textures.h"
 #include "scene/sheen_tables.h"
 
-/* The table of a slot that is held in the uniforms, or was when the slot last asked for one. */
+/* The table of a slot that is baked in the uniforms, or was when the slot last asked for one. */
 typedef struct MaterialFit {
     bool made, turning; /* as AmbientFit has it */
     bool dense;         /* its `denser` is above AMBIENT_DENSER */
@@ -22,7 +22,7 @@ typedef struct GlMaterial {
     int group_count;
     bool worn;                  /* by some mesh */
     bool emits;                 /* light */
-    float finest[SHADER_SLOTS]; /* of the tables that are held, or a finer one's; 0 where none is */
+    float finest[SHADER_SLOTS]; /* of the tables that are baked, or a finer one's; 0 where none is */
     MaterialFit fits[SHADER_SLOTS];
 } GlMaterial;
 
@@ -58,8 +58,8 @@ WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, cons
 
 void materials_destroy(GlMaterials *materials);
 
-/* What of a key depends on the environment's lamps: log2 of their kappa. */
-void material_in_light(const GlMaterial *material, float lamp_kappa, ShaderKey *key);
+/* What of a key depends on the environment's lights: log2 of their kappa. */
+void material_in_light(const GlMaterial *material, float env_light_kappa, ShaderKey *key);
 
 /* Binds a material's uniforms to block `block` and its textures to units from 0 on. */
 void materials_bind(const GlMaterials *materials, const GlTextures *textures, int material, int block);

@@ -118,7 +118,7 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
 static const GLsizeiptr seen_size = OCCLUSION_VALUES * sizeof(float);
 
 /* Makes the buffer of what vertices see, all but what those of the own meshes do, and has it looked up. */
-static WeftResult begin_occlusion(GlMeshes *self, bool lamps, WeftError *error) {
+static WeftResult begin_occlusion(GlMeshes *self, bool env_lights, WeftError *error) {
     size_t others = self->vertex_count - self->own_count;
     float *unknown = alloc_array(others, (size_t)seen_size);
     if (!unknown) return fail(error, WEFT_MESSAGE_MEMORY, "occlusion", NULL);
@@ -130,13 +130,13 @@ static WeftResult begin_occlusion(GlMeshes *self, bool lamps, WeftError *error) 
     glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others,
                     unknown);
     free(unknown);
-    for (size_t k = 0, at = 0; k < (lamps ? 5 : 3); at += k++ ? 4 : 2) {
+    for (size_t k = 0, at = 0; k < (env_lights ? 5 : 3); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
         glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)seen_size,
                               (const void *)(at * sizeof(float)));
         glEnableVertexAttribArray(attribute);
     }
-    self->lamps = lamps;
+    self->env_lights = env_lights;
     return WEFT_OK;
 }
 
@@ -147,10 +147,10 @@ WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *erro
     return gl_check(error, "occlusion");
 }
 
-void meshes_forget_lamps(GlMeshes *self) {
+void meshes_forget_lights(GlMeshes *self) {
     glBindVertexArray(self->vertices);
-    for (GLuint k = 0; k < 2; k++) glDisableVertexAttribArray(AT_LAMPS + k);
-    self->lamps = false;
+    for (GLuint k = 0; k < 2; k++) glDisableVertexAttribArray(AT_LIGHTS + k);
+    self->env_lights = false;
 }
 
 static bool same_counts(const GlMeshes *self, const WeftScene *scene) {
@@ -180,7 +180,7 @@ WeftResult meshes_reshape(GlMeshes *self, const WeftScene *scene, WeftError *err
         return gl_check(error, "lights");
     }
     WeftResult result = meshes_create(scene, &fresh, error);
-    if (result == WEFT_OK && self->occlusion) result = begin_occlusion(&fresh, self->lamps, error);
+    if (result == WEFT_OK && self->occlusion) result = begin_occlusion(&fresh, self->env_lights, error);
     if (result == WEFT_OK && self->occlusion) {
         glBindBuffer(GL_COPY_READ_BUFFER, self->occlusion);
         glBindBuffer(GL_COPY_WRITE_BUFFER, fresh.occlusion);
@@ -214,7 +214,7 @@ void meshes_bind(const GlMeshes *self) {
     }
     glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
     for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_OPEN + k, 1.0f, 0.0f, 0.0f, 0.0f);
-    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LAMPS + k, -1.0f, -1.0f, -1.0f, -1.0f);
+    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LIGHTS + k, -1.0f, -1.0f, -1.0f, -1.0f);
 }
 
 void meshes_draw(const GlMeshes *self, int mesh) {

@@ -16,14 +16,14 @@ enum {
     AT_COUNT,
     AT_OCCLUSION = AT_COUNT, /* not of a file: meshes_occlusion */
     AT_OPEN,                 /* two */
-    AT_LAMPS = AT_OPEN + 2   /* two */
+    AT_LIGHTS = AT_OPEN + 2  /* two */
 };
 
 typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
     unsigned occlusion;               /* buffer, 0 until there is one */
-    bool lamps;                       /* it knows of them */
+    bool env_lights;                  /* it knows of them */
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
     int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
     uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */
@@ -34,12 +34,12 @@ typedef struct GlMeshes {
 WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
-/* Gives each vertex of the scene's own meshes what it sees of the sky and of lamps, as occlusion_values has
- * it; others, and all until then, see all of the sky, and of lamps nothing is known. */
+/* Gives each vertex of the scene's own meshes what it sees of the sky and of lights, as occlusion_values has
+ * it; others, and all until then, see all of the sky, and of lights nothing is known. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
 
-/* From now on nothing is known of lamps, which are others. */
-void meshes_forget_lamps(GlMeshes *meshes);
+/* From now on nothing is known of lights, which are others. */
+void meshes_forget_lights(GlMeshes *meshes);
 
 /* Uploads tangents, which setting a material may have given to meshes. Fails as meshes_create does; it is
  * then as it was. */

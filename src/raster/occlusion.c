@@ -26,8 +26,8 @@ struct Occlusion {
     uint32_t *first; /* vertex of a mesh */
     int rays, threads;
     bool no_cache, behind;
-    AmbientLamp lamps[OCCLUSION_LAMPS];
-    int lamp_count;
+    EnvLight env_lights[OCCLUSION_LIGHTS];
+    int env_light_count;
     uint64_t key; /* of the values in the cache */
     atomic_int stop, done;
     bool joined;
@@ -116,16 +116,16 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
     return min(sum, 1.0f);
 }
 
-/* The part of a lamp that a point sees, its light spread about it by exp(kappa (mu - 1)), whose mean squared
+/* The part of a light that a point sees, its light spread about it by exp(kappa (mu - 1)), whose mean squared
  * distance is 2 / kappa. */
-static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, Vec3 n, float reach,
-                       uint32_t turn) {
-    Frame frame = frame_about(dir_of(lamp->direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
-    if (vec3_dot(lamp->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
+static float env_light_visibility(const Occlusion *self, const EnvLight *light, Vec3 p, Vec3 n, float reach,
+                                  uint32_t turn) {
+    Frame frame = frame_about(dir_of(light->direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
+    if (vec3_dot(light->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
     Vec3 from = vec3_madd(p, n, reach);
     int rays = self->rays / 4 > 0 ? self->rays / 4 : 1, seen = 0, above = 0;
     for (int k = 0; k < rays; k++) {
-        float u = ((float)k + 0.5f) / (float)rays, mu = max(1.0f + 0.5f * lamp->spread * logf(u), -1.0f);
+        float u = ((float)k + 0.5f) / (float)rays, mu = max(1.0f + 0.5f * light->spread * logf(u), -1.0f);
         float phi = (float)k * 2.39996323f + 2.0f * PI * turned(turn);
         float s = sqrt(max(1.0f - mu * mu, 0.0f));
         Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
@@ -138,7 +138,7 @@ static float lamp_from(const Occlusion *self, const AmbientLamp *lamp, Vec3 p, V
 }
 
 void occlusion_nothing(float values[OCCLUSION_VALUES]) {
-    for (int k = 0; k < OCCLUSION_VALUES; k++) values[k] = k < OCCLUSION_LAMP ? 0.0f : -1.0f;
+    for (int k = 0; k < OCCLUSION_VALUES; k++) values[k] = k < OCCLUSION_LIGHT ? 0.0f : -1.0f;
     values[0] = values[1] = values[OCCLUSION_OPEN] = values[OCCLUSION_OPEN + 4] = 1.0f;
 }
 
@@ -160,8 +160,8 @@ static void look(void *user, int item, int thread) {
         to[0] = seen_from(self, p, n, reach, k, to + OCCLUSION_OPEN);
         if (scene->materials[mesh->material].double_sided)
             to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k, to + OCCLUSION_OPEN + 4);
-        for (int j = 0; j < self->lamp_count; j++)
-            to[OCCLUSION_LAMP + j] = lamp_from(self, &self->lamps[j], p, n, reach, k);
+        for (int j = 0; j < self->env_light_count; j++)
+            to[OCCLUSION_LIGHT + j] = env_light_visibility(self, &self->env_lights[j], p, n, reach, k);
     }
 }
 
@@ -176,11 +176,11 @@ static bool is_opaque(const WeftScene *scene) {
 /* All that the values of an opaque scene depend on. */
 static uint64_t values_key(const Occlusion *self) {
     const WeftScene *scene = &self->scene;
-    const int how[] = {LOOK, self->rays, scene->mesh_count, self->lamp_count};
+    const int how[] = {LOOK, self->rays, scene->mesh_count, self->env_light_count};
     uint64_t hash = cache_hash(CACHE_HASH, how, sizeof how);
-    for (int k = 0; k < self->lamp_count; k++) {
-        hash = cache_hash(hash, &self->lamps[k].direction, sizeof self->lamps[k].direction);
-        hash = cache_hash(hash, &self->lamps[k].spread, sizeof self->lamps[k].spread);
+    for (int k = 0; k < self->env_light_count; k++) {
+        hash = cache_hash(hash, &self->env_lights[k].direction, sizeof self->env_lights[k].direction);
+        hash = cache_hash(hash, &self->env_lights[k].spread, sizeof self->env_lights[k].spread);
     }
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
@@ -261,8 +261,8 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->no_cache = how->no_cache || !is_opaque(scene);
     self->behind = how->behind;
     self->threads = how->threads ? how->threads : thread_count();
-    self->lamp_count = how->lamp_count < OCCLUSION_LAMPS ? how->lamp_count : OCCLUSION_LAMPS;
-    for (int k = 0; k < self->lamp_count; k++) self->lamps[k] = how->lamps[k];
+    self->env_light_count = how->env_light_count < OCCLUSION_LIGHTS ? how->env_light_count : OCCLUSION_LIGHTS;
+    for (int k = 0; k < self->env_light_count; k++) self->env_lights[k] = how->env_lights[k];
     self->joined = true;
     self->first = alloc_array((size_t)scene_own_meshes(scene) + 1, sizeof(uint32_t));
     bool held = self->first && copy_scene(self, scene);

@@ -1,4 +1,4 @@
-/* occlusion.h - how much of the sky and of each lamp a vertex sees, found by rays in the background */
+/* occlusion.h - how much of the sky and of each light a vertex sees, found by rays in the background */
 #ifndef WEFT_RASTER_OCCLUSION_H
 #define WEFT_RASTER_OCCLUSION_H
 
@@ -8,23 +8,23 @@ typedef struct Occlusion Occlusion;
 
 /* Numbers of a vertex: the part of the cosine-weighted sky that its front sees, and its back; of front and of
  * back four numbers c by which the part of direction w that is seen is near c_0 + c_1 w.x + c_2 w.y +
- * c_3 w.z, w in the world; then of each lamp. */
+ * c_3 w.z, w in the world; then of each light. */
 enum {
     OCCLUSION_OPEN = 2,
-    OCCLUSION_LAMP = OCCLUSION_OPEN + 2 * 4,
-    OCCLUSION_LAMPS = AMBIENT_LAMPS,
-    OCCLUSION_VALUES = OCCLUSION_LAMP + OCCLUSION_LAMPS,
+    OCCLUSION_LIGHT = OCCLUSION_OPEN + 2 * 4,
+    OCCLUSION_LIGHTS = AMBIENT_LIGHTS,
+    OCCLUSION_VALUES = OCCLUSION_LIGHT + OCCLUSION_LIGHTS,
     OCCLUSION_RAYS_MAX = 4096
 };
 
 /* How to look. */
 typedef struct OcclusionHow {
-    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; a quarter of them for each lamp */
+    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; a quarter of them for each light */
     int threads;   /* beside the caller; 0: one a processor */
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
-    const AmbientLamp *lamps; /* in the world; copied */
-    int lamp_count;           /* those beyond OCCLUSION_LAMPS are not looked for */
-    bool behind;              /* other threads come first */
+    const EnvLight *env_lights; /* in the world; copied */
+    int env_light_count;        /* those beyond OCCLUSION_LIGHTS are not looked for */
+    bool behind;                /* other threads come first */
 } OcclusionHow;
 
 /* Starts to look from every vertex of the scene's own meshes; those of its lights, which move, neither hide
@@ -34,10 +34,10 @@ typedef struct OcclusionHow {
 WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
                            const WeftLog *log, WeftError *error);
 
-/* The numbers of a vertex before which there is nothing, and that knows of no lamp. */
+/* The numbers of a vertex before which there is nothing, and that knows of no light. */
 void occlusion_nothing(float values[OCCLUSION_VALUES]);
 
-/* OCCLUSION_VALUES a vertex, its own meshes one after the other: of the sky 1 is all; of a lamp the part that
+/* OCCLUSION_VALUES a vertex, its own meshes one after the other: of the sky 1 is all; of a light the part that
  * is above the horizon of whichever side faces it; below 0 where nothing is known. NULL until it is done,
  * unless it is waited for. Lives until occlusion_free. */
 const float *occlusion_values(Occlusion *occlusion, bool wait);

@@ -36,12 +36,12 @@ struct WeftRaster {
     GlMaterials materials;
     Programs programs;
     GlEnvironment environment;
-    unsigned background;                  /* program, 0 until it is needed */
-    bool shines;                          /* the environment does */
-    unsigned turn, shape_turn;            /* of the environment and of the shapes that were uploaded */
-    Occlusion *occlusion;                 /* NULL where none is wanted, or once it is uploaded */
-    AmbientLamp lamps[AMBIENT_LAMPS_MAX]; /* that it looked for, or looks for */
-    int lamp_count;
+    unsigned background;                     /* program, 0 until it is needed */
+    bool shines;                             /* the environment does */
+    unsigned turn, shape_turn;               /* of the environment and of the shapes that were uploaded */
+    Occlusion *occlusion;                    /* NULL where none is wanted, or once it is uploaded */
+    EnvLight env_lights[AMBIENT_LIGHTS_MAX]; /* that it looked for, or looks for */
+    int env_light_count;
     bool look; /* once more, when what is looked for now is found */
     LightPolygons polygons;
     Shadows shadows;
@@ -102,20 +102,20 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
     return result;
 }
 
-static bool is_same_place(const AmbientLamp *a, const AmbientLamp *b) {
+static bool is_same_place(const EnvLight *a, const EnvLight *b) {
     return memcmp((const char *)&a->direction, (const char *)&b->direction, sizeof a->direction) == 0 &&
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Whether the lamps, as they are now, are elsewhere; while it is dark they are where they were. */
-static bool find_lamps(WeftRaster *self) {
-    AmbientLamp lamps[AMBIENT_LAMPS_MAX];
+/* Whether the lights, as they are now, are elsewhere; while it is dark they are where they were. */
+static bool find_env_lights(WeftRaster *self) {
+    EnvLight env_lights[AMBIENT_LIGHTS_MAX];
     if (!self->shines) return false;
-    int count = environment_lamps(&self->environment, self->scene->environment.rotation, lamps);
-    bool same = count == self->lamp_count;
-    for (int k = 0; same && k < count; k++) same = is_same_place(&lamps[k], &self->lamps[k]);
-    memcpy(self->lamps, lamps, (size_t)count * sizeof *lamps);
-    self->lamp_count = count;
+    int count = environment_lights(&self->environment, self->scene->environment.rotation, env_lights);
+    bool same = count == self->env_light_count;
+    for (int k = 0; same && k < count; k++) same = is_same_place(&env_lights[k], &self->env_lights[k]);
+    memcpy(self->env_lights, env_lights, (size_t)count * sizeof *env_lights);
+    self->env_light_count = count;
     return !same;
 }
 
@@ -123,20 +123,20 @@ static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog
     const OcclusionHow how = {.rays = self->desc.occlusion,
                               .threads = self->desc.threads,
                               .no_cache = no_cache,
-                              .lamps = self->lamps,
-                              .lamp_count = self->lamp_count,
+                              .env_lights = self->env_lights,
+                              .env_light_count = self->env_light_count,
                               .behind = self->desc.adopt != 0}; /* pictures are drawn meanwhile */
     WeftResult result = occlusion_start(self->scene, &how, &self->occlusion, log, error);
     self->look = result != WEFT_OK;
     return result;
 }
 
-/* Until it is known what hides them, other lamps are hidden as the sky is. Whoever is looking may finish: of
+/* Until it is known what hides them, other lights are hidden as the sky is. Whoever is looking may finish: of
  * what is found then, the sky serves. */
 static WeftResult update_occlusion(WeftRaster *self, const WeftLog *log, WeftError *error) {
     if (!self->desc.occlusion) return WEFT_OK;
-    if (find_lamps(self)) {
-        meshes_forget_lamps(&self->meshes);
+    if (find_env_lights(self)) {
+        meshes_forget_lights(&self->meshes);
         self->look = true;
     }
     return self->look && !self->occlusion ? start_occlusion(self, true, log, error) : WEFT_OK;
@@ -222,7 +222,7 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     if (result == WEFT_OK && desc->shader_dir) watch_look(&self->watch, desc->shader_dir);
     if (result == WEFT_OK) result = begin_drawing(self, log, error);
     if (result == WEFT_OK && desc->occlusion) {
-        find_lamps(self);
+        find_env_lights(self);
         result = start_occlusion(self, desc->no_cache != 0, log, error);
     }
     if (result == WEFT_OK)
@@ -429,7 +429,7 @@ static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, con
     key.part = (int)view->part;
     if (part_is_property(key.part)) return key;
     add_lights(self, view, &key);
-    if (key.ambient) material_in_light(material, self->environment.parts.lamp_kappa, &key);
+    if (key.ambient) material_in_light(material, self->environment.parts.env_light_kappa, &key);
     return key;
 }
 
@@ -550,7 +550,7 @@ static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) 
     occlusion_free(self->occlusion);
     self->occlusion = NULL;
     if (!self->look || result != WEFT_OK) return result;
-    meshes_forget_lamps(&self->meshes);
+    meshes_forget_lights(&self->meshes);
     return start_occlusion(self, true, NULL, error);
 }
 

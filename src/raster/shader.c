@@ -69,7 +69,7 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
     text_line(text, "    highp vec4 material_more; /* alpha cutoff */");
     text_line(text, "    highp vec4 material_fits[%d]; /* see shading/ambient.h */\n};",
-              SHADER_SLOTS * AMBIENT_HELD);
+              SHADER_SLOTS * AMBIENT_BAKED);
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
@@ -285,7 +285,7 @@ static void floor_text(const ShaderKey *key, Text *text) {
 
 static const char *boolean(bool x) { return x ? "true" : "false"; }
 
-/* One slot's table, held where `held` is not below 0. */
+/* One slot's table, baked where `baked` is not below 0. */
 static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int layer) {
     text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, layer, slot,
               t.rows, slot, t.columns);
@@ -294,8 +294,8 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
     text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
               boolean(t.focus), slot, boolean(t.narrow), slot, boolean(t.second));
     text_line(text, "    t.%s.strips = %s;", slot, boolean(t.strips));
-    text_line(text, "    t.%s.turning = %s;\n    t.%s.lossless = %s;\n    t.%s.held = %d;", slot,
-              boolean(t.turning), slot, boolean(t.lossless), slot, t.held);
+    text_line(text, "    t.%s.turning = %s;\n    t.%s.lossless = %s;\n    t.%s.baked = %d;", slot,
+              boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
 }
 
 /* Of a slot that holds nothing too: nobody asks. False where memory is short. */
@@ -312,7 +312,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         int sides = t.turning ? AMBIENT_SIDES : 1;
         layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
-        t.held = slot * AMBIENT_HELD;
+        t.baked = slot * AMBIENT_BAKED;
         t.focus = key->focus >> slot & 1;
         t.narrow = key->narrow >> slot & 1;
         t.turning = key->turning >> slot & 1;
@@ -330,10 +330,10 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
 
 static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {
     environment_text(text);
-    text_line(text, "\nAmbientWeights ambient_held(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
+    text_line(text, "\nAmbientWeights ambient_baked(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
                     "    AmbientWeights w;\n    w.a = c.x;\n    w.b = c.y;\n    w.c = c.z;\n    w.d = c.w;\n"
                     "    return w;\n}");
-    text_include(text, "raster/glsl/lamps.glsl");
+    text_include(text, "raster/glsl/light_visibility.glsl");
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k < SHADER_SLOTS; k++) {

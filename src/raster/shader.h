@@ -41,9 +41,9 @@ typedef struct ShaderKey {
     int shadowed; /* by shadow maps */
     int lights;   /* punctual; their kind and shadow map, or -1, where there are few */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
-    int focus, narrow, turning; /* bit k: those of AmbientTable for slot k, whose table is held */
-    int dense;                  /* bit k: so is the lobe of slot k, by AMBIENT_DENSER, whose table is held */
-    int ranged;                 /* no table is held: there are too many materials to fit one for each */
+    int focus, narrow, turning; /* bit k: those of AmbientTable for slot k, whose table is baked */
+    int dense;                  /* bit k: so is the lobe of slot k, by AMBIENT_DENSER, whose table is baked */
+    int ranged;                 /* no table is baked: there are too many materials to fit one for each */
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
     int polygons; /* likewise; corners, sides, shadow map */
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
@@ -65,10 +65,10 @@ bool shader_same_rest(int input, int other);
  * to. */
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text);
 
-/* Whether the table by which a slot's lobe meets the environment is held (shading/ambient.h), its first
- * parameter being a number: then its polynomials are material_fits from slot times AMBIENT_HELD on.
+/* Whether the table by which a slot's lobe meets the environment is baked (shading/ambient.h), its first
+ * parameter being a number: then its polynomials are material_fits from slot times AMBIENT_BAKED on.
  * Departure: what textures make of the other parameters, of nap and anisotropy, is not known to it, which
- * takes half of their number; a table that is not held takes none. `focus` is not read. */
+ * takes half of their number; a table that is not baked takes none. `focus` is not read. */
 bool shader_holds(const ShaderKey *key, int slot);
 
 /* What is behind everything: the environment. */

@@ -142,8 +142,8 @@ void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float co
     ambient_polynomials(w, p);
     for (int c = 0; c < 3; c++) {
         double sum = 0.0;
-        for (int n = 0; n < AMBIENT_REST_TERMS; n++)
-            sum += a[degree(n)] * (double)(parts->rest_terms[n][c] * p[n]);
+        for (int n = 0; n < AMBIENT_RESIDUAL_TERMS; n++)
+            sum += a[degree(n)] * (double)(parts->residual_sh[n][c] * p[n]);
         color[c] = (float)fmax(sum, 0.0);
     }
 }
@@ -164,7 +164,7 @@ typedef struct Sparks {
     double energy;
 } Sparks;
 
-/* Takes from `image` what goes to the lamps. */
+/* Takes from `image` what goes to the lights. */
 static void take_sparks(WeftImage *image, Sparks *sparks) {
     double mean = 0.0, all = 0.0;
     float *p = image->pixels;
@@ -231,12 +231,12 @@ static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres)
 
 /* Stuart Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on Information Theory 28(2), 1982. The
  * sum of energy times squared distance that is left. */
-static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp *lamps) {
+static double settle(const Sparks *sparks, int count, Vec3 *centres, EnvLight *env_lights) {
     double left = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
-        Vec3 sums[AMBIENT_LAMPS_MAX] = {{0.0f, 0.0f, 0.0f}};
-        float energy[AMBIENT_LAMPS_MAX] = {0.0f};
-        memset(lamps, 0, (size_t)count * sizeof *lamps);
+        Vec3 sums[AMBIENT_LIGHTS_MAX] = {{0.0f, 0.0f, 0.0f}};
+        float energy[AMBIENT_LIGHTS_MAX] = {0.0f};
+        memset(env_lights, 0, (size_t)count * sizeof *env_lights);
         left = 0.0;
         for (int n = 0; n < sparks->count; n++) {
             float c;
@@ -245,44 +245,44 @@ static double settle(const Sparks *sparks, int count, Vec3 *centres, AmbientLamp
             sums[k] = vec3_madd(sums[k], spark->direction, spark->energy);
             float apart = spark->energy * (2.0f - 2.0f * c);
             left += (double)apart;
-            lamps[k].spread += apart;
+            env_lights[k].spread += apart;
             energy[k] += spark->energy;
-            for (int j = 0; j < 3; j++) lamps[k].color[j] += spark->color[j];
+            for (int j = 0; j < 3; j++) env_lights[k].color[j] += spark->color[j];
         }
         for (int k = 0; k < count; k++) {
             centres[k] = vec3_normal_or(sums[k], centres[k]);
-            lamps[k].direction = centres[k];
-            lamps[k].spread = fmaxf(lamps[k].spread / fmaxf(energy[k], 1e-30f), 0.0f);
+            env_lights[k].direction = centres[k];
+            env_lights[k].spread = fmaxf(env_lights[k].spread / fmaxf(energy[k], 1e-30f), 0.0f);
         }
     }
     return left;
 }
 
-/* The best of some starts with so many lamps. */
+/* The best of some starts with so many lights. */
 static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
     double best = (double)INFINITY;
     for (int start = 0; start < STARTS; start++) {
-        Vec3 centres[AMBIENT_LAMPS_MAX];
-        AmbientLamp lamps[AMBIENT_LAMPS_MAX];
+        Vec3 centres[AMBIENT_LIGHTS_MAX];
+        EnvLight env_lights[AMBIENT_LIGHTS_MAX];
         seed(sparks, count, (uint64_t)start, centres);
-        double left = settle(sparks, count, centres, lamps);
+        double left = settle(sparks, count, centres, env_lights);
         if (left >= best) continue;
         best = left;
-        parts->lamp_kappa = (float)log2(2.0 * sparks->energy / fmax(left, 1e-6 * sparks->energy));
-        parts->lamp_count = 0;
+        parts->env_light_kappa = (float)log2(2.0 * sparks->energy / fmax(left, 1e-6 * sparks->energy));
+        parts->env_light_count = 0;
         for (int k = 0; k < count; k++) {
-            const float *c = lamps[k].color;
-            if (c[0] + c[1] + c[2] > 0.0f) parts->lamps[parts->lamp_count++] = lamps[k];
+            const float *c = env_lights[k].color;
+            if (c[0] + c[1] + c[2] > 0.0f) parts->env_lights[parts->env_light_count++] = env_lights[k];
         }
     }
 }
 
 /* As few as are enough. */
-static void find_lamps(const Sparks *sparks, int most, AmbientParts *parts) {
+static void find_env_lights(const Sparks *sparks, int most, AmbientParts *parts) {
     if (!sparks->count || !(sparks->energy > 0.0)) return;
     for (int count = 2; count <= most; count++) {
         find_some(sparks, count, parts);
-        if (parts->lamp_kappa >= AMBIENT_LAMP_KAPPA) break;
+        if (parts->env_light_kappa >= AMBIENT_LIGHT_KAPPA) break;
     }
 }
 
@@ -293,9 +293,10 @@ static WeftResult constant_image(const float color[3], WeftImage *out, WeftError
     return result;
 }
 
-WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts *out, WeftError *error) {
+WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out,
+                         WeftError *error) {
     WeftImage image;
-    *out = (AmbientParts){.lamp_kappa = AMBIENT_EVEN_KAPPA};
+    *out = (AmbientParts){.env_light_kappa = AMBIENT_EVEN_KAPPA};
     WeftResult result =
         environment->kind == ENVIRONMENT_CONSTANT
             ? constant_image(environment->color, &image, error)
@@ -306,9 +307,9 @@ WeftResult ambient_split(const Environment *environment, int lamps, AmbientParts
         project(&image, out->terms);
         for (int k = 0; k < AMBIENT_TERMS; k++)
             for (int c = 0; c < 3; c++) out->terms[k][c] *= (float)cosines[degree(k)];
-        if (lamps >= 2) take_sparks(&image, &sparks);
-        project(&image, out->rest_terms);
-        find_lamps(&sparks, lamps < AMBIENT_LAMPS_MAX ? lamps : AMBIENT_LAMPS_MAX, out);
+        if (env_lights >= 2) take_sparks(&image, &sparks);
+        project(&image, out->residual_sh);
+        find_env_lights(&sparks, env_lights < AMBIENT_LIGHTS_MAX ? env_lights : AMBIENT_LIGHTS_MAX, out);
     } else {
         result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
     }

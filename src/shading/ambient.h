@@ -6,18 +6,18 @@
  *   mirror       E(cos_o) ambient_radiance(r, kappa),  r: wo mirrored at the normal, kappa: of the lobe as
  *                wide as it is at normal incidence. The way of Brian Karis, "Real Shading in Unreal Engine
  *                4", SIGGRAPH 2013 course; engines filter sheens so too
- *   fitted       sum over lamps of f cos_i + sum_k w_k ambient_rest(axis_k) for a broad lobe; for one that is
- *                less so, with one look-up of the rest, E(cos_o) ambient_rest(axis, kappa); and for one too
- *                narrow for the lamps E(cos_o) (mean of ambient_radiance(axis, kappa) with a wider one for
+ *   fitted       sum over lights of f cos_i + sum_k w_k ambient_residual(axis_k) for a broad lobe; for one that is
+ *                less so, with one look-up of the residual, E(cos_o) ambient_residual(axis, kappa); and for one too
+ *                narrow for the lights E(cos_o) (mean of ambient_radiance(axis, kappa) with a wider one for
  *                the tail of the lobe). The axis is the lobe's mean direction
  *   sampled      the mean over samples of the lobe of f cos_i / pdf L(i, kappa), kappa by their density:
  *                Jaroslav Krivanek, Mark Colbert, "Real-time Shading with Filtered Importance Sampling",
- *                Computer Graphics Forum 27(4), 2008; joined with the lamps where they are the denser. For a
+ *                Computer Graphics Forum 27(4), 2008; joined with the lights where they are the denser. For a
  *                highlight that is drawn out, whose normals come in strips (terms/d_ggx.h), and for
  *                a lobe that is a ring, which one axis and one width say little of
  *
- * Why lamps: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
- * lamps for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
+ * Why lights: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
+ * lights for what is bright, as in Paul Debevec, "A Median Cut Algorithm for Light Probe Sampling", SIGGRAPH
  * 2005 posters, meet the material as any light does, with all that depends on wi; and what they leave is so
  * even that six wide look-ups of it are enough:
  *
@@ -29,7 +29,7 @@
  *
  *   w_k(cos_o, parameter) >= 0 and sum w_k = E(cos_o), from a table that ambient_table.h makes of any lobe.
  *
- * Where no texture changes the parameter the table is held: one row of it, and that as polynomials, since a
+ * Where no texture changes the parameter the table is baked: one row of it, and that as polynomials, since a
  * texel costs as much as a dozen of these:
  *
  *   entry(y) = sum_k c_k (2 y - 1)^k,  k = 0 .. AMBIENT_DEGREE,  cos_o = (1 - (1 - y)^2)^2
@@ -38,11 +38,11 @@
  *
  * Occlusion is the part of the cosine-weighted sky that is seen. A lobe that is not spread as the cosine sees
  * more of the sky or less: each look-up is dimmed by what the source knows to be open about its direction,
- * and a lamp by what is seen of it. Of a source that knows the number alone it is a cone about the normal
- * (occlusion_cone.h), and the number itself for a lamp, of which a cone would hide all or nothing.
+ * and a light by what is seen of it. Of a source that knows the number alone it is a cone about the normal
+ * (occlusion_cone.h), and the number itself for a light, of which a cone would hide all or nothing.
  *
  * Departures: of lobes that are brushed or lean, tables know wo along, across and against that, and take what
- * comes back to lie evenly about the plane of wo; lamps have them as they are. What the lamps leave meets a
+ * comes back to lie evenly about the plane of wo; lights have them as they are. What the lights leave meets a
  * layer rule that depends on wi with E on cosine average. */
 #ifndef WEFT_SHADING_AMBIENT_H
 #define WEFT_SHADING_AMBIENT_H
@@ -79,10 +79,10 @@
 
 #define AMBIENT_DEGREE 9
 #define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of a table, each of a group */
-#define AMBIENT_HELD   (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
+#define AMBIENT_BAKED  (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
 
-/* log2 kappa from which on one look-up of the rest is better than those of a broad lobe. From a quarter of
- * the lamps' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
+/* log2 kappa from which on one look-up of the residual is better than those of a broad lobe. From a quarter of
+ * the lights' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
  * stand for. Each is the middle of a range in which one goes over into the other, AMBIENT_BLEND to both
  * sides. */
 #define AMBIENT_CLOSE 4.0f
@@ -93,29 +93,29 @@
  * (1 - (1 - y)^2)^2. */
 STRUCT(AmbientTable) {
     Table texels;
-    int rows, columns; /* of a plane; rows: 1 where the parameter is held */
+    int rows, columns; /* of a plane; rows: 1 where the parameter is baked */
     float low, high;   /* roots of the parameter in the first and the last row */
     bool focus;        /* somewhere it is not broad */
-    bool narrow;       /* and somewhere too narrow for the lamps */
+    bool narrow;       /* and somewhere too narrow for the lights */
     bool second;       /* it has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has its normals in strips */
     bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
     int strategy;
-    int held; /* its first polynomial; below 0: it is a table */
+    int baked; /* its first polynomial; below 0: it is a table */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
 
 /* Where a cosine and a parameter fall, and of a lobe that turns the heading (nap.h): between across, and
  * along or against, by its square. */
-STRUCT(AmbientSpot) {
+STRUCT(AmbientCoord) {
     int row, column, side; /* side: the first plane of along or of against */
     float x, y, z, t;      /* t: of polynomials */
 };
 
-FN AmbientSpot ambient_spot(AmbientTable t, float cos_o, float heading, float p) {
-    AmbientSpot s;
+FN AmbientCoord ambient_coord(AmbientTable t, float cos_o, float heading, float p) {
+    AmbientCoord s;
     float y_o = 1.0f - sqrt(max(1.0f - sqrt(clamp(cos_o, 0.0f, 1.0f)), 0.0f)),
           x = y_o * to_float(t.columns - 1);
     float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
@@ -135,7 +135,7 @@ FN AmbientSpot ambient_spot(AmbientTable t, float cos_o, float heading, float p)
     return s;
 }
 
-FN float ambient_plane(AmbientTable t, AmbientSpot s, int plane) {
+FN float ambient_plane(AmbientTable t, AmbientCoord s, int plane) {
     int row = plane * t.rows + s.row;
     float a = mix(table_texel(t.texels, t.columns, row, s.column),
                   table_texel(t.texels, t.columns, row, s.column + 1), s.x);
@@ -145,12 +145,12 @@ FN float ambient_plane(AmbientTable t, AmbientSpot s, int plane) {
     return mix(a, b, s.y);
 }
 
-FN float ambient_entry(AmbientTable t, AmbientSpot s, int plane) {
+FN float ambient_entry(AmbientTable t, AmbientCoord s, int plane) {
     if (!t.turning) return ambient_plane(t, s, plane);
     return mix(ambient_plane(t, s, AMBIENT_PLANES + plane), ambient_plane(t, s, s.side + plane), s.z);
 }
 
-FN AmbientWeights ambient_nothing(void) {
+FN AmbientWeights ambient_weights_zero(void) {
     AmbientWeights w;
     w.a = 0.0f;
     w.b = 0.0f;
@@ -160,9 +160,9 @@ FN AmbientWeights ambient_nothing(void) {
 }
 
 FN AmbientWeights ambient_polynomial(AmbientSource s, int first, float t) {
-    AmbientWeights w = ambient_held(s, first + AMBIENT_DEGREE);
+    AmbientWeights w = ambient_baked(s, first + AMBIENT_DEGREE);
     for (int k = AMBIENT_DEGREE - 1; k >= 0; k--) {
-        AmbientWeights c = ambient_held(s, first + k);
+        AmbientWeights c = ambient_baked(s, first + k);
         w.a = w.a * t + c.a;
         w.b = w.b * t + c.b;
         w.c = w.c * t + c.c;
@@ -171,7 +171,7 @@ FN AmbientWeights ambient_polynomial(AmbientSource s, int first, float t) {
     return w;
 }
 
-FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWeights y) {
+FN AmbientWeights ambient_weights_select(bool first, AmbientWeights x, AmbientWeights y) {
     AmbientWeights w;
     w.a = first ? x.a : y.a;
     w.b = first ? x.b : y.b;
@@ -182,7 +182,7 @@ FN AmbientWeights ambient_weights_choose(bool first, AmbientWeights x, AmbientWe
 
 /* Polynomials that go to zero swing about it; what is a sum or a part of one is not below. Where a lobe
  * reflects next to nothing they do not keep to its shape: log2 of kappa stays where those of tables are. */
-FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
+FN AmbientWeights ambient_clamp_weights(AmbientWeights a, int group) {
     AmbientWeights w = a;
     if (group == AMBIENT_GROUP_SHAPE) {
         w.b = clamp(a.b, -2.0f, 22.0f);
@@ -195,24 +195,24 @@ FN AmbientWeights ambient_sound(AmbientWeights a, int group) {
     return w;
 }
 
-/* A group of a table that is held. */
-FN AmbientWeights ambient_sides(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
-    int first = t.held + (AMBIENT_DEGREE + 1) * group;
+/* A group of a table that is baked. */
+FN AmbientWeights ambient_baked_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
+    int first = t.baked + (AMBIENT_DEGREE + 1) * group;
     AmbientWeights w = ambient_polynomial(s, first, at.t);
-    if (!t.turning) return ambient_sound(w, group);
+    if (!t.turning) return ambient_clamp_weights(w, group);
     AmbientWeights across = ambient_polynomial(s, first + AMBIENT_SIDE, at.t),
                    against = ambient_polynomial(s, first + 2 * AMBIENT_SIDE, at.t);
-    w = ambient_weights_choose(at.side > 0, against, w);
+    w = ambient_weights_select(at.side > 0, against, w);
     w.a = mix(across.a, w.a, at.z);
     w.b = mix(across.b, w.b, at.z);
     w.c = mix(across.c, w.c, at.z);
     w.d = mix(across.d, w.d, at.z);
-    return ambient_sound(w, group);
+    return ambient_clamp_weights(w, group);
 }
 
 /* All of a group. */
-FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientSpot at, int group) {
-    if (t.held >= 0) return ambient_sides(t, s, at, group);
+FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
+    if (t.baked >= 0) return ambient_baked_group(t, s, at, group);
     AmbientWeights w;
     w.a = ambient_entry(t, at, 4 * group);
     w.b = ambient_entry(t, at, 4 * group + 1);
@@ -225,25 +225,25 @@ FN float ambient_sum(AmbientWeights w) { return w.a + w.b + w.c + w.d; }
 /* E of a lobe's two colours, and how each is spread over the four look-ups. */
 STRUCT(AmbientLobe) {
     float first, second;
-    AmbientWeights of_first, of_second; /* sums are of no meaning */
+    AmbientWeights first_weights, second_weights; /* sums are of no meaning */
 };
 
-/* `known` is E of both colours together where the caller has it, else below 0. */
-FN AmbientLobe ambient_lobe(AmbientTable t, AmbientSource s, AmbientSpot at, float known) {
+/* `albedo` is E of both colours together where the caller has it, else below 0. */
+FN AmbientLobe ambient_lobe(AmbientTable t, AmbientSource s, AmbientCoord at, float albedo) {
     AmbientLobe l;
     AmbientWeights w = ambient_group(t, s, at, AMBIENT_GROUP_FIRST);
-    l.of_second = ambient_nothing();
-    if (t.second) l.of_second = ambient_group(t, s, at, AMBIENT_GROUP_SECOND);
+    l.second_weights = ambient_weights_zero();
+    if (t.second) l.second_weights = ambient_group(t, s, at, AMBIENT_GROUP_SECOND);
     l.first = t.lossless ? 1.0f : w.d;
-    l.second = ambient_sum(l.of_second);
-    l.of_first.a = max(1.0f - w.a - w.b - w.c, 0.0f);
-    l.of_first.b = w.a;
-    l.of_first.c = w.b;
-    l.of_first.d = w.c;
-    if (known >= 0.0f) {
+    l.second = ambient_sum(l.second_weights);
+    l.first_weights.a = max(1.0f - w.a - w.b - w.c, 0.0f);
+    l.first_weights.b = w.a;
+    l.first_weights.c = w.b;
+    l.first_weights.d = w.c;
+    if (albedo >= 0.0f) {
         float part = l.second / max(l.first + l.second, 1e-20f);
-        l.first = known * (1.0f - part);
-        l.second = known * part;
+        l.first = albedo * (1.0f - part);
+        l.second = albedo * part;
     }
     return l;
 }
@@ -272,68 +272,69 @@ FN AmbientView ambient_view(Dir o, Dir x, Dir y, Dir z, float occlusion) {
 }
 
 /* A direction of the lobe's frame. */
-FN Dir ambient_out(AmbientView v, Dir w) {
+FN Dir ambient_to_source(AmbientView v, Dir w) {
     return dir(w.x * v.x.x + w.y * v.y.x + w.z * v.z.x, w.x * v.x.y + w.y * v.y.y + w.z * v.z.y,
                w.x * v.x.z + w.y * v.y.z + w.z * v.z.z);
 }
 /* One with x towards wo. */
-FN Dir ambient_turn(AmbientView v, Dir w) {
+FN Dir ambient_to_lobe(AmbientView v, Dir w) {
     return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z);
 }
 
-/* A look-up about w of the rest, as much of it as is seen towards m, the mean of its weight above the
+/* A look-up about w of the residual, as much of it as is seen towards m, the mean of its weight above the
  * horizon, and bent to where that is seen. */
-FN Rgb ambient_rest_at(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
-    float open = ambient_open(s, ambient_out(v, ambient_turn(v, m)), w.z, v.occlusion);
-    Dir bent = ambient_bent(s, ambient_out(v, ambient_turn(v, w)), kappa, open);
-    return rgb_scale(ambient_rest(s, bent, kappa), open);
+FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
+    float open = ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), w.z, v.occlusion);
+    Dir bent = ambient_bent_direction(s, ambient_to_source(v, ambient_to_lobe(v, w)), kappa, open);
+    return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
 
 /* What the two colours of a lobe are multiplied by. */
-STRUCT(AmbientPair) { Rgb first, second; };
+STRUCT(LobeLight) { Rgb first, second; };
 
-/* What the lamps leave, as the four weights look it up: the same for all lobes of a frame. */
-STRUCT(AmbientFour) { Rgb a, b, c, d; };
+/* What the lights leave, as the four weights look it up: the same for all lobes of a frame. */
+STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 
-FN AmbientFour ambient_four(AmbientSource s, AmbientView v) {
-    AmbientFour l;
-    l.a = rgb_scale(ambient_rest(s, ambient_bent(s, v.z, 4.0f, v.occlusion), 0.0f), v.occlusion);
-    l.b = rgb_add(
-        ambient_rest_at(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f, dir(0.3984f, 0.3984f, 0.5224f)),
-        ambient_rest_at(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f,
-                        dir(0.3984f, -0.3984f, 0.5224f)));
-    l.c = ambient_rest_at(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f, dir(-0.791f, 0.0f, 0.483f));
-    l.d = rgb_add(ambient_rest_at(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f,
-                                  dir(-0.6334f, 0.6334f, 0.2856f)),
-                  ambient_rest_at(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f,
-                                  dir(-0.6334f, -0.6334f, 0.2856f)));
+FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
+    AmbientLookups l;
+    l.a =
+        rgb_scale(ambient_residual(s, ambient_bent_direction(s, v.z, 4.0f, v.occlusion), 0.0f), v.occlusion);
+    l.b = rgb_add(ambient_visible_residual(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f,
+                                           dir(0.3984f, 0.3984f, 0.5224f)),
+                  ambient_visible_residual(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f,
+                                           dir(0.3984f, -0.3984f, 0.5224f)));
+    l.c = ambient_visible_residual(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f, dir(-0.791f, 0.0f, 0.483f));
+    l.d = rgb_add(ambient_visible_residual(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f,
+                                           dir(-0.6334f, 0.6334f, 0.2856f)),
+                  ambient_visible_residual(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f,
+                                           dir(-0.6334f, -0.6334f, 0.2856f)));
     l.b = rgb_scale(l.b, 0.5f);
     l.d = rgb_scale(l.d, 0.5f);
     return l;
 }
 
 /* Their mean by weights, of which some are above 0 wherever the lobe reflects anything. */
-FN Rgb ambient_mean(AmbientFour l, AmbientWeights w) {
+FN Rgb ambient_mean(AmbientLookups l, AmbientWeights w) {
     Rgb sum = rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)),
                       rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
     return rgb_scale(sum, 1.0f / max(ambient_sum(w), 1e-20f));
 }
-FN AmbientPair ambient_mixed(AmbientFour l, AmbientLobe of) {
-    AmbientPair p;
-    p.first = rgb_scale(ambient_mean(l, of.of_first), of.first);
-    p.second = rgb_scale(ambient_mean(l, of.of_second), of.second);
+FN LobeLight ambient_broad_light(AmbientLookups l, AmbientLobe lobe) {
+    LobeLight p;
+    p.first = rgb_scale(ambient_mean(l, lobe.first_weights), lobe.first);
+    p.second = rgb_scale(ambient_mean(l, lobe.second_weights), lobe.second);
     return p;
 }
 
 /* One look-up for a whole lobe, whose colours have E first and second. */
-FN AmbientPair ambient_one(Rgb radiance, float first, float second) {
-    AmbientPair p;
+FN LobeLight lobe_light_of(Rgb radiance, float first, float second) {
+    LobeLight p;
     p.first = rgb_scale(radiance, first);
     p.second = rgb_scale(radiance, second);
     return p;
 }
-FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
-    AmbientPair p;
+FN LobeLight lobe_light_mix(LobeLight a, LobeLight b, float t) {
+    LobeLight p;
     p.first = rgb_mix(a.first, b.first, t);
     p.second = rgb_mix(a.second, b.second, t);
     return p;
@@ -341,38 +342,38 @@ FN AmbientPair ambient_pair_mix(AmbientPair a, AmbientPair b, float t) {
 
 /* The part of ggx facets beyond 1 - mu = t is 1 / (1 + kappa t / ln 2), half of it at ln 2 / kappa. This
  * is within 0.036 of 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit. */
-FN Rgb ambient_tailed(AmbientSource s, Dir w, float kappa, float tail) {
+FN Rgb ambient_radiance_with_tail(AmbientSource s, Dir w, float kappa, float tail) {
     return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
 }
 
-/* What is seen of the mean `all` about w: of what the lamps leave as much as is open, and of the rest of it,
- * which the nearest lamp stands for, as much as is seen of that, times `part`. */
-FN Rgb ambient_seen_of(AmbientSource s, Dir w, Rgb all, float kappa, float part, float open) {
-    Rgb rest = ambient_rest(s, w, kappa);
-    rest = rgb(min(rest.r, all.r), min(rest.g, all.g), min(rest.b, all.b));
-    return rgb_add(rgb_scale(rest, open),
-                   rgb_scale(rgb_add(all, rgb_scale(rest, -1.0f)), part * ambient_seen_at(s, w, open)));
+/* What is seen of the mean `all` about w: of what the lights leave as much as is open, and of the residual of it,
+ * which the nearest light stands for, as much as is seen of that, times `part`. */
+FN Rgb ambient_visible_mean(AmbientSource s, Dir w, Rgb all, float kappa, float part, float open) {
+    Rgb residual = ambient_residual(s, w, kappa);
+    residual = rgb(min(residual.r, all.r), min(residual.g, all.g), min(residual.b, all.b));
+    return rgb_add(rgb_scale(residual, open), rgb_scale(rgb_add(all, rgb_scale(residual, -1.0f)),
+                                                        part * ambient_nearest_visibility(s, w, open)));
 }
 
 /* 0 below, 1 above, and smooth between. */
-FN float ambient_beyond(float log2_kappa, float edge) {
+FN float ambient_kappa_blend(float log2_kappa, float edge) {
     float x = clamp(0.5f + 0.5f * (log2_kappa - edge) / AMBIENT_BLEND, 0.0f, 1.0f);
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* The lamps of those two ways to find them are weighed by the squares of their densities: Eric Veach,
+/* The lights of those two ways to find them are weighed by the squares of their densities: Eric Veach,
  * Leonidas Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, the
  * power heuristic. */
-FN float ambient_power(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
+FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
-/* What samples of the lobe find: the rest, and of the lamps the part that is theirs, `lamps` being the
- * density at which a lamp stands for its light. A sample stands for the solid angle 1 / (n pdf); exp(kappa
+/* What samples of the lobe find: the residual, and of the lights the part that is theirs, `lights` being the
+ * density at which a light stands for its light. A sample stands for the solid angle 1 / (n pdf); exp(kappa
  * (mu - 1)) has that of 2 pi / kappa, and twice it, by the paper, keeps neighbours together. The sum is made
  * E, which the table knows better. */
-FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float lamps,
-                             float known) {
-    AmbientPair p;
+FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float env_lights,
+                                 float albedo) {
+    LobeLight p;
     float e = 0.0f, n = to_float(AMBIENT_SAMPLES);
     p.first = rgb_grey(0.0f);
     p.second = p.first;
@@ -389,34 +390,34 @@ FN AmbientPair ambient_drawn(AmbientSource s, AmbientView v, Lobe lobe, bool str
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
             float drawn = max(x.pdf * dense * n, 1e-20f), w = x.f * i.z / drawn;
-            float kappa = clamp(PI * drawn, 0.5f, 1e4f), part = ambient_power(drawn, lamps);
-            Dir out_i = ambient_out(v, i);
+            float kappa = clamp(PI * drawn, 0.5f, 1e4f), part = ambient_power_heuristic(drawn, env_lights);
+            Dir out_i = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, out_i, kappa);
-            float open = ambient_open(s, out_i, i.z, v.occlusion);
-            Rgb l = rgb_scale(ambient_seen_of(s, out_i, all, kappa, part, open), w);
+            float open = ambient_sky_visibility(s, out_i, i.z, v.occlusion);
+            Rgb l = rgb_scale(ambient_visible_mean(s, out_i, all, kappa, part, open), w);
             p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(l, x.s));
             e = e + w;
         }
     }
-    p.first = rgb_scale(p.first, known / max(e, 1e-20f));
-    p.second = rgb_scale(p.second, known / max(e, 1e-20f));
+    p.first = rgb_scale(p.first, albedo / max(e, 1e-20f));
+    p.second = rgb_scale(p.second, albedo / max(e, 1e-20f));
     return p;
 }
 
-/* What lamps find: theirs of the lamps. */
-FN AmbientPair ambient_met(AmbientSource s, AmbientView v, Lobe lobe, float lamps) {
-    AmbientPair p;
+/* What lights find: theirs of the lights. */
+FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, float env_lights) {
+    LobeLight p;
     p.first = rgb_grey(0.0f);
     p.second = p.first;
-    int count = ambient_count(s);
+    int count = ambient_light_count(s);
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_light(s, k);
         Dir i = dir(dir_dot(l.w, v.x), dir_dot(l.w, v.y), dir_dot(l.w, v.z));
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
-            float part = ambient_power(lamps, x.pdf * to_float(AMBIENT_SAMPLES));
-            Rgb c = rgb_scale(l.color, x.f * i.z * part * ambient_seen(s, k, v.occlusion));
+            float part = ambient_power_heuristic(env_lights, x.pdf * to_float(AMBIENT_SAMPLES));
+            Rgb c = rgb_scale(l.color, x.f * i.z * part * ambient_light_visibility(s, k, v.occlusion));
             p.first = rgb_add(p.first, rgb_scale(c, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(c, x.s));
         }
@@ -424,68 +425,71 @@ FN AmbientPair ambient_met(AmbientSource s, AmbientView v, Lobe lobe, float lamp
     return p;
 }
 
-/* Of one slot: what its colours are multiplied by, and the part of it that the lamps are to light. */
-STRUCT(AmbientSlot) {
-    AmbientPair of;
-    float lamps;
+/* Of one slot: what its colours are multiplied by, and the part of it that the lights are to light. */
+STRUCT(SlotLight) {
+    LobeLight reflected;
+    float light_fraction;
 };
 
-/* `known`: see ambient_lobe. */
-FN AmbientSlot ambient_slot(AmbientTable t, AmbientSource s, AmbientView v, AmbientFour rest, Lobe lobe,
-                            float known) {
-    AmbientSlot a;
+/* `albedo`: see ambient_lobe. */
+FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
+                                Lobe lobe, float albedo) {
+    SlotLight a;
     float p = lobe.params[0];
-    AmbientSpot spot = ambient_spot(t, v.o.z, v.heading, p);
-    AmbientLobe l = ambient_lobe(t, s, spot, known);
-    a.lamps = 0.0f;
+    AmbientCoord spot = ambient_coord(t, v.o.z, v.heading, p);
+    AmbientLobe l = ambient_lobe(t, s, spot, albedo);
+    a.light_fraction = 0.0f;
     if (AMBIENT_STRATEGY(t) == AMBIENT_IRRADIANCE) {
-        a.of = ambient_one(rgb_scale(ambient_irradiance(s, v.z), v.occlusion), l.first, l.second);
+        a.reflected = lobe_light_of(rgb_scale(ambient_irradiance(s, v.z), v.occlusion), l.first, l.second);
         return a;
     }
     if (AMBIENT_STRATEGY(t) == AMBIENT_MIRROR) {
-        Dir r = ambient_out(v, dir(-v.o.x, -v.o.y, v.o.z));
-        AmbientWeights facing = ambient_group(t, s, ambient_spot(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
+        Dir r = ambient_to_source(v, dir(-v.o.x, -v.o.y, v.o.z));
+        AmbientWeights facing =
+            ambient_group(t, s, ambient_coord(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
         Rgb about = ambient_radiance(s, r, exp2(facing.b));
-        a.of = ambient_one(rgb_scale(about, ambient_open(s, r, v.o.z, v.occlusion)), l.first, l.second);
+        a.reflected = lobe_light_of(rgb_scale(about, ambient_sky_visibility(s, r, v.o.z, v.occlusion)),
+                                    l.first, l.second);
         return a;
     }
     if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
-        float lamps = exp2(ambient_lamp_kappa(s)) / PI; /* twice that of exp(kappa (mu - 1)) */
-        AmbientPair met = ambient_met(s, v, lobe, lamps);
-        a.of = ambient_drawn(s, v, lobe, t.strips, lamps, l.first + l.second);
-        a.of.first = rgb_add(a.of.first, met.first);
-        a.of.second = rgb_add(a.of.second, met.second);
+        float env_lights = exp2(ambient_light_kappa(s)) / PI; /* twice that of exp(kappa (mu - 1)) */
+        LobeLight met = ambient_sample_lights(s, v, lobe, env_lights);
+        a.reflected = ambient_sample_lobe(s, v, lobe, t.strips, env_lights, l.first + l.second);
+        a.reflected.first = rgb_add(a.reflected.first, met.first);
+        a.reflected.second = rgb_add(a.reflected.second, met.second);
         return a;
     }
-    a.lamps = 1.0f;
-    a.of = ambient_mixed(rest, l);
+    a.light_fraction = 1.0f;
+    a.reflected = ambient_broad_light(residual, l);
     if (!t.focus) return a;
     AmbientWeights shape = ambient_group(t, s, spot, AMBIENT_GROUP_SHAPE);
     float x = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
-    float close = ambient_beyond(log2_kappa, AMBIENT_CLOSE);
-    float narrow = t.narrow ? ambient_beyond(log2_kappa, ambient_lamp_kappa(s) - AMBIENT_FINER) : 0.0f;
-    Dir axis = ambient_turn(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))), out_axis = ambient_out(v, axis);
-    a.lamps = 1.0f - narrow;
-    float seen = ambient_open(s, out_axis, axis.z, v.occlusion);
-    Rgb wide = rgb_scale(ambient_rest(s, out_axis, kappa), seen);
-    a.of = ambient_pair_mix(a.of, ambient_one(wide, l.first, l.second), close);
+    float close = ambient_kappa_blend(log2_kappa, AMBIENT_CLOSE);
+    float narrow = t.narrow ? ambient_kappa_blend(log2_kappa, ambient_light_kappa(s) - AMBIENT_FINER) : 0.0f;
+    Dir axis = ambient_to_lobe(v, dir(x, 0.0f, sqrt(max(1.0f - x * x, 0.0f)))),
+        out_axis = ambient_to_source(v, axis);
+    a.light_fraction = 1.0f - narrow;
+    float seen = ambient_sky_visibility(s, out_axis, axis.z, v.occlusion);
+    Rgb wide = rgb_scale(ambient_residual(s, out_axis, kappa), seen);
+    a.reflected = lobe_light_mix(a.reflected, lobe_light_of(wide, l.first, l.second), close);
     if (!t.narrow) return a;
-    Rgb sharp = ambient_tailed(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
-    sharp = ambient_seen_of(s, out_axis, sharp, kappa, 1.0f, seen);
-    a.of = ambient_pair_mix(a.of, ambient_one(sharp, l.first, l.second), narrow);
+    Rgb sharp = ambient_radiance_with_tail(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
+    sharp = ambient_visible_mean(s, out_axis, sharp, kappa, 1.0f, seen);
+    a.reflected = lobe_light_mix(a.reflected, lobe_light_of(sharp, l.first, l.second), narrow);
     return a;
 }
 
 /* The colours of a slot against that. Where F enters squared (the sag) and where colour is no factor,
  * the share and the tint are those of the whole lobe. */
-FN float ambient_channel(SheenE e, float f0, float f90, float sag, float first, float second) {
+FN float ambient_apply_channel(SheenE e, float f0, float f90, float sag, float first, float second) {
     if (IS_TINTED(e.tint)) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
     return f0 * first + f90 * second - sag * first * second / max(first + second, 1e-30f);
 }
-FN Rgb ambient_colored(SlotColors s, float scale, SheenE e, AmbientPair p) {
-    return rgb_scale(rgb(ambient_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
-                         ambient_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
-                         ambient_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b)),
+FN Rgb ambient_apply_colors(SlotColors s, float scale, SheenE e, LobeLight p) {
+    return rgb_scale(rgb(ambient_apply_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
+                         ambient_apply_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
+                         ambient_apply_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b)),
                      scale);
 }
 
@@ -503,7 +507,7 @@ FN float ambient_schlick_half(float cos_o) {
 }
 
 /* What the interface leaves for the diffuse lobe, on cosine average over wi. */
-FN Rgb ambient_under(const Stack *m, const StackView *w) {
+FN Rgb ambient_base_transmittance(const Stack *m, const StackView *w) {
     float cos_o = w->o.z;
     Rgb f = rgb_grey(0.0f);
     if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN)
@@ -512,18 +516,19 @@ FN Rgb ambient_under(const Stack *m, const StackView *w) {
         f = rgb_grey(rgb_max3(rgb_mix(w->under_f0, rgb_grey(w->under_f90), ambient_schlick_least(cos_o))));
     return stack_rest(f);
 }
-FN Rgb ambient_let_through(const Stack *m, const StackView *w) {
+FN Rgb ambient_interface_transmittance(const Stack *m, const StackView *w) {
     float s = ambient_schlick_least(w->o.z);
     if (m->layer == LAYER_SEED) s = ambient_schlick_half(w->o.z);
     return stack_let_by(m, w, s);
 }
 
-FN Rgb ambient_lamps(const Stack *m, const StackView *lit, Slots only, AmbientSource s, float occlusion) {
+FN Rgb ambient_reflect_lights(const Stack *m, const StackView *lit, Slots only, AmbientSource s,
+                              float occlusion) {
     Rgb sum = rgb_grey(0.0f);
-    int count = ambient_count(s);
+    int count = ambient_light_count(s);
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_light(s, k);
-        float seen = l.w.z > 0.0f ? ambient_seen(s, k, occlusion) : 0.0f;
+        float seen = l.w.z > 0.0f ? ambient_light_visibility(s, k, occlusion) : 0.0f;
         if (seen > 0.0f) {
             Angles a = angles_between(lit->o, l.w), coat = a;
             if (only.coat) coat = angles_between(lit->coat_o, stack_to_coat(m, l.w));
@@ -538,73 +543,76 @@ FN Rgb ambient_lamps(const Stack *m, const StackView *lit, Slots only, AmbientSo
  * cosine-weighted sky that is seen, in [0, 1]. */
 FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f), over = rgb_grey(1.0f);
-    StackView lit = *w; /* as the lamps see it */
+    StackView lit = *w; /* as the lights see it */
     Dir o = w->o;
     Slots only = slots_of(false, false, false, false, false);
     AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
-    AmbientFour rest = ambient_four(s, v);
+    AmbientLookups residual = ambient_residual_lookups(s, v);
     bool worn = IS_WORN(m);
     Rgb keep = rgb_grey(1.0f);
     if (worn) keep = stack_keep(m, w, m->e_avg);
-    Rgb diffuse = rgb_mul(keep, ambient_under(m, w));
+    Rgb diffuse = rgb_mul(keep, ambient_base_transmittance(m, w));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
     if (IS_BELOW_F(m) && worn) {
-        over = ambient_let_through(m, w);
+        over = ambient_interface_transmittance(m, w);
         diffuse = rgb_mul(keep, over);
         keep = rgb_grey(1.0f);
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
-        AmbientSlot a = ambient_slot(t.diffuse, s, v, rest, m->diffuse.lobe, -1.0f);
-        Rgb c = rgb_scale(ambient_colored(slot_colors(&m->diffuse), w->scale.diffuse, plain, a.of), matte);
+        SlotLight a = ambient_slot_light(t.diffuse, s, v, residual, m->diffuse.lobe, -1.0f);
+        Rgb c = rgb_scale(
+            ambient_apply_colors(slot_colors(&m->diffuse), w->scale.diffuse, plain, a.reflected), matte);
         if (SHOWS_DIFFUSE) sum = rgb_mul(diffuse, c);
-        lit.scale.diffuse = w->scale.diffuse * a.lamps * matte;
-        only.diffuse = SHOWS_DIFFUSE && a.lamps * matte > 0.0f;
+        lit.scale.diffuse = w->scale.diffuse * a.light_fraction * matte;
+        only.diffuse = SHOWS_DIFFUSE && a.light_fraction * matte > 0.0f;
     }
     if (HAS_SPECULAR(m)) {
-        AmbientSlot a = ambient_slot(t.specular, s, v, rest, m->specular.lobe, -1.0f);
-        float lamps = a.lamps * other;
-        Rgb c =
-            rgb_scale(ambient_colored(stack_specular_colors(m, w), w->scale.specular, plain, a.of), other);
+        SlotLight a = ambient_slot_light(t.specular, s, v, residual, m->specular.lobe, -1.0f);
+        float env_lights = a.light_fraction * other;
+        Rgb c = rgb_scale(
+            ambient_apply_colors(stack_specular_colors(m, w), w->scale.specular, plain, a.reflected), other);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
-        only.specular = SHOWS_SPECULAR && lamps > 0.0f;
-        lit.scale.specular = w->scale.specular * lamps;
+        only.specular = SHOWS_SPECULAR && env_lights > 0.0f;
+        lit.scale.specular = w->scale.specular * env_lights;
     }
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
         if (m->nap.tilt > 0.0f) along.heading = v.tx * m->nap.x + v.ty * m->nap.y;
         /* E of the stack is mixed with more care than that of the fit */
-        float known = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? w->e_o.e : -1.0f;
-        AmbientSlot a = ambient_slot(t.sheen, s, along, rest, m->sheen.lobe, known);
-        Rgb c = ambient_colored(slot_colors(&m->sheen), w->scale.sheen, w->e_o, a.of);
+        float albedo = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? w->e_o.e : -1.0f;
+        SlotLight a = ambient_slot_light(t.sheen, s, along, residual, m->sheen.lobe, albedo);
+        Rgb c = ambient_apply_colors(slot_colors(&m->sheen), w->scale.sheen, w->e_o, a.reflected);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_scale(rgb_mul(over, c), other));
-        lit.scale.sheen = w->scale.sheen * a.lamps * other;
-        only.sheen = SHOWS_SHEEN && a.lamps * other > 0.0f;
+        lit.scale.sheen = w->scale.sheen * a.light_fraction * other;
+        only.sheen = SHOWS_SHEEN && a.light_fraction * other > 0.0f;
     }
     if (HAS_COAT(m)) {
         Dir oc = w->coat_o;
         if (oc.z > 0.0f) {
             AmbientView c = ambient_view(oc, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
-            AmbientSlot a = ambient_slot(t.coat, s, c, ambient_four(s, c), m->coat.lobe, -1.0f);
+            SlotLight a =
+                ambient_slot_light(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe, -1.0f);
             if (SHOWS_COAT)
-                sum =
-                    rgb_add(sum, rgb_scale(ambient_colored(slot_colors(&m->coat), w->scale.coat, plain, a.of),
-                                           other));
-            lit.scale.coat = w->scale.coat * a.lamps * other;
-            only.coat = SHOWS_COAT && a.lamps * other > 0.0f;
+                sum = rgb_add(sum, rgb_scale(ambient_apply_colors(slot_colors(&m->coat), w->scale.coat, plain,
+                                                                  a.reflected),
+                                             other));
+            lit.scale.coat = w->scale.coat * a.light_fraction * other;
+            only.coat = SHOWS_COAT && a.light_fraction * other > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
-        AmbientSlot a = ambient_slot(t.dust, s, v, rest, m->dust.lobe, -1.0f);
+        SlotLight a = ambient_slot_light(t.dust, s, v, residual, m->dust.lobe, -1.0f);
         if (SHOWS_DUST)
             sum = rgb_add(
-                sum, rgb_scale(ambient_colored(slot_colors(&m->dust), w->scale.dust, plain, a.of), matte));
-        lit.scale.dust = w->scale.dust * a.lamps * matte;
-        only.dust = SHOWS_DUST && a.lamps * matte > 0.0f;
+                sum, rgb_scale(ambient_apply_colors(slot_colors(&m->dust), w->scale.dust, plain, a.reflected),
+                               matte));
+        lit.scale.dust = w->scale.dust * a.light_fraction * matte;
+        only.dust = SHOWS_DUST && a.light_fraction * matte > 0.0f;
     }
     if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
-        sum = rgb_add(sum, ambient_lamps(m, &lit, only, s, v.occlusion));
+        sum = rgb_add(sum, ambient_reflect_lights(m, &lit, only, s, v.occlusion));
     return sum;
 }
 

@@ -33,7 +33,7 @@ typedef struct Fitter {
     AmbientFit *fit;
 } Fitter;
 
-/* As ambient_mixed looks them up. */
+/* As ambient_broad_light looks them up. */
 static const Atom atoms[ATOMS] = {
     {2, 1, {{0.0f, 0.0f, 1.0f}}},
     {1, 2, {{0.612372436f, 0.612372436f, 0.5f}, {0.612372436f, -0.612372436f, 0.5f}}},
@@ -49,7 +49,7 @@ static void legendre(double mu, double p[BANDS]) {
 
 static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
 
-/* As ambient_rest weighs. */
+/* As ambient_residual weighs. */
 static const double kappas[KERNELS] = {12.5, 3.125, 0.0};
 static double weight_at(double kappa, double mu) {
     return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
@@ -321,7 +321,7 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .strips = lobe_names(fit->lobe.id)->strips,
                           .turning = fit->turning,
                           .strategy = strategy,
-                          .held = -1};
+                          .baked = -1};
 }
 
 enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
@@ -395,7 +395,7 @@ static void hold_side(const AmbientFit *fit, int side, AmbientWeights out[AMBIEN
     hold_planes(fit, side, 4 * AMBIENT_GROUP_SECOND, PLANES_HELD, value, out);
 }
 
-void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]) {
+void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]) {
     for (int side = 0; side < AMBIENT_SIDES; side++)
         hold_side(fit, fit->turning ? side : 0, out + side * AMBIENT_SIDE);
 }

@@ -34,11 +34,11 @@ bool ambient_alike(const Lobe *a, const Lobe *b);
 /* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
 
-/* The table for ambient.h to read, not held; the fit must outlive it. */
+/* The table for ambient.h to read, not baked; the fit must outlive it. */
 AmbientTable ambient_table(const AmbientFit *fit, int strategy);
 
 /* The polynomials of a fit of one row, by least squares over its nodes. */
-void ambient_hold(const AmbientFit *fit, AmbientWeights out[AMBIENT_HELD]);
+void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]);
 
 /* A lobe that is so much denser than one as wide, log2 of it, is a ring or a streak: one axis and one width
  * say little of it. */

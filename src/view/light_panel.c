@@ -200,7 +200,7 @@ static const char *ambient_help(const void *user, int k) {
         "For each lobe the one that is nearest to the path tracer.",
         "Irradiance times albedo: the cheapest, and for many engines all there is.",
         "One look-up where a mirror would look, as engines do.",
-        "Lamps for what is bright, and a few look-ups fitted to the lobe.", "No light from far away."};
+        "Lights for what is bright, and a few look-ups fitted to the lobe.", "No light from far away."};
     return helps[k];
 }
 

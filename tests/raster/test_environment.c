@@ -1,4 +1,4 @@
-/* The environment on the GPU: cubes beside sums over all texels, in both languages; terms, lamps and
+/* The environment on the GPU: cubes beside sums over all texels, in both languages; terms, lights and
  * rotation; the cache; the whole of shading/ambient.h beside C; and how many samplers that takes */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,18 +26,18 @@ enum { POINTS = 256, MAP_WIDTH = 128, MAP_HEIGHT = 64 };
 static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300};
 enum { LANGUAGES = 2 };
 
-/* A dim sky, a bright box and a small lamp, in different colours. */
+/* A dim sky, a bright box and a small light, in different colours. */
 static Environment sharp_environment(void) {
     Environment e = {.kind = ENVIRONMENT_IMAGE, .rotation = 0.7f, .strength = 2.0f};
     assert_int_equal(weft_image_create(MAP_WIDTH, MAP_HEIGHT, 3, WEFT_PIXEL_F32, &e.image, NULL), WEFT_OK);
     float *p = e.image.pixels;
     for (int y = 0; y < MAP_HEIGHT; y++)
         for (int x = 0; x < MAP_WIDTH; x++, p += 3) {
-            bool box = x > 20 && x < 32 && y > 12 && y<24, lamp = x> 90 && x < 94 && y > 28 && y < 31;
+            bool box = x > 20 && x < 32 && y > 12 && y<24, light = x> 90 && x < 94 && y > 28 && y < 31;
             float sky = 0.2f + 0.3f * (float)(MAP_HEIGHT - y) / MAP_HEIGHT;
-            p[0] = sky + (box ? 6.0f : 0.0f) + (lamp ? 60.0f : 0.0f);
-            p[1] = sky + (box ? 5.0f : 0.0f) + (lamp ? 40.0f : 0.0f);
-            p[2] = 1.2f * sky + (box ? 4.0f : 0.0f) + (lamp ? 20.0f : 0.0f);
+            p[0] = sky + (box ? 6.0f : 0.0f) + (light ? 60.0f : 0.0f);
+            p[1] = sky + (box ? 5.0f : 0.0f) + (light ? 40.0f : 0.0f);
+            p[2] = 1.2f * sky + (box ? 4.0f : 0.0f) + (light ? 20.0f : 0.0f);
         }
     return e;
 }
@@ -151,9 +151,10 @@ static int draw(TextLanguage language, const GlEnvironment *env, Text *text, con
     return samplers;
 }
 
-static void make(TextLanguage language, const Environment *e, bool no_cache, int lamps, GlEnvironment *env) {
+static void make(TextLanguage language, const Environment *e, bool no_cache, int env_lights,
+                 GlEnvironment *env) {
     WeftError error = {0};
-    EnvironmentHow how = {.language = language, .no_cache = no_cache, .lamps = lamps};
+    EnvironmentHow how = {.language = language, .no_cache = no_cache, .env_lights = env_lights};
     if (environment_create(e, &how, env, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
 }
 
@@ -191,7 +192,7 @@ static void look_ups_are_sums(TextLanguage language) {
             }
         }
         print_message("kappa %g: %.2f %%\n", (double)kappas[k], 100.0 * off / all);
-        /* the lamp is two and a half texels of the finest level wide, a delta to it */
+        /* the light is two and a half texels of the finest level wide, a delta to it */
         assert_true(off / all < (kappas[k] > 1000.0f ? 0.03 : kappas[k] > 0.0f ? 0.01 : 0.015));
     }
     environment_destroy(&env);
@@ -200,7 +201,7 @@ static void look_ups_are_sums(TextLanguage language) {
     context_destroy(context);
 }
 
-/* What the lamps leave, as C has it. */
+/* What the lights leave, as C has it. */
 static void rest_is_that_of_c(TextLanguage language) {
     GlContext *context = context_or_skip(language);
     GlOuter outer;
@@ -214,7 +215,7 @@ static void rest_is_that_of_c(TextLanguage language) {
         char lines[128];
         Text text;
         begin(&text, language);
-        snprintf(lines, sizeof lines, "Rgb l = ambient_rest(f, d, %.6f); c = vec3(l.r, l.g, l.b);",
+        snprintf(lines, sizeof lines, "Rgb l = ambient_residual(f, d, %.6f); c = vec3(l.r, l.g, l.b);",
                  (double)kappas[k]);
         draw(language, &env, &text, lines, 0, out);
         text_free(&text);

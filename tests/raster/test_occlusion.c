@@ -11,7 +11,7 @@
 
 #include "raster/occlusion.h"
 
-enum { RAYS = 256, LAMPS = 4, ALL = 8 * OCCLUSION_VALUES };
+enum { RAYS = 256, LIGHTS = 4, ALL = 8 * OCCLUSION_VALUES };
 static char folder[] = "/tmp/weft-test-occlusion-XXXXXX";
 
 static void count(void *user, WeftMessage message, const char *text) {
@@ -39,11 +39,11 @@ static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *
     Occlusion *occlusion;
     WeftError error;
     /* overhead; behind the wall; about its edge, in front of the wall and behind it; below the floor */
-    const AmbientLamp lamps[LAMPS] = {{.direction = {0.0f, 1.0f, 0.0f}},
-                                      {.direction = {0.0f, 0.6f, -0.8f}, .spread = 0.01f},
-                                      {.direction = {0.0f, 1.0f, 0.0f}, .spread = 0.05f},
-                                      {.direction = {0.0f, -0.8f, 0.6f}, .spread = 0.01f}};
-    const OcclusionHow how = {RAYS, 2, no_cache, lamps, LAMPS, false};
+    const EnvLight env_lights[LIGHTS] = {{.direction = {0.0f, 1.0f, 0.0f}},
+                                         {.direction = {0.0f, 0.6f, -0.8f}, .spread = 0.01f},
+                                         {.direction = {0.0f, 1.0f, 0.0f}, .spread = 0.05f},
+                                         {.direction = {0.0f, -0.8f, 0.6f}, .spread = 0.01f}};
+    const OcclusionHow how = {RAYS, 2, no_cache, env_lights, LIGHTS, false};
     assert_int_equal(occlusion_start(scene, &how, &occlusion, &log, &error), WEFT_OK);
     memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
@@ -65,16 +65,16 @@ static void half_of_the_sky_is_found_again(void **state) {
     for (int k = 0; k < 4; k++) {
         const float *at = first + OCCLUSION_VALUES * k, half = 0.5f;
         assert_float_equal(at[0], half, 0.02f);
-        const float *open = at + OCCLUSION_OPEN, *lamps = at + OCCLUSION_LAMP;
+        const float *open = at + OCCLUSION_OPEN, *env_lights = at + OCCLUSION_LIGHT;
         /* all of one side and nothing of the other */
         assert_true(open[0] + 0.5f * open[3] > 0.9f && open[0] - 0.5f * open[3] < 0.1f);
         assert_float_equal(open[0], half, 0.1f);
         assert_float_equal(open[1], 0.0f, 0.1f);
-        assert_float_equal(lamps[0], 1.0f, 0.0f);
-        assert_float_equal(lamps[1], 0.0f, 0.0f);
-        assert_float_equal(lamps[2], half, 0.1f);
-        assert_float_equal(lamps[3], 1.0f, 0.0f); /* by the back */
-        assert_true(lamps[LAMPS] < 0.0f);
+        assert_float_equal(env_lights[0], 1.0f, 0.0f);
+        assert_float_equal(env_lights[1], 0.0f, 0.0f);
+        assert_float_equal(env_lights[2], half, 0.1f);
+        assert_float_equal(env_lights[3], 1.0f, 0.0f); /* by the back */
+        assert_true(env_lights[LIGHTS] < 0.0f);
     }
     look(scene, false, again, &warnings);
     assert_int_equal(files(), 1);

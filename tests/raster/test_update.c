@@ -45,7 +45,7 @@ static bool is_same(const WeftImage *a, const WeftImage *b) {
 }
 
 /* A ball with a sheen on a floor with texture coordinates, below a lamp and a sun. */
-static WeftScene *under_lamps(void) {
+static WeftScene *under_lights(void) {
     static const float corners[8] = {0.0f, 0.3f, 0.7f, 1.0f, 1.0f, 0.7f, 0.3f, 0.0f};
     const WeftLight sun = {.direction = {-0.4f, -1.0f, -0.3f}, .color = {1.0f, 0.9f, 0.8f}};
     WeftScene *scene = test_scene();
@@ -175,7 +175,7 @@ enum { STEPS = sizeof steps / sizeof steps[0] };
 
 /* What the light of the sky is found by is fitted to numbers, and to no texture. */
 static const Step fitted_steps[] = {
-    {"0.roughness", "0.7", NULL, 1, NEW}, /* its lobe is broader than the sky's lamps are wide */
+    {"0.roughness", "0.7", NULL, 1, NEW}, /* its lobe is broader than the sky's lights are wide */
     {"1.sheen_roughness", "0.45", NULL, 0, NEW},
     {"0.roughness", "0.08", NULL, 1, NEW}, /* and narrow */
     {"0.roughness", "0.7", NULL, 0, 1},
@@ -221,7 +221,7 @@ static void take_steps(WeftScene *scene, const Step *all, int count) {
 static void pictures_are_as_new(void **state) {
     (void)state;
     need_gl();
-    take_steps(under_lamps(), steps, STEPS);
+    take_steps(under_lights(), steps, STEPS);
 }
 
 static void fits_are_as_new(void **state) {
@@ -238,7 +238,7 @@ static int on_progress(void *user, double done) {
     return 0;
 }
 
-/* Turning and dimming filters nothing; another image does, once. What hides its lamps is found again. */
+/* Turning and dimming filters nothing; another image does, once. What hides its lights is found again. */
 static void environments_are_as_new(void **state) {
     (void)state;
     need_gl();
@@ -306,7 +306,7 @@ static const struct {
 static void pixels_are_as_new(void **state) {
     (void)state;
     need_gl();
-    WeftScene *scene = under_lamps();
+    WeftScene *scene = under_lights();
     WeftError error;
     const WeftImage kinds[] = {pattern(8, 3, WEFT_PIXEL_U8, 0), pattern(8, 1, WEFT_PIXEL_U8, 1),
                                pattern(16, 3, WEFT_PIXEL_F32, 2)};

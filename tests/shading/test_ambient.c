@@ -1,16 +1,16 @@
 /* Light of an environment in C, over all lobes: under even light every strategy returns E; weights are not
- * negative; a far lamp gives what f says; sharp light is met within a few hundredths; occlusion takes what it
- * says; layers and coats leave what they should; lamps and rest are all of an environment */
+ * negative; a far light gives what f says; sharp light is met within a few hundredths; occlusion takes what it
+ * says; layers and coats leave what they should; lights and residual are all of an environment */
 #include "cases.h"
 
 #include "scene/ambient.h"
 #include "shading/ambient_table.h"
 
-/* An environment that is even, with a lamp or two. */
+/* An environment that is even, with a light or two. */
 typedef struct Even {
     float radiance;
     int count;
-    AmbientLight lamps[2];
+    AmbientLight env_lights[2];
 } Even;
 
 static Rgb even_about(const void *user, Dir w, float kappa) {
@@ -18,10 +18,10 @@ static Rgb even_about(const void *user, Dir w, float kappa) {
     return rgb_grey(((const Even *)user)->radiance);
 }
 static Rgb even_irradiance(const void *user, Dir w) { return even_about(user, w, 0.0f); }
-static AmbientLight even_lamp(const void *user, int k) { return ((const Even *)user)->lamps[k]; }
+static AmbientLight even_light(const void *user, int k) { return ((const Even *)user)->env_lights[k]; }
 
 static AmbientSourceCalls even_calls(const Even *even) {
-    return (AmbientSourceCalls){even_about, even_irradiance, even_about, even_lamp,
+    return (AmbientSourceCalls){even_about, even_irradiance, even_about, even_light,
                                 even,       even->count,     6.0f,       NULL};
 }
 
@@ -83,23 +83,23 @@ static void even_light_returns_albedo(void **state) {
     }
 }
 
-/* A table of that lobe alone, held as polynomials. */
-static AmbientTable hold(const Lobe *lobe, int strategy, AmbientWeights held[AMBIENT_HELD]) {
+/* A table of that lobe alone, baked as polynomials. */
+static AmbientTable bake(const Lobe *lobe, int strategy, AmbientWeights baked[AMBIENT_BAKED]) {
     static AmbientFit fitted;
     ambient_fit(&fitted, lobe, lobe->params[0], lobe->params[0], 0);
-    ambient_hold(&fitted, held);
+    ambient_bake(&fitted, baked);
     AmbientTable t = ambient_table(&fitted, strategy);
-    t.held = 0;
+    t.baked = 0;
     return t;
 }
 
-/* Held as polynomials the same table still has E, where a lobe turns too. */
+/* Baked as polynomials the same table still has E, where a lobe turns too. */
 static void held_tables_return_albedo(void **state) {
     (void)state;
-    static AmbientWeights held[AMBIENT_HELD];
+    static AmbientWeights baked[AMBIENT_BAKED];
     Even even = {.radiance = 1.0f};
     AmbientSourceCalls calls = even_calls(&even);
-    calls.held = held;
+    calls.baked = baked;
     int at = 0;
     for (int id = 0; id < LOBE_COUNT; id++)
         for (int k = 0; asked(id) && k < 9; k++) {
@@ -108,7 +108,7 @@ static void held_tables_return_albedo(void **state) {
             Dir o = direction_cos(0.15 + 0.35 * (double)(k / 3), 0.0);
             bool across = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC && k % 2;
             if (across) o = dir(o.y, o.x, o.z);
-            AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
+            AmbientTable t = bake(&lobe, AMBIENT_FITTED, baked);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             Rgb got = ambient_of(one_lobe(lobe, o), all_tables(t), &calls, 1.0f);
             float truth = e.f0 + e.f90, off = abs(got.r - truth);
@@ -135,16 +135,16 @@ static void held_tables_fade_away(void **state) {
     static const float roughnesses[] = {0.1f, 0.14f, 0.22f, 0.6f};
     static const float cosines[] = {1.0f, 0.995f, 0.97f, 0.9f, 0.7f, 0.3f, 0.03f};
     static AlbedoTable albedo;
-    static AmbientWeights held[AMBIENT_HELD];
+    static AmbientWeights baked[AMBIENT_BAKED];
     Even even = {.radiance = 1.0f};
     AmbientSourceCalls calls = even_calls(&even);
-    calls.held = held;
+    calls.baked = baked;
     int at = 0;
     for (int id = 0; id < LOBE_COUNT; id++)
         for (size_t k = 0; asked(id) && k < sizeof roughnesses / sizeof roughnesses[0]; k++) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, roughnesses[k]);
-            AmbientTable t = hold(&lobe, ambient_strategy(id, true, false), held);
+            AmbientTable t = bake(&lobe, ambient_strategy(id, true, false), baked);
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
                 SeenStack m = tabled(lobe, o, &albedo);
@@ -162,15 +162,15 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
     (void)state;
     static const int lobes[] = {LOBE_FIBRE, LOBE_LTC_FIBRE, LOBE_PATRY, LOBE_CHARLIE_NEUBELT};
     static AlbedoTable albedo;
-    static AmbientWeights held[AMBIENT_HELD];
+    static AmbientWeights baked[AMBIENT_BAKED];
     Even even = {.radiance = 1.0f};
     AmbientSourceCalls calls = even_calls(&even);
-    calls.held = held;
+    calls.baked = baked;
     int at = 0;
     for (int k = 0; k < 4 * 5; k++) {
         if (!test_turn(&at, 1, 3)) continue;
         Lobe lobe = lobe_rough(lobes[k % 4], 0.25f + 0.05f * (float)(k / 4));
-        AmbientTable t = hold(&lobe, AMBIENT_FITTED, held);
+        AmbientTable t = bake(&lobe, AMBIENT_FITTED, baked);
         for (int n = 1; n < 40; n++) {
             Dir o = direction_cos(0.025 * n, 0.0);
             SeenStack m = tabled(lobe, o, &albedo);
@@ -185,13 +185,13 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
     }
 }
 
-/* Where there is nothing but lamps, a broad lobe is f itself. */
+/* Where there is nothing but lights, a broad lobe is f itself. */
 static void lamps_are_met_as_lights_are(void **state) {
     (void)state;
     static AmbientFit table;
     Even even = {.count = 2};
-    even.lamps[0] = (AmbientLight){direction(0.6, 1.0), rgb(2.0f, 1.0f, 0.5f)};
-    even.lamps[1] = (AmbientLight){direction(1.4, 4.0), rgb(0.1f, 0.3f, 3.0f)};
+    even.env_lights[0] = (AmbientLight){direction(0.6, 1.0), rgb(2.0f, 1.0f, 0.5f)};
+    even.env_lights[1] = (AmbientLight){direction(1.4, 4.0), rgb(0.1f, 0.3f, 3.0f)};
     AmbientSourceCalls calls = even_calls(&even);
     Lobe lobe = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, 0.5f);
     fit(&table, lobe.id);
@@ -199,7 +199,7 @@ static void lamps_are_met_as_lights_are(void **state) {
     Dir o = direction(0.9, 0.2);
     float f[2];
     for (int k = 0; k < 2; k++)
-        f[k] = lobe_eval(&lobe, angles_between(o, even.lamps[k].w)) * even.lamps[k].w.z;
+        f[k] = lobe_eval(&lobe, angles_between(o, even.env_lights[k].w)) * even.env_lights[k].w.z;
     Rgb got = ambient_of(one_lobe(lobe, o), tables, &calls, 1.0f);
     assert_float_equal(got.r, 2.0f * f[0] + 0.1f * f[1], 1e-6);
     assert_float_equal(got.g, f[0] + 0.3f * f[1], 1e-6);
@@ -313,20 +313,20 @@ static Rgb sharp_radiance(const void *user, Dir w, float kappa) {
     return sharp_mean(&s->image, sharp_world(s, w), kappa);
 }
 static Rgb sharp_irradiance(const void *user, Dir w) { return sharp_radiance(user, w, 0.0f); }
-static Rgb sharp_rest(const void *user, Dir w, float kappa) {
+static Rgb sharp_residual(const void *user, Dir w, float kappa) {
     const Sharp *s = user;
     float c[3];
     ambient_rest_about(&s->parts, sharp_world(s, w), kappa, c);
     return rgb(c[0], c[1], c[2]);
 }
-static AmbientLight sharp_lamp(const void *user, int k) {
+static AmbientLight sharp_light(const void *user, int k) {
     const Sharp *s = user;
-    const AmbientLamp *lamp = &s->parts.lamps[k];
-    return (AmbientLight){sharp_local(s, lamp->direction),
-                          rgb(lamp->color[0], lamp->color[1], lamp->color[2])};
+    const EnvLight *light = &s->parts.env_lights[k];
+    return (AmbientLight){sharp_local(s, light->direction),
+                          rgb(light->color[0], light->color[1], light->color[2])};
 }
 
-/* A grey room with two windows and a warm lamp. */
+/* A grey room with two windows and a warm light. */
 static void make_sharp(Sharp *s) {
     assert_int_equal(weft_image_create(WIDTH, HEIGHT, 3, WEFT_PIXEL_F32, &s->image, NULL), WEFT_OK);
     float *p = s->image.pixels;
@@ -334,19 +334,25 @@ static void make_sharp(Sharp *s) {
         for (int x = 0; x < WIDTH; x++, p += 3) {
             float room = 0.1f + 0.1f * (float)(x % 7 < 3) + 0.01f * (float)y;
             bool window = (x > 8 && x < 12 && y > 5 && y < 9) || (x > 30 && x < 33 && y > 8 && y < 12);
-            bool lamp = x == 20 && y == 4;
-            p[0] = room + (window ? 5.0f : lamp ? 40.0f : 0.0f);
-            p[1] = room + (window ? 6.0f : lamp ? 25.0f : 0.0f);
-            p[2] = room + (window ? 8.0f : lamp ? 10.0f : 0.0f);
+            bool light = x == 20 && y == 4;
+            p[0] = room + (window ? 5.0f : light ? 40.0f : 0.0f);
+            p[1] = room + (window ? 6.0f : light ? 25.0f : 0.0f);
+            p[2] = room + (window ? 8.0f : light ? 10.0f : 0.0f);
         }
     Environment e = {.kind = ENVIRONMENT_IMAGE, .image = s->image, .strength = 1.0f};
-    assert_int_equal(ambient_split(&e, AMBIENT_LAMPS, &s->parts, NULL), WEFT_OK);
+    assert_int_equal(ambient_split(&e, AMBIENT_LIGHTS, &s->parts, NULL), WEFT_OK);
 }
 
 /* Over a sphere, of three roughnesses: the reference sums f over the texels, each in 4 by 4 parts. */
 static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, float rough, float step) {
-    AmbientSourceCalls calls = {sharp_radiance,      sharp_irradiance,    sharp_rest, sharp_lamp, s,
-                                s->parts.lamp_count, s->parts.lamp_kappa, NULL};
+    AmbientSourceCalls calls = {sharp_radiance,
+                                sharp_irradiance,
+                                sharp_residual,
+                                sharp_light,
+                                s,
+                                s->parts.env_light_count,
+                                s->parts.env_light_kappa,
+                                NULL};
     double off = 0.0, all = 0.0;
     for (int n = 0; n < 24; n++) {
         float z = 0.15f + 0.033f * (float)n, side = sqrt(1.0f - z * z), turn = 2.4f * (float)n;
@@ -377,20 +383,20 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, floa
     return off / all;
 }
 
-/* Whatever does not go to lamps is the rest's. */
+/* Whatever does not go to lights is the residual's. */
 static void no_light_is_lost(void **state) {
     (void)state;
-    static const int lamps[] = {0, 1, 2, AMBIENT_LAMPS, AMBIENT_LAMPS_MAX};
+    static const int env_lights[] = {0, 1, 2, AMBIENT_LIGHTS, AMBIENT_LIGHTS_MAX};
     Sharp s = {0};
     make_sharp(&s);
     Environment e = {.kind = ENVIRONMENT_IMAGE, .image = s.image, .strength = 1.0f};
-    for (size_t k = 0; k < sizeof lamps / sizeof lamps[0]; k++) {
+    for (size_t k = 0; k < sizeof env_lights / sizeof env_lights[0]; k++) {
         AmbientParts parts;
-        assert_int_equal(ambient_split(&e, lamps[k], &parts, NULL), WEFT_OK);
-        assert_true(parts.lamp_count <= lamps[k] && (lamps[k] < 2) == !parts.lamp_count);
+        assert_int_equal(ambient_split(&e, env_lights[k], &parts, NULL), WEFT_OK);
+        assert_true(parts.env_light_count <= env_lights[k] && (env_lights[k] < 2) == !parts.env_light_count);
         for (int c = 0; c < 3; c++) {
-            double sum = 4.0 * TEST_PI * (double)parts.rest_terms[0][c];
-            for (int n = 0; n < parts.lamp_count; n++) sum += (double)parts.lamps[n].color[c];
+            double sum = 4.0 * TEST_PI * (double)parts.residual_sh[0][c];
+            for (int n = 0; n < parts.env_light_count; n++) sum += (double)parts.env_lights[n].color[c];
             assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.terms[0][c], 1e-4f * (float)sum);
         }
     }
@@ -407,7 +413,7 @@ static void sharp_light_is_met(void **state) {
     static AmbientFit table;
     Sharp s = {0};
     make_sharp(&s);
-    assert_true(s.parts.lamp_count > 2 && s.parts.lamp_count <= AMBIENT_LAMPS);
+    assert_true(s.parts.env_light_count > 2 && s.parts.env_light_count <= AMBIENT_LIGHTS);
     for (size_t k = 0; k < sizeof lobes / sizeof lobes[0]; k++) {
         if (test_short() && k % 8) continue;
         fit(&table, lobes[k]);

@@ -1,19 +1,19 @@
-/* environment.glsl - the light around a scene, for shading/ambient.h: a filtered cube, terms and lamps
+/* environment.glsl - the light around a scene, for shading/ambient.h: a filtered cube, terms and lights
  *
  * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
  * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/ambient.h: environment_terms of irradiance over pi,
- * without degree 3; environment_rest of what the lamps leave. All are of the image as it is, lamps too.
- * ambient_held is whoever's who has held tables, ambient_seen and ambient_seen_at whoever's who knows what hides lamps. */
+ * without degree 3; environment_residual of what the lights leave. All are of the image as it is, lights too.
+ * ambient_baked is whoever's who has baked tables, ambient_light_visibility and ambient_nearest_visibility whoever's who knows what hides lights. */
 #include "shading/frame.h"
 #include "shading/rgb.h"
 
 uniform highp samplerCube environment_cube;
 layout(std140) uniform Environment {
-    highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lamps */
+    highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lights */
     highp vec4 environment_parts;     /* x: factor on diffuse lobe and dust, y: on the other lobes */
-    highp vec4 environment_terms[18]; /* w of the first: ambient_lamp_kappa */
-    highp vec4 environment_rest[16];
-    highp vec4 environment_lamps[32]; /* two each: direction, irradiance */
+    highp vec4 environment_terms[18]; /* w of the first: ambient_light_kappa */
+    highp vec4 environment_residual[16];
+    highp vec4 environment_lights[32]; /* two each: direction, irradiance */
 };
 
 struct AmbientWeights {
@@ -45,24 +45,24 @@ Rgb ambient_radiance(Frame f, Dir w, float kappa) {
 }
 
 /* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/ambient.h). */
-Rgb ambient_rest(Frame f, Dir w, float kappa) {
+Rgb ambient_residual(Frame f, Dir w, float kappa) {
     float k = max(kappa, 0.25), q = 1.0 / k, a = 1.0 + 2.0 / (exp(min(2.0 * k, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
     vec3 d = kappa > 0.0 ? vec3(a, b, a - 5.0 * q * b) : vec3(2.0 / 3.0, 0.25, 0.0);
     vec3 n = environment_image(f, w), s = n * n;
-    vec3 one = environment_rest[1].rgb * n.x + environment_rest[2].rgb * n.y + environment_rest[3].rgb * n.z;
-    vec3 two = environment_rest[4].rgb * (n.x * n.y) + environment_rest[5].rgb * (n.y * n.z) +
-               environment_rest[6].rgb * (n.z * n.x) + environment_rest[7].rgb * (s.x - s.y) +
-               environment_rest[8].rgb * (3.0 * s.z - 1.0);
-    vec3 three = environment_rest[9].rgb * (n.y * (3.0 * s.x - s.y)) + environment_rest[10].rgb * (n.x * n.y * n.z) +
-                 environment_rest[11].rgb * (n.y * (5.0 * s.z - 1.0)) +
-                 environment_rest[12].rgb * (n.z * (5.0 * s.z - 3.0)) +
-                 environment_rest[13].rgb * (n.x * (5.0 * s.z - 1.0)) +
-                 environment_rest[14].rgb * (n.z * (s.x - s.y)) +
-                 environment_rest[15].rgb * (n.x * (s.x - 3.0 * s.y));
-    return environment_rgb(max(environment_rest[0].rgb + d.x * one + d.y * two + d.z * three, vec3(0.0)));
+    vec3 one = environment_residual[1].rgb * n.x + environment_residual[2].rgb * n.y + environment_residual[3].rgb * n.z;
+    vec3 two = environment_residual[4].rgb * (n.x * n.y) + environment_residual[5].rgb * (n.y * n.z) +
+               environment_residual[6].rgb * (n.z * n.x) + environment_residual[7].rgb * (s.x - s.y) +
+               environment_residual[8].rgb * (3.0 * s.z - 1.0);
+    vec3 three = environment_residual[9].rgb * (n.y * (3.0 * s.x - s.y)) + environment_residual[10].rgb * (n.x * n.y * n.z) +
+                 environment_residual[11].rgb * (n.y * (5.0 * s.z - 1.0)) +
+                 environment_residual[12].rgb * (n.z * (5.0 * s.z - 3.0)) +
+                 environment_residual[13].rgb * (n.x * (5.0 * s.z - 1.0)) +
+                 environment_residual[14].rgb * (n.z * (s.x - s.y)) +
+                 environment_residual[15].rgb * (n.x * (s.x - 3.0 * s.y));
+    return environment_rgb(max(environment_residual[0].rgb + d.x * one + d.y * two + d.z * three, vec3(0.0)));
 }
 
-float ambient_lamp_kappa(Frame f) { return environment_terms[0].w; }
+float ambient_light_kappa(Frame f) { return environment_terms[0].w; }
 
 Rgb ambient_irradiance(Frame f, Dir w) {
     vec3 n = environment_image(f, w), s = n * n;
@@ -81,18 +81,18 @@ Rgb ambient_irradiance(Frame f, Dir w) {
     return environment_rgb(max(c, vec3(0.0)));
 }
 
-int ambient_count(Frame f) { return int(environment_place.w); }
+int ambient_light_count(Frame f) { return int(environment_place.w); }
 
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
 
-/* The lamp nearest to w; -1 where there is none. */
+/* The light nearest to w; -1 where there is none. */
 int environment_nearest(Frame f, Dir w) {
     vec3 d = environment_image(f, w);
     float most = -2.0;
     int nearest = -1;
-    for (int k = 0; k < ambient_count(f); k++) {
-        float mu = dot(d, environment_lamps[2 * k].xyz);
+    for (int k = 0; k < ambient_light_count(f); k++) {
+        float mu = dot(d, environment_lights[2 * k].xyz);
         if (mu > most) nearest = k;
         most = max(most, mu);
     }
@@ -100,9 +100,9 @@ int environment_nearest(Frame f, Dir w) {
 }
 
 AmbientLight ambient_light(Frame f, int k) {
-    vec3 d = environment_world(environment_lamps[2 * k].xyz);
+    vec3 d = environment_world(environment_lights[2 * k].xyz);
     AmbientLight l;
     l.w = frame_to(f, dir(d.x, d.y, d.z));
-    l.color = environment_rgb(environment_lamps[2 * k + 1].rgb);
+    l.color = environment_rgb(environment_lights[2 * k + 1].rgb);
     return l;
 }

@@ -10,8 +10,8 @@ layout(location = 5) in highp vec4 at_color;
 layout(location = 6) in highp vec2 at_occlusion;
 layout(location = 7) in highp vec4 at_open_front;
 layout(location = 8) in highp vec4 at_open_back;
-layout(location = 9) in highp vec4 at_lamps_0;
-layout(location = 10) in highp vec4 at_lamps_1;
+layout(location = 9) in highp vec4 at_lights_0;
+layout(location = 10) in highp vec4 at_lights_1;
 
 out highp vec3 from_eye;
 centroid out highp vec3 vertex_normal;
@@ -22,8 +22,8 @@ out highp vec4 vertex_color;
 out highp vec2 vertex_occlusion;
 out highp vec4 vertex_open_front;
 out highp vec4 vertex_open_back;
-out highp vec4 vertex_lamps_0;
-out highp vec4 vertex_lamps_1;
+out highp vec4 vertex_lights_0;
+out highp vec4 vertex_lights_1;
 
 void main() {
     from_eye = at_position - eye.xyz;
@@ -35,7 +35,7 @@ void main() {
     vertex_occlusion = at_occlusion;
     vertex_open_front = at_open_front;
     vertex_open_back = at_open_back;
-    vertex_lamps_0 = at_lamps_0;
-    vertex_lamps_1 = at_lamps_1;
+    vertex_lights_0 = at_lights_0;
+    vertex_lights_1 = at_lights_1;
     gl_Position = to_clip * vec4(from_eye, 1.0);
 }

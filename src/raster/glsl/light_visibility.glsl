@@ -1,19 +1,19 @@
-/* lamps.glsl - what a fragment sees of the sky and of the environment's lamps, of which there are eight:
+/* light_visibility.glsl - what a fragment sees of the sky and of the environment's lights, of which there are eight:
  * raster/occlusion.h */
 #include "shading/occlusion_cone.h"
 
 in highp vec2 vertex_occlusion;
 in highp vec4 vertex_open_front;
 in highp vec4 vertex_open_back;
-in highp vec4 vertex_lamps_0;
-in highp vec4 vertex_lamps_1;
+in highp vec4 vertex_lights_0;
+in highp vec4 vertex_lights_1;
 
 /* Of the sky, by a texture, which is of the material's own bumps. */
 float texture_occlusion = 1.0;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
 
-float ambient_open(Frame f, Dir w, float cos_i, float occlusion) {
+float ambient_sky_visibility(Frame f, Dir w, float cos_i, float occlusion) {
     vec4 c = fragment_open();
     Dir d = frame_from(f, w);
     float seen = clamp(c.x + c.y * d.x + c.z * d.y + c.w * d.z, 0.0, 1.0);
@@ -22,7 +22,7 @@ float ambient_open(Frame f, Dir w, float cos_i, float occlusion) {
 
 /* A Gaussian of variance 1 / kappa times V = open + c . x has its mean at c / (kappa open); cut off where V
  * is, it is not beyond a deviation. */
-Dir ambient_bent(Frame f, Dir w, float kappa, float open) {
+Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     vec3 c = fragment_open().yzw;
     Dir slope = frame_to(f, dir(c.x, c.y, c.z));
     float by = min(1.0 / (kappa * max(open, 0.01)), inversesqrt(kappa * max(dot(c, c), 1e-12)));
@@ -30,14 +30,14 @@ Dir ambient_bent(Frame f, Dir w, float kappa, float open) {
 }
 
 /* -1 is unknown; beside their triangle fragments are a little out of range. */
-float lamp_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lamps_0[k] : vertex_lamps_1[k - 4]; }
+float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] : vertex_lights_1[k - 4]; }
 
-float ambient_seen(Frame f, int k, float occlusion) {
-    float seen = lamp_seen(k);
+float ambient_light_visibility(Frame f, int k, float occlusion) {
+    float seen = env_light_seen(k);
     return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion;
 }
 
-float ambient_seen_at(Frame f, Dir w, float open) {
-    float seen = lamp_seen(environment_nearest(f, w));
+float ambient_nearest_visibility(Frame f, Dir w, float open) {
+    float seen = env_light_seen(environment_nearest(f, w));
     return seen < -0.5 ? open : clamp(seen, 0.0, 1.0) * texture_occlusion;
 }
