@@ -204,9 +204,9 @@ static SeenStack subject_stack(int subject, float roughness, Dir o, const Albedo
     if (albedo) {
         m->albedo = ALBEDO_TABLE;
         m->table = albedo_table_ref(albedo);
-        m->at = lobe.params[0];
+        m->albedo_coord = lobe.params[0];
     }
-    seen_settle(&seen, o);
+    seen_prepare(&seen, o);
     return seen;
 }
 

@@ -77,7 +77,7 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
     bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
     text_include(text, "shading/rgb.h");
-    if (two && has_second(own)) text_include(text, "shading/share.h");
+    if (two && has_second(own)) text_include(text, "shading/fresnel_weight.h");
     text_line(text,
               "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
               "Dir wi) {\n    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
@@ -95,12 +95,14 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
             "color.b));\n    return rgb_scale(c, %sv.f);\n}",
             pi);
     else if (two && has_second(own))
-        text_line(text,
-                  "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
-                  "                    %s_second(m, color.b, second.b));\n"
-                  "    Rgb c = rgb(share_mix(v.s, color.r, other.r), share_mix(v.s, color.g, other.g),\n"
-                  "                share_mix(v.s, color.b, other.b));\n    return rgb_scale(c, %sv.f);\n}",
-                  p, p, p, pi);
+        text_line(
+            text,
+            "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
+            "                    %s_second(m, color.b, second.b));\n"
+            "    Rgb c = rgb(fresnel_weight_mix(v.s, color.r, other.r), fresnel_weight_mix(v.s, color.g, "
+            "other.g),\n"
+            "                fresnel_weight_mix(v.s, color.b, other.b));\n    return rgb_scale(c, %sv.f);\n}",
+            p, p, p, pi);
     else if (two)
         text_line(text, "    return rgb_scale(rgb_mix(color, second, v.s), %sv.f);\n}", pi);
     else
@@ -155,7 +157,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     Text *text = &draft->text;
     rename_own(text, own->prefix);
     text_include(text, "shading/angles.h");
-    if (!text_shares_cosine(lobe->lobe)) text_define(text, "SHARE_IS_COSINE(s)", "false");
+    if (!text_weight_is_cosine(lobe->lobe)) text_define(text, "FRESNEL_WEIGHT_IS_COSINE(s)", "false");
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);
     if (draft_lobe_rough(lobe)) put_rough(text, lobe, own);

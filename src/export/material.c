@@ -68,8 +68,8 @@ static void find_facts(Draft *draft, Subject *subject) {
     bool layer = true, by = true, under = true, albedo = true, view = true, coat = true;
     for (int x = 1; x < 3; x++) {
         layer &= m[x].layer == m[0].layer;
-        by &= m[x].by == m[0].by;
-        under &= m[x].under == m[0].under;
+        by &= m[x].combine == m[0].combine;
+        under &= m[x].base_fresnel == m[0].base_fresnel;
         view &= m[x].view == m[0].view;
         coat &= m[x].coat_rule == m[0].coat_rule;
         albedo &= m[x].albedo == m[0].albedo;
@@ -77,8 +77,8 @@ static void find_facts(Draft *draft, Subject *subject) {
     subject->stack = m[1];
     subject->one_layer = layer;
     if (layer) draft_fact(draft, "m.layer", m[0].layer);
-    if (by) draft_fact(draft, "m.by", m[0].by);
-    if (under) draft_fact(draft, "m.under", m[0].under);
+    if (by) draft_fact(draft, "m.combine", m[0].combine);
+    if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
     if (view) draft_fact(draft, "m.view", m[0].view);
     if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
     bool moved =
@@ -190,7 +190,9 @@ static void put_shade(Draft *draft, const Subject *subject) {
     if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (subject->table) text_line(text, "    m.table = sheen_table();");
     if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)
-        text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.at));");
+        text_line(
+            text,
+            "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
     if (subject->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
     /* A lobe that a slot does not hold leaves its part of the view alone, of which a compiler of C warns. */
@@ -198,7 +200,7 @@ static void put_shade(Draft *draft, const Subject *subject) {
     text_line(text, "    stack_prepare(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(subject)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
-    if (subject->slots.slots[2].count) text_line(text, "    view_keep(m, w);");
+    if (subject->slots.slots[2].count) text_line(text, "    view_base_scale(m, w);");
     text_line(text, "    Angles a = angles_between(wo, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
     text_line(text,
@@ -214,7 +216,7 @@ static void put_text(Draft *draft, Subject *subject) {
     if (subject->table) e = albedo_table_ref(subject->table);
     text_include(text, "shading/angles.h");
     text_composition_lobes(text, &subject->slots, e.kind, e.tilts);
-    if (!subject->slots.slots[2].count) text_define(text, "IS_WORN(m)", "false");
+    if (!subject->slots.slots[2].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
     if (subject->one_layer) put_layer(text, subject->stack.layer);
     text_composition(text, &subject->choices);
     if (subject->chosen) text_composition_choices(text, &subject->choices);

@@ -15,8 +15,8 @@ void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTabl
         s.anisotropy = (float)(ends >> 2 & 1);
         s.sheen_beta = ends >> 3 & 1 ? surface->sheen_beta : 0.0f;
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
-        low = ends ? min(low, m.at) : m.at;
-        high = ends ? max(high, m.at) : m.at;
+        low = ends ? min(low, m.albedo_coord) : m.albedo_coord;
+        high = ends ? max(high, m.albedo_coord) : m.albedo_coord;
     }
     albedo_table_fill(out, &lobe, low, high, 0);
 }

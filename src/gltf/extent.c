@@ -54,7 +54,7 @@ static size_t tga_bytes(Span image) {
 }
 
 /* What the reader of images believes at most of a file of this size. */
-static size_t believable_bytes(Span image) {
+static size_t header_bytes(Span image) {
     const size_t always = (size_t)512 << 20;
     return image.size > always / 16 ? image.size * 16 : always;
 }
@@ -66,6 +66,6 @@ static bool starts(Span image, const char *signature, size_t size) {
 size_t extent_bytes(Span image) {
     if (starts(image, "\x89PNG", 4)) return png_bytes(image);
     if (starts(image, "\xff\xd8\xff", 3)) return jpeg_bytes(image);
-    if (starts(image, "#?", 2) || starts(image, "\x76\x2f\x31\x01", 4)) return believable_bytes(image);
+    if (starts(image, "#?", 2) || starts(image, "\x76\x2f\x31\x01", 4)) return header_bytes(image);
     return tga_bytes(image);
 }

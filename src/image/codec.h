@@ -1,7 +1,7 @@
 /* codec.h - the file formats of images: each reads from memory, some write to a stream
  *
  * A reader leaves *out untouched or zeroed on failure, never half filled. It refuses a size that the file
- * cannot hold (image_believable) before it allocates. */
+ * cannot hold (image_check_header) before it allocates. */
 #ifndef WEFT_IMAGE_CODEC_H
 #define WEFT_IMAGE_CODEC_H
 
@@ -26,8 +26,8 @@ const char *image_media_type(const unsigned char *data, size_t size);
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and more bytes of memory than are
  * believed of a file of this size: 512 MiB, more only for a file of at least a sixteenth of it, never above 2
  * GiB. So a small hostile file cannot ask for much, and a large honest one is read. */
-WeftResult image_believable(const ImageSource *source, int64_t width, int64_t height, int64_t bytes_per_pixel,
-                            WeftError *error);
+WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height,
+                              int64_t bytes_per_pixel, WeftError *error);
 
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) a file smaller than the fewest bytes its pixels can be coded in. */
 WeftResult image_reachable(const ImageSource *source, int64_t fewest_bytes, WeftError *error);

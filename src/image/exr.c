@@ -216,14 +216,14 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     if (exr_chunks(exr) != EXR_ERR_SUCCESS)
         return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name, "EXR: its header describes no chunks");
     /* A chunk is in memory up to three times: packed, unpacked and between. */
-    result = image_believable(source, exr->chunk_width, exr->chunk_height, 3 * exr->pixel_bytes, error);
-    if (result == WEFT_OK) result = image_believable(source, width, height, exr->pixel_bytes, error);
+    result = image_check_header(source, exr->chunk_width, exr->chunk_height, 3 * exr->pixel_bytes, error);
+    if (result == WEFT_OK) result = image_check_header(source, width, height, exr->pixel_bytes, error);
     if (result == WEFT_OK)
         result =
             image_reachable(source, width * height * exr->pixel_bytes / ratio_most(exr->compression), error);
     if (result == WEFT_OK)
-        result = image_believable(source, box_width(exr->display), box_height(exr->display),
-                                  exr->count * (int64_t)sizeof(float), error);
+        result = image_check_header(source, box_width(exr->display), box_height(exr->display),
+                                    exr->count * (int64_t)sizeof(float), error);
     return result;
 }
 

@@ -162,7 +162,7 @@ WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *
     WeftResult result = hdr_header(&hdr, error);
     if (result != WEFT_OK) return result;
     const int width = hdr.x_first ? hdr.lines : hdr.length, height = hdr.x_first ? hdr.length : hdr.lines;
-    result = image_believable(source, width, height, 3 * (int64_t)sizeof(float), error);
+    result = image_check_header(source, width, height, 3 * (int64_t)sizeof(float), error);
     if (result == WEFT_OK) result = image_reachable(source, hdr.lines * fewest_line_bytes(hdr.length), error);
     if (result == WEFT_OK) result = weft_image_create(width, height, 3, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;

@@ -41,8 +41,8 @@ void weft_image_free(WeftImage *image) {
     *image = (WeftImage){0};
 }
 
-WeftResult image_believable(const ImageSource *source, int64_t width, int64_t height, int64_t bytes_per_pixel,
-                            WeftError *error) {
+WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height,
+                              int64_t bytes_per_pixel, WeftError *error) {
     const int64_t always = (int64_t)512 << 20, never = (int64_t)2 << 30;
     if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
         return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld; a side is 1 to %d",

@@ -94,7 +94,7 @@ static WeftResult jpeg_decode(JpegJob *job, const ImageSource *source, WeftError
     const int grey = jpeg->num_components == 1, four = jpeg->num_components == 4;
     const int64_t pixels = (int64_t)jpeg->image_width * jpeg->image_height;
     const int64_t coefficients = jpeg_has_multiple_scans(jpeg) ? job->blocks * 128 / pixels : 0;
-    result = image_believable(source, jpeg->image_width, jpeg->image_height, coefficients + 3, error);
+    result = image_check_header(source, jpeg->image_width, jpeg->image_height, coefficients + 3, error);
     if (result != WEFT_OK) return result;
 
     jpeg->out_color_space = grey ? JCS_GRAYSCALE : four ? JCS_CMYK : JCS_RGB;

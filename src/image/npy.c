@@ -207,7 +207,7 @@ WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *
                                : npy.bytes == 2 ? WEFT_PIXEL_U16
                                                 : WEFT_PIXEL_U8;
     const int64_t in_memory = type == WEFT_PIXEL_F32 ? (int64_t)sizeof(float) : npy.bytes;
-    WeftResult result = image_believable(source, npy.side[1], npy.side[0], npy.side[2] * in_memory, error);
+    WeftResult result = image_check_header(source, npy.side[1], npy.side[0], npy.side[2] * in_memory, error);
     if (result == WEFT_OK) {
         const int64_t before = npy.data - source->data;
         result = image_reachable(source, before + npy.side[0] * npy.side[1] * npy.side[2] * npy.bytes, error);

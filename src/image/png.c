@@ -62,7 +62,7 @@ static WeftResult png_decode(png_structp png, png_infop info, const ImageSource 
     const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     const int deep = png_get_bit_depth(png, info) == 16, channels = png_get_channels(png, info);
-    result = image_believable(source, width, height, channels * (deep ? 2 : 1), error);
+    result = image_check_header(source, width, height, channels * (deep ? 2 : 1), error);
     if (result != WEFT_OK) return result;
     result = weft_image_create((int)width, (int)height, channels, deep ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8, out,
                                error);

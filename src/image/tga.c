@@ -141,7 +141,7 @@ WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *
     if (result != WEFT_OK) return result;
     /* The longest packet holds 128 pixels in a byte and one pixel. */
     const int64_t pixels = (int64_t)tga.width * tga.height, step = byte_count(tga.pixel_bits);
-    result = image_believable(source, tga.width, tga.height, tga.channels, error);
+    result = image_check_header(source, tga.width, tga.height, tga.channels, error);
     if (result == WEFT_OK)
         result = image_reachable(source, tga.packed ? pixels / 128 * (1 + step) : pixels * step, error);
     if (result == WEFT_OK)

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "measure/audit_probe.h"
 #include "measure/audit_words.h"
-#include "measure/more.h"
+#include "measure/exceeds.h"
 
 /* An explanation must leave less than this share of the error. */
 static const double explained = 0.25;
@@ -80,7 +80,7 @@ static float cell_exact(Cell *cell, int i, int j) {
     if (cell->known[n]) return cell->e[n];
     const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
     const bool judged = !texel.beyond && texel.cos_o > 0.0f;
-    if (judged && is_more(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
+    if (judged && exceeds_or_nan(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
     cell->known[n] = true;
     return cell->e[n] = judged ? texel.part[work->reading.part] : -1.0f;
 }
@@ -166,7 +166,7 @@ static void measure(const Work *work, WeftAudit *out) {
             sum += e;
             squares += e * e;
             beyond += !(fabs(e) <= work->most);
-            if (is_more(fabs(e), out->largest)) {
+            if (exceeds_or_nan(fabs(e), out->largest)) {
                 out->largest = fabs(e);
                 out->place = (WeftTablePlace){.x = x, .y = y, .table = here[1], .albedo = here[2]};
             }
@@ -179,7 +179,7 @@ static void measure(const Work *work, WeftAudit *out) {
             }
         }
     for (int k = 0; k < WEFT_THREADS_MAX; k++)
-        if (is_more(work->met[k], out->error)) out->error = work->met[k];
+        if (exceeds_or_nan(work->met[k], out->error)) out->error = work->met[k];
     if (out->texels == 0) return;
     weft_table_form_texel(&out->form, work->lobe.id, work->width, work->height, out->place.x, out->place.y,
                           &out->place.cos_o, &out->place.value);

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "measure/bake.h"
-#include "measure/more.h"
+#include "measure/exceeds.h"
 
 typedef struct Texels {
     int width, total;
@@ -97,7 +97,7 @@ static void fill_texel(void *user, int x, int y, int thread) {
                                  .tolerance = fill->desc->tolerance};
         const BakeTexel texel = bake_texel(&plane, x, y);
         for (int c = 0; c < layer->channels; c++) *to++ = texel.part[layer->parts[c]];
-        if (is_more(texel.error, met->error)) met->error = texel.error;
+        if (exceeds_or_nan(texel.error, met->error)) met->error = texel.error;
         met->unmet += !(texel.error <= plane.tolerance);
         beyond |= texel.beyond;
     }
@@ -120,7 +120,7 @@ WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int co
         bake_texels(desc->width, desc->height, desc->threads, desc->progress, desc->user, fill_texel, fill);
     for (int k = 0; k < WEFT_THREADS_MAX; k++) {
         const Met *met = &fill->met[k];
-        if (is_more(met->error, info->error)) info->error = met->error;
+        if (exceeds_or_nan(met->error, info->error)) info->error = met->error;
         info->unmet += met->unmet;
         info->beyond += met->beyond;
     }

@@ -113,12 +113,12 @@ static void see(const Case *self, const float color[3], float roughness, TableRe
 /* Samples what one slot reflects, each draw as that slot spreads its light. */
 static void base_add(const SeenStack *whole, int slot, Base *base) {
     SeenStack one = *whole;
-    float *const picks[] = {&one.view.pick.diffuse, &one.view.pick.specular, &one.view.pick.coat};
+    float *const picks[] = {&one.view.select_p.diffuse, &one.view.select_p.specular, &one.view.select_p.coat};
     const Slots only[] = {slots_of(true, false, false, false, false),
                           slots_of(false, true, false, false, false),
                           slots_of(false, false, false, true, false)};
     if (!(*picks[slot] > 0.0f)) return;
-    one.view.pick = (Scales){0};
+    one.view.select_p = (Scales){0};
     *picks[slot] = 1.0f;
     int counts[SLICES] = {0};
     double heights[SLICES] = {0.0};
@@ -174,7 +174,8 @@ static TableRef keep_table(EnergyTables *tables, const Case *self) {
     if (stack->albedo != ALBEDO_TABLE && stack->albedo != ALBEDO_KHRONOS)
         return (TableRef){.kind = TABLE_NONE};
     see(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
-    const float low = fminf(end.stack.at, stack->at), high = fmaxf(end.stack.at, stack->at);
+    const float low = fminf(end.stack.albedo_coord, stack->albedo_coord),
+                high = fmaxf(end.stack.albedo_coord, stack->albedo_coord);
     if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack->sheen.lobe, low, high, false))
         albedo_table_fill(&tables->keep, &stack->sheen.lobe, low, high, 0);
     return albedo_table_ref(&tables->keep);
@@ -228,7 +229,7 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
             const float z = base->z[slice], *below = base->below[slice];
             if (!(z > 0.0f)) continue;
             const Rgb keep =
-                stack_keep(stack, &seen.view, stack_albedo(stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
+                stack_base_scale(stack, &seen.view, stack_albedo(stack, dir(sqrtf(1.0f - z * z), 0.0f, z)));
             with[0] += keep.r * below[0], with[1] += keep.g * below[1], with[2] += keep.b * below[2];
             for (int c = 0; c < 3; c++) without[c] += below[c];
         }

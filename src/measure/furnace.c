@@ -15,7 +15,8 @@ static double still(const SeenStack *seen, int cells, bool random) {
         for (int c = 0; c < cells; c++) {
             Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
             /* seen_eval walks by the same seed */
-            float bounces = random ? sheet_bounces(&seen->stack, &seen->view, slots_all(), i, 0).g : 0.0f;
+            float bounces =
+                random ? layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, 0).g : 0.0f;
             sum += (double)(seen_eval(seen, i, 0).f_cos.g - bounces) * ring.area[c];
         }
     }
@@ -28,7 +29,7 @@ enum { LEAST = 10000 };
 static double weighed(const SeenStack *seen, bool all, float u, float v, uint32_t seed) {
     Dir i = all ? seen_sample(seen, u, v) : warp_cosine(u, v);
     if (!all)
-        return (double)(sheet_bounces(&seen->stack, &seen->view, slots_all(), i, seed).g /
+        return (double)(layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, seed).g /
                         warp_cosine_pdf(i));
     StackValue value = seen_eval(seen, i, seed);
     return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
@@ -72,7 +73,7 @@ Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const Albe
     SeenStack seen;
     stack_make(&seen.stack, &surface, &choices, albedo_table_ref(e));
     for (int k = 1; k < LOBE_PARAMS_MAX; k++) seen.stack.sheen.lobe.params[k] = lobe->params[k];
-    seen_settle(&seen, o);
+    seen_prepare(&seen, o);
 
     if (weft_lobe_info(lobe->id)->traits & TRAIT_REFERENCE) return walked(&seen, true, walks / 4);
     bool random = layer == LAYER_STOCHASTIC;

@@ -9,7 +9,7 @@
 #include "measure/chi_square.h"
 #include "measure/furnace.h"
 #include "measure/half_floor.h"
-#include "measure/more.h"
+#include "measure/exceeds.h"
 #include "measure/parity.h"
 #include "measure/reciprocity.h"
 #include "measure/sweep.h"
@@ -76,7 +76,7 @@ static void find_albedo(Work *work) {
             float e = out->albedo[row][c];
             out->albedo_above += !(e <= 1.001f);
             /* equal but for the last digits is not more: else rounding would choose the place */
-            if (row + c > 0 && !is_more((double)e, (double)out->albedo_most * 1.0002)) continue;
+            if (row + c > 0 && !exceeds_or_nan((double)e, (double)out->albedo_most * 1.0002)) continue;
             out->albedo_most = e;
             out->albedo_place = (WeftPlace){.value = out->values[row], .cos_o = cosines[c]};
         }
@@ -92,14 +92,14 @@ static void measure_reciprocity(void *user, int row, int thread) {
     *worst = reciprocity_measure(work->subject, row, pairs);
     if (!work->colored) return;
     Reciprocity colored = reciprocity_measure(work->colored, row, pairs);
-    if (is_more((double)colored.error, (double)worst->error)) *worst = colored;
+    if (exceeds_or_nan((double)colored.error, (double)worst->error)) *worst = colored;
 }
 
 static void find_reciprocity(Work *work) {
     parallel_for(work->desc->threads, work->out->rows, measure_reciprocity, work);
     for (int row = 0; row < work->out->rows; row++) {
         const Reciprocity *r = &work->reciprocity[row];
-        if (!is_more((double)r->error, (double)work->out->reciprocity)) continue;
+        if (!exceeds_or_nan((double)r->error, (double)work->out->reciprocity)) continue;
         work->out->reciprocity = r->error;
         work->out->reciprocity_place = r->place;
     }
@@ -145,7 +145,7 @@ static void find_furnace(Work *work) {
         int layer = k / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
         float e =
             work->out->furnace[layer][sheen][view] - 3.0f * work->out->furnace_noise[layer][sheen][view];
-        if (conserves[layer] && is_more((double)e, (double)work->out->furnace_most))
+        if (conserves[layer] && exceeds_or_nan((double)e, (double)work->out->furnace_most))
             work->out->furnace_most = e;
     }
 }
@@ -190,14 +190,14 @@ static void find_sampling(Work *work) {
     out->p = 1.0;
     for (int row = 0; row < out->rows; row++) {
         double ratio = row_ratio(out, row);
-        if (is_more(ratio, (double)out->variance_worst * 1.0002)) {
+        if (exceeds_or_nan(ratio, (double)out->variance_worst * 1.0002)) {
             out->variance_worst = (float)ratio;
             out->variance_value = out->values[row];
         }
         if (row == subject->row_default) out->variance_ratio = (float)ratio;
         for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
             WeftPlace place = {.value = out->values[row], .cos_o = views[v]};
-            if (is_more(work->missed[row][v], (double)out->missed * 1.0002)) {
+            if (exceeds_or_nan(work->missed[row][v], (double)out->missed * 1.0002)) {
                 out->missed = (float)work->missed[row][v];
                 out->missed_place = place;
             }
@@ -205,7 +205,7 @@ static void find_sampling(Work *work) {
             const ChiSquare *chi = &work->chi[row][v];
             out->tests++;
             out->stray += chi->stray;
-            if (is_more(chi->integral, (double)out->pdf_most * 1.0002)) {
+            if (exceeds_or_nan(chi->integral, (double)out->pdf_most * 1.0002)) {
                 out->pdf_most = (float)chi->integral;
                 out->pdf_place = place;
             }

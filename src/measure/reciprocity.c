@@ -2,7 +2,7 @@
 
 #include "measure/draw.h"
 #include "measure/grid.h"
-#include "measure/more.h"
+#include "measure/exceeds.h"
 
 static const double turn = 6.28318530717959;
 
@@ -29,7 +29,7 @@ Reciprocity reciprocity_measure(const Subject *subject, int setting, int pairs) 
         Dir o = grid_direction(z_o, phi_o), i = grid_direction(z_i, phi_o + phi);
         float f = ask_f(subject, setting, o, i), g = ask_f(subject, setting, i, o);
         float error = fabsf(f - g) / max(max(f, g), 1e-3f);
-        if (!is_more((double)error, (double)worst.error)) continue;
+        if (!exceeds_or_nan((double)error, (double)worst.error)) continue;
         float value = setting < subject->rows ? subject->values[setting] : 0.0f;
         worst = (Reciprocity){error, {value, o.z, i.z, (float)(phi * (360.0 / turn))}};
     }

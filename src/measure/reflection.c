@@ -51,7 +51,7 @@ static bool make_table(Whole *self) {
     if (!asks_for_table(self, &stack)) return true;
     self->own = alloc_array(1, sizeof *self->own);
     if (!self->own) return false;
-    albedo_table_fill(self->own, &stack.sheen.lobe, stack.at, stack.at, 0);
+    albedo_table_fill(self->own, &stack.sheen.lobe, stack.albedo_coord, stack.albedo_coord, 0);
     self->table = albedo_table_ref(self->own);
     return true;
 }
@@ -60,7 +60,7 @@ static void whole_set(Whole *self, const Material *material) {
     Surface surface = material_plain(material);
     surface.dust_noise = 0.0f;
     self->along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f);
-    self->surface = dust_settle(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
+    self->surface = dust_accumulate(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
     self->choices = material_choices(material);
     self->table = (TableRef){.kind = TABLE_NONE};
 }
@@ -78,8 +78,8 @@ static void widest(const Whole *self, float *low, float *high) {
         end.surface.sheen_roughness = ends & 1 ? 1.0f : 0.0f;
         end.surface.roughness = ends & 2 ? 1.0f : 0.0f;
         asks_for_table(&end, &stack);
-        *low = fminf(*low, stack.at);
-        *high = fmaxf(*high, stack.at);
+        *low = fminf(*low, stack.albedo_coord);
+        *high = fmaxf(*high, stack.albedo_coord);
     }
 }
 
@@ -88,7 +88,7 @@ void reflection_change(WeftReflection *self, const WeftMaterial *material, Albed
     const Material taken = material_of_numbers(material);
     whole_set(&self->whole, &taken);
     if (!asks_for_table(&self->whole, &stack) || stack.layer == LAYER_ADDITIVE) return;
-    float low = stack.at, high = stack.at;
+    float low = stack.albedo_coord, high = stack.albedo_coord;
     widest(&self->whole, &low, &high);
     if (!shared->rows || !albedo_table_serves(shared, &stack.sheen.lobe, low, high, false))
         albedo_table_fill(shared, &stack.sheen.lobe, low, high, 0);
@@ -175,7 +175,7 @@ static StackValue value_of(const SeenStack *seen, int part, Dir i, uint32_t firs
     StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part), i);
     bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
     for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++) {
-        Rgb bounces = sheet_bounces(stack, &seen->view, slots_all(), i, first + k);
+        Rgb bounces = layer_walk_bounces(stack, &seen->view, slots_all(), i, first + k);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(bounces, 1.0f / (float)walks));
     }
     return sum;

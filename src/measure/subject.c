@@ -75,7 +75,7 @@ static void lobe_f(const View *view, Dirs i, float *f) {
         }
         lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at,
                     mixes ? share : NULL);
-        for (size_t k = 0; mixes && k < n; k++) f[at + k] *= share_mix(share[k], 1.0f, view->second);
+        for (size_t k = 0; mixes && k < n; k++) f[at + k] *= fresnel_weight_mix(share[k], 1.0f, view->second);
     }
 }
 
@@ -199,7 +199,7 @@ static bool same_sheen(const Sheen *a, const Sheen *b) {
 static Sheen sheen_of(const Subject *subject, int setting) {
     Stack stack;
     stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE});
-    return (Sheen){stack.sheen.lobe, stack.at};
+    return (Sheen){stack.sheen.lobe, stack.albedo_coord};
 }
 
 typedef struct Fill {

@@ -183,7 +183,7 @@ static void check_fitted(const Material *material, const char *name, const WeftL
     Stack stack;
     if (material->inputs[INPUT_sheen_roughness].texture) surface.sheen_roughness = 0.0f;
     stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE});
-    if (IS_WORN(&stack)) lobe_fitted(&stack.sheen.lobe, name, log);
+    if (HAS_LAYERED_SHEEN(&stack)) lobe_fitted(&stack.sheen.lobe, name, log);
 }
 
 void weft_material_fitted(const WeftMaterial *numbers, const char *name, const WeftLog *log) {

@@ -51,7 +51,7 @@ static void answer_at(const Probe *probe, Surface s, const Choices *choices, Rgb
     SeenStack seen;
     Frame frame = frame_of(at, s, probe->eye), fixed = frame_about(frame.z, probe->tangent, 1.0f);
     Dir o = frame_to(frame, probe->eye);
-    s = dust_settle(frame_surface(s), frame.z, probe->point);
+    s = dust_accumulate(frame_surface(s), frame.z, probe->point);
     stack_make(&seen.stack, &s, choices, none);
     float same = stand_in(&seen.stack);
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;

@@ -38,7 +38,7 @@ enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 static void table_range(const Material *material, bool all, float *low, float *high) {
     const Surface plain = material_plain(material);
     const Choices choices = material_choices(material);
-    *low = *high = plain_stack(&plain, &choices).at;
+    *low = *high = plain_stack(&plain, &choices).albedo_coord;
     for (int ends = 0; ends < 1 << SHAPES; ends++) {
         Surface surface = plain;
         for (int k = 0; k < SHAPES; k++) {
@@ -49,7 +49,7 @@ static void table_range(const Material *material, bool all, float *low, float *h
             else if (material->inputs[shapes[k].input].texture && !upper)
                 *value = shapes[k].least;
         }
-        float at = plain_stack(&surface, &choices).at;
+        float at = plain_stack(&surface, &choices).albedo_coord;
         *low = min(*low, at);
         *high = max(*high, at);
     }

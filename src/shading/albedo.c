@@ -86,13 +86,13 @@ static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, doub
     float *share = f[1];
     lobe_eval_n(asked->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
     for (size_t k = 0; k < n && !asked->w; k++) {
-        double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)share_plain(share[k]);
+        double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)fresnel_weight_plain(share[k]);
         sum.part[0] += weight - of_f90;
         sum.part[1] += of_f90;
     }
     for (size_t k = 0; k < n && asked->w; k++)
         for (int p = 0; p < 3; p++)
-            sum.part[p] += w[k] * (double)f[0][k] * (double)share_mix(share[k], asked->w[p], 1.0f);
+            sum.part[p] += w[k] * (double)f[0][k] * (double)fresnel_weight_mix(share[k], asked->w[p], 1.0f);
     return sum;
 }
 
@@ -167,7 +167,7 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
 bool albedo_asks_color(const Lobe *lobe) {
     Dir n = dir(0.0f, 0.0f, 1.0f);
     return weft_lobe_info(lobe->id)->traits & TRAIT_TINTED ||
-           SHARE_IS_COSINE(lobe_value(lobe, angles_between(n, n)).s);
+           FRESNEL_WEIGHT_IS_COSINE(lobe_value(lobe, angles_between(n, n)).s);
 }
 
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {

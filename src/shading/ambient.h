@@ -480,16 +480,16 @@ FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, 
     return a;
 }
 
-/* The colours of a slot against that. Where F enters squared (the sag) and where colour is no factor,
+/* The colours of a slot against that. Where F enters squared (the f_quadratic) and where colour is no factor,
  * the share and the tint are those of the whole lobe. */
-FN float ambient_apply_channel(SheenE e, float f0, float f90, float sag, float first, float second) {
+FN float ambient_apply_channel(SheenE e, float f0, float f90, float f_quadratic, float first, float second) {
     if (IS_TINTED(e.tint)) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
-    return f0 * first + f90 * second - sag * first * second / max(first + second, 1e-30f);
+    return f0 * first + f90 * second - f_quadratic * first * second / max(first + second, 1e-30f);
 }
 FN Rgb ambient_apply_colors(SlotColors s, float scale, SheenE e, LobeLight p) {
-    return rgb_scale(rgb(ambient_apply_channel(e, s.f0.r, s.f90.r, s.sag.r, p.first.r, p.second.r),
-                         ambient_apply_channel(e, s.f0.g, s.f90.g, s.sag.g, p.first.g, p.second.g),
-                         ambient_apply_channel(e, s.f0.b, s.f90.b, s.sag.b, p.first.b, p.second.b)),
+    return rgb_scale(rgb(ambient_apply_channel(e, s.f0.r, s.f90.r, s.f_quadratic.r, p.first.r, p.second.r),
+                         ambient_apply_channel(e, s.f0.g, s.f90.g, s.f_quadratic.g, p.first.g, p.second.g),
+                         ambient_apply_channel(e, s.f0.b, s.f90.b, s.f_quadratic.b, p.first.b, p.second.b)),
                      scale);
 }
 
@@ -510,16 +510,17 @@ FN float ambient_schlick_half(float cos_o) {
 FN Rgb ambient_base_transmittance(const Stack *m, const StackView *w) {
     float cos_o = w->o.z;
     Rgb f = rgb_grey(0.0f);
-    if (m->under == UNDER_HALF || m->under == UNDER_GAUSSIAN)
-        f = rgb_mix(w->under_f0, rgb_grey(w->under_f90), ambient_schlick_half(cos_o));
-    if (m->under == UNDER_LEAST)
-        f = rgb_grey(rgb_max3(rgb_mix(w->under_f0, rgb_grey(w->under_f90), ambient_schlick_least(cos_o))));
-    return stack_rest(f);
+    if (m->base_fresnel == BASE_FRESNEL_HALF || m->base_fresnel == BASE_FRESNEL_GAUSSIAN)
+        f = rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), ambient_schlick_half(cos_o));
+    if (m->base_fresnel == BASE_FRESNEL_LEAST)
+        f = rgb_grey(
+            rgb_max3(rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), ambient_schlick_least(cos_o))));
+    return stack_one_minus(f);
 }
 FN Rgb ambient_interface_transmittance(const Stack *m, const StackView *w) {
     float s = ambient_schlick_least(w->o.z);
     if (m->layer == LAYER_SEED) s = ambient_schlick_half(w->o.z);
-    return stack_let_by(m, w, s);
+    return stack_interface_at(m, w, s);
 }
 
 FN Rgb ambient_reflect_lights(const Stack *m, const StackView *lit, Slots only, AmbientSource s,
@@ -549,15 +550,15 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
     AmbientView v = ambient_view(o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
     AmbientLookups residual = ambient_residual_lookups(s, v);
-    bool worn = IS_WORN(m);
-    Rgb keep = rgb_grey(1.0f);
-    if (worn) keep = stack_keep(m, w, m->e_avg);
-    Rgb diffuse = rgb_mul(keep, ambient_base_transmittance(m, w));
+    bool layered = HAS_LAYERED_SHEEN(m);
+    Rgb base_scale = rgb_grey(1.0f);
+    if (layered) base_scale = stack_base_scale(m, w, m->e_avg);
+    Rgb diffuse = rgb_mul(base_scale, ambient_base_transmittance(m, w));
     float matte = ambient_diffuse(s), other = ambient_reflection(s);
-    if (IS_BELOW_F(m) && worn) {
+    if (IS_BELOW_F(m) && layered) {
         over = ambient_interface_transmittance(m, w);
-        diffuse = rgb_mul(keep, over);
-        keep = rgb_grey(1.0f);
+        diffuse = rgb_mul(base_scale, over);
+        base_scale = rgb_grey(1.0f);
     }
     SheenE plain = sheen_e_of(0.0f);
     if (HAS_DIFFUSE(m)) {
@@ -573,7 +574,7 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         float env_lights = a.light_fraction * other;
         Rgb c = rgb_scale(
             ambient_apply_colors(stack_specular_colors(m, w), w->scale.specular, plain, a.reflected), other);
-        if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(keep, c));
+        if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(base_scale, c));
         only.specular = SHOWS_SPECULAR && env_lights > 0.0f;
         lit.scale.specular = w->scale.specular * env_lights;
     }

@@ -121,8 +121,8 @@ static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimut
         float w = value.f * i.z / (value.pdf * SAMPLES);
         int n = cloud->count++;
         cloud->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
-        cloud->w[0][n] = w * (1.0f - share_plain(value.s));
-        cloud->w[1][n] = w * share_plain(value.s);
+        cloud->w[0][n] = w * (1.0f - fresnel_weight_plain(value.s));
+        cloud->w[1][n] = w * fresnel_weight_plain(value.s);
         for (int c = 0; c < 2; c++) cloud->e[c] += (double)cloud->w[c][n];
         cloud->dense += (double)(w * log2(max(value.f * i.z, 1e-30f)));
     }

@@ -25,7 +25,7 @@
     }
 #define SPREAD_N(id, NAME, ...) TERM_N(spread, d, NAME, cook_torrance_spread(m, a))
 #define SHADOW_N(id, NAME, ...) TERM_N(shadow, v, NAME, f[k] * cook_torrance_shadow(m, a))
-#define MIXED_N(id, NAME, ...)  TERM_N(mixed, f, NAME, cook_torrance_share(m, a))
+#define MIXED_N(id, NAME, ...)  TERM_N(mixed, f, NAME, cook_torrance_fresnel_weight(m, a))
 #define DRAWN_N(id, NAME, ...)  TERM_N(drawn, d, NAME, cook_torrance_drawn(m, cook_torrance_spread(m, a), a))
 WEFT_D_TERMS(SPREAD_N)
 WEFT_V_TERMS(SHADOW_N)

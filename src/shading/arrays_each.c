@@ -75,7 +75,7 @@
             r[k] = counts ? r[k] * shadow : 0.0f;                                                            \
         }                                                                                                    \
     }
-#define TERM_COLOR(first, second) share_mix(s, first, cook_torrance_second(m, first, second))
+#define TERM_COLOR(first, second) fresnel_weight_mix(s, first, cook_torrance_second(m, first, second))
 #define MIXED_EACH(id, NAME, ...)                                                                            \
     CLONES static void mixed_##NAME##_each_n(const Each *e, size_t n) {                                      \
         TAKE_PAIRS(e);                                                                                       \
@@ -84,7 +84,7 @@
         EACH(k, n) {                                                                                         \
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_OWN_TERMS(f, NAME);                                                                         \
-            float s = cook_torrance_share(m, angles_between(o, i)), f = counts ? r[k] : 0.0f;                \
+            float s = cook_torrance_fresnel_weight(m, angles_between(o, i)), f = counts ? r[k] : 0.0f;       \
             PUT_COLORS(f, TERM_COLOR);                                                                       \
         }                                                                                                    \
     }

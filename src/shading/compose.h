@@ -96,15 +96,15 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         m->nap = nap_of(s->nap, s->nap_direction);
         slot_make(&m->sheen, lobe, m->sheen_color, s->sheen_second, 1.0f, m->sheen.normal, m->sheen.grazing);
         m->albedo = ALBEDO_TABLE;
-        m->at = lobe.params[0];
+        m->albedo_coord = lobe.params[0];
     }
     if (c.layer >= 0) m->layer = c.layer;
     m->amount = min(s->sheen, 1.0f);
     if ((c.layer == LAYER_RECIPROCAL || c.layer == LAYER_STOCHASTIC) && m->albedo > ALBEDO_KHRONOS) {
         m->albedo = ALBEDO_TABLE; /* these ask for more than engines' own formulas know */
-        m->at = m->sheen.lobe.params[0];
+        m->albedo_coord = m->sheen.lobe.params[0];
     }
-    if (c.layer_by >= 0) m->by = c.layer_by;
+    if (c.layer_by >= 0) m->combine = c.layer_by;
     if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && HAS_SPECULAR(m)) {
         m->specular.lobe = compose_terms(compose_facets(m->specular.lobe), c.d, c.v, c.f, s);
     }
@@ -121,14 +121,14 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
 FN SheenE stack_albedo(const Stack *m, Dir w) {
     float cosine = w.z;
     WEFT_ALBEDO_FORMULAS(COMPOSE_ALBEDO)
-    if (!SHEEN_IS_OWN(m->table)) return sheen_e_of(table_engine(m->table, cosine, m->at));
+    if (!SHEEN_IS_OWN(m->table)) return sheen_e_of(table_engine(m->table, cosine, m->albedo_coord));
     return table_sheen_nap(m->table, w, m->nap, m->rows);
 }
 
-/* Dust over all of it, where dust_settle found some. */
+/* Dust over all of it, where dust_accumulate found some. */
 FN void compose_dust(Stack *m, const Surface *s) {
     if (s->dust <= DUST_LEAST) return;
-    m->dust_lies = s->dust;
+    m->dust_amount = s->dust;
     slot_even(&m->dust, lobe_rough(LOBE_LTC_FIBRE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
     m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
@@ -149,7 +149,7 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
 
 /* The stack of a surface. e is the table of E of the sheen's lobe over its first parameter, where the stack
  * without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust is what lies at this point:
- * dust_settle says. */
+ * dust_accumulate says. */
 FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     Choices d = convert_choices(c);
     Surface t = convert_surface(*s, c);
@@ -163,37 +163,37 @@ FN void view_coat(const Stack *m, StackView *w) {
     float cosine = w->coat_o.z, f = 0.0f; /* a coat turned away by its normal map is not seen */
     float s = m->coat_rule == COAT_GAUSSIAN ? schlick_gaussian_s(cosine) : schlick_s(cosine);
     if (cosine > 1e-4f) f = m->coat_weight * mix(0.04f, 1.0f, s);
-    w->coat_keep = 1.0f - f;
-    w->pick.coat = f;
+    w->coat_transmittance = 1.0f - f;
+    w->select_p.coat = f;
     w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
 }
 
 /* What lies below dust keeps 1 - E, E of white dust: what dark dust does not send back it keeps. So a white
  * base under white dust returns what it receives. */
 FN void view_dust(const Stack *m, StackView *w) {
-    if (m->dust_lies <= DUST_LEAST) return;
+    if (m->dust_amount <= DUST_LEAST) return;
     float e_1 = dust_albedo(&m->dust.lobe, w->o.z);
-    w->scale.dust = dust_weight(m->dust_lies, e_1, w->o.z);
-    w->pick.dust = w->scale.dust * e_1;
-    w->dust_keep = 1.0f - w->pick.dust;
+    w->scale.dust = dust_weight(m->dust_amount, e_1, w->o.z);
+    w->select_p.dust = w->scale.dust * e_1;
+    w->dust_transmittance = 1.0f - w->select_p.dust;
 }
 
 #define SCALE_ONE(name, NAME, Name, wo)                                                                      \
     w->scale.name = 1.0f;                                                                                    \
-    w->pick.name = 1.0f;
+    w->select_p.name = 1.0f;
 #define COMPOSE_VIEW(name, index, what)                                                                      \
     if (m->view == index) what;
 /* All but what the layer rule asks for and the chances of sampling. */
 FN void view_begin(const Stack *m, Dir o, StackView *w) {
     w->o = o;
     w->coat_o = o;
-    w->coat_keep = 1.0f;
-    w->dust_keep = 1.0f;
-    w->under_f0 = m->under_f0;
-    w->under_f90 = m->under_f90;
-    w->more = 0.0f;
+    w->coat_transmittance = 1.0f;
+    w->dust_transmittance = 1.0f;
+    w->interface_f0 = m->interface_f0;
+    w->interface_f90 = m->interface_f90;
+    w->extra = 0.0f;
     w->e_o = sheen_e_of(0.0f);
-    w->keep = rgb_grey(1.0f);
+    w->base_scale = rgb_grey(1.0f);
     SLOTS(SCALE_ONE)
     if (m->view != VIEW_PLAIN) {
         WEFT_VIEWS(COMPOSE_VIEW)
@@ -201,126 +201,126 @@ FN void view_begin(const Stack *m, Dir o, StackView *w) {
     if (HAS_COAT(m)) view_coat(m, w);
     if (HAS_DUST(m)) view_dust(m, w);
     if (HAS_COAT(m) || HAS_DUST(m)) {
-        float left = w->coat_keep * w->dust_keep;
-        w->scale.diffuse = w->scale.diffuse * left;
-        w->scale.specular = w->scale.specular * left;
-        w->scale.sheen = w->scale.sheen * left;
-        w->scale.coat = w->scale.coat * w->dust_keep;
+        float transmittance_above = w->coat_transmittance * w->dust_transmittance;
+        w->scale.diffuse = w->scale.diffuse * transmittance_above;
+        w->scale.specular = w->scale.specular * transmittance_above;
+        w->scale.sheen = w->scale.sheen * transmittance_above;
+        w->scale.coat = w->scale.coat * w->dust_transmittance;
     }
     stack_view_lobes(m, w);
 }
 
 /* What the layer rule leaves, of a rule that does not ask for wi. */
-FN void view_keep(const Stack *m, StackView *w) {
-    if (IS_WORN(m)) w->keep = stack_keep(m, w, w->e_o);
+FN void view_base_scale(const Stack *m, StackView *w) {
+    if (HAS_LAYERED_SHEEN(m)) w->base_scale = stack_base_scale(m, w, w->e_o);
 }
 
 /* A floor keeps every lobe reachable, so that no weight is unbounded: here before what dims it, and below. */
-FN float pick_of(const Slot *s, float schlick, float share, float scale) {
-    return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * share, 1e-3f) : 0.0f;
+FN float select_p_of(const Slot *s, float schlick, float weight, float scale) {
+    return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * weight, 1e-3f) : 0.0f;
 }
-#define PICK_OF(name, NAME, Name, wo)                                                                        \
+#define SELECT_P_OF(name, NAME, Name, wo)                                                                    \
     p.name = 0.0f;                                                                                           \
-    if (HAS_##NAME(m)) p.name = pick_of(&m->name, s, w->pick.name, w->scale.name);
-#define PICK_SUM(name, NAME, Name, wo)   +p.name
-#define PICK_USED(name, NAME, Name, wo)  +(p.name > 0.0f ? 1.0f : 0.0f)
-#define PICK_SCALE(name, NAME, Name, wo) w->pick.name = p.name > 0.0f ? most * p.name + least : 0.0f;
+    if (HAS_##NAME(m)) p.name = select_p_of(&m->name, s, w->select_p.name, w->scale.name);
+#define SELECT_P_SUM(name, NAME, Name, wo)   +p.name
+#define SELECT_P_USED(name, NAME, Name, wo)  +(p.name > 0.0f ? 1.0f : 0.0f)
+#define SELECT_P_SCALE(name, NAME, Name, wo) w->select_p.name = p.name > 0.0f ? most * p.name + least : 0.0f;
 
 /* The chance of each lobe to be sampled; before, what of it wo decides. Of n slots that are used each gets
  * (p / sum 15/16 + 1/64) / (15/16 + n/64). */
-FN void view_picks(const Stack *m, StackView *w) {
-    float s = schlick_s(w->o.z), keep = 1.0f;
+FN void view_select_p(const Stack *m, StackView *w) {
+    float s = schlick_s(w->o.z), base_scale = 1.0f;
     Scales p;
     if (HAS_COAT(m)) {
-        w->pick.diffuse = w->pick.diffuse * w->coat_keep;
-        w->pick.specular = w->pick.specular * w->coat_keep;
-        w->pick.sheen = w->pick.sheen * w->coat_keep;
+        w->select_p.diffuse = w->select_p.diffuse * w->coat_transmittance;
+        w->select_p.specular = w->select_p.specular * w->coat_transmittance;
+        w->select_p.sheen = w->select_p.sheen * w->coat_transmittance;
     }
-    SLOTS(PICK_OF)
+    SLOTS(SELECT_P_OF)
     if (HAS_DUST(m)) {
-        p.diffuse = w->dust_keep * p.diffuse;
-        p.specular = w->dust_keep * p.specular;
-        p.sheen = w->dust_keep * p.sheen;
-        p.coat = w->dust_keep * p.coat;
+        p.diffuse = w->dust_transmittance * p.diffuse;
+        p.specular = w->dust_transmittance * p.specular;
+        p.sheen = w->dust_transmittance * p.sheen;
+        p.coat = w->dust_transmittance * p.coat;
     }
     if (HAS_SHEEN(m)) {
-        keep = rgb_mean(w->keep);
+        base_scale = rgb_mean(w->base_scale);
         p.sheen = m->layer == LAYER_MULTIPLICATIVE ? 0.0f : max(p.sheen * w->e_o.e, 1e-3f);
-        p.diffuse = p.diffuse * keep;
-        if (!IS_BELOW_F(m)) p.specular = p.specular * keep;
+        p.diffuse = p.diffuse * base_scale;
+        if (!IS_BELOW_F(m)) p.specular = p.specular * base_scale;
     }
-    float sum = 0.0f SLOTS(PICK_SUM), used = 0.0f SLOTS(PICK_USED);
+    float sum = 0.0f SLOTS(SELECT_P_SUM), used = 0.0f SLOTS(SELECT_P_USED);
     float least = 1.0f / (60.0f + used), most = 60.0f * least / max(sum, 1e-30f);
-    SLOTS(PICK_SCALE)
+    SLOTS(SELECT_P_SCALE)
 }
 
 /* What wo (shading frame, z > 0) adds to a stack. */
 FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_begin(m, o, w);
     if (HAS_SHEEN(m)) w->e_o = stack_albedo(m, o);
-    view_keep(m, w);
-    view_picks(m, w);
+    view_base_scale(m, w);
+    view_select_p(m, w);
 }
 
 #define SLOT_VALUE(slot, pair)                                                                               \
     IN_SLOT(slot, reflect)                                                                                   \
-    (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_seen, pair, &m->slot.f0, &m->slot.f90, &v);
+    (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
 /* The same as stack_value for some of the slots: what the others do to these stays. */
 FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
                              const Angles *coat) {
-    bool worn = IS_WORN(m), below_f = IS_BELOW_F(m) && worn;
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
     Rgb f = rgb_grey(0.0f), through = f; /* by the interface that lies over all of diffuse and sheen */
     float pdf = 0.0f;
     LobeReflected v;
-    if (below_f) through = stack_let_through(m, w, a);
+    if (below_f) through = stack_interface_transmittance(m, w, a);
     if (only.diffuse && HAS_DIFFUSE(m)) {
         SLOT_VALUE(diffuse, a)
         f = rgb_scale(v.f, w->scale.diffuse);
-        pdf = w->pick.diffuse * v.pdf;
+        pdf = w->select_p.diffuse * v.pdf;
         if (below_f)
-            f = rgb_mul(rgb_mul(f, through), w->keep);
-        else if (m->under != UNDER_NONE)
-            f = rgb_mul(f, stack_under(m, w, a));
+            f = rgb_mul(rgb_mul(f, through), w->base_scale);
+        else if (m->base_fresnel != BASE_FRESNEL_NONE)
+            f = rgb_mul(f, stack_base_transmittance(m, w, a));
     }
     if (only.specular && HAS_SPECULAR(m)) {
-        if (HAS_MORE(m)) {
+        if (HAS_EXTRA_F(m)) {
             SlotColors c = stack_specular_colors(m, w);
             IN_SLOT(specular, reflect)
-            (m->specular.lobe.id, &m->specular_prepared, &w->specular_seen, a, &c.f0, &c.f90, &v);
-            v.f = rgb_add(v.f, rgb_scale(c.sag, -v.f_s2));
+            (m->specular.lobe.id, &m->specular_prepared, &w->specular_view, a, &c.f0, &c.f90, &v);
+            v.f = rgb_add(v.f, rgb_scale(c.f_quadratic, -v.f_s2));
         } else {
             SLOT_VALUE(specular, a)
         }
         f = rgb_add(f, rgb_scale(v.f, w->scale.specular));
-        pdf = pdf + w->pick.specular * v.pdf;
+        pdf = pdf + w->select_p.specular * v.pdf;
     }
-    if (worn && !below_f) {
-        Rgb keep = w->keep;
+    if (layered && !below_f) {
+        Rgb base_scale = w->base_scale;
         if (m->layer >= LAYER_ALBEDO_MIN) {
             SheenE e_i = sheen_e_of(0.0f);
             if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
-            keep = stack_keep(m, w, e_i);
+            base_scale = stack_base_scale(m, w, e_i);
         }
-        f = rgb_mul(f, keep);
+        f = rgb_mul(f, base_scale);
     }
     if (only.sheen && HAS_SHEEN(m)) {
         SLOT_VALUE(sheen, a)
         v.f = rgb_scale(v.f, w->scale.sheen);
         if (below_f) v.f = rgb_mul(v.f, through);
         f = rgb_add(f, v.f);
-        pdf = pdf + w->pick.sheen * v.pdf;
+        pdf = pdf + w->select_p.sheen * v.pdf;
     }
     if (only.dust && HAS_DUST(m)) {
         SLOT_VALUE(dust, a)
         f = rgb_add(f, rgb_scale(v.f, w->scale.dust));
-        pdf = pdf + w->pick.dust * v.pdf;
+        pdf = pdf + w->select_p.dust * v.pdf;
     }
     f = rgb_scale(f, a->i.z);
     if (only.coat && HAS_COAT(m) && coat->o.z > 0.0f && coat->i.z > 0.0f) {
         SLOT_VALUE(coat, coat)
         f = rgb_add(f, rgb_scale(v.f, w->scale.coat * coat->i.z));
-        pdf = pdf + w->pick.coat * v.pdf;
+        pdf = pdf + w->select_p.coat * v.pdf;
     }
     StackValue sum;
     sum.f_cos = f;

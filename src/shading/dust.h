@@ -64,7 +64,7 @@ FN float dust_noise(Dir p, float scale) {
     return clamp(2.0f * n / 7.0f - 0.5f, 0.0f, 1.0f);
 }
 
-FN float dust_lies(float amount, float cosine, float falloff, float mask) {
+FN float dust_amount(float amount, float cosine, float falloff, float mask) {
     return cosine > 0.0f ? amount * mask * pow(min(max(cosine, 1e-6f), 1.0f), falloff) : 0.0f;
 }
 
@@ -76,12 +76,12 @@ FN Dir dust_source(Surface s) {
 
 /* The surface at a point p of the world, metres, with the world's shading normal n there: its dust becomes
  * what lies at this point. Both renderers ask before they make the stack. */
-FN Surface dust_settle(Surface s, Dir n, Dir p) {
+FN Surface dust_accumulate(Surface s, Dir n, Dir p) {
     if (s.dust <= 0.0f) return s;
     Surface t = s;
     float mask = 1.0f;
     if (s.dust_noise > 0.0f) mask = 1.0f - s.dust_noise + s.dust_noise * dust_noise(p, s.dust_scale);
-    t.dust = dust_lies(s.dust, dir_dot(n, dust_source(s)), s.dust_falloff, mask);
+    t.dust = dust_amount(s.dust, dir_dot(n, dust_source(s)), s.dust_falloff, mask);
     return t;
 }
 

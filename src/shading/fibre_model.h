@@ -135,7 +135,7 @@ FN float fibre_multiple(FibreModel m, FibreSide o, FibreSide i, float turn) {
 }
 
 /* e of the colour. */
-FN float fibre_deepen(FibreSide o, FibreSide i, float turn) {
+FN float fibre_tint_order(FibreSide o, FibreSide i, float turn) {
     return 0.69314718f * (o.v * i.v - o.u * i.u - o.c * i.c * turn);
 }
 

@@ -2,7 +2,7 @@
 #ifndef WEFT_SHADING_KIND_TEXT_H
 #define WEFT_SHADING_KIND_TEXT_H
 
-#define IS_WORN(m) (HAS_SHEEN(m) && (m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
+#define HAS_LAYERED_SHEEN(m) (HAS_SHEEN(m) && (m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
 #include "shading/kind.h"
 #include "shading/stack_steps.h"
 
@@ -14,7 +14,7 @@ static Choices known_choices(void) {
 
 /* The compiler takes what this says for granted. */
 FN bool is_known(const Stack *m) {
-    return m->layer == KIND_LAYER && m->by == LAYER_BY_MAX && m->under == KIND_UNDER &&
+    return m->layer == KIND_LAYER && m->combine == LAYER_BY_MAX && m->base_fresnel == KIND_BASE_FRESNEL &&
            m->albedo == KIND_ALBEDO && m->view == VIEW_PLAIN;
 }
 #define KNOWN(m)                                                                                             \

@@ -41,7 +41,7 @@ static void channel(size_t n, const float *f, const float *s, float first, float
     if (!s)
         for (size_t k = 0; k < n; k++) out[k] = f[k] * first;
     else
-        for (size_t k = 0; k < n; k++) out[k] = f[k] * share_mix(s[k], first, second);
+        for (size_t k = 0; k < n; k++) out[k] = f[k] * fresnel_weight_mix(s[k], first, second);
 }
 
 static void copy(float *to, const float *from, size_t n) {

@@ -3,7 +3,7 @@
 #define WEFT_LOBE_VALUE_H
 
 #include "shading/angles.h"
-#include "shading/share.h"
+#include "shading/fresnel_weight.h"
 #include "shading/tint.h"
 
 STRUCT(LobeValue) {
@@ -26,7 +26,7 @@ FN LobeValue lobe_value_of(float f, float s, float pdf) {
  * the first has too. Of a tinted lobe that makes the weight, and first / second the albedo of its flakes. */
 FN float lobe_color(LobeValue v, float first, float second) {
     if (IS_TINTED(v.tint)) return second * tint_color(v.tint, first / max(second, 1e-30f));
-    return share_mix(v.s, first, second);
+    return fresnel_weight_mix(v.s, first, second);
 }
 
 /* A value in three channels of two colours. */
@@ -37,7 +37,7 @@ STRUCT(LobeReflected) {
 };
 FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
     LobeReflected x;
-    float s = share_plain(v.s);
+    float s = fresnel_weight_plain(v.s);
     x.f.r = v.f * lobe_color(v, f0.r, f90.r);
     x.f.g = v.f * lobe_color(v, f0.g, f90.g);
     x.f.b = v.f * lobe_color(v, f0.b, f90.b);

@@ -1,15 +1,15 @@
 #include "shading/stack_steps.h"
 
 void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e) {
-    Choices settled = *choices;
+    Choices converted = *choices;
     Surface own;
-    if (convert_wanted(settled) || compose_evens(settled)) {
-        own = convert_surface(*surface, settled);
-        settled = convert_choices(settled);
-        compose_surface(&own, settled);
+    if (convert_wanted(converted) || compose_evens(converted)) {
+        own = convert_surface(*surface, converted);
+        converted = convert_choices(converted);
+        compose_surface(&own, converted);
         surface = &own;
     }
-    compose_stack(stack, surface, settled, e);
+    compose_stack(stack, surface, converted, e);
 }
 
 void stack_see(const Stack *stack, const Dir *o, StackView *view) { stack_view(stack, *o, view); }
@@ -19,7 +19,7 @@ void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, 
     stack_see(&seen->stack, &o, &seen->view);
 }
 
-void seen_settle(SeenStack *seen, Dir o) {
+void seen_prepare(SeenStack *seen, Dir o) {
     stack_prepare(&seen->stack);
     stack_see(&seen->stack, &o, &seen->view);
 }
@@ -33,7 +33,7 @@ void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_
     steps_eval(stack, view, i, seed, value);
 }
 
-int stack_pick(const StackView *view, float *u) { return steps_pick(view, u); }
+int stack_select_slot(const StackView *view, float *u) { return steps_select(view, u); }
 
 void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
     steps_sample(stack, view, u, v, i);

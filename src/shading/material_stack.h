@@ -29,11 +29,11 @@ ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, f
 
 /* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left
  * of it, again in [0, 1). */
-int stack_pick(const StackView *view, float *u);
+int stack_select_slot(const StackView *view, float *u);
 
-/* sheet.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
+/* layer_walk.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
  * then bounced at least once between the base and the sheen's underside, times the cosine of wi. */
-ONE_COPY Rgb sheet_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
+ONE_COPY Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
 
 /* A stack and its view from one direction. */
 typedef struct SeenStack {
@@ -42,7 +42,7 @@ typedef struct SeenStack {
 } SeenStack;
 void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o);
 /* The view of a stack whose lobes have been put in by hand. */
-void seen_settle(SeenStack *seen, Dir o);
+void seen_prepare(SeenStack *seen, Dir o);
 static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {
     StackValue value;
     stack_eval(&seen->stack, &seen->view, &i, seed, &value);

@@ -54,10 +54,10 @@
 /* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \
     A(khronos, ALBEDO_KHRONOS, khronos_albedo(m, cosine))                                                    \
-    A(three, ALBEDO_THREE, three_albedo(cosine, m->at))                                                      \
-    A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->at))           \
-    A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->at))              \
-    A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m->at))
+    A(three, ALBEDO_THREE, three_albedo(cosine, m->albedo_coord))                                            \
+    A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->albedo_coord)) \
+    A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->albedo_coord))    \
+    A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m->albedo_coord))
 
 /* What engines make of wo: V(name, view, what it does to one in which nothing is dimmed yet). */
 #define WEFT_VIEWS(V)                                                                                        \

@@ -1,7 +1,7 @@
 /* stack.h - a material at one point: dust over a coat over a sheen over a specular and a diffuse lobe
  *
- *   f cos = T_dust (T_coat (sheen + keep (specular + (1 - F) diffuse)) + coat) + dust
- *   pdf   = sum pick_k pdf_k,  sum pick_k = 1
+ *   f cos = T_dust (T_coat (sheen + base_scale (specular + (1 - F) diffuse)) + coat) + dust
+ *   pdf   = sum select_p_k pdf_k,  sum select_p_k = 1
  *
  * A Stack is what does not depend on directions: it is made once a material, or once after its textures. A
  * StackView is what wo adds: it is made once for all wi and for sampling. What depends on wi too - what the
@@ -25,10 +25,10 @@ STRUCT(Slot) {
 
 /* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
  * wi . h, cos_o and cos_i, which never gains energy; or by F at wi . h as f_schlick_gaussian has it. */
-#define UNDER_NONE     0
-#define UNDER_HALF     1
-#define UNDER_LEAST    2
-#define UNDER_GAUSSIAN 3
+#define BASE_FRESNEL_NONE     0
+#define BASE_FRESNEL_HALF     1
+#define BASE_FRESNEL_LEAST    2
+#define BASE_FRESNEL_GAUSSIAN 3
 
 /* How the coat weighs what it reflects and dims what is below: not, its lobe's own Fresnel factor is all
  * there is; both by F at its cosine; or what is below by F as f_schlick_gaussian has it. */
@@ -55,31 +55,31 @@ STRUCT(Slot) {
 
 #define SLOT_MEMBER(name, NAME, Name, wo)   Slot name;
 #define SLOT_PREPARED(name, NAME, Name, wo) OF_SLOT(Name, Prepared) name##_prepared;
-#define SLOT_SEEN(name, NAME, Name, wo)     OF_SLOT(Name, View) name##_seen;
+#define SLOT_VIEW(name, NAME, Name, wo)     OF_SLOT(Name, View) name##_view;
 #define SLOT_FLOAT(name, NAME, Name, wo)    float name;
 #define SLOT_BOOL(name, NAME, Name, wo)     bool name;
 
 STRUCT(Stack) {
     SLOTS(SLOT_MEMBER)
     SLOTS(SLOT_PREPARED)
-    int under;
-    Rgb under_f0;
-    float under_f90;
-    Rgb more_f0, more_f90,
-        more_sag; /* F of the specular slot is f0 (1 - s) + f90 s, and so much more times */
-    float gloss;  /* the view's `more`, less more_sag s (1 - s); by what E of ggx is asked */
+    int base_fresnel;
+    Rgb interface_f0;
+    float interface_f90;
+    Rgb extra_f0, extra_f90,
+        extra_f_quadratic; /* F of the specular slot is f0 (1 - s) + f90 s, and so much more times */
+    float gloss; /* the view's `extra`, less extra_f_quadratic s (1 - s); by what E of ggx is asked */
     int view;
     int coat_rule;
     float coat_weight;
-    float dust_lies; /* 0: nothing */
-    int layer, by;
+    float dust_amount; /* 0: nothing */
+    int layer, combine;
     Rgb color;       /* of the sheen, as the layer rule sees it */
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
     float amount;    /* k of layer rule seed */
     int albedo;      /* source of E */
     TableRef table;
     Nap nap;                    /* of the sheen */
-    float at;                   /* the parameter with which E is asked for */
+    float albedo_coord;         /* the parameter with which E is asked for */
     Taps rows;                  /* where that falls in the table, of weft's own */
     SheenE e_avg;               /* E of the white sheen on cosine average */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
@@ -88,14 +88,14 @@ STRUCT(Stack) {
 STRUCT(Scales){SLOTS(SLOT_FLOAT)};
 STRUCT(StackView) {
     Dir o, coat_o; /* wo, and in the coat's frame */
-    SLOTS(SLOT_SEEN)
-    Scales scale;               /* of what a slot reflects: what lies above, and weights that wo decides */
-    Scales pick;                /* probability that sampling chooses it */
-    float coat_keep, dust_keep; /* what coat and dust let through, 1 without them */
-    Rgb under_f0;
-    float under_f90, more;
-    SheenE e_o; /* E of the white sheen towards wo */
-    Rgb keep;   /* of the base, where the layer rule does not ask for wi */
+    SLOTS(SLOT_VIEW)
+    Scales scale;    /* of what a slot reflects: what lies above, and weights that wo decides */
+    Scales select_p; /* probability that sampling chooses it */
+    float coat_transmittance, dust_transmittance; /* what coat and dust let through, 1 without them */
+    Rgb interface_f0;
+    float interface_f90, extra;
+    SheenE e_o;     /* E of the white sheen towards wo */
+    Rgb base_scale; /* of the base, where the layer rule does not ask for wi */
 };
 
 /* Some of the slots. */
@@ -121,19 +121,19 @@ STRUCT(StackValue) {
 /* Whether a slot holds a lobe, and whether a layer rule has a sheen to see. A shader, which knows what its
  * slots may hold, says so in place of these: what holds nothing then adds nothing. */
 #ifndef HAS_DIFFUSE
-#define HAS_DIFFUSE(m)  ((m)->diffuse.normal > 0.0f)
-#define HAS_SPECULAR(m) ((m)->specular.normal > 0.0f)
-#define HAS_SHEEN(m)    ((m)->sheen.normal > 0.0f)
-#define HAS_COAT(m)     ((m)->coat.normal > 0.0f)
-#define HAS_DUST(m)     ((m)->dust.normal > 0.0f)
-#define IS_WORN(m)      ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
+#define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
+#define HAS_SPECULAR(m)      ((m)->specular.normal > 0.0f)
+#define HAS_SHEEN(m)         ((m)->sheen.normal > 0.0f)
+#define HAS_COAT(m)          ((m)->coat.normal > 0.0f)
+#define HAS_DUST(m)          ((m)->dust.normal > 0.0f)
+#define HAS_LAYERED_SHEEN(m) ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
 #endif
 
 /* Whether the rule lays the interface of the base over the sheen too: it asks for no E. */
 #define IS_BELOW_F(m) (m->layer == LAYER_SEED || m->layer == LAYER_SIDE_BY_SIDE)
 
 /* Whether the specular slot has `more`. */
-#define HAS_MORE(m) (m->view != VIEW_PLAIN && m->view != VIEW_URP)
+#define HAS_EXTRA_F(m) (m->view != VIEW_PLAIN && m->view != VIEW_URP)
 
 /* Whether what a slot reflects is looked at. A shader that shows a part of the light says so; what the others
  * do to that part stays. */
@@ -171,19 +171,19 @@ FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
 
 FN void stack_clear(Stack *m) {
     SLOTS(CLEAR_SLOT)
-    m->under = UNDER_NONE;
-    m->under_f0 = rgb_grey(0.0f);
-    m->under_f90 = 0.0f;
-    m->more_f0 = rgb_grey(0.0f);
-    m->more_f90 = rgb_grey(0.0f);
-    m->more_sag = rgb_grey(0.0f);
+    m->base_fresnel = BASE_FRESNEL_NONE;
+    m->interface_f0 = rgb_grey(0.0f);
+    m->interface_f90 = 0.0f;
+    m->extra_f0 = rgb_grey(0.0f);
+    m->extra_f90 = rgb_grey(0.0f);
+    m->extra_f_quadratic = rgb_grey(0.0f);
     m->gloss = 0.0f;
     m->view = VIEW_PLAIN;
     m->coat_rule = COAT_BARE;
     m->coat_weight = 0.0f;
-    m->dust_lies = 0.0f;
+    m->dust_amount = 0.0f;
     m->layer = LAYER_ADDITIVE;
-    m->by = LAYER_BY_MAX;
+    m->combine = LAYER_BY_MAX;
     m->color = rgb_grey(0.0f);
     m->sheen_color = rgb_grey(0.0f);
     m->amount = 0.0f;
@@ -197,7 +197,7 @@ FN void stack_clear(Stack *m) {
     m->table.tilts = 0;
     m->table.tilt = 0.0f;
     m->nap = nap_of(0.0f, dir(1.0f, 0.0f, 0.0f));
-    m->at = 0.0f;
+    m->albedo_coord = 0.0f;
     m->rows = table_taps(0.0f, 4);
     m->e_avg = sheen_e_of(0.0f);
     m->coat_x = dir(1.0f, 0.0f, 0.0f);
@@ -222,78 +222,80 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
 FN void stack_prepare(Stack *m) {
     SLOTS(PREPARE_SLOT)
     if (HAS_SHEEN(m) && m->albedo <= ALBEDO_KHRONOS && SHEEN_IS_OWN(m->table))
-        m->rows = table_rows(m->table, m->at);
+        m->rows = table_rows(m->table, m->albedo_coord);
 }
 
 /* What wo adds to that, where it is above the slot's horizon: a coat's normal may turn it away. */
 #define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
     if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                   \
-        IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_seen);                  \
+        IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_view);                  \
     }
 FN void stack_view_lobes(const Stack *m, StackView *w){SLOTS(VIEW_SLOT)}
 
-/* The colours of a slot at a view, its scale aside: F = f0 (1 - s) + f90 s - sag s (1 - s). */
+/* The colours of a slot at a view, its scale aside: F = f0 (1 - s) + f90 s - f_quadratic s (1 - s). */
 STRUCT(SlotColors) {
-    Rgb f0, f90, sag;
+    Rgb f0, f90, f_quadratic;
 };
 FN SlotColors slot_colors(const Slot *s) {
     SlotColors c;
     c.f0 = s->f0;
     c.f90 = s->f90;
-    c.sag = rgb_grey(0.0f);
+    c.f_quadratic = rgb_grey(0.0f);
     return c;
 }
 FN SlotColors stack_specular_colors(const Stack *m, const StackView *w) {
     SlotColors c = slot_colors(&m->specular);
-    if (HAS_MORE(m)) {
-        c.f0 = rgb_add(c.f0, rgb_scale(m->more_f0, w->more));
-        c.f90 = rgb_add(c.f90, rgb_scale(m->more_f90, w->more));
-        c.sag = rgb_scale(m->more_sag, w->more);
+    if (HAS_EXTRA_F(m)) {
+        c.f0 = rgb_add(c.f0, rgb_scale(m->extra_f0, w->extra));
+        c.f90 = rgb_add(c.f90, rgb_scale(m->extra_f90, w->extra));
+        c.f_quadratic = rgb_scale(m->extra_f_quadratic, w->extra);
     }
     return c;
 }
 
 /* F of the specular interface, each channel. */
 FN Rgb stack_fresnel(const Stack *m, const StackView *w, float d) {
-    float s = m->under == UNDER_GAUSSIAN ? schlick_gaussian_s(d) : schlick_s(d);
-    return rgb_mix(w->under_f0, rgb_grey(w->under_f90), s);
+    float s = m->base_fresnel == BASE_FRESNEL_GAUSSIAN ? schlick_gaussian_s(d) : schlick_s(d);
+    return rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), s);
 }
 
 /* 1 - F, not below 0. */
-FN Rgb stack_rest(Rgb f) { return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f)); }
+FN Rgb stack_one_minus(Rgb f) {
+    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
+}
 
 /* For the diffuse lobe, of a stack that has an interface over it. */
-FN Rgb stack_under(const Stack *m, const StackView *w, const Angles *a) {
-    if (m->under != UNDER_LEAST) return stack_rest(stack_fresnel(m, w, a->d));
+FN Rgb stack_base_transmittance(const Stack *m, const StackView *w, const Angles *a) {
+    if (m->base_fresnel != BASE_FRESNEL_LEAST) return stack_one_minus(stack_fresnel(m, w, a->d));
     float s = schlick_s(min(a->d, min(a->o.z, a->i.z)));
-    return rgb_grey(max(1.0f - mix(rgb_max3(w->under_f0), w->under_f90, s), 0.0f));
+    return rgb_grey(max(1.0f - mix(rgb_max3(w->interface_f0), w->interface_f90, s), 0.0f));
 }
 
 /* For the rules whose interface lies over diffuse and sheen, what it lets through: 1 - F of whatever the
  * specular slot is, metal too, by schlick between its two colours. seed: at wi . h, each channel.
  * side-by-side: of the strongest channel at the least of the three cosines. s: schlick_s there. */
-FN Rgb stack_let_by(const Stack *m, const StackView *w, float s) {
+FN Rgb stack_interface_at(const Stack *m, const StackView *w, float s) {
     SlotColors c = stack_specular_colors(m, w);
     Rgb f = rgb_mix(c.f0, c.f90, s);
     if (m->layer == LAYER_SIDE_BY_SIDE) f = rgb_grey(rgb_max3(f));
     if (!HAS_SPECULAR(m)) f = rgb_grey(0.0f);
-    return stack_rest(f);
+    return stack_one_minus(f);
 }
-FN Rgb stack_let_through(const Stack *m, const StackView *w, const Angles *a) {
+FN Rgb stack_interface_transmittance(const Stack *m, const StackView *w, const Angles *a) {
     float cosine = m->layer == LAYER_SEED ? a->d : min(a->d, min(a->o.z, a->i.z));
-    return stack_let_by(m, w, schlick_s(cosine));
+    return stack_interface_at(m, w, schlick_s(cosine));
 }
 
 /* What the sheen leaves of the base, by one channel of its colour. */
-FN float stack_keep_by(const Stack *m, const StackView *w, float c, SheenE e_i) {
+FN float stack_base_scale_of(const Stack *m, const StackView *w, float c, SheenE e_i) {
     return layer_base(m->layer, c, sheen_e_in(w->e_o, c), sheen_e_in(e_i, c), sheen_e_in(m->e_avg, c));
 }
-FN Rgb stack_keep(const Stack *m, const StackView *w, SheenE e_i) {
+FN Rgb stack_base_scale(const Stack *m, const StackView *w, SheenE e_i) {
     if (m->layer == LAYER_SEED) return rgb_grey(layer_base(m->layer, m->amount, 0.0f, 0.0f, 0.0f));
-    if (m->by == LAYER_BY_CHANNEL)
-        return rgb(stack_keep_by(m, w, m->color.r, e_i), stack_keep_by(m, w, m->color.g, e_i),
-                   stack_keep_by(m, w, m->color.b, e_i));
-    return rgb_grey(stack_keep_by(m, w, rgb_max3(m->color), e_i));
+    if (m->combine == LAYER_BY_CHANNEL)
+        return rgb(stack_base_scale_of(m, w, m->color.r, e_i), stack_base_scale_of(m, w, m->color.g, e_i),
+                   stack_base_scale_of(m, w, m->color.b, e_i));
+    return rgb_grey(stack_base_scale_of(m, w, rgb_max3(m->color), e_i));
 }
 
 #endif

@@ -30,17 +30,17 @@ FN void steps_eval(const Stack *stack, const StackView *view, const Dir *i, uint
     if (view->o.z <= 0.0f || i->z <= 0.0f) return;
     *value = value_of(stack, view, slots_all(), *i);
     if (stack->layer == LAYER_STOCHASTIC)
-        value->f_cos = rgb_add(value->f_cos, sheet_bounces(stack, view, slots_all(), *i, seed));
+        value->f_cos = rgb_add(value->f_cos, layer_walk_bounces(stack, view, slots_all(), *i, seed));
 }
 
 #define TAKE_SLOT(name, NAME, Name, wo)                                                                      \
-    if (view->pick.name > 0.0f && (slot < 0 || *u >= at)) {                                                  \
+    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                              \
         slot = PLACE_##NAME;                                                                                 \
         begin = at;                                                                                          \
-        width = view->pick.name;                                                                             \
+        width = view->select_p.name;                                                                         \
         at += width;                                                                                         \
     }
-FN int steps_pick(const StackView *view, float *u) {
+FN int steps_select(const StackView *view, float *u) {
     int slot = PLACE_NONE;
     float begin = 0.0f, at = 0.0f, width = 1.0f;
     SLOTS(TAKE_SLOT)
@@ -51,11 +51,11 @@ FN int steps_pick(const StackView *view, float *u) {
 #define SAMPLE_SLOT(name, NAME, Name, wo)                                                                    \
     case PLACE_##NAME:                                                                                       \
         if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                      \
-        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_seen, &view->wo, u, v, i);              \
+        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);              \
         break;
 FN void steps_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
     *i = dir(0.0f, 0.0f, -1.0f);
-    int slot = steps_pick(view, &u);
+    int slot = steps_select(view, &u);
     switch (slot) { SLOTS(SAMPLE_SLOT) }
     if (slot == PLACE_COAT && i->z > 0.0f) *i = from_coat(stack, *i);
 }

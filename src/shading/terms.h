@@ -6,7 +6,7 @@
 #ifndef WEFT_SHADING_TERMS_H
 #define WEFT_SHADING_TERMS_H
 
-#include "shading/share.h"
+#include "shading/fresnel_weight.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/d_beckmann.h"
 #include "shading/terms/d_blinn_phong.h"
@@ -139,7 +139,8 @@
     T("schlick-f90", F_SCHLICK_F90, schlick_s(d), f90, "to the colour f90 by a fifth power")                 \
     T("schlick-gaussian", F_SCHLICK_GAUSSIAN, schlick_gaussian_s(d), f90,                                    \
       "schlick-f90 by an exponential, as three.js has it")                                                   \
-    T("cook-torrance", F_COOK_TORRANCE, share_of(d), 1.0f, "exact, by the index that each f0 stands for")    \
+    T("cook-torrance", F_COOK_TORRANCE, fresnel_weight_of_cosine(d), 1.0f,                                   \
+      "exact, by the index that each f0 stands for")                                                         \
     T("dielectric", F_DIELECTRIC, dielectric_s(ior, d), 1.0f, "to white as a dielectric of that ior does")   \
     T("conductor", F_CONDUCTOR, conductor_s(ior, k, d), 1.0f, "to white as a metal of that ior and k does")
 

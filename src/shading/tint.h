@@ -37,14 +37,14 @@ FN Tint tint_none(void) {
 }
 
 /* r with 1 - w q = (1 - q) + (1 - w) q, which is not rounded to 0: white stays white in 16 bits too. */
-FN float tint_again(float q, float w) {
+FN float tint_by_order(float q, float w) {
     float rest = max(1.0f - q, 1e-3f);
     return rest / (rest + (1.0f - w) * q);
 }
 
 FN float tint_color(Tint t, float w) {
     float a = clamp(w, 0.0f, 1.0f);
-    float again = tint_again(t.q_o, a) * tint_again(t.q_i, a);
+    float again = tint_by_order(t.q_o, a) * tint_by_order(t.q_i, a);
     float more = a * a * min(again * exp((1.0f - a) * t.e), 1.0f);
     return (1.0f - t.s) * a + t.s * more;
 }

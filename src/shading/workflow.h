@@ -35,7 +35,7 @@ FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
     m->layer = layer;
     m->color = color;
     m->sheen_color = color;
-    m->at = lobe.params[0];
+    m->albedo_coord = lobe.params[0];
     slot_even(&m->sheen, lobe, color, second, 1.0f);
 }
 
@@ -48,7 +48,7 @@ FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90
         slot_make(&m->specular, lobe, f0, rgb_grey(f90), 1.0f, rgb_mean(f0), f90);
     }
     slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f,
-              mean * (1.0f - rgb_max3(m->under_f0)), mean * (1.0f - m->under_f90));
+              mean * (1.0f - rgb_max3(m->interface_f0)), mean * (1.0f - m->interface_f90));
 }
 
 #endif

@@ -101,7 +101,8 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
     for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
-    text_define(text, "IS_WORN(m)", found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    text_define(text, "HAS_LAYERED_SHEEN(m)",
+                found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots);
 }

@@ -21,9 +21,10 @@ void text_lobe(Text *text, int id) {
     text_include(text, file);
 }
 
-bool text_shares_cosine(int id) {
+bool text_weight_is_cosine(int id) {
     const OutsideLobe *lobe = outside_lobe(id);
-    return lobe ? strstr(lobe->text, "share_of(") || strstr(lobe->text, "term_f(") : id == LOBE_COOK_TORRANCE;
+    return lobe ? strstr(lobe->text, "fresnel_weight_of_cosine(") || strstr(lobe->text, "term_f(")
+                : id == LOBE_COOK_TORRANCE;
 }
 
 /* The lobe whose LOBE_ constant a line names, in a comment too; -1: it is not one lobe's alone. */
@@ -106,12 +107,12 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     for (int k = 0; k < lobe_count; k++) {
         there[lobes[k]] = true;
         tinted |= has(lobes[k], TRAIT_TINTED);
-        cosine |= text_shares_cosine(lobes[k]);
+        cosine |= text_weight_is_cosine(lobes[k]);
         lobe_tables_make_for(lobes[k]); /* before the first asks for all there are */
     }
     for (int k = 0; k < lobe_count; k++)
         if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);
-    if (!cosine) text_define(text, "SHARE_IS_COSINE(s)", "false");
+    if (!cosine) text_define(text, "FRESNEL_WEIGHT_IS_COSINE(s)", "false");
     if (!tinted) text_define(text, "IS_TINTED(t)", "false");
     text_include(text, "shading/lobe.h");
     text_outside(text, there);
@@ -121,7 +122,7 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     put_lines(text, "shading/dispatch.gen.h", NULL, NULL, there);
     text_provide(text, "shading/registry.h");
     text_line(text, "\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
-                    "float lobe_share(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
+                    "float lobe_fresnel_weight(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
                     "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
     if (!there[LOBE_LTC_FIBRE]) put_no_dust(text);
 }

@@ -10,8 +10,8 @@
 /* The lobe's file. One with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
 void text_lobe(Text *text, int id);
 
-/* Whether the share of its second colour may be a cosine (shading/share.h). */
-bool text_shares_cosine(int id);
+/* Whether the share of its second colour may be a cosine (shading/fresnel_weight.h). */
+bool text_weight_is_cosine(int id);
 
 /* The lobes behind one signature, as registry.h has them for C, whose place this takes; call it once:
  *
@@ -20,7 +20,7 @@ bool text_shares_cosine(int id);
  *   LobePrepared, LobeView, lobe_prepare, lobe_view, lobe_value_at, lobe_sample_at
  *   lobe_default, lobe_rough, lobe_fibres, lobe_value, lobe_sample, lobe_second
  *
- * and f, s and pdf of lobe_value alone as lobe_f, lobe_share and lobe_pdf. Of a lobe that is not among these,
+ * and f, s and pdf of lobe_value alone as lobe_f, lobe_fresnel_weight and lobe_pdf. Of a lobe that is not among these,
  * lobe_value is 0, lobe_second is f0, and there is no sample. A surface (compose.h) asks for LOBE_LAMBERT and
  * LOBE_GGX even where its profile then takes others in their place; and for LOBE_LTC_FIBRE where it has dust,
  * of which nothing is seen without. */

@@ -69,7 +69,7 @@ static Rgb prepare(const PathContext *context, const Mesh *mesh, const Hit *hit,
     p->stack = &known->stack;
     p->kind = known->kind;
     if (textured || surface.dust > 0.0f) {
-        surface = dust_settle(frame_surface(surface), p->frame.z, dir_of(vertex.position));
+        surface = dust_accumulate(frame_surface(surface), p->frame.z, dir_of(vertex.position));
         p->kind->make(&p->own, &surface, &known->choices, known->sheen_e);
         p->stack = &p->own;
     }
@@ -97,7 +97,7 @@ static Rgb f_cos_of_sky(const PathContext *context, const ShadingPoint *p, Dir w
     const Environment *sky = &context->scene->environment;
     Slots others = slots_of(false, true, true, true, false);
     Rgb rest = rgb_add(stack_eval_of(p->stack, &p->view, others, wi).f_cos,
-                       sheet_bounces(p->stack, &p->view, others, wi, seed));
+                       layer_walk_bounces(p->stack, &p->view, others, wi, seed));
     Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }

@@ -68,13 +68,13 @@ static void test_believable(void **state) {
     (void)state;
     const ImageSource small = {.size = 1000, .name = "small"}, large = {.size = 100 << 20, .name = "large"};
     WeftError error = {0};
-    assert_int_equal(image_believable(&small, 8192, 8192, 4, &error), WEFT_OK);
-    assert_int_equal(image_believable(&small, 16384, 16384, 4, &error), WEFT_INPUT);
+    assert_int_equal(image_check_header(&small, 8192, 8192, 4, &error), WEFT_OK);
+    assert_int_equal(image_check_header(&small, 16384, 16384, 4, &error), WEFT_INPUT);
     assert_int_equal(error.message, WEFT_MESSAGE_IMAGE_SIZE);
-    assert_int_equal(image_believable(&large, 16384, 16384, 4, &error), WEFT_OK);
-    assert_int_equal(image_believable(&large, 65536, 65536, 1, &error), WEFT_INPUT);
-    assert_int_equal(image_believable(&small, 65537, 1, 1, &error), WEFT_INPUT);
-    assert_int_equal(image_believable(&small, 1, 0, 1, &error), WEFT_INPUT);
+    assert_int_equal(image_check_header(&large, 16384, 16384, 4, &error), WEFT_OK);
+    assert_int_equal(image_check_header(&large, 65536, 65536, 1, &error), WEFT_INPUT);
+    assert_int_equal(image_check_header(&small, 65537, 1, 1, &error), WEFT_INPUT);
+    assert_int_equal(image_check_header(&small, 1, 0, 1, &error), WEFT_INPUT);
     assert_int_equal(image_reachable(&small, 1000, &error), WEFT_OK);
     assert_int_equal(image_reachable(&small, 1001, &error), WEFT_INPUT);
 }

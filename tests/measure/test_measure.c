@@ -12,7 +12,7 @@
 #include "measure/chi_square.h"
 #include "measure/furnace.h"
 #include "measure/grid.h"
-#include "measure/more.h"
+#include "measure/exceeds.h"
 #include "measure/sweep.h"
 #include "measure/weight.h"
 
@@ -157,7 +157,8 @@ static void no_nan_gets_lost(void **state) {
     assert_true(isnan(p.pdf_most) && p.pdf_place.cos_o == 0.4f);
     assert_true(isnan(p.variance_worst));
     const double lost = (double)NAN;
-    assert_true(is_more(lost, 1.0) && !is_more(1.0, lost) && !is_more(lost, lost) && is_more(2.0, 1.0));
+    assert_true(exceeds_or_nan(lost, 1.0) && !exceeds_or_nan(1.0, lost) && !exceeds_or_nan(lost, lost) &&
+                exceeds_or_nan(2.0, 1.0));
 }
 
 /* f with a zero under it, one below 0, and one that forgets the horizon. */

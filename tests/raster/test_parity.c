@@ -356,7 +356,7 @@ static void answer_v(int which, const float *row, float *answers) {
 static void answer_f(int which, const float *row, float *answers) {
     answers[0] = term_f(which, row[10], row[11], row_angles(row).d);
     answers[1] = term_second(which, row[3], row[7]);
-    answers[2] = share_mix(answers[0], row[3], 1.0f);
+    answers[2] = fresnel_weight_mix(answers[0], row[3], 1.0f);
 }
 
 static const Subject d_terms = {
@@ -380,7 +380,7 @@ static const Subject v_terms = {
 static const Subject f_terms = {
     .body = ANGLES "    out0.x = term_f(TERM, in2.z, in2.w, a.d);\n"
                    "    out0.y = term_second(TERM, in0.w, in1.w);\n"
-                   "    out0.z = share_mix(out0.x, in0.w, 1.0);\n",
+                   "    out0.z = fresnel_weight_mix(out0.x, in0.w, 1.0);\n",
     .inputs = 3,
     .answers = "nnn",
     .put = put_term,
@@ -546,8 +546,9 @@ static void answer_stack(int which, const float *row, float *answers) {
     const StackView *w = &seen.view;
     Angles coat = angles_between(w->coat_o, stack_to_coat(&seen.stack, a.i));
     StackValue v = stack_value(&seen.stack, w, &a, &coat);
-    const float all[ANSWERS] = {v.f_cos.r,       v.f_cos.g,        v.f_cos.b,     v.pdf,
-                                w->pick.diffuse, w->pick.specular, w->pick.sheen, w->pick.coat};
+    const float all[ANSWERS] = {
+        v.f_cos.r,         v.f_cos.g,       v.f_cos.b, v.pdf, w->select_p.diffuse, w->select_p.specular,
+        w->select_p.sheen, w->select_p.coat};
     memcpy(answers, all, sizeof all);
 }
 
@@ -565,7 +566,8 @@ static void stacks_agree(void **state) {
                         "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
                         "    StackValue v = stack_value(m, w, a, coat);\n"
                         "    out0 = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);\n"
-                        "    out1 = vec4(w.pick.diffuse, w.pick.specular, w.pick.sheen, w.pick.coat);\n",
+                        "    out1 = vec4(w.select_p.diffuse, w.select_p.specular, w.select_p.sheen, "
+                        "w.select_p.coat);\n",
         .inputs = STACK_INPUTS,
         .answers = "nnnnnnnn",
         .put = put_stack,
@@ -606,7 +608,7 @@ static void answer_dust(int which, const float *row, float *answers) {
                  .dust_noise = row[12],
                  .dust_scale = row[7]};
     Dir p = dir(row[4], row[5], row[6]);
-    answers[0] = dust_settle(s, dir(row[0], row[1], row[2]), p).dust;
+    answers[0] = dust_accumulate(s, dir(row[0], row[1], row[2]), p).dust;
     answers[1] = dust_noise(p, row[7]);
     answers[2] = dust_hash(floorf(289.0f * row[12]));
 }
@@ -619,7 +621,7 @@ static void dust_agrees(void **state) {
             "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
             "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
             "    s.dust_noise = in3.x;\n    s.dust_scale = in1.w;\n    Dir p = dir(in1.x, in1.y, in1.z);\n"
-            "    out0.x = dust_settle(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
+            "    out0.x = dust_accumulate(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
             "    out0.y = dust_noise(p, in1.w);\n"
             "    out0.z = dust_hash(floor(289.0 * in3.x));\n",
         .inputs = 4,

@@ -203,7 +203,7 @@ static inline SeenStack light_lone(Lobe lobe, Dir o) {
         m.stack.specular = slot;
     else
         m.stack.sheen = slot;
-    seen_settle(&m, o);
+    seen_prepare(&m, o);
     return m;
 }
 

@@ -40,7 +40,7 @@ static SeenStack one_lobe(Lobe lobe, Dir o) {
     SeenStack m;
     stack_clear(&m.stack);
     slot_even(&m.stack.sheen, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f);
-    seen_settle(&m, o);
+    seen_prepare(&m, o);
     return m;
 }
 
@@ -124,8 +124,8 @@ static SeenStack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
     albedo_table_fill(table, &lobe, lobe.params[0], lobe.params[0], 0);
     m.stack.table = albedo_table_ref(table);
     m.stack.albedo = ALBEDO_TABLE;
-    m.stack.at = lobe.params[0];
-    seen_settle(&m, o);
+    m.stack.albedo_coord = lobe.params[0];
+    seen_prepare(&m, o);
     return m;
 }
 

@@ -202,14 +202,14 @@ static SeenStack row_stack(int sheen, float roughness, Dir n, Dir o) {
     slot_even(&m->sheen, lobe_rough(sheen, roughness), rgb(0.2f, 0.4f, 0.6f), rgb_grey(1.0f), 1.0f);
     slot_even(&m->coat, lobe_rough(LOBE_GGX, 0.3f), rgb_grey(0.1f), rgb_grey(0.2f), 1.0f);
     stack_coat_frame(m, n);
-    m->under = UNDER_LEAST;
-    m->under_f0 = rgb_grey(0.04f);
-    m->under_f90 = 1.0f;
+    m->base_fresnel = BASE_FRESNEL_LEAST;
+    m->interface_f0 = rgb_grey(0.04f);
+    m->interface_f90 = 1.0f;
     m->layer = LAYER_ALBEDO_MAX;
     m->color = rgb(0.2f, 0.4f, 0.6f);
     m->table = lobe_table_charlie_neubelt();
-    m->at = 0.3f;
-    seen_settle(&seen, o);
+    m->albedo_coord = 0.3f;
+    seen_prepare(&seen, o);
     return seen;
 }
 
@@ -220,9 +220,10 @@ static const char stack_text[] =
     "    slot_even(m.specular, lobe_rough(LOBE_GGX, roughness), rgb_grey(0.04), white, 1.0);\n"
     "    slot_even(m.sheen, lobe_rough(sheen, roughness), blue, white, 1.0);\n"
     "    slot_even(m.coat, lobe_rough(LOBE_GGX, 0.3), rgb_grey(0.1), rgb_grey(0.2), 1.0);\n"
-    "    stack_coat_frame(m, n);\n    m.under = UNDER_LEAST;\n    m.under_f0 = rgb_grey(0.04);\n"
-    "    m.under_f90 = 1.0;\n    m.layer = LAYER_ALBEDO_MAX;\n    m.color = blue;\n"
-    "    m.table = lobe_table_charlie_neubelt();\n    m.at = 0.3;\n    stack_prepare(m);\n"
+    "    stack_coat_frame(m, n);\n    m.base_fresnel = BASE_FRESNEL_LEAST;\n    m.interface_f0 = "
+    "rgb_grey(0.04);\n"
+    "    m.interface_f90 = 1.0;\n    m.layer = LAYER_ALBEDO_MAX;\n    m.color = blue;\n"
+    "    m.table = lobe_table_charlie_neubelt();\n    m.albedo_coord = 0.3;\n    stack_prepare(m);\n"
     "    return m;\n}";
 
 static void begin_text(Text *text, TextLanguage language) {

@@ -174,7 +174,7 @@ static void a_sheen_is_made_of_free_terms(void **state) {
         float alpha = s.sheen_roughness * s.sheen_roughness,
               share = term_f(c.sheen_f, compose_ior(&s), 0.0f, a.d);
         float dv = term_d(c.sheen_d, alpha, alpha, alpha, a.h) * term_v(c.sheen_v, alpha, alpha, alpha, a);
-        float expected = dv * share_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
+        float expected = dv * fresnel_weight_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
         assert_float_equal(seen_eval(&stack, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);
     }
     /* what is not chosen: of the profile's own terms, or of charlie-neubelt */
@@ -206,13 +206,13 @@ static void beta_is_an_input(void **state) {
         s.sheen_roughness = 0.4f;
         Choices c = test_choices(lobes[k], LAYER_ADDITIVE);
         SeenStack rough = made(&s, c, o);
-        assert_float_equal(rough.stack.at, k == 2 ? 0.16f : mix(0.5f, 20.0f, 0.4f), 1e-5f);
+        assert_float_equal(rough.stack.albedo_coord, k == 2 ? 0.16f : mix(0.5f, 20.0f, 0.4f), 1e-5f);
         s.sheen_beta = 3.0f;
         SeenStack given = made(&s, c, o);
-        assert_float_equal(given.stack.at, k == 2 ? 0.16f : 3.0f, 1e-6f);
-        assert_float_equal(given.stack.sheen.lobe.params[0], given.stack.at, 0.0f);
+        assert_float_equal(given.stack.albedo_coord, k == 2 ? 0.16f : 3.0f, 1e-6f);
+        assert_float_equal(given.stack.sheen.lobe.params[0], given.stack.albedo_coord, 0.0f);
         s.sheen_beta = 100.0f;
-        assert_float_equal(made(&s, c, o).stack.at, k == 2 ? 0.16f : 100.0f, 1e-5f);
+        assert_float_equal(made(&s, c, o).stack.albedo_coord, k == 2 ? 0.16f : 100.0f, 1e-5f);
     }
 }
 

@@ -55,7 +55,7 @@ static void dust_lies_on_what_looks_up(void **state) {
         s.dust_falloff = cases[k].falloff;
         s.dust_tilt = cases[k].tilt * PI / 180.0f;
         s.dust_direction = direction(0.5 * TEST_PI, (double)cases[k].direction * TEST_PI / 180.0);
-        Surface t = dust_settle(s, dir(cases[k].x, cases[k].y, cases[k].z), p);
+        Surface t = dust_accumulate(s, dir(cases[k].x, cases[k].y, cases[k].z), p);
         if (!(fabsf(t.dust - cases[k].dust) < 1e-6f)) fail_msg("case %zu: %.7f", k, (double)t.dust);
     }
 }
@@ -120,7 +120,7 @@ static void noise_thins_the_dust(void **state) {
         float amount[3];
         for (int n = 0; n < 3; n++) {
             s.dust_noise = 0.5f * (float)n;
-            amount[n] = dust_settle(s, up, p).dust;
+            amount[n] = dust_accumulate(s, up, p).dust;
         }
         assert_float_equal(amount[0], 0.8f, 1e-6f);
         assert_float_equal(amount[1], 0.5f * (amount[0] + amount[2]), 1e-6f);
@@ -144,11 +144,11 @@ static void no_dust_changes_nothing(void **state) {
             clean.dust_falloff = 3.0f;
             clean.dust_noise = 1.0f;
             clean.dust_scale = 0.01f;
-            clean = dust_settle(clean, dir(0.0f, 1.0f, 0.0f), dir(1.0f, 2.0f, 3.0f));
+            clean = dust_accumulate(clean, dir(0.0f, 1.0f, 0.0f), dir(1.0f, 2.0f, 3.0f));
             SeenStack a = stack_of(&bare, &choices, o), b = stack_of(&clean, &choices, o);
             StackValue f = seen_eval(&a, i, 1), g = seen_eval(&b, i, 1);
             assert_memory_equal(&f, &g, sizeof f);
-            assert_true(b.view.pick.dust <= 0.0f);
+            assert_true(b.view.select_p.dust <= 0.0f);
             Dir s = seen_sample(&a, 0.3f, 0.6f), t = seen_sample(&b, 0.3f, 0.6f);
             assert_memory_equal(&s, &t, sizeof s);
         }
@@ -259,7 +259,7 @@ static void picks_sum_to_one(void **state) {
         for (int n = 0; n < 4; n++) {
             Surface s = dusty(&random, random_unit(&random));
             SeenStack m = stack_of(&s, &choices, random_direction(&random));
-            const Scales *pick = &m.view.pick;
+            const Scales *pick = &m.view.select_p;
             const float picks[] = {pick->diffuse, pick->specular, pick->sheen, pick->coat, pick->dust};
             int drawn[5] = {0};
             float sum = 0.0f;
@@ -268,7 +268,7 @@ static void picks_sum_to_one(void **state) {
             assert_true(pick->dust > 0.01f);
             for (int j = 0; j < COUNT; j++) {
                 float u = ((float)j + 0.5f) / COUNT;
-                drawn[stack_pick(&m.view, &u)]++;
+                drawn[stack_select_slot(&m.view, &u)]++;
             }
             for (int slot = 0; slot < 5; slot++)
                 assert_float_equal((float)drawn[slot] / COUNT, picks[slot], 2.0f / COUNT);
@@ -290,8 +290,8 @@ static void stochastic_layers_are_dimmed_alike(void **state) {
         Dir o = random_direction(&random), i = random_direction(&random);
         SeenStack a = stack_of(&s, &choices, o), b = stack_of(&bare, &choices, o);
         float with = seen_eval(&a, i, 9).f_cos.g, without = seen_eval(&b, i, 9).f_cos.g;
-        assert_float_equal(with, without * a.view.dust_keep, 1e-3f * without + 1e-6f);
-        assert_true(a.view.dust_keep < 0.7f);
+        assert_float_equal(with, without * a.view.dust_transmittance, 1e-3f * without + 1e-6f);
+        assert_true(a.view.dust_transmittance < 0.7f);
     }
 }
 

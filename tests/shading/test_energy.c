@@ -16,7 +16,8 @@ static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
             if (i.z <= 0.0f) continue;
             Angles a = angles_between(o, i);
             LobeValue value = lobe_value(lobe, a);
-            double e = (double)value.f * (double)i.z * area * step * step, s = (double)share_plain(value.s);
+            double e = (double)value.f * (double)i.z * area * step * step,
+                   s = (double)fresnel_weight_plain(value.s);
             f0 += e * (1.0 - s);
             f90 += e * s;
         }

@@ -73,8 +73,8 @@ static void albedo_view_returns_what_it_receives(void **state) {
                     checked++;
                     worst = fmax(worst, has_creases(id) ? 0.0 : fabs(all - 1.0));
                     if (fabs(all - 1.0) > (has_creases(id) ? 5e-3 : 1e-3))
-                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.stack.at,
-                                 (double)o.z, all);
+                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id,
+                                 (double)stack.stack.albedo_coord, (double)o.z, all);
                 }
                 float step = has_creases(id) ? 5e-3f : 2e-3f;
                 assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (step + step * e));

@@ -49,7 +49,8 @@ static void measure(Worst *worst, const AlbedoTable *table, float roughness, flo
             Dir o = direction_cos((double)cosines[c], (double)(azimuth + headings[k] * DEGREES));
             SeenStack stack = test_stack(&cloth, LAYER_ALBEDO_VIEW, table, o);
             double all = furnace(&stack, o),
-                   across = all + (double)(stack.view.e_o.e - table_sheen(ref, o.z, stack.stack.at).e);
+                   across =
+                       all + (double)(stack.view.e_o.e - table_sheen(ref, o.z, stack.stack.albedo_coord).e);
             worst->off = fmax(worst->off, fabs(all - 1.0));
             worst->across = fmax(worst->across, fabs(across - 1.0));
         }

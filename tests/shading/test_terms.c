@@ -476,7 +476,8 @@ static void reflectances_have_their_shapes(void **state) {
  * colour has. */
 static void cook_torrance_takes_its_index_from_the_colour(void **state) {
     (void)state;
-    assert_float_equal(share_mix(term_f(F_COOK_TORRANCE, 1.5f, 3.0f, 0.15f), 0.638f, 1.0f), 0.478f, 5e-4f);
+    assert_float_equal(fresnel_weight_mix(term_f(F_COOK_TORRANCE, 1.5f, 3.0f, 0.15f), 0.638f, 1.0f), 0.478f,
+                       5e-4f);
     Random random = {57};
     double worst = 0.0;
     for (int n = 0; n < 30000; n++) {
@@ -484,16 +485,17 @@ static void cook_torrance_takes_its_index_from_the_colour(void **state) {
               w = 0.01f + 3.0f * c;
         double r = root((double)f_0), index = (1.0 + r) / (1.0 - r);
         float s = term_f(F_COOK_TORRANCE, 0.05f + random_unit(&random), 0.0f, c);
-        double f = (double)share_mix(s, w * f_0, w * term_second(F_COOK_TORRANCE, f_0, 0.3f)) / (double)w;
+        double f =
+            (double)fresnel_weight_mix(s, w * f_0, w * term_second(F_COOK_TORRANCE, f_0, 0.3f)) / (double)w;
         worst = fmax(worst, fabs(f - paper_f(index, 0.0, fmin((double)c, 1.0))));
-        assert_float_equal(share_plain(s), term_f(F_SCHLICK, 1.5f, 0.0f, c), 1e-7f);
+        assert_float_equal(fresnel_weight_plain(s), term_f(F_SCHLICK, 1.5f, 0.0f, c), 1e-7f);
     }
     print_message("F cook-torrance within %.1e of the formula\n", worst);
     assert_true(worst < 1e-5);
     for (int n = 0; n <= 10; n++) { /* white, black, and the edge */
         float s = term_f(F_COOK_TORRANCE, 1.5f, 0.0f, 0.1f * (float)n);
-        assert_true(share_mix(s, 0.0f, 1.0f) < (n ? 1e-6f : 1.0f + 1e-6f));
-        if (n) assert_float_equal(share_mix(s, 1.0f, 1.0f), 1.0f, 2e-3f);
+        assert_true(fresnel_weight_mix(s, 0.0f, 1.0f) < (n ? 1e-6f : 1.0f + 1e-6f));
+        if (n) assert_float_equal(fresnel_weight_mix(s, 1.0f, 1.0f), 1.0f, 2e-3f);
     }
 }
 

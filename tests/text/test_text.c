@@ -102,7 +102,7 @@ static const char all_calls[] =
     "Lobe m;\n    m.id = int(u[0].x);\n    for (int k = 0; k < 8; k++) m.params[k] = u[1][k & 3];\n"
     "    Angles a = angles_between(dir(u[2].x, u[2].y, u[2].z), dir(u[3].x, u[3].y, u[3].z));\n"
     "    Dir s = lobe_sample(m, a.o, u[0].y, u[0].z);\n"
-    "    color = vec4(lobe_f(m, a), lobe_pdf(m, a), lobe_share(m, a), lobe_second(m, s.x, s.y)) *\n"
+    "    color = vec4(lobe_f(m, a), lobe_pdf(m, a), lobe_fresnel_weight(m, a), lobe_second(m, s.x, s.y)) *\n"
     "            lobe_color(lobe_value(m, a), s.x, s.y);";
 
 /* The lobes that the GPU has. */
@@ -581,7 +581,7 @@ static void dust_comes_with_its_lobe(void **state) {
         end_clean(&text, "dust");
         assert_int_equal(occurrences(text.bytes, "float dust_albedo(Lobe m, float cos_o) {"), 1);
         assert_int_equal(strstr(text.bytes, "ltc_fibre_value") != NULL, there);
-        assert_non_null(strstr(text.bytes, "Surface dust_settle(Surface s, Dir n, Dir p) {"));
+        assert_non_null(strstr(text.bytes, "Surface dust_accumulate(Surface s, Dir n, Dir p) {"));
         text_free(&text);
     }
 }

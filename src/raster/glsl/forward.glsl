@@ -81,7 +81,7 @@ void main() {
         float shines = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
         sum = rgb_scale(s.emission, SHOWS_EMISSION * shines);
         Dir o = frame_to(f, wo);
-        s = dust_settle(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
+        s = dust_accumulate(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m;
         StackView w;
         surface_stack(m, s, material_choices(), material_table());

@@ -49,7 +49,7 @@ FN float cook_torrance_shadow(CookTorrance m, Angles a) {
     return term_v(m.v, mean, cook_torrance_ax(m), m.alpha, a);
 }
 
-FN float cook_torrance_share(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
+FN float cook_torrance_fresnel_weight(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
 FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
 
 /* Its density where D is known. */
@@ -66,7 +66,7 @@ FN float cook_torrance_drawn(CookTorrance m, float spread, Angles a) {
 
 FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorranceView *w, Angles a) {
     float spread = cook_torrance_spread(p->m, a);
-    return lobe_value_of(spread * cook_torrance_shadow(p->m, a), cook_torrance_share(p->m, a),
+    return lobe_value_of(spread * cook_torrance_shadow(p->m, a), cook_torrance_fresnel_weight(p->m, a),
                          cook_torrance_drawn(p->m, spread, a));
 }
 

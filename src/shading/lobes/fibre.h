@@ -159,7 +159,7 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
     v.tint.s = multiple / max(single + multiple, 1e-30f);
     v.tint.q_o = w->side.q;
     v.tint.q_i = i.q;
-    v.tint.e = fibre_deepen(w->side, i, turn);
+    v.tint.e = fibre_tint_order(w->side, i, turn);
     return v;
 }
 FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {

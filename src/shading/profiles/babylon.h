@@ -27,7 +27,7 @@ FN void babylon_stack(Stack *m, const Surface *s) {
     sheen.params[CHARLIE_NEUBELT_ALPHA] = max(babylon_alpha(r_s), 0.005f);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
     m->albedo = ALBEDO_BABYLON;
-    m->at = r_s;
+    m->albedo_coord = r_s;
     Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s->base_color, s->metallic);
     float dielectric = 1.0f - s->metallic;
     Rgb below = rgb(max(1.0f - f0.r, 0.0f) * dielectric, max(1.0f - f0.g, 0.0f) * dielectric,

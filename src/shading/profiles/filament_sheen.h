@@ -45,18 +45,18 @@ FN void filament_fuzz(Stack *m, float r, Rgb color, int layer) {
 FN void filament_compensate(Stack *m, Rgb f0, int view, float roughness) {
     m->view = view;
     m->gloss = roughness;
-    m->more_f0 = rgb_mul(m->specular.f0, f0);
-    m->more_f90 = rgb_mul(m->specular.f90, f0);
+    m->extra_f0 = rgb_mul(m->specular.f0, f0);
+    m->extra_f90 = rgb_mul(m->specular.f90, f0);
 }
 FN void filament_view(TableRef ess, const Stack *m, StackView *w) {
-    w->more = 1.0f / max(table_albedo(ess, w->o.z, m->gloss), 1e-3f) - 1.0f;
+    w->extra = 1.0f / max(table_albedo(ess, w->o.z, m->gloss), 1e-3f) - 1.0f;
 }
 
 FN void filament_sheen_stack(Stack *m, const Surface *s) {
     float r = filament_roughness(s->roughness), r_s = filament_roughness(s->sheen_roughness);
     filament_fuzz(m, r_s, rgb_scale(s->sheen_color, s->sheen), LAYER_ALBEDO_VIEW);
     m->albedo = ALBEDO_FILAMENT;
-    m->at = r_s;
+    m->albedo_coord = r_s;
     Rgb f0 = rgb_mix(metallic_f0(s), s->base_color, s->metallic);
     float f90 = min(16.5f * (f0.r + f0.g + f0.b), 1.0f);
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), f0, f90);

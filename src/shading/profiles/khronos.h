@@ -24,12 +24,13 @@
 #include "shading/workflows/metallic.h"
 
 FN float khronos_albedo(const Stack *m, float cosine) {
-    if (!SHEEN_IS_OWN(m->table)) return min(table_engine(m->table, cosine, m->at), 1.0f);
+    if (!SHEEN_IS_OWN(m->table)) return min(table_engine(m->table, cosine, m->albedo_coord), 1.0f);
     return min(table_sheen_at(m->table, table_place(m->table, cosine, m->rows)).e, 1.0f);
 }
 
 FN void khronos_stack(Stack *m, const Surface *s) {
-    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX, UNDER_HALF);
+    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX,
+                  BASE_FRESNEL_HALF);
     m->albedo = ALBEDO_KHRONOS;
 }
 

@@ -13,7 +13,7 @@
  * mx_generalized_schlick_bsdf.glsl (915650a); libraries/bxdf/gltf_pbr.mtlx (863a6bb). The sheen's mode
  * conty_kulla and the analytic albedo are its defaults; other generators integrate or look up.
  * standard_surface does not square the roughness and puts the sheen below the highlight.
- *   F enters squared, so f is a + b s + c s^2: Slot.sag has the last.
+ *   F enters squared, so f is a + b s + c s^2: SlotColors.f_quadratic has the last.
  *   IBL there: diffuse irradiance times c E, the rest alike.
  *   Inputs: F0 as in workflow metallic, F90 = specular; clear coat and anisotropy are not looked at.
  *   Departures: alpha of ggx is at least 0.001; A + B at least 1e-3. */
@@ -61,7 +61,7 @@ FN void materialx_stack(Stack *m, const Surface *s) {
     sheen.params[CHARLIE_NEUBELT_ALPHA] = clamp(rho, 0.005f, 4.0f);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
     m->albedo = ALBEDO_MATERIALX;
-    m->at = rho;
+    m->albedo_coord = rho;
 
     float alpha = clamp(s->roughness * s->roughness, 0.001f, 1.0f), f90 = s->specular;
     Rgb f0 = metallic_f0(s);
@@ -70,25 +70,26 @@ FN void materialx_stack(Stack *m, const Surface *s) {
     m->specular.lobe.params[GGX_ALPHA] = alpha;
     m->specular.f0 = rgb_mix(f0, s->base_color, s->metallic);
     m->specular.f90 = rgb_grey(mix(f90, 1.0f, s->metallic));
-    m->under = UNDER_HALF;
-    m->under_f0 = f0;
-    m->under_f90 = f90;
+    m->base_fresnel = BASE_FRESNEL_HALF;
+    m->interface_f0 = f0;
+    m->interface_f90 = f90;
     m->view = VIEW_MATERIALX;
     m->gloss = alpha;
-    m->more_f0 = rgb_mix(rgb_mul(f0, f0), rgb_mul(s->base_color, s->base_color), s->metallic);
-    m->more_f90 = rgb_grey(mix(f90 * f90, 1.0f, s->metallic));
-    m->more_sag = rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
+    m->extra_f0 = rgb_mix(rgb_mul(f0, f0), rgb_mul(s->base_color, s->base_color), s->metallic);
+    m->extra_f90 = rgb_grey(mix(f90 * f90, 1.0f, s->metallic));
+    m->extra_f_quadratic =
+        rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
 }
 
 /* F (1 + k F) of the highlight; the diffuse lobe is dimmed by its E. */
 FN void materialx_view(const Stack *m, StackView *w) {
-    float a = materialx_a(w->o.z, m->gloss), b = materialx_b(w->o.z, m->gloss), f90 = m->under_f90;
+    float a = materialx_a(w->o.z, m->gloss), b = materialx_b(w->o.z, m->gloss), f90 = m->interface_f90;
     float k = 1.0f / max(a + b, 1e-3f) - 1.0f;
-    Rgb e = rgb_add(rgb_scale(m->under_f0, a), rgb_grey(b * f90));
-    w->more = k;
-    w->under_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, m->under_f0)));
-    w->under_f90 = rgb_mean(e) * (1.0f + k * f90);
-    w->pick.diffuse = 1.0f - mix(rgb_max3(w->under_f0), w->under_f90, schlick_s(w->o.z));
+    Rgb e = rgb_add(rgb_scale(m->interface_f0, a), rgb_grey(b * f90));
+    w->extra = k;
+    w->interface_f0 = rgb_grey(rgb_mean(e) + k * rgb_mean(rgb_mul(e, m->interface_f0)));
+    w->interface_f90 = rgb_mean(e) * (1.0f + k * f90);
+    w->select_p.diffuse = 1.0f - mix(rgb_max3(w->interface_f0), w->interface_f90, schlick_s(w->o.z));
 }
 
 #endif

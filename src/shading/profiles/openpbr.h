@@ -29,9 +29,9 @@ FN void openpbr_stack(Stack *m, const Surface *s) {
         m->sheen.normal = max(m->sheen.normal, 1e-30f); /* black fuzz takes from the base too */
 
     float strength = clamp(s->specular, 0.0f, 1.0f), f0 = dielectric_f0(s) * strength;
-    m->under = UNDER_LEAST;
-    m->under_f0 = rgb_grey(f0);
-    m->under_f90 = 1.0f;
+    m->base_fresnel = BASE_FRESNEL_LEAST;
+    m->interface_f0 = rgb_grey(f0);
+    m->interface_f90 = 1.0f;
     /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
     float glass = 1.0f - s->metallic, metal = strength * s->metallic;
     Rgb first = rgb_add(rgb_scale(s->specular_color, f0 * glass), rgb_scale(s->base_color, metal));

@@ -28,9 +28,9 @@ FN void order_1886_stack(Stack *m, const Surface *s) {
     Rgb color = rgb_scale(s->sheen_color, s->sheen);
     if (rgb_max3(color) > 0.0f) {
         workflow_sheen(m, sheen, color, rgb_grey(1.0f), LAYER_ADDITIVE);
-        m->under = UNDER_HALF;
-        m->under_f0 = color;
-        m->under_f90 = 1.0f;
+        m->base_fresnel = BASE_FRESNEL_HALF;
+        m->interface_f0 = color;
+        m->interface_f90 = 1.0f;
     }
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }

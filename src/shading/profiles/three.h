@@ -72,13 +72,13 @@ FN void three_stack(Stack *m, const Surface *s) {
     m->sheen.f0 = rgb_scale(m->sheen.f0, charlie_floored_gain(sheen.params[COOK_TORRANCE_ALPHA]));
     m->sheen.f90 = m->sheen.f0;
     m->albedo = ALBEDO_THREE;
-    m->at = r_s;
+    m->albedo_coord = r_s;
 
     Rgb f0 = metallic_f0(s), mixed = rgb_mix(f0, s->base_color, s->metallic);
     float f90 = mix(s->specular, 1.0f, s->metallic);
-    m->under = UNDER_GAUSSIAN;
-    m->under_f0 = f0;
-    m->under_f90 = f90;
+    m->base_fresnel = BASE_FRESNEL_GAUSSIAN;
+    m->interface_f0 = f0;
+    m->interface_f90 = f90;
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), mixed, f90);
     m->specular.lobe = three_ggx(s->roughness, s->anisotropy);
     filament_compensate(m, mixed, VIEW_THREE, r);

@@ -39,7 +39,7 @@ FN void unreal4_stack(Stack *m, const Surface *s) {
     Lobe haze = unreal4_lobe(max(alpha, 0.005f), D_INVERSE_GGX, V_NEUBELT);
     m->color = rgb_scale(fuzz, cloth);
     m->sheen_color = m->color;
-    m->at = haze.params[COOK_TORRANCE_ALPHA];
+    m->albedo_coord = haze.params[COOK_TORRANCE_ALPHA];
     slot_even(&m->sheen, haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth);
     slot_make(&m->specular, unreal4_lobe(max(alpha, 0.001f), D_GGX, V_SMITH_GGX_FAST), f0,
               rgb_grey(unreal4_f90(f0)), 1.0f - cloth, (1.0f - cloth) * rgb_mean(f0),

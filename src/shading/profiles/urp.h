@@ -39,7 +39,7 @@ FN void urp_stack(Stack *m, const Surface *s) {
 
 FN void urp_view(const Stack *m, StackView *w) {
     w->scale.diffuse = mix(1.0f, 0.62f * (1.0f - 0.25f * w->o.z * w->o.z), m->gloss);
-    w->pick.diffuse = w->scale.diffuse;
+    w->select_p.diffuse = w->scale.diffuse;
 }
 
 #endif

@@ -22,20 +22,20 @@ FN Rgb metallic_f0(const Surface *s) {
 }
 
 /* All of it but for its sheen lobe, layer rule and UNDER_ rule. */
-FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int under) {
+FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int base_fresnel) {
     workflow_coat(m, s);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, layer);
     Rgb f0 = metallic_f0(s);
-    m->under = under;
-    m->under_f0 = f0;
-    m->under_f90 = s->specular;
+    m->base_fresnel = base_fresnel;
+    m->interface_f0 = f0;
+    m->interface_f90 = s->specular;
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), rgb_mix(f0, s->base_color, s->metallic),
                   mix(s->specular, 1.0f, s->metallic));
 }
 
 FN void metallic_stack(Stack *m, const Surface *s) {
     metallic_with(m, s, lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s->sheen_roughness), LAYER_ALBEDO_VIEW,
-                  UNDER_LEAST);
+                  BASE_FRESNEL_LEAST);
 }
 
 #endif

@@ -15,9 +15,9 @@ FN void specular_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s->sheen_roughness);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ALBEDO_VIEW);
     Rgb f0 = rgb_min(rgb_scale(s->specular_color, s->specular), 1.0f);
-    m->under = UNDER_LEAST;
-    m->under_f0 = f0;
-    m->under_f90 = 1.0f;
+    m->base_fresnel = BASE_FRESNEL_LEAST;
+    m->interface_f0 = f0;
+    m->interface_f90 = 1.0f;
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - rgb_max3(f0)), f0, 1.0f);
 }
 

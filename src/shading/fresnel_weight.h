@@ -1,27 +1,27 @@
 /* share.h - how much of a lobe is in its second colour */
-#ifndef WEFT_SHADING_SHARE_H
-#define WEFT_SHADING_SHARE_H
+#ifndef WEFT_SHADING_FRESNEL_WEIGHT_H
+#define WEFT_SHADING_FRESNEL_WEIGHT_H
 
 #include "shading/terms/f_cook_torrance.h"
 #include "shading/terms/f_schlick.h"
 
 /* A reflectance whose way from f0 to white is the colour's own (f_cook_torrance) has no share: in its place
  * stands -(wi . h). A shader that has no such lobe says so. */
-#ifndef SHARE_IS_COSINE
-#define SHARE_IS_COSINE(s) ((s) < 0.0f)
+#ifndef FRESNEL_WEIGHT_IS_COSINE
+#define FRESNEL_WEIGHT_IS_COSINE(s) ((s) < 0.0f)
 #endif
-FN float share_of(float cosine) { return -max(cosine, 1e-6f); }
+FN float fresnel_weight_of_cosine(float cosine) { return -max(cosine, 1e-6f); }
 
 /* Two colours by their share. With a cosine the second is the weight of the first, so that their quotient is
  * F0. */
-FN float share_mix(float s, float first, float second) {
-    if (SHARE_IS_COSINE(s)) return second * cook_torrance_f(first / max(second, 1e-30f), -s);
+FN float fresnel_weight_mix(float s, float first, float second) {
+    if (FRESNEL_WEIGHT_IS_COSINE(s)) return second * cook_torrance_f(first / max(second, 1e-30f), -s);
     return mix(first, second, s);
 }
 
 /* The share where light is summed before the colours are known. */
-FN float share_plain(float s) {
-    if (SHARE_IS_COSINE(s)) return schlick_s(-s);
+FN float fresnel_weight_plain(float s) {
+    if (FRESNEL_WEIGHT_IS_COSINE(s)) return schlick_s(-s);
     return s;
 }
 

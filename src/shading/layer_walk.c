@@ -1,4 +1,4 @@
-/* sheet.c - layer rule stochastic: the sheen as a thin sheet over the base, with the light that bounces
+/* layer_walk.c - layer rule stochastic: the sheen as a thin sheet over the base, with the light that bounces
  * between them
  *
  *   f = c f_s(o, i) + T(o) f_b(o, i) T(i)
@@ -18,20 +18,20 @@ static float walk_random(uint32_t *walk) { return unit_float(*walk = hash32(*wal
 
 /* One of the two by itself: the whole without its layer rule, how that is seen, and which slots are its own.
  */
-typedef struct Sheet {
+typedef struct WalkLayer {
     const Stack *stack;
     StackView view;
     Slots own;
-} Sheet;
+} WalkLayer;
 
 /* Seen from o, of which else nothing changes. */
-static void turn(Sheet *sheet, Dir o) {
-    sheet->view.o = sheet->view.coat_o = o;
-    stack_view_lobes(sheet->stack, &sheet->view);
+static void turn(WalkLayer *layer, Dir o) {
+    layer->view.o = layer->view.coat_o = o;
+    stack_view_lobes(layer->stack, &layer->view);
 }
 
 /* Extends the walk by one reflection; o becomes the new direction. False where it ends. */
-static bool walk_on(uint32_t *walk, Sheet *layer, Dir *o, Rgb *weight) {
+static bool walk_on(uint32_t *walk, WalkLayer *layer, Dir *o, Rgb *weight) {
     float u = walk_random(walk), v = walk_random(walk);
     turn(layer, *o);
     Dir i;
@@ -46,34 +46,35 @@ static bool walk_on(uint32_t *walk, Sheet *layer, Dir *o, Rgb *weight) {
 
 static Rgb let_through(const Stack *stack, Dir w) {
     SheenE e = stack_albedo(stack, w);
-    Rgb c = stack->by == LAYER_BY_CHANNEL ? stack->color : rgb_grey(rgb_max3(stack->color));
+    Rgb c = stack->combine == LAYER_BY_CHANNEL ? stack->color : rgb_grey(rgb_max3(stack->color));
     return rgb(max(1.0f - c.r * sheen_e_in(e, c.r), 0.0f), max(1.0f - c.g * sheen_e_in(e, c.g), 0.0f),
                max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));
 }
 
 /* The picks of its own scaled to 1. What dust and coat let through counts once and not at every bounce. */
-static Sheet sheet_of(const Stack *alone, const StackView *view, bool sheen) {
-    Sheet s = {alone, *view, slots_of(!sheen, !sheen, sheen, false, false)};
-    const Scales *p = &view->pick;
+static WalkLayer walk_layer_of(const Stack *alone, const StackView *view, bool sheen) {
+    WalkLayer s = {alone, *view, slots_of(!sheen, !sheen, sheen, false, false)};
+    const Scales *p = &view->select_p;
     float sum = sheen ? p->sheen : p->diffuse + p->specular, k = sum > 0.0f ? 1.0f / sum : 0.0f;
-    float back = 1.0f / max(view->coat_keep * view->dust_keep, 1e-6f);
-    s.view.pick = (Scales){0};
-    if (sheen) s.view.pick.sheen = p->sheen * k;
-    if (!sheen) s.view.pick.diffuse = p->diffuse * k, s.view.pick.specular = p->specular * k;
+    float back = 1.0f / max(view->coat_transmittance * view->dust_transmittance, 1e-6f);
+    s.view.select_p = (Scales){0};
+    if (sheen) s.view.select_p.sheen = p->sheen * k;
+    if (!sheen) s.view.select_p.diffuse = p->diffuse * k, s.view.select_p.specular = p->specular * k;
     s.view.scale.diffuse *= back, s.view.scale.specular *= back, s.view.scale.sheen *= back;
-    s.view.keep = rgb_grey(1.0f);
+    s.view.base_scale = rgb_grey(1.0f);
     return s;
 }
 
-Rgb sheet_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed) {
+Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed) {
     if (stack->layer != LAYER_STOCHASTIC || !HAS_SHEEN(stack)) return rgb_grey(0.0f);
     Stack alone = *stack;
     alone.color = rgb_grey(0.0f);
     alone.layer = LAYER_ADDITIVE;
-    Sheet base = sheet_of(&alone, view, false), sheen = sheet_of(&alone, view, true);
+    WalkLayer base = walk_layer_of(&alone, view, false), sheen = walk_layer_of(&alone, view, true);
     Slots of_base = slots_of(last.diffuse, last.specular, false, false, false);
     Dir o = view->o;
-    Rgb weight = rgb_scale(let_through(stack, o), view->coat_keep * view->dust_keep), sum = rgb_grey(0.0f);
+    Rgb weight = rgb_scale(let_through(stack, o), view->coat_transmittance * view->dust_transmittance),
+        sum = rgb_grey(0.0f);
     Rgb out = let_through(stack, i);
     for (int bounce = 0; bounce < BOUNCES_MOST; bounce++) {
         if (!walk_on(&seed, &base, &o, &weight) || !walk_on(&seed, &sheen, &o, &weight)) break;
