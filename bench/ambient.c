@@ -26,7 +26,7 @@
 enum { LEVELS = 16, AZIMUTHS = 12, SIDES = 2, PIXELS = LEVELS * AZIMUTHS * SIDES, ROUGHNESSES = 10 };
 enum { LOBE_DRAWS = 2048, MAP_DRAWS = 2048, CELLS_WIDTH = 256, CELLS_HEIGHT = 128 };
 enum { SMALL_WIDTH = 128 };
-enum { BASE = LOBE_COUNT, BRUSHED, DISNEY, SATIN, SUBJECTS };
+enum { BASE = LOBE_COUNT, BRUSHED, DISNEY, SATIN, MODELS };
 
 /* A pixel of the sphere: its frame, x towards wo for round lobes; and how much of the picture it is. */
 typedef struct Pixel {
@@ -167,15 +167,15 @@ static AmbientLight look_light(const void *user, int k) {
                           rgb(light->color[0], light->color[1], light->color[2])};
 }
 
-static const char *const own_names[SUBJECTS - BASE] = {"base", "brushed", "disney", "satin"};
-static const char *name_of(int subject) {
-    return subject >= BASE ? own_names[subject - BASE] : weft_lobe_info(subject)->id;
+static const char *const own_names[MODELS - BASE] = {"base", "brushed", "disney", "satin"};
+static const char *name_of(int model) {
+    return model >= BASE ? own_names[model - BASE] : weft_lobe_info(model)->id;
 }
 
 /* A white metal, or a dielectric. */
-static SeenStack surface_of(int subject, float roughness, Dir o) {
+static SeenStack surface_of(int model, float roughness, Dir o) {
     SeenStack m;
-    float metal = subject == BASE ? 0.0f : 1.0f;
+    float metal = model == BASE ? 0.0f : 1.0f;
     Surface s = {.base_color = {0.8f, 0.8f, 0.8f},
                  .metallic = metal,
                  .roughness = roughness,
@@ -183,7 +183,7 @@ static SeenStack surface_of(int subject, float roughness, Dir o) {
                  .specular = 1.0f,
                  .sheen = 1.0f - metal};
     Choices c = choices_unmade();
-    if (subject == DISNEY) c.workflow = choice_find(CHOICE_workflow, "disney");
+    if (model == DISNEY) c.workflow = choice_find(CHOICE_workflow, "disney");
     s.specular_color = rgb_grey(1.0f);
     s.reflectance = 0.46f; /* f0 0.04 */
     s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
@@ -192,14 +192,14 @@ static SeenStack surface_of(int subject, float roughness, Dir o) {
 }
 
 /* What is looked at; `albedo` may be NULL. */
-static SeenStack subject_stack(int subject, float roughness, Dir o, const AlbedoTable *albedo) {
-    if (subject >= BASE && subject != SATIN) return surface_of(subject, roughness, o);
+static SeenStack model_stack(int model, float roughness, Dir o, const AlbedoTable *albedo) {
+    if (model >= BASE && model != SATIN) return surface_of(model, roughness, o);
     SeenStack seen;
     Stack *m = &seen.stack;
     stack_clear(m);
     Rgb white = rgb_grey(1.0f);
-    Lobe lobe = lobe_rough(subject == SATIN ? LOBE_SILK : subject, roughness);
-    if (subject == SATIN) lobe.params[1] = 0.8f;
+    Lobe lobe = lobe_rough(model == SATIN ? LOBE_SILK : model, roughness);
+    if (model == SATIN) lobe.params[1] = 0.8f;
     slot_even(&m->sheen, lobe, white, white, 1.0f);
     if (albedo) {
         m->albedo = ALBEDO_TABLE;
@@ -210,20 +210,20 @@ static SeenStack subject_stack(int subject, float roughness, Dir o, const Albedo
     return seen;
 }
 
-static const char *only[SUBJECTS]; /* these subjects alone, where there are some */
+static const char *only[MODELS]; /* these models alone, where there are some */
 static int only_count;
 
-static bool used(int subject) {
+static bool used(int model) {
     bool named = only_count == 0;
-    for (int k = 0; k < only_count; k++) named |= strcmp(only[k], name_of(subject)) == 0;
+    for (int k = 0; k < only_count; k++) named |= strcmp(only[k], name_of(model)) == 0;
     if (!named) return false;
-    return subject >= BASE || (subject != LOBE_BURLEY_COAT && subject != LOBE_COOK_TORRANCE &&
-                               !(weft_lobe_info(subject)->traits & TRAIT_REFERENCE));
+    return model >= BASE || (model != LOBE_BURLEY_COAT && model != LOBE_COOK_TORRANCE &&
+                             !(weft_lobe_info(model)->traits & TRAIT_REFERENCE));
 }
 
-static bool is_sheen(int subject) {
-    return subject < BASE && subject != LOBE_GGX && subject != LOBE_SILK &&
-           !(weft_lobe_info(subject)->traits & TRAIT_DIFFUSE);
+static bool is_sheen(int model) {
+    return model < BASE && model != LOBE_GGX && model != LOBE_SILK &&
+           !(weft_lobe_info(model)->traits & TRAIT_DIFFUSE);
 }
 
 typedef struct Draw2 {
@@ -265,7 +265,7 @@ static Rgb reference(const Map *map, const Pixel *p, const SeenStack *m, const D
 static AmbientFit *fits; /* of each lobe */
 static bool tables_only; /* nothing is baked */
 
-/* The tables of one subject, baked where a shader would hold them. */
+/* The tables of one model, baked where a shader would hold them. */
 typedef struct Baked {
     AmbientWeights polynomials[3 * AMBIENT_BAKED];
     AmbientFit fit;
@@ -300,21 +300,21 @@ static AmbientTables by_strategy(AmbientTables t, int strategy) {
 
 static void measure(void *user, int item, int thread) {
     (void)user, (void)thread;
-    int subject = item / ROUGHNESSES, r = item % ROUGHNESSES;
-    if (!used(subject) || r % step != step - 1) return;
+    int model = item / ROUGHNESSES, r = item % ROUGHNESSES;
+    if (!used(model) || r % step != step - 1) return;
     Draw2 *draws = alloc_array(LOBE_DRAWS, sizeof *draws);
     Baked *baked = alloc_array(1, sizeof *baked);
-    AlbedoTable *albedo = is_sheen(subject) ? alloc_array(1, sizeof *albedo) : NULL;
+    AlbedoTable *albedo = is_sheen(model) ? alloc_array(1, sizeof *albedo) : NULL;
     float roughness = 0.1f * (float)(r + 1);
     if (albedo) {
-        Lobe lobe = lobe_rough(subject, roughness);
+        Lobe lobe = lobe_rough(model, roughness);
         albedo_table_fill(albedo, &lobe, lobe.params[0], lobe.params[0], 1);
     }
-    SeenStack some = subject_stack(subject, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
+    SeenStack some = model_stack(model, roughness, dir(0.0f, 0.0f, 1.0f), albedo);
     AmbientTables tables = tables_of(baked, &some.stack);
     for (int n = 0; n < PIXELS; n++) {
         const Pixel *p = &pixels[n];
-        SeenStack m = subject_stack(subject, roughness, p->o, albedo);
+        SeenStack m = model_stack(model, roughness, p->o, albedo);
         int count = 0;
         for (int k = 0; k < LOBE_DRAWS; k++) {
             Dir i = seen_sample(&m, ((float)k + 0.5f) / LOBE_DRAWS, radical((uint32_t)k));
@@ -335,7 +335,7 @@ static void measure(void *user, int item, int thread) {
             Rgb truth = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);
-                double *sum = results[subject][r][s][k];
+                double *sum = results[model][r][s][k];
                 sum[0] +=
                     p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));
                 sum[1] += p->weight * (double)(truth.r + truth.g + truth.b);
@@ -359,51 +359,51 @@ static void error_add(Error *to, const double sum[2]) {
 static double error_part(Error e) { return 100.0 * e.off / fmax(e.all, 1e-30); }
 
 /* The default strategy at that roughness. */
-static int best_of(int subject, int r) {
+static int best_of(int model, int r) {
     static AmbientFit fit;
-    if (subject >= BASE) return subject == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
-    Lobe lobe = lobe_rough(subject, 0.1f * (float)(r + 1));
+    if (model >= BASE) return model == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
+    Lobe lobe = lobe_rough(model, 0.1f * (float)(r + 1));
     ambient_fit(&fit, &lobe, lobe.params[0], lobe.params[0], 0);
-    return ambient_strategy(subject, fit.turning, fit.denser > AMBIENT_DENSER);
+    return ambient_strategy(model, fit.turning, fit.denser > AMBIENT_DENSER);
 }
 
 static bool by_row; /* one line a roughness */
 
-static void print_row(int subject, int k, int r, int best) {
+static void print_row(int model, int k, int r, int best) {
     printf("%27.1f", 0.1 * (r + 1));
     for (int s = 0; s <= AMBIENT_STRATEGIES; s++) {
         Error error = {0.0, 0.0};
-        error_add(&error, results[subject][r][s < AMBIENT_STRATEGIES ? s : best][k]);
+        error_add(&error, results[model][r][s < AMBIENT_STRATEGIES ? s : best][k]);
         printf(" %10.1f", error_part(error));
     }
     printf("\n");
 }
 
-static void print_subject(int subject, int k) {
+static void print_model(int model, int k) {
     Error sums[AMBIENT_STRATEGIES + 1] = {{0.0, 0.0}};
     double worst = 0.0;
     int at = 0, best[ROUGHNESSES];
     for (int r = 0; r < ROUGHNESSES; r++) {
         Error own = {0.0, 0.0};
-        best[r] = best_of(subject, r);
-        for (int s = 0; s < AMBIENT_STRATEGIES; s++) error_add(&sums[s], results[subject][r][s][k]);
-        error_add(&sums[AMBIENT_STRATEGIES], results[subject][r][best[r]][k]);
-        error_add(&own, results[subject][r][best[r]][k]);
+        best[r] = best_of(model, r);
+        for (int s = 0; s < AMBIENT_STRATEGIES; s++) error_add(&sums[s], results[model][r][s][k]);
+        error_add(&sums[AMBIENT_STRATEGIES], results[model][r][best[r]][k]);
+        error_add(&own, results[model][r][best[r]][k]);
         if (error_part(own) > worst) worst = error_part(own), at = r;
     }
-    printf("%-27s", name_of(subject));
+    printf("%-27s", name_of(model));
     for (int s = 0; s <= AMBIENT_STRATEGIES; s++) printf(" %10.1f", error_part(sums[s]));
     printf("  %.1f at %.1f\n", worst, 0.1 * (at + 1));
     for (int r = 0; by_row && r < ROUGHNESSES; r++)
-        if (results[subject][r][0][k][1] > 0.0) print_row(subject, k, r, best[r]);
+        if (results[model][r][0][k][1] > 0.0) print_row(model, k, r, best[r]);
 }
 
 static void print_results(void) {
     for (int k = 0; k < map_count; k++) {
         printf("\n%s, %d lights\n%-27s", maps[k].name, maps[k].parts.env_light_count, "lobe");
         printf(" irradiance     mirror     fitted    sampled    default  worst\n");
-        for (int subject = 0; subject < SUBJECTS; subject++)
-            if (used(subject)) print_subject(subject, k);
+        for (int model = 0; model < MODELS; model++)
+            if (used(model)) print_model(model, k);
     }
 }
 
@@ -435,7 +435,7 @@ static bool load(Map *map, const char *path) {
 int main(int argc, char **argv) {
     maps = calloc(16, sizeof *maps);
     fits = calloc(LOBE_COUNT, sizeof *fits);
-    results = calloc(SUBJECTS, sizeof *results);
+    results = calloc(MODELS, sizeof *results);
     if (!maps || !fits || !results) return 4;
     if (!load(&maps[map_count++], NULL)) return 4;
     for (int k = 1; k < argc; k++) {
@@ -447,7 +447,7 @@ int main(int argc, char **argv) {
             tables_only = true;
         else if (strcmp(argv[k], "--lights") == 0 && k + 1 < argc)
             env_light_count = atoi(argv[++k]);
-        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < SUBJECTS)
+        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < MODELS)
             only[only_count++] = argv[++k];
         else if (map_count < 16 && !load(&maps[map_count++], argv[k]))
             return 3;
@@ -459,7 +459,7 @@ int main(int argc, char **argv) {
         if (used(lobe) || lobe == LOBE_LAMBERT || lobe == LOBE_GGX)
             ambient_fit(&fits[lobe], &at, min(a, b), max(a, b), 0);
     }
-    parallel_for(0, SUBJECTS * ROUGHNESSES, measure, NULL);
+    parallel_for(0, MODELS * ROUGHNESSES, measure, NULL);
     print_results();
     return 0;
 }

@@ -59,7 +59,7 @@ static WeftImage drawn(const WeftScene *scene, int rays) {
     WeftImage image;
     WeftError error;
     check(weft_raster_create(scene, &desc, &raster, NULL, &error), &error);
-    check(weft_raster_settle(raster, &error), &error);
+    check(weft_raster_wait(raster, &error), &error);
     check(weft_raster_draw(raster, &view, &error), &error);
     check(weft_raster_image(raster, &image, &error), &error);
     weft_raster_free(raster);

@@ -71,8 +71,8 @@ typedef struct WeftExportDesc {
     const char *call;   /* what made the text, for its first lines; may be NULL */
 } WeftExportDesc;
 
-/* The most subjects and tables of a text, and the longest name, its end among the characters. */
-enum { WEFT_EXPORT_SUBJECTS_MAX = 16, WEFT_EXPORT_TABLES_MAX = 32, WEFT_EXPORT_NAME = 96 };
+/* The most models and tables of a text, and the longest name, its end among the characters. */
+enum { WEFT_EXPORT_MODELS_MAX = 16, WEFT_EXPORT_TABLES_MAX = 32, WEFT_EXPORT_NAME = 96 };
 
 /* A table that the text reads: F32, one channel, to be uploaded as it is, without filtering or mipmaps. */
 typedef struct WeftExportTable {
@@ -93,7 +93,7 @@ typedef struct WeftExport {
  * profile), _DESC or _MEMORY; *out is then zero. A table of E takes up to seconds. */
 WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error);
 
-/* Makes one text of `count` subjects, 1 to WEFT_EXPORT_SUBJECTS_MAX, of one target, lut, prefix and fold_pi:
+/* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi:
  * what they share is in it once, and where they differ the names of one begin with its id, as
  * WeftKhronosSurface. No two may go by one name, and a Shadertoy has one. Fails as weft_export. */
 WEFT_API WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *out,

@@ -81,7 +81,7 @@ typedef struct WeftFit {
 
 /* Zero-initialise for the defaults. */
 typedef struct WeftFitDesc {
-    WeftApart metric;      /* LOG where `chosen` is 0; PICTURE is refused */
+    WeftBrdfMetric metric; /* LOG where `chosen` is 0; PICTURE is refused */
     int chosen;            /* not 0: metric was chosen */
     const char *base;      /* a diffuse lobe, with its default parameters; NULL: lambert */
     const char *only;      /* one candidate instead of all; NULL: all */

@@ -31,21 +31,21 @@ extern "C" {
 #endif
 
 /* The metrics, as above. */
-typedef enum WeftApart {
-    WEFT_APART_COSINE = 0,
-    WEFT_APART_LOG,
-    WEFT_APART_PICTURE,
-    WEFT_APART_COUNT
-} WeftApart;
+typedef enum WeftBrdfMetric {
+    WEFT_BRDF_METRIC_COSINE = 0,
+    WEFT_BRDF_METRIC_LOG,
+    WEFT_BRDF_METRIC_PICTURE,
+    WEFT_BRDF_METRIC_COUNT
+} WeftBrdfMetric;
 
 /* "cosine", "log" or "picture". */
-WEFT_API const char *weft_apart_name(WeftApart metric);
+WEFT_API const char *weft_brdf_metric_name(WeftBrdfMetric metric);
 
 /* How far two reflections are apart in one part (WeftPart; WEFT_PART_ALL: as wholes). 0 is the same. Fails
  * with WEFT_MESSAGE_DESC or _MEMORY; where `from` reflects nothing in that part the answer is 0 if `to` does
  * so too, else 1. */
-WEFT_API WeftResult weft_apart(const WeftReflection *to, const WeftReflection *from, int part,
-                               WeftApart metric, double *apart, WeftError *error);
+WEFT_API WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
+                                       WeftBrdfMetric metric, double *apart, WeftError *error);
 
 /* What a search did. */
 typedef struct WeftMatch {
@@ -61,7 +61,7 @@ typedef struct WeftMatch {
  * the start's numbers stay. Fails with WEFT_MESSAGE_LOBE_NAME, _DESC (a lobe with WEFT_LOBE_REFERENCE on
  * either side: what is an estimate would be met in its noise; match fibre, which is the mean) or _MEMORY. */
 enum { WEFT_HOLD_COLOR = 1 << 8, WEFT_HOLD_COLOR_2 = 1 << 9 };
-WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold,
+WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, unsigned hold,
                                     WeftLobe *lobe, WeftMatch *out, WeftError *error);
 
 /* Likewise material, whose inputs and choices are where to begin. Free are those of base_color, sheen_color,
@@ -70,7 +70,7 @@ WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric
  * their plausible range, or from where they begin. held (may be NULL): not 0 for an input that stays,
  * WEFT_INPUTS_MAX of them. Where both are grey, colours stay grey. Fails with WEFT_MESSAGE_PARAM_VALUE,
  * _DESC (a lobe with WEFT_LOBE_REFERENCE on either side) or _MEMORY. */
-WEFT_API WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
+WEFT_API WeftResult weft_match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
                                         WeftMaterial *material, WeftMatch *out, WeftError *error);
 
 /* Whether weft_match_material may change that input of the material. */
@@ -92,7 +92,7 @@ typedef struct WeftMatchJob {
 
 /* Does jobs[0 .. count) on so many threads (0: one a processor); user is handed to progress, which may be
  * NULL. */
-WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
+WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
                                     WeftProgress progress, void *user, WeftError *error);
 
 /* What became of one material of an asset. Numbers are those of its factors: with textures, `matched` is
@@ -115,9 +115,10 @@ typedef struct WeftAssetMatch {
  * each of *count materials; on success it is owned by the caller: release it with weft_match_report_free.
  * Fails with WEFT_MESSAGE_DESC (a profile that there is not), and with what reading and writing the file can
  * fail with. */
-WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
-                                     WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
-                                     const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
+                                     WeftBrdfMetric metric, WeftProgress progress, void *user,
+                                     WeftAssetMatch **report, int *count, const WeftLog *log,
+                                     WeftError *error);
 
 WEFT_API void weft_match_report_free(WeftAssetMatch *report); /* may be NULL */
 

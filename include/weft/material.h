@@ -129,12 +129,12 @@ WEFT_API WeftImage weft_scene_texture(const WeftScene *scene, int index);
  * number, counted from 1; 0 with *error on failure (WEFT_MESSAGE_DESC, _MEMORY). */
 WEFT_API int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftError *error);
 
-/* Reads the maps in a folder onto material MAT as weft_scene_dress has it (NULL: the cloth of the scene): by
+/* Reads the maps in a folder onto material MAT as weft_scene_assign_material has it (NULL: the cloth of the scene): by
  * file name, in any case, with any of the suffixes .tga .png .jpg .jpeg .exr .hdr: docs/materials.md has the
  * names. An input that has its map already keeps the number beside it, so that a folder can be read again.
  * count (may be NULL) receives how many there were; none is WEFT_MESSAGE_FILE_OPEN. */
-WEFT_API WeftResult weft_scene_wear_folder(WeftScene *scene, const char *material, const char *folder,
-                                           int *count, const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder,
+                                         int *count, const WeftLog *log, WeftError *error);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 /* plot.h - figures of what reflects: curves, lobes, slices, spheres, as pictures and as numbers
  *
- *   const WeftPlotSubject subject = {.reflection = reflection, .label = "charlie-neubelt"};
- *   weft_plot_write(&(WeftPlotDesc){.subjects = &subject, .count = 1}, "lobe.svg", &error);
+ *   const WeftPlotModel model = {.reflection = reflection, .label = "charlie-neubelt"};
+ *   weft_plot_write(&(WeftPlotDesc){.models = &model, .count = 1}, "lobe.svg", &error);
  *
  * The view is wo = (sin, 0, cos) of an angle; "in the plane" is that of wo and the normal, where theta_i > 0
  * lies beyond the normal (forward: wi = (-sin, 0, cos)) and theta_i < 0 on the viewer's side. Angles are in
@@ -28,7 +28,7 @@ typedef enum WeftPlotKind {
     WEFT_PLOT_SLICE,      /* f over theta_h and theta_d, phi_d = 90 degrees, as a picture */
     WEFT_PLOT_SPHERE,     /* a lit sphere, and more of them as the roughness grows */
     WEFT_PLOT_SAMPLES,    /* of lobes: a histogram of what is drawn, the pdf, and their ratio */
-    WEFT_PLOT_DIFFERENCE, /* of two subjects: where in theta_o and theta_i f differs */
+    WEFT_PLOT_DIFFERENCE, /* of two models: where in theta_o and theta_i f differs */
     WEFT_PLOT_KINDS
 } WeftPlotKind;
 
@@ -44,24 +44,24 @@ typedef enum WeftPlotChannel {
     WEFT_PLOT_BLUE
 } WeftPlotChannel;
 
-/* The most subjects, views, and pixels of a side. */
-enum { WEFT_PLOT_SUBJECTS_MAX = 8, WEFT_PLOT_VIEWS_MAX = 6, WEFT_PLOT_SIDE_MAX = 8192 };
+/* The most models, views, and pixels of a side. */
+enum { WEFT_PLOT_MODELS_MAX = 8, WEFT_PLOT_VIEWS_MAX = 6, WEFT_PLOT_SIDE_MAX = 8192 };
 
 /* All are the caller's and are only read. What the reflection was made of says how it looks at other
  * roughnesses; a lobe also how it is sampled. Of a lobe that walks at random (WEFT_LOBE_REFERENCE) each
  * value is a mean over near directions. */
-typedef struct WeftPlotSubject {
+typedef struct WeftPlotModel {
     const WeftReflection *reflection; /* what is plotted */
     const WeftLobe *lobe;             /* NULL: it is none */
     const WeftMaterial *material;     /* NULL: it is none */
     const char *label;                /* UTF-8, one line; NULL: its number */
-} WeftPlotSubject;
+} WeftPlotModel;
 
 /* Zero-initialise: a polar plot, linear, of luminance. */
 typedef struct WeftPlotDesc {
     WeftPlotKind kind;                /* what is shown */
-    const WeftPlotSubject *subjects;  /* count of them */
-    int count;                        /* 1 .. WEFT_PLOT_SUBJECTS_MAX; difference: 2 */
+    const WeftPlotModel *models;      /* count of them */
+    int count;                        /* 1 .. WEFT_PLOT_MODELS_MAX; difference: 2 */
     float views[WEFT_PLOT_VIEWS_MAX]; /* theta_o in [0, 90), degrees; sphere: of the light */
     int view_count;                   /* 0: the kind's own. Albedo: of E over roughness */
     int logarithmic;                  /* not 0: f on a logarithmic scale */
@@ -163,7 +163,7 @@ WEFT_API int weft_plot_suffix_known(const char *path);
  * _FILE_WRITE. */
 WEFT_API WeftResult weft_plot_write(const WeftPlotDesc *desc, const char *path, WeftError *error);
 
-/* One page of HTML with every kind of figure that the subjects have, which needs no other file and no script;
+/* One page of HTML with every kind of figure that the models have, which needs no other file and no script;
  * kind, title and size of desc are not read. */
 WEFT_API WeftResult weft_plot_report(const WeftPlotDesc *desc, const char *path, WeftError *error);
 

@@ -139,7 +139,7 @@ WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *v
 WEFT_API int weft_raster_ready(WeftRaster *raster, const WeftRasterView *view);
 
 /* Waits for what is made in the background: the next picture has it. Fails with WEFT_MESSAGE_GL_MEMORY. */
-WEFT_API WeftResult weft_raster_settle(WeftRaster *raster, WeftError *error);
+WEFT_API WeftResult weft_raster_wait(WeftRaster *raster, WeftError *error);
 
 /* The picture drawn last: F32 RGBA, linear Rec. 709 radiance, straight alpha. Release with weft_image_free.
  */
@@ -179,7 +179,7 @@ typedef struct WeftRasterInfo {
     int samplers;           /* the most that one program has */
     int samples;            /* a pixel, of the last picture */
     double compile_seconds; /* that all of them took */
-    int making; /* not 0: something is being made in the background (weft_raster_settle waits for it) */
+    int making; /* not 0: something is being made in the background (weft_raster_wait waits for it) */
     int made;   /* not 0: and the next picture has it */
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
     /* What is wrong with a text that does not compile, from its file and line on; empty while all is well. */

@@ -10,7 +10,7 @@ extern "C" {
 
 /* Writes material index as a material file (docs/materials.md): what is not at its default. Textures that
  * have no file of their own are written beside it as .png, by the name of the file and of the input; it names
- * textures by paths from its folder. weft_scene_dress of it gives the same material. Appears complete or not
+ * textures by paths from its folder. weft_scene_assign_material of it gives the same material. Appears complete or not
  * at all. Fails with WEFT_MESSAGE_MATERIAL_NAME, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, const char *path,
                                              WeftError *error);

@@ -57,7 +57,7 @@ WEFT_API const char *weft_scene_variant_name(const WeftScene *scene, int index);
 
 /* Returns 1 if any surface wears material index as the scene is now, else 0: what only a variant that is not
  * chosen has is worn by none. */
-WEFT_API int weft_scene_material_worn(const WeftScene *scene, int index);
+WEFT_API int weft_scene_material_used(const WeftScene *scene, int index);
 
 /* Switches to a variant of KHR_materials_variants by name, NULL: to none. A surface of which the variant says
  * nothing wears what it does without one. Fails with WEFT_MESSAGE_VARIANT_NAME. */
@@ -76,13 +76,13 @@ WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const c
  * for all, or NULL for the cloth of the scene: what has a sheen, or, where nothing has, all that sends out no
  * light. A preset gives no warnings. Fails with WEFT_MESSAGE_MATERIAL_FILE, _MATERIAL_NAME, _PRESET_NAME and
  * with what reading a file or a picture can fail with; the scene is then as it was. */
-WEFT_API WeftResult weft_scene_dress(WeftScene *scene, const char *material, const char *path,
-                                     const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
+                                               const WeftLog *log, WeftError *error);
 
 /* The same from size bytes of a material file that names no texture; name is the subject of messages. */
-WEFT_API WeftResult weft_scene_dress_memory(WeftScene *scene, const char *material, const void *data,
-                                            size_t size, const char *name, const WeftLog *log,
-                                            WeftError *error);
+WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material,
+                                                      const void *data, size_t size, const char *name,
+                                                      const WeftLog *log, WeftError *error);
 
 /* The presets: name, a line on what it looks like, and the text of its material file; NULL past the end. */
 WEFT_API const char *weft_preset_name(int index);

@@ -67,7 +67,7 @@ static void *do_apart(void *argument) {
 
 void thread_step_back(void) { setpriority(PRIO_PROCESS, (id_t)gettid(), 10); } /* of the thread, in Linux */
 
-void run_apart(void (*body)(void *user), void *user) {
+void run_in_thread(void (*body)(void *user), void *user) {
     Apart apart = {body, user};
     pthread_t thread;
     if (pthread_create(&thread, NULL, do_apart, &apart) == 0)

@@ -12,7 +12,7 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
 
 /* Calls body(user) in a thread of its own and returns when that is done; in the caller's where none can be
  * started. */
-void run_apart(void (*body)(void *user), void *user);
+void run_in_thread(void (*body)(void *user), void *user);
 
 /* From now on this thread, and those that it starts, take only what others leave of the processors. */
 void thread_step_back(void);

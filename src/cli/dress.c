@@ -319,12 +319,12 @@ static WeftResult put_preset(WeftScene *scene, const char *material, const char 
                              WeftError *error) {
     char preset[64];
     snprintf(preset, sizeof preset, "preset:%s", name);
-    return weft_scene_dress(scene, material, preset, log, error);
+    return weft_scene_assign_material(scene, material, preset, log, error);
 }
 
 static WeftResult put_folder(WeftScene *scene, const char *material, const char *folder, const WeftLog *log,
                              WeftError *error) {
-    return weft_scene_wear_folder(scene, material, folder, NULL, log, error);
+    return weft_scene_bind_maps(scene, material, folder, NULL, log, error);
 }
 
 /* Options of the form [MAT=]NAME, or MAT.INPUT=NAME, in the order in which they are applied. */
@@ -334,7 +334,7 @@ static const struct {
     WeftResult (*put)(WeftScene *scene, const char *on, const char *name, const WeftLog *log,
                       WeftError *error);
 } dressings[] = {{"--preset", false, put_preset},
-                 {"--material", true, weft_scene_dress},
+                 {"--material", true, weft_scene_assign_material},
                  {"--materials", true, put_folder},
                  {"--texture", true, weft_scene_set_texture}};
 enum { DRESSINGS = sizeof dressings / sizeof *dressings };

@@ -9,36 +9,36 @@
 #include "json.h"
 #include "layout.h"
 #include "lobes.h"
+#include "model.h"
 #include "output.h"
 #include "report.h"
-#include "subject.h"
 #include "table_file.h"
 #include "verbs.h"
 
 typedef struct Export {
     const Options *options;
-    WeftExportDesc descs[WEFT_EXPORT_SUBJECTS_MAX];
-    Subject subjects[WEFT_EXPORT_SUBJECTS_MAX], right;
+    WeftExportDesc descs[WEFT_EXPORT_MODELS_MAX];
+    Model models[WEFT_EXPORT_MODELS_MAX], right;
     int count;
     WeftExport made;
     bool quiet;
 } Export;
 
 /* A profile or workflow keeps its own defaults but for what is set behind its name: any value may come. */
-static int read_subject(const char *typed, Subject *subject, WeftExportDesc *desc) {
-    int result = subject_parse_bare(typed, subject);
+static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
+    int result = model_parse_bare(typed, model);
     if (result != 0) return result;
-    bool choice = subject->kind == SUBJECT_PROFILE || subject->kind == SUBJECT_WORKFLOW;
-    if (subject->kind == SUBJECT_MEASURED)
+    bool choice = model->kind == MODEL_PROFILE || model->kind == MODEL_WORKFLOW;
+    if (model->kind == MODEL_MEASURED)
         return report(WEFT_USAGE, "%.200s: is a measurement: `weft fit` makes a material of it", typed);
-    if (subject->kind == SUBJECT_LOBE) {
-        desc->lobe = &subject->lobe;
-    } else if (choice && strcmp(subject->name, "none") != 0) {
-        desc->profile = subject->name;
-        if (subject->given) desc->material = &subject->material;
+    if (model->kind == MODEL_LOBE) {
+        desc->lobe = &model->lobe;
+    } else if (choice && strcmp(model->name, "none") != 0) {
+        desc->profile = model->name;
+        if (model->given) desc->material = &model->material;
     } else {
-        desc->material = &subject->material;
-        desc->name = subject->name;
+        desc->material = &model->material;
+        desc->name = model->name;
     }
     if (desc->albedo && !desc->lobe)
         return report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
@@ -47,14 +47,14 @@ static int read_subject(const char *typed, Subject *subject, WeftExportDesc *des
 
 /* The lobe of the right half of a Shadertoy. */
 static int read_right(Export *self, const char *typed) {
-    int result = self->descs->lobe ? subject_parse(typed, &self->right) : WEFT_USAGE;
-    if (!self->descs->lobe || (result == 0 && self->right.kind != SUBJECT_LOBE))
+    int result = self->descs->lobe ? model_parse(typed, &self->right) : WEFT_USAGE;
+    if (!self->descs->lobe || (result == 0 && self->right.kind != MODEL_LOBE))
         return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", typed);
     self->descs->right = &self->right.lobe;
     return result;
 }
 
-static int read_subjects(Export *self, const WeftExportDesc *common) {
+static int read_models(Export *self, const WeftExportDesc *common) {
     const Options *options = self->options;
     bool toy = common->target == WEFT_EXPORT_SHADERTOY;
     if (toy && options->operand_count > 2)
@@ -63,7 +63,7 @@ static int read_subjects(Export *self, const WeftExportDesc *common) {
     for (int k = 0; k < options->operand_count; k++) {
         if (toy && k == 1) return read_right(self, options->operands[k]);
         self->descs[k] = *common;
-        int result = read_subject(options->operands[k], &self->subjects[k], &self->descs[k]);
+        int result = read_model(options->operands[k], &self->models[k], &self->descs[k]);
         if (result != 0) return result;
         self->count++;
     }
@@ -84,11 +84,11 @@ static int export_read(const Options *options, Export *self) {
     if (!option_choice(options, "--target", targets, &target) ||
         !option_choice(options, "--lut", luts, &lut) || !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
-    return read_subjects(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
-                                                 .lut = (WeftExportLut)lut,
-                                                 .albedo = option_given(options, "--albedo"),
-                                                 .fold_pi = pi,
-                                                 .prefix = option_text(options, "--prefix")});
+    return read_models(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
+                                               .lut = (WeftExportLut)lut,
+                                               .albedo = option_given(options, "--albedo"),
+                                               .fold_pi = pi,
+                                               .prefix = option_text(options, "--prefix")});
 }
 
 /* "velvet.weft_texels_sheen.exr" beside "velvet.hlsl". */
@@ -172,7 +172,7 @@ static int export_run(const Options *options) {
     WeftError error;
     if (!self) return report(WEFT_RESOURCES, "out of memory");
     int result = export_read(options, self);
-    if (result == 0) result = output_probe_apart(options, option_text(options, "-o"));
+    if (result == 0) result = output_probe_other(options, option_text(options, "-o"));
     if (result == 0 && weft_export_all(self->descs, self->count, &self->made, &error) != WEFT_OK)
         result = report_error(&error);
     if (result == 0) result = files_write(self);
@@ -209,15 +209,15 @@ static const Option export_options[] = {
 
 const Verb verb_export = {
     .name = "export",
-    .operands = "SUBJECT... --target TARGET -o FILE [options]",
+    .operands = "MODEL... --target TARGET -o FILE [options]",
     .help = "writes a model as GLSL, HLSL, WGSL, C or a Shadertoy",
     .operands_least = 1,
-    .operands_most = WEFT_EXPORT_SUBJECTS_MAX,
+    .operands_most = WEFT_EXPORT_MODELS_MAX,
     .options = export_options,
     .lists = lists,
-    .notes = "SUBJECT is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
+    .notes = "MODEL is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
              "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]; all\n"
-             "with settings behind it, " SUBJECT_FORM ".\n"
+             "with settings behind it, " MODEL_FORM ".\n"
              "Several share what is the same in them; a second lobe stands on the right half\n"
              "of a Shadertoy. docs/export.md explains the functions, pi, and how engines take\n"
              "them.\n\n"

@@ -8,18 +8,18 @@
 #include "interrupt.h"
 #include "json.h"
 #include "lobes.h"
+#include "model.h"
 #include "output.h"
 #include "path.h"
 #include "progress.h"
 #include "report.h"
-#include "subject.h"
 #include "verbs.h"
 #include "weft/weft.h"
 
 typedef struct Fitting {
     const Options *options;
     const char *path, *base, *material, *plot; /* material, plot: NULL: none */
-    WeftApart metric;
+    WeftBrdfMetric metric;
     WeftData *data;
     WeftFit fit;
 } Fitting;
@@ -86,7 +86,7 @@ static void text_write(const Fitting *fitting) {
     const WeftFit *fit = &fitting->fit;
     int all = 0, count = weft_data_count(fitting->data, &all), better = 0, idle = 0;
     printf("%s: %d samples of %d; error is %s, relative; base %s\n\n", fitting->path, count, all,
-           weft_apart_name(fitting->metric), fitting->base);
+           weft_brdf_metric_name(fitting->metric), fitting->base);
     printf("%4s  %-27s %7s  %-19s  %-24s %s\n", "", "lobe over the base", "error", "base color", "lobe color",
            "parameters");
     for (int k = 0; k < fit->count; k++) {
@@ -135,7 +135,7 @@ static void json_write(const Fitting *fitting) {
     json_text(&json, "data", fitting->path);
     json_whole(&json, "samples", count);
     json_whole(&json, "samples_in_file", all);
-    json_text(&json, "metric", weft_apart_name(fitting->metric));
+    json_text(&json, "metric", weft_brdf_metric_name(fitting->metric));
     json_text(&json, "base", fitting->base);
     json_open(&json, "ranking", '[');
     for (int k = 0; k < fitting->fit.count; k++) json_fitted(&json, NULL, &fitting->fit.fitted[k]);
@@ -187,8 +187,8 @@ static int outputs_check(Fitting *fitting) {
         return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
     if (fitting->plot && !path_ends(fitting->path, ".binary"))
         return report(WEFT_USAGE, "%s: slices are drawn of a .binary, which has no gaps", fitting->path);
-    if (fitting->material) result = output_probe_apart(fitting->options, fitting->material);
-    if (result == 0 && fitting->plot) result = output_probe_apart(fitting->options, fitting->plot);
+    if (fitting->material) result = output_probe_other(fitting->options, fitting->material);
+    if (result == 0 && fitting->plot) result = output_probe_other(fitting->options, fitting->plot);
     return result;
 }
 
@@ -228,9 +228,9 @@ static int fit_make(Fitting *fitting) {
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
     progress_finish(&progress);
     for (int k = 0; result == WEFT_OK && k < fitting->fit.count; k++) {
-        Subject found = {.kind = SUBJECT_LOBE, .lobe = fitting->fit.fitted[k].lobe};
+        Model found = {.kind = MODEL_LOBE, .lobe = fitting->fit.fitted[k].lobe};
         snprintf(found.name, sizeof found.name, "%s", weft_lobe_info(found.lobe.lobe)->id);
-        subject_warn(&found);
+        model_warn(&found);
     }
     if (result == WEFT_INTERRUPTED) return interrupted(fitting);
     return result == WEFT_OK ? 0 : report_error(&error);
@@ -241,7 +241,7 @@ static int fit_run(const Options *options) {
     Fitting fitting = {.options = options, .path = options->operands[0]};
     int metric = 0;
     if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
-    fitting.metric = (WeftApart)metric;
+    fitting.metric = (WeftBrdfMetric)metric;
     fitting.base = option_text(options, "--base");
     int result = lobes_check(&fitting);
     if (result == 0) result = outputs_check(&fitting);

@@ -131,7 +131,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     if (!job->raster)
         result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
     double started = clock_seconds();
-    if (result == WEFT_OK) result = weft_raster_settle(job->raster, error);
+    if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
     if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
     if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
     if (result != WEFT_OK) return result;

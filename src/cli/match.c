@@ -72,7 +72,7 @@ static int material_rows(const WeftMaterial *copied, const WeftMaterial *matched
 }
 
 static int rows_of(const Match *match, Row rows[ROWS_MOST]) {
-    return match->to.kind == SUBJECT_LOBE ? lobe_rows(&match->copy.lobe, &match->to.lobe, rows)
+    return match->to.kind == MODEL_LOBE ? lobe_rows(&match->copy.lobe, &match->to.lobe, rows)
                                           : material_rows(&match->copy.material, &match->to.material, rows);
 }
 
@@ -86,8 +86,8 @@ static int part_errors(const Match *match, double errors[PARTS][2]) {
         if (!match_has_parts(match) || !(e[0] + e[1] + e[2] > 0.0f)) continue;
         for (int c = 0; c < 2; c++) {
             WeftError error;
-            if (weft_apart(to[c], match->from.reflection, parts[k].part, match->metric, &errors[k][c],
-                           &error) != WEFT_OK)
+            if (weft_brdf_distance(to[c], match->from.reflection, parts[k].part, match->metric, &errors[k][c],
+                                   &error) != WEFT_OK)
                 return report_error(&error);
         }
     }
@@ -110,7 +110,7 @@ static void text_write(const Match *match, double errors[PARTS][2]) {
     for (int k = 0; k < count; k++)
         printf("  %-18s %-22s %s\n", rows[k].name, numbers_text(rows[k].copied, rows[k].count, text[0]),
                numbers_text(rows[k].matched, rows[k].count, text[1]));
-    printf("\n  %-18s %-22.4f %.4f\n", weft_apart_name(match->metric), match->found.copied,
+    printf("\n  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(match->metric), match->found.copied,
            match->found.matched);
     for (int k = 0; k < PARTS; k++)
         if (errors[k][0] >= 0.0)
@@ -140,7 +140,7 @@ static void json_write(const Match *match, double errors[PARTS][2]) {
     json_open(&json, NULL, '{');
     json_text(&json, "from", match->from.words);
     json_text(&json, "to", match->to.words);
-    json_text(&json, "metric", weft_apart_name(match->metric));
+    json_text(&json, "metric", weft_brdf_metric_name(match->metric));
     json_side(&json, "copied", rows, count, false, match->found.copied);
     json_side(&json, "matched", rows, count, true, match->found.matched);
     json_open(&json, "parts", '[');
@@ -171,9 +171,9 @@ static int material_write(const WeftMaterial *material, const char *path) {
 static int output_check(const Match *match) {
     const char *path = option_text(match->options, "-o");
     if (!path) return 0;
-    if (path_ends(path, ".json") && match->to.kind == SUBJECT_LOBE)
+    if (path_ends(path, ".json") && match->to.kind == MODEL_LOBE)
         return report(WEFT_USAGE, "%s: a lobe is no material; .png writes pictures", path);
-    if (path_ends(path, ".json") || path_ends(path, ".png")) return output_probe_apart(match->options, path);
+    if (path_ends(path, ".json") || path_ends(path, ".png")) return output_probe_other(match->options, path);
     return report(WEFT_USAGE, "%s: a match is written as .png (pictures) or .json (a material)", path);
 }
 
@@ -242,7 +242,7 @@ static int match_run(const Options *options) {
     Match match = {.options = options};
     int metric = 0;
     if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
-    match.metric = (WeftApart)metric;
+    match.metric = (WeftBrdfMetric)metric;
     int mode = mode_of(options);
     if (mode < 0) return WEFT_USAGE;
     if (option_given(options, "--table")) return match_table(options, match.metric);
@@ -282,7 +282,7 @@ const Verb verb_match = {
     .operands_least = 0,
     .operands_most = 2,
     .options = match_options,
-    .notes = "FROM and TO are " SUBJECT_FORM ": a lobe, an engine profile, a\n"
+    .notes = "FROM and TO are " MODEL_FORM ": a lobe, an engine profile, a\n"
              "preset, a material file, a material of a scene (chair.glb:fabric); FROM may be a\n"
              "measured BRDF (.binary). The numbers of FROM are first copied to TO, then\n"
              "searched for what comes closest; both errors are printed.\n\n"

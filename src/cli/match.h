@@ -2,14 +2,14 @@
 #ifndef WEFT_CLI_MATCH_H
 #define WEFT_CLI_MATCH_H
 
+#include "model.h"
 #include "options.h"
-#include "subject.h"
 
 typedef struct Match {
     const Options *options;
-    WeftApart metric;
-    Subject from, to; /* `to` becomes the match */
-    Subject copy;     /* `to` with the numbers of `from` as they are: where the search begins */
+    WeftBrdfMetric metric;
+    Model from, to; /* `to` becomes the match */
+    Model copy;     /* `to` with the numbers of `from` as they are: where the search begins */
     WeftMatch found;
 } Match;
 
@@ -26,12 +26,12 @@ bool match_has_parts(const Match *match);
 int match_sheet_write(const Match *match, const char *path);
 
 /* `weft match --table`: every profile as every other. */
-int match_table(const Options *options, WeftApart metric);
+int match_table(const Options *options, WeftBrdfMetric metric);
 
 /* `weft match --maps`: every sheen as every other, over a sweep of its width. */
-int match_maps(const Options *options, WeftApart metric);
+int match_maps(const Options *options, WeftBrdfMetric metric);
 
 /* `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
-int match_asset(const Options *options, WeftApart metric);
+int match_asset(const Options *options, WeftBrdfMetric metric);
 
 #endif

@@ -17,7 +17,7 @@ static int needs(const Options *options, const char **out) {
     if (!*out) return report(WEFT_USAGE, "%.200s: -o says where it goes", options->operands[0]);
     if (!path_ends(*out, ".gltf") && !path_ends(*out, ".glb"))
         return report(WEFT_USAGE, "%.200s: an asset is written as .gltf or .glb", *out);
-    return output_probe_apart(options, *out);
+    return output_probe_other(options, *out);
 }
 
 static void values_text(const float *v, bool color, char text[48]) {
@@ -27,7 +27,7 @@ static void values_text(const float *v, bool color, char text[48]) {
         snprintf(text, 48, "%.4g", (double)v[0]);
 }
 
-static void asset_text(const WeftAssetMatch *matches, int count, WeftApart metric) {
+static void asset_text(const WeftAssetMatch *matches, int count, WeftBrdfMetric metric) {
     WeftInputInfo info;
     char was[48], now[48];
     for (int k = 0; k < count; k++) {
@@ -35,7 +35,8 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftApart metri
         printf("%s%s\n", match->name[0] ? match->name : "(no name)",
                match->changed ? "" : ": has no sheen, or is unlit, and stays");
         if (!match->changed) continue;
-        printf("  %-18s %-22.4f %.4f\n", weft_apart_name(metric), match->found.copied, match->found.matched);
+        printf("  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(metric), match->found.copied,
+               match->found.matched);
         for (int n = 0; weft_material_input_info(n, &info); n++) {
             bool color = info.kind == WEFT_INPUT_COLOR;
             values_text(match->copied.inputs[n].value, color, was);
@@ -53,11 +54,11 @@ static bool has_changed(const WeftAssetMatch *match, int input) {
     return false;
 }
 
-static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metric, const char *out) {
+static void asset_json(const WeftAssetMatch *matches, int count, WeftBrdfMetric metric, const char *out) {
     Json json = {.stream = stdout};
     WeftInputInfo info;
     json_open(&json, NULL, '{');
-    json_text(&json, "metric", weft_apart_name(metric));
+    json_text(&json, "metric", weft_brdf_metric_name(metric));
     json_text(&json, "output", out);
     json_open(&json, "materials", '[');
     for (int k = 0; k < count; k++) {
@@ -80,7 +81,7 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftApart metri
     json_close(&json, '}');
 }
 
-static int to_engine(const Options *options, const char *out, WeftApart metric) {
+static int to_engine(const Options *options, const char *out, WeftBrdfMetric metric) {
     const char *path = options->operands[0];
     const WeftLog log = {.fn = report_warning};
     WeftError error;
@@ -154,7 +155,7 @@ static int to_workflow(const Options *options, const char *out) {
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-int match_asset(const Options *options, WeftApart metric) {
+int match_asset(const Options *options, WeftBrdfMetric metric) {
     const char *out;
     int result = needs(options, &out);
     if (result != 0) return result;

@@ -80,7 +80,7 @@ static void power_law(const double *x, const double *y, double *a, double *b) {
     *a = exp((sy - *b * sx) / n);
 }
 
-static int formula_of(const Maps *maps, int from, int to, WeftApart metric, Formula *out) {
+static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric, Formula *out) {
     double x[SWEEP], y[SWEEP], z[SWEEP];
     *out = (Formula){.worst = 0.0};
     for (int k = 0; k < SWEEP; k++) {
@@ -102,7 +102,7 @@ static int formula_of(const Maps *maps, int from, int to, WeftApart metric, Form
             lobe.f0[c] = (float)((double)maps->source[from][k].f0[c] * out->c * pow(x[k], out->d));
         WeftResult result = weft_reflection_of_lobe(&lobe, &said, &error);
         if (result == WEFT_OK)
-            result = weft_apart(said, maps->from[from][k], WEFT_PART_ALL, metric, &apart, &error);
+            result = weft_brdf_distance(said, maps->from[from][k], WEFT_PART_ALL, metric, &apart, &error);
         weft_reflection_free(said);
         if (result != WEFT_OK) return report_error(&error);
         out->worst = fmax(out->worst, apart - job_of(maps, from, to, k)->found.matched);
@@ -151,13 +151,13 @@ static void json_write(Json *json, const Maps *maps, int from, int to, const For
     json_close(json, '}');
 }
 
-static int write_all(const Maps *maps, WeftApart metric, bool as_json) {
+static int write_all(const Maps *maps, WeftBrdfMetric metric, bool as_json) {
     Json json = {.stream = stdout};
     int result = 0;
     if (as_json)
         json_open(&json, NULL, '[');
     else
-        printf("%-27s %-27s %7s  %s\n", "from", "to", weft_apart_name(metric),
+        printf("%-27s %-27s %7s  %s\n", "from", "to", weft_brdf_metric_name(metric),
                "formula, and what it adds at worst; or FROM:TO");
     for (int j = 0; j < maps->count * maps->count && result == 0; j++) {
         Formula formula;
@@ -174,7 +174,7 @@ static int write_all(const Maps *maps, WeftApart metric, bool as_json) {
     return result;
 }
 
-static int match_all(Maps *maps, WeftApart metric) {
+static int match_all(Maps *maps, WeftBrdfMetric metric) {
     WeftError error;
     int count = maps->count * maps->count * SWEEP;
     Progress progress = progress_start_count(false, "matches", count);
@@ -185,7 +185,7 @@ static int match_all(Maps *maps, WeftApart metric) {
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-int match_maps(const Options *options, WeftApart metric) {
+int match_maps(const Options *options, WeftBrdfMetric metric) {
     Maps *maps = calloc(1, sizeof *maps);
     if (!maps) return report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
     int result = prepare(maps);

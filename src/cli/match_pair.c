@@ -1,4 +1,4 @@
-/* match_pair.c - from one subject to another: what is copied, what stays, what is searched */
+/* match_pair.c - from one model to another: what is copied, what stays, what is searched */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "report.h"
 
 bool match_has_parts(const Match *match) {
-    return subject_is_material(&match->from) && subject_is_material(&match->to);
+    return model_is_material(&match->from) && model_is_material(&match->to);
 }
 
 /* A parameter by name; where the first ones, which are widths, have two names, the number all the same. */
@@ -81,23 +81,23 @@ static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMateri
 }
 
 /* A lobe that is known by random walks alone would be matched to their noise. */
-static int refuse_estimate(const Subject *subject) {
-    const WeftLobeInfo *info = subject->kind == SUBJECT_LOBE ? weft_lobe_info(subject->lobe.lobe) : NULL;
+static int refuse_estimate(const Model *model) {
+    const WeftLobeInfo *info = model->kind == MODEL_LOBE ? weft_lobe_info(model->lobe.lobe) : NULL;
     if (!info || !(info->traits & WEFT_LOBE_REFERENCE)) return 0;
     return report(WEFT_USAGE, "%.200s: is an estimate by random walks: match fibre, which is its mean",
-                  subject->words);
+                  model->words);
 }
 
 int match_begin(Match *match, const char *from, const char *to) {
-    int result = subject_read(from, &match->from);
-    if (result == 0) result = subject_parse(to, &match->to);
+    int result = model_read(from, &match->from);
+    if (result == 0) result = model_parse(to, &match->to);
     if (result == 0) result = refuse_estimate(&match->from);
     if (result == 0) result = refuse_estimate(&match->to);
     if (result != 0) return result;
-    if (match->to.kind == SUBJECT_MEASURED)
+    if (match->to.kind == MODEL_MEASURED)
         return report(WEFT_USAGE, "%.200s: has no parameters that could be matched", to);
     match->copy = match->to;
-    if (match->to.kind == SUBJECT_LOBE && match->from.kind == SUBJECT_LOBE)
+    if (match->to.kind == MODEL_LOBE && match->from.kind == MODEL_LOBE)
         copy_lobe(&match->from.lobe, &match->copy.lobe);
     if (match_has_parts(match)) copy_material(&match->from.material, &match->copy.material);
     return 0;
@@ -108,10 +108,10 @@ int match_search(Match *match) {
     WeftResult found;
     unsigned hold = 0;
     int held[WEFT_INPUTS_MAX] = {0};
-    bool lobe = match->to.kind == SUBJECT_LOBE;
+    bool lobe = match->to.kind == MODEL_LOBE;
     int result = lobe ? hold_params(match, &match->to.lobe, &match->copy.lobe, &hold)
                       : hold_inputs(match, &match->to.material, &match->copy.material, held);
-    if (result == 0) result = subject_prepare(&match->copy);
+    if (result == 0) result = model_prepare(&match->copy);
     if (result != 0) return result;
     match->to.lobe = match->copy.lobe;
     match->to.material = match->copy.material;
@@ -122,12 +122,12 @@ int match_search(Match *match) {
         found = weft_match_material(match->from.reflection, match->metric, held, &match->to.material,
                                     &match->found, &error);
     if (found != WEFT_OK) return report_error(&error);
-    subject_warn(&match->to);
-    return subject_prepare(&match->to);
+    model_warn(&match->to);
+    return model_prepare(&match->to);
 }
 
 void match_free(Match *match) {
-    subject_free(&match->from);
-    subject_free(&match->to);
-    subject_free(&match->copy);
+    model_free(&match->from);
+    model_free(&match->to);
+    model_free(&match->copy);
 }

@@ -48,7 +48,7 @@ static WeftResult compose(const Pictures *all, const Match *match, WeftImage *sh
     const double apart[PICTURES] = {0.0, match->found.copied, match->found.matched};
     WeftPanel panels[2 * PICTURES] = {{0}};
     for (int k = 0; k < PICTURES; k++) {
-        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_apart_name(match->metric), apart[k]);
+        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_brdf_metric_name(match->metric), apart[k]);
         snprintf(figures[k], sizeof figures[k], "mean %.4f   relMSE %.4f", all->difference[k].mean,
                  all->difference[k].relmse);
         panels[k] = (WeftPanel){.image = &all->shown[k], .title = titles[k], .note = k ? notes[k] : NULL};

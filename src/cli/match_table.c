@@ -14,7 +14,7 @@ enum { PROFILES_MOST = 32 };
 
 typedef struct Table {
     int count;
-    Subject from[PROFILES_MOST];
+    Model from[PROFILES_MOST];
     WeftMatchJob *jobs; /* [from][to] */
 } Table;
 
@@ -23,7 +23,7 @@ static int prepare(Table *table) {
     int result = 0;
     for (; result == 0 && weft_profile_id(table->count) && table->count < PROFILES_MOST; table->count++) {
         snprintf(typed, sizeof typed, "profile:%s", weft_profile_id(table->count));
-        result = subject_read(typed, &table->from[table->count]);
+        result = model_read(typed, &table->from[table->count]);
     }
     if (result != 0) return result;
     table->jobs = calloc((size_t)PROFILES_MOST * PROFILES_MOST, sizeof *table->jobs);
@@ -54,9 +54,9 @@ static void changes_text(const Table *table, int from, const WeftMatchJob *job, 
     }
 }
 
-static void text_write(const Table *table, WeftApart metric) {
+static void text_write(const Table *table, WeftBrdfMetric metric) {
     char text[300];
-    printf("%-14s %-14s %7s %7s  %s\n", "from", "to", "copied", "matched", weft_apart_name(metric));
+    printf("%-14s %-14s %7s %7s  %s\n", "from", "to", "copied", "matched", weft_brdf_metric_name(metric));
     for (int k = 0; k < table->count * table->count; k++) {
         int from = k / table->count, to = k % table->count;
         const WeftMatchJob *job = &table->jobs[k];
@@ -67,11 +67,11 @@ static void text_write(const Table *table, WeftApart metric) {
     }
 }
 
-static void json_write(const Table *table, WeftApart metric) {
+static void json_write(const Table *table, WeftBrdfMetric metric) {
     Json json = {.stream = stdout};
     WeftInputInfo info;
     json_open(&json, NULL, '{');
-    json_text(&json, "metric", weft_apart_name(metric));
+    json_text(&json, "metric", weft_brdf_metric_name(metric));
     json_open(&json, "pairs", '[');
     for (int k = 0; k < table->count * table->count; k++) {
         const WeftMatchJob *job = &table->jobs[k];
@@ -92,7 +92,7 @@ static void json_write(const Table *table, WeftApart metric) {
     json_close(&json, '}');
 }
 
-static int match_all(Table *table, WeftApart metric) {
+static int match_all(Table *table, WeftBrdfMetric metric) {
     WeftError error;
     int count = table->count * table->count;
     Progress progress = progress_start_count(false, "matches", count);
@@ -103,7 +103,7 @@ static int match_all(Table *table, WeftApart metric) {
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-int match_table(const Options *options, WeftApart metric) {
+int match_table(const Options *options, WeftBrdfMetric metric) {
     Table table = {.count = 0};
     int result = prepare(&table);
     if (result == 0) result = match_all(&table, metric);
@@ -111,7 +111,7 @@ int match_table(const Options *options, WeftApart metric) {
         json_write(&table, metric);
     else if (result == 0)
         text_write(&table, metric);
-    for (int k = 0; k < table.count; k++) subject_free(&table.from[k]);
+    for (int k = 0; k < table.count; k++) model_free(&table.from[k]);
     free(table.jobs);
     return result;
 }

@@ -108,7 +108,7 @@ static bool names_file(const struct stat *there, const char *operand) {
     return same;
 }
 
-int output_probe_apart(const Options *options, const char *path) {
+int output_probe_other(const Options *options, const char *path) {
     struct stat there;
     bool exists = stat(path, &there) == 0;
     for (int k = 0; exists && k < options->operand_count; k++)

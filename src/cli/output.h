@@ -27,6 +27,6 @@ int output_probe(const char *path);
 
 /* The same of a path that must not be one of the files among the operands, with or without what stands behind
  * a colon there: what is read is not written over. */
-int output_probe_apart(const Options *options, const char *path);
+int output_probe_other(const Options *options, const char *path);
 
 #endif

@@ -6,19 +6,19 @@
 
 #include "layout.h"
 #include "lobes.h"
+#include "model.h"
 #include "names.h"
 #include "output.h"
 #include "path.h"
 #include "plot_numbers.h"
 #include "report.h"
-#include "subject.h"
 #include "verbs.h"
 
 typedef struct Plot {
     const Options *options;
     WeftPlotDesc desc;
-    WeftPlotSubject subjects[WEFT_PLOT_SUBJECTS_MAX];
-    Subject *read; /* as many */
+    WeftPlotModel models[WEFT_PLOT_MODELS_MAX];
+    Model *read; /* as many */
     const char *output;
     bool report; /* in place of a kind */
 } Plot;
@@ -94,35 +94,34 @@ static int output_read(Plot *plot) {
 }
 
 /* Of a file, its name without folders. */
-static const char *label_of(const Subject *subject) {
-    const char *slash = strrchr(subject->words, '/');
-    bool file = subject->kind == SUBJECT_MEASURED || subject->kind == SUBJECT_MATERIAL;
-    return file && slash && slash[1] ? slash + 1 : subject->words;
+static const char *label_of(const Model *model) {
+    const char *slash = strrchr(model->words, '/');
+    bool file = model->kind == MODEL_MEASURED || model->kind == MODEL_MATERIAL;
+    return file && slash && slash[1] ? slash + 1 : model->words;
 }
 
-static int subjects_read(Plot *plot) {
+static int models_read(Plot *plot) {
     const int count = plot->options->operand_count - 1;
-    if (count > WEFT_PLOT_SUBJECTS_MAX)
-        return report(WEFT_USAGE, "plot: takes up to %d subjects, not %d", WEFT_PLOT_SUBJECTS_MAX, count);
+    if (count > WEFT_PLOT_MODELS_MAX)
+        return report(WEFT_USAGE, "plot: takes up to %d models, not %d", WEFT_PLOT_MODELS_MAX, count);
     if (!plot->report && plot->desc.kind == WEFT_PLOT_DIFFERENCE && count != 2)
-        return report(WEFT_USAGE, "difference: is of two subjects, not %d", count);
+        return report(WEFT_USAGE, "difference: is of two models, not %d", count);
     plot->read = calloc((size_t)count, sizeof *plot->read);
     if (!plot->read) return report(WEFT_RESOURCES, "plot: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
     for (int k = 0; k < count; k++) {
-        Subject *subject = &plot->read[k];
+        Model *model = &plot->read[k];
         plot->desc.count = k + 1; /* so that all that was read is freed */
-        int result = subject_read(plot->options->operands[k + 1], subject);
+        int result = model_read(plot->options->operands[k + 1], model);
         if (result != 0) return result;
-        if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && subject->kind != SUBJECT_LOBE)
+        if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)
             return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes are sampled by themselves",
-                          subject->words);
-        plot->subjects[k] =
-            (WeftPlotSubject){.reflection = subject->reflection,
-                              .lobe = subject->kind == SUBJECT_LOBE ? &subject->lobe : NULL,
-                              .material = subject_is_material(subject) ? &subject->material : NULL,
-                              .label = label_of(subject)};
+                          model->words);
+        plot->models[k] = (WeftPlotModel){.reflection = model->reflection,
+                                          .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
+                                          .material = model_is_material(model) ? &model->material : NULL,
+                                          .label = label_of(model)};
     }
-    plot->desc.subjects = plot->subjects;
+    plot->desc.models = plot->models;
     return 0;
 }
 
@@ -139,7 +138,7 @@ static int plot_read(Plot *plot) {
     plot->desc.title = option_text(options, "--title");
     result = views_read(plot);
     if (result == 0) result = size_read(plot);
-    if (result == 0) result = subjects_read(plot);
+    if (result == 0) result = models_read(plot);
     return result == 0 ? output_read(plot) : result;
 }
 
@@ -167,7 +166,7 @@ static int plot_run(const Options *options) {
     Plot plot = {.options = options};
     int result = plot_read(&plot);
     if (result == 0) result = plot_make(&plot);
-    for (int k = 0; plot.read && k < plot.desc.count; k++) subject_free(&plot.read[k]);
+    for (int k = 0; plot.read && k < plot.desc.count; k++) model_free(&plot.read[k]);
     free(plot.read);
     return result;
 }
@@ -200,13 +199,13 @@ static const Option plot_options[] = {
 
 const Verb verb_plot = {
     .name = "plot",
-    .operands = "KIND SUBJECT... [options]",
+    .operands = "KIND MODEL... [options]",
     .help = "draws figures of lobes, materials and measured BRDFs",
     .operands_least = 2,
-    .operands_most = 1 + WEFT_PLOT_SUBJECTS_MAX,
+    .operands_most = 1 + WEFT_PLOT_MODELS_MAX,
     .options = plot_options,
     .lists = plot_lists,
-    .notes = "A subject is " SUBJECT_FORM ": a lobe, an engine profile, preset:NAME or a\n"
+    .notes = "A model is " MODEL_FORM ": a lobe, an engine profile, preset:NAME or a\n"
              "material file, a material of a scene as scene.glb:MATERIAL, or a measured BRDF\n"
              "in MERL's format (.binary). Up to eight stand in one figure. Colours are told\n"
              "apart by all kinds of eyes, and lines by their dashes too. docs/plots.md shows\n"

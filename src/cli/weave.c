@@ -21,7 +21,7 @@ static int output_check(Weaving *weaving) {
     if (!path) return 0;
     if (!weft_draft_suffix_known(path))
         return report(WEFT_USAGE, "%s: drafts are written as .wif, .png, .svg, .pdf or .txt", path);
-    return output_probe_apart(weaving->options, path);
+    return output_probe_other(weaving->options, path);
 }
 
 /* Threads per centimetre of a system. The repeat is longest across its own threads. */

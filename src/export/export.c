@@ -44,15 +44,15 @@ static WeftResult check_lobe(const WeftLobe *lobe, WeftError *error) {
 }
 
 static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
-    const char *subject = "export";
+    const char *model = "export";
     if (!desc || (desc->lobe != NULL) + (desc->profile != NULL || desc->material != NULL) != 1)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "one of lobe, profile and material is needed");
+        return fail(error, WEFT_MESSAGE_DESC, model, "one of lobe, profile and material is needed");
     if ((unsigned)desc->target >= WEFT_EXPORT_TARGETS || (unsigned)desc->lut >= WEFT_EXPORT_LUTS)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "a target or lut that there is not");
+        return fail(error, WEFT_MESSAGE_DESC, model, "a target or lut that there is not");
     if (desc->prefix && !is_prefix(desc->prefix))
-        return fail(error, WEFT_MESSAGE_DESC, subject, "a prefix that begins no name");
+        return fail(error, WEFT_MESSAGE_DESC, model, "a prefix that begins no name");
     if (desc->right && (!desc->lobe || desc->target != WEFT_EXPORT_SHADERTOY))
-        return fail(error, WEFT_MESSAGE_DESC, subject, "a second lobe is for shadertoy, beside a first");
+        return fail(error, WEFT_MESSAGE_DESC, model, "a second lobe is for shadertoy, beside a first");
     WeftResult result = desc->lobe ? check_lobe(desc->lobe, error) : WEFT_OK;
     return result == WEFT_OK && desc->right ? check_lobe(desc->right, error) : result;
 }
@@ -95,7 +95,7 @@ static void put_guard(const Draft *draft, bool open, Buffer *out) {
 }
 
 static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
-    const Items *texts[WEFT_EXPORT_SUBJECTS_MAX];
+    const Items *texts[WEFT_EXPORT_MODELS_MAX];
     const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* its place is taken */
     for (int d = 0; d < count; d++) {
         texts[d] = &drafts[d].items;
@@ -114,20 +114,20 @@ static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer 
 
 static bool same_words(const char *a, const char *b) { return strcmp(a ? a : "", b ? b : "") == 0; }
 
-/* The subjects of one text agree in target, tables, pi and prefix, for it has one head. */
+/* The models of one text agree in target, tables, pi and prefix, for it has one head. */
 static WeftResult check_all(const WeftExportDesc *descs, int count, WeftError *error) {
-    const char *subject = "export";
-    if (!descs || count < 1 || count > WEFT_EXPORT_SUBJECTS_MAX)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "takes 1 to %d subjects", WEFT_EXPORT_SUBJECTS_MAX);
+    const char *model = "export";
+    if (!descs || count < 1 || count > WEFT_EXPORT_MODELS_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, model, "takes 1 to %d models", WEFT_EXPORT_MODELS_MAX);
     for (int k = 0; k < count; k++) {
         WeftResult result = check(&descs[k], error);
         if (result != WEFT_OK) return result;
         if (descs[k].target != descs->target || descs[k].lut != descs->lut ||
             !descs[k].fold_pi != !descs->fold_pi || !same_words(descs[k].prefix, descs->prefix))
-            return fail(error, WEFT_MESSAGE_DESC, subject, "one text has one target, lut, prefix and pi");
+            return fail(error, WEFT_MESSAGE_DESC, model, "one text has one target, lut, prefix and pi");
     }
     if (count > 1 && descs->target == WEFT_EXPORT_SHADERTOY)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "a shadertoy shows one subject, or two lobes");
+        return fail(error, WEFT_MESSAGE_DESC, model, "a shadertoy shows one model, or two lobes");
     return WEFT_OK;
 }
 
@@ -137,7 +137,7 @@ static WeftResult make_drafts(Draft *drafts, int count, WeftError *error) {
         if (result != WEFT_OK) return result;
         for (int j = 0; j < k; j++)
             if (strcmp(drafts[j].id[0], drafts[k].id[0]) == 0)
-                return fail(error, WEFT_MESSAGE_DESC, drafts[k].id[0], "two subjects go by that name");
+                return fail(error, WEFT_MESSAGE_DESC, drafts[k].id[0], "two models go by that name");
         if (k + 1 < count) draft_begin(&drafts[k + 1], drafts[k + 1].desc, drafts[k].tables);
     }
     return WEFT_OK;

@@ -131,8 +131,8 @@ static void put_tables(const WeftExport *uploads, bool bound, Buffer *out) {
     put_line(out, " * change those as your layout has it.");
 }
 
-/* Names the subject, without characters that could end the comment. */
-static void put_subject(const WeftExportDesc *desc, Buffer *out) {
+/* Names the model, without characters that could end the comment. */
+static void put_model(const WeftExportDesc *desc, Buffer *out) {
     const char *what = desc->lobe      ? weft_lobe_info(desc->lobe->lobe)->id
                        : desc->profile ? desc->profile
                                        : (desc->name ? desc->name : "material");
@@ -158,7 +158,7 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
     buffer_put_text(out, "/* ");
     for (int k = 0; k < count; k++) {
         if (k) buffer_put_text(out, ", ");
-        put_subject(drafts[k].desc, out);
+        put_model(drafts[k].desc, out);
     }
     put_line(out, " - for %s", languages[drafts->desc->target]);
     put_line(out, " *");

@@ -19,7 +19,7 @@ typedef struct Rule {
 #define RULE(id, index, base, conserves, help) {id, #base},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
-typedef struct Subject {
+typedef struct Model {
     Material material;
     Surface surface;
     Choices choices;
@@ -28,7 +28,7 @@ typedef struct Subject {
     bool one_layer, chosen; /* its rule is the same for all surfaces; a choice is made beside its profile */
     CompositionSlots slots;
     AlbedoTable *table; /* of its sheen, NULL: none is asked for */
-} Subject;
+} Model;
 
 /* The ids of a list as a choice has them. */
 static WeftResult find_profile(const char *id, Material *out, WeftError *error) {
@@ -46,23 +46,23 @@ static WeftResult find_profile(const char *id, Material *out, WeftError *error) 
 static bool is_walk(int lobe) { return lobe >= 0 && weft_lobe_info(lobe)->traits & WEFT_LOBE_REFERENCE; }
 
 /* Inputs of a material that are nothing and stay so; of a profile all may be something. */
-static void find_zeros(const Draft *draft, Subject *subject) {
+static void find_zeros(const Draft *draft, Model *model) {
     for (int k = 0; k < INPUT_COUNT; k++) {
-        const Input *input = &subject->material.inputs[k];
+        const Input *input = &model->material.inputs[k];
         bool number = input_infos[k].kind == INPUT_SCALAR || input_infos[k].kind == INPUT_COLOR;
         bool some = input->texture != 0 || draft->desc->profile != NULL;
         for (int c = 0; c < (input_infos[k].kind == INPUT_COLOR ? 3 : 1); c++) some |= input->value[c] > 0.0f;
-        subject->zero[k] = number && !some;
+        model->zero[k] = number && !some;
     }
-    if (draft->desc->profile) subject->zero[INPUT_dust] = true; /* no engine has it */
+    if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has it */
 }
 
 /* What all surfaces have in common: facts for the conditions of the text. */
-static void find_facts(Draft *draft, Subject *subject) {
-    const Choices *c = &subject->choices;
+static void find_facts(Draft *draft, Model *model) {
+    const Choices *c = &model->choices;
     Stack m[3];
     for (int x = 0; x < 3; x++) {
-        Surface s = composition_surface(0.5f * (float)x, subject->zero);
+        Surface s = composition_surface(0.5f * (float)x, model->zero);
         stack_make(&m[x], &s, c, (TableRef){.kind = TABLE_NONE});
     }
     bool layer = true, by = true, under = true, albedo = true, view = true, coat = true;
@@ -74,8 +74,8 @@ static void find_facts(Draft *draft, Subject *subject) {
         coat &= m[x].coat_rule == m[0].coat_rule;
         albedo &= m[x].albedo == m[0].albedo;
     }
-    subject->stack = m[1];
-    subject->one_layer = layer;
+    model->stack = m[1];
+    model->one_layer = layer;
     if (layer) draft_fact(draft, "m.layer", m[0].layer);
     if (by) draft_fact(draft, "m.combine", m[0].combine);
     if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
@@ -91,38 +91,37 @@ static void find_facts(Draft *draft, Subject *subject) {
     for (int k = 0; k < 5; k++) draft_fact(draft, shown[k], 1);
     Choices beside = *c;
     beside.workflow = beside.profile = beside.convert = CHOICE_AUTO;
-#define CHOICE_MADE(name, help) subject->chosen |= beside.name != CHOICE_AUTO;
+#define CHOICE_MADE(name, help) model->chosen |= beside.name != CHOICE_AUTO;
     SURFACE_CHOICES(CHOICE_MADE)
 }
 
-static WeftResult find_subject(Draft *draft, Subject *subject, WeftError *error) {
+static WeftResult find_model(Draft *draft, Model *model, WeftError *error) {
     const WeftExportDesc *desc = draft->desc;
     WeftResult result = WEFT_OK;
-    if (desc->profile) result = find_profile(desc->profile, &subject->material, error);
+    if (desc->profile) result = find_profile(desc->profile, &model->material, error);
     if (desc->material && result == WEFT_OK) result = numbers_sound(desc->material, error);
-    if (desc->material && result == WEFT_OK) subject->material = material_of_numbers(desc->material);
+    if (desc->material && result == WEFT_OK) model->material = material_of_numbers(desc->material);
     if (result != WEFT_OK) return result;
-    subject->surface = material_plain(&subject->material);
-    subject->choices = material_choices(&subject->material);
-    if (is_walk(subject->choices.sheen_lobe) || is_walk(subject->choices.diffuse))
+    model->surface = material_plain(&model->material);
+    model->choices = material_choices(&model->material);
+    if (is_walk(model->choices.sheen_lobe) || is_walk(model->choices.diffuse))
         return fail(error, WEFT_MESSAGE_EXPORT_LOBE, "fibre-walk", NULL);
-    find_zeros(draft, subject);
-    find_facts(draft, subject);
-    subject->slots = composition_slots(&subject->choices, subject->zero, false);
+    find_zeros(draft, model);
+    find_facts(draft, model);
+    model->slots = composition_slots(&model->choices, model->zero, false);
     draft_identifier(desc->profile ? desc->profile : desc->name ? desc->name : "material", draft->id[0]);
     return WEFT_OK;
 }
 
 /* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
-static bool needs_e(const Subject *subject) {
-    const Stack *m = &subject->stack;
-    return subject->slots.slots[2].count &&
-           (!subject->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
+static bool needs_e(const Model *model) {
+    const Stack *m = &model->stack;
+    return model->slots.slots[2].count &&
+           (!model->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
 }
 
-static bool needs_table(const Subject *subject) {
-    return needs_e(subject) &&
-           (subject->stack.albedo == ALBEDO_TABLE || subject->stack.albedo == ALBEDO_KHRONOS);
+static bool needs_table(const Model *model) {
+    return needs_e(model) && (model->stack.albedo == ALBEDO_TABLE || model->stack.albedo == ALBEDO_KHRONOS);
 }
 
 /* In place of shading/layer.h: the one rule. */
@@ -165,42 +164,42 @@ static void put_value(Text *text, const Surface *s, int k) {
     SURFACE_INPUTS(VALUE)
 }
 
-static void put_surface(Draft *draft, const Subject *subject) {
+static void put_surface(Draft *draft, const Model *model) {
     text_line(&draft->text,
               "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
               "{\n    Surface s;",
               draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers",
               draft->id[0]);
-    for (int k = 0; k < INPUT_COUNT; k++) put_value(&draft->text, &subject->surface, k);
+    for (int k = 0; k < INPUT_COUNT; k++) put_value(&draft->text, &model->surface, k);
     text_line(&draft->text, "    return s;\n}");
     draft_root(draft, "%s_surface", draft->id[0]);
 }
 
-static void put_shade(Draft *draft, const Subject *subject) {
+static void put_shade(Draft *draft, const Model *model) {
     Text *text = &draft->text;
-    bool coat = subject->slots.slots[3].count > 0;
+    bool coat = model->slots.slots[3].count > 0;
     text_line(text,
               "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
               "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
               draft->desc->fold_pi ? " times pi" : "", draft->id[0]);
-    if (subject->chosen) text_line(text, "    compose_surface(s, material_choices());");
-    text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&subject->choices));
-    if (subject->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
-    if (!subject->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
-    if (subject->table) text_line(text, "    m.table = sheen_table();");
-    if (subject->table && subject->stack.layer >= LAYER_RECIPROCAL)
+    if (model->chosen) text_line(text, "    compose_surface(s, material_choices());");
+    text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&model->choices));
+    if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
+    if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
+    if (model->table) text_line(text, "    m.table = sheen_table();");
+    if (model->table && model->stack.layer >= LAYER_RECIPROCAL)
         text_line(
             text,
             "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
-    if (subject->stack.layer == LAYER_MULTIPLICATIVE)
+    if (model->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
     /* A lobe that a slot does not hold leaves its part of the view alone, of which a compiler of C warns. */
     bool c = draft->desc->target == WEFT_EXPORT_C;
     text_line(text, "    stack_prepare(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
-    if (needs_e(subject)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
-    if (subject->slots.slots[2].count) text_line(text, "    view_base_scale(m, w);");
+    if (needs_e(model)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
+    if (model->slots.slots[2].count) text_line(text, "    view_base_scale(m, w);");
     text_line(text, "    Angles a = angles_between(wo, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
     text_line(text,
@@ -210,30 +209,30 @@ static void put_shade(Draft *draft, const Subject *subject) {
     draft_root(draft, "%s_shade", draft->id[0]);
 }
 
-static void put_text(Draft *draft, Subject *subject) {
+static void put_text(Draft *draft, Model *model) {
     Text *text = &draft->text;
     TableRef e = {.kind = TABLE_NONE};
-    if (subject->table) e = albedo_table_ref(subject->table);
+    if (model->table) e = albedo_table_ref(model->table);
     text_include(text, "shading/angles.h");
-    text_composition_lobes(text, &subject->slots, e.kind, e.tilts);
-    if (!subject->slots.slots[2].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
-    if (subject->one_layer) put_layer(text, subject->stack.layer);
-    text_composition(text, &subject->choices);
-    if (subject->chosen) text_composition_choices(text, &subject->choices);
-    if (subject->table) text_albedo_table(text, "sheen_table", "sheen", subject->table);
-    put_surface(draft, subject);
-    put_shade(draft, subject);
+    text_composition_lobes(text, &model->slots, e.kind, e.tilts);
+    if (!model->slots.slots[2].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
+    if (model->one_layer) put_layer(text, model->stack.layer);
+    text_composition(text, &model->choices);
+    if (model->chosen) text_composition_choices(text, &model->choices);
+    if (model->table) text_albedo_table(text, "sheen_table", "sheen", model->table);
+    put_surface(draft, model);
+    put_shade(draft, model);
 }
 
 WeftResult draft_material(Draft *draft, WeftError *error) {
-    Subject subject = {0};
-    WeftResult result = find_subject(draft, &subject, error);
+    Model model = {0};
+    WeftResult result = find_model(draft, &model, error);
     if (result != WEFT_OK) return result;
-    if (needs_table(&subject)) {
-        subject.table = draft_albedo(draft);
-        if (!subject.table) return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
-        sheen_table_fill(&subject.surface, &subject.choices, subject.table);
+    if (needs_table(&model)) {
+        model.table = draft_albedo(draft);
+        if (!model.table) return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
+        sheen_table_fill(&model.surface, &model.choices, model.table);
     }
-    put_text(draft, &subject);
+    put_text(draft, &model);
     return WEFT_OK;
 }

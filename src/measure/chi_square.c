@@ -47,7 +47,7 @@ static double expect(const View *view, const Grid *grid, Bin *bins) {
     int cells = grid->cells / BINS;
     for (int row = 0; row < grid->cells; row++) {
         Dirs dirs = grid_ring(grid, row, &ring);
-        view->subject->pdf(view, dirs, pdf);
+        view->bsdf->pdf(view, dirs, pdf);
         for (int c = 0; c < grid->cells; c++) {
             double share = (double)pdf[c] * ring.area[c];
             bins[row / cells * BINS + c / cells].expected += share;
@@ -60,7 +60,7 @@ static double expect(const View *view, const Grid *grid, Bin *bins) {
 /* A block of samples' pdf at once. */
 static void count_block(const View *view, const Grid *grid, Dirs dirs, Bin *bins, ChiSquare *out) {
     float pdf[GRID_MAX];
-    view->subject->pdf(view, dirs, pdf);
+    view->bsdf->pdf(view, dirs, pdf);
     for (size_t k = 0; k < dirs.n; k++) {
         bins[grid_bin(grid, dir(dirs.x[k], dirs.y[k], dirs.z[k]), BINS)].seen += 1.0;
         out->stray += !(pdf[k] > 0.0f);
@@ -78,7 +78,7 @@ bool chi_square_measure(const View *view, int count, int cells, uint32_t seed, C
     int above = 0, held = 0;
     for (int k = 0; k < count; k++) {
         float u = draw_unit(&draw), v = draw_unit(&draw);
-        Dir i = view->subject->sample(view, u, v);
+        Dir i = view->bsdf->sample(view, u, v);
         if (i.z > 0.0f) {
             block.x[held] = i.x, block.y[held] = i.y, block.z[held] = i.z;
             held++, above++;

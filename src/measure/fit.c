@@ -218,7 +218,7 @@ typedef struct Work {
     Watch watch;
 } Work;
 
-static bool samples_make(Work *work, const WeftData *data, WeftApart metric) {
+static bool samples_make(Work *work, const WeftData *data, WeftBrdfMetric metric) {
     Samples *s = &work->samples;
     if (!samples_create(s, data->count, metric)) return false;
     for (int k = 0; k < data->count; k++) {
@@ -298,10 +298,12 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
 }
 
 /* Of an item of work: the last is the baseline. */
-static WeftResult fit_item(Work *work, int item, Share *share) {
+static WeftResult fit_item(Work *work, int item, ItemProgress *item_progress) {
     WeftFitted *fitted = &work->fitted[item];
-    LobeSearch search = {
-        .samples = &work->samples, .base = &work->base, .isotropic = work->isotropic, .share = share};
+    LobeSearch search = {.samples = &work->samples,
+                         .base = &work->base,
+                         .isotropic = work->isotropic,
+                         .item_progress = item_progress};
     LobeFound found = {.error = 0.0};
     if (item == work->count) {
         search.base = &work->lambert;
@@ -319,9 +321,10 @@ static WeftResult fit_item(Work *work, int item, Share *share) {
 static void fit_one(void *user, int item, int thread) {
     (void)thread;
     Work *work = user;
-    Share share = {.watch = &work->watch};
-    work->results[item] = share_tell(&share, 0.0) ? fit_item(work, item, &share) : WEFT_INTERRUPTED;
-    share_tell(&share, 1.0);
+    ItemProgress item_progress = {.watch = &work->watch};
+    work->results[item] =
+        progress_report(&item_progress, 0.0) ? fit_item(work, item, &item_progress) : WEFT_INTERRUPTED;
+    progress_report(&item_progress, 1.0);
 }
 
 static WeftResult base_alone(Work *work, double *error) {
@@ -383,9 +386,9 @@ static WeftResult work_run(Work *work, WeftFit *out, WeftError *error) {
 }
 
 WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error) {
-    WeftApart metric = desc->chosen ? desc->metric : WEFT_APART_LOG;
+    WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
     memset(out, 0, sizeof *out);
-    if (metric != WEFT_APART_LOG && metric != WEFT_APART_COSINE)
+    if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
         return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
     Work *work = alloc_array(1, sizeof *work);
     if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);

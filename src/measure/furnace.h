@@ -3,7 +3,7 @@
 #ifndef WEFT_MEASURE_FURNACE_H
 #define WEFT_MEASURE_FURNACE_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 typedef struct Furnace {
     double e, noise; /* the standard error of e: 0 but where something walks at random */

@@ -5,7 +5,7 @@
 #ifndef WEFT_MEASURE_GRID_H
 #define WEFT_MEASURE_GRID_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 enum { GRID_MAX = 400 };
 

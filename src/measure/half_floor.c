@@ -93,7 +93,7 @@ static void find_losses(const Lobe *lobe, float *zero, float *off) {
 }
 
 typedef struct Rows {
-    const Subject *subject;
+    const Bsdf *bsdf;
     WeftPassport *out;
     long long bad[WEFT_PASSPORT_ROWS];
     WeftPlace place[WEFT_PASSPORT_ROWS];
@@ -102,7 +102,7 @@ typedef struct Rows {
 static void measure_row(void *user, int row, int thread) {
     (void)thread;
     Rows *rows = user;
-    Lobe lobe = subject_lobe(rows->subject, row);
+    Lobe lobe = bsdf_lobe(rows->bsdf, row);
     WeftPlace ignored = {0};
     rows->bad[row] = bad_pairs(&lobe, 0.0, &ignored);
     rows->out->half_floor[row] = least_floor(&lobe);
@@ -128,22 +128,22 @@ static void find_pair(const Lobe *given, const WeftParamInfo *p, WeftPassport *o
     }
 }
 
-void half_floor_measure(const Subject *subject, WeftPassport *out, int threads) {
+void half_floor_measure(const Bsdf *bsdf, WeftPassport *out, int threads) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    unsigned traits = subject->whole ? 0u : weft_lobe_info(subject->lobe.id)->traits;
-    out->half_measured = half_here() && !subject->whole && !(traits & TRAIT_REFERENCE) &&
-                         !outside_lobe(subject->lobe.id); /* which are compiled as they are */
+    unsigned traits = bsdf->whole ? 0u : weft_lobe_info(bsdf->lobe.id)->traits;
+    out->half_measured = half_here() && !bsdf->whole && !(traits & TRAIT_REFERENCE) &&
+                         !outside_lobe(bsdf->lobe.id); /* which are compiled as they are */
     if (!out->half_measured) return;
     if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
-    Rows rows = {.subject = subject, .out = out};
-    parallel_for(threads, subject->rows, measure_row, &rows);
-    out->half_count = (long long)subject->rows * SWEEP_DIRS * (SWEEP_DIRS + 16);
-    for (int k = subject->rows - 1; k >= 0; k--) {
+    Rows rows = {.bsdf = bsdf, .out = out};
+    parallel_for(threads, bsdf->rows, measure_row, &rows);
+    out->half_count = (long long)bsdf->rows * SWEEP_DIRS * (SWEEP_DIRS + 16);
+    for (int k = bsdf->rows - 1; k >= 0; k--) {
         out->half_bad += rows.bad[k];
         if (!out->half_floor[k] && !(out->half_place.cos_o > 0.0f)) out->half_place = rows.place[k];
     }
-    if (*subject->parameter) {
-        find_pair(&subject->lobe, &weft_lobe_info(subject->lobe.id)->params[0], out);
+    if (*bsdf->parameter) {
+        find_pair(&bsdf->lobe, &weft_lobe_info(bsdf->lobe.id)->params[0], out);
     } else {
         out->half_cosine = out->half_floor[0];
         out->half_whole = 1;

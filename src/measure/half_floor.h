@@ -2,9 +2,9 @@
 #ifndef WEFT_MEASURE_HALF_FLOOR_H
 #define WEFT_MEASURE_HALF_FLOOR_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 /* Fills the half_ members of the passport of a lobe. */
-void half_floor_measure(const Subject *subject, WeftPassport *out, int threads);
+void half_floor_measure(const Bsdf *bsdf, WeftPassport *out, int threads);
 
 #endif

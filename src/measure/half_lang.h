@@ -12,8 +12,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#define FN       static inline __attribute__((unused))
-#define FN_APART FN
+#define FN          static inline __attribute__((unused))
+#define FN_NOINLINE FN
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \
     struct Name

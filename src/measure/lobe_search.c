@@ -105,7 +105,7 @@ static double error_at(void *user, double *x, SearchCare care) {
     const Samples *s = self->search->samples;
     int count = care == SEARCH_FULL ? s->count : s->first;
     /* of a million samples one evaluation takes seconds: it ends halfway */
-    if (!share_tell(self->search->share, 0.0)) return 1e30;
+    if (!progress_report(self->search->item_progress, 0.0)) return 1e30;
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
     WeftLobe lobe = lobe_at(self, x);
@@ -115,7 +115,7 @@ static double error_at(void *user, double *x, SearchCare care) {
         ask_parts(self, lobe, count);
     Blend blend = blend_of(self, count);
     double sum = 0.0;
-    for (int c = 0; c < s->channels && share_tell(self->search->share, 0.0); c++)
+    for (int c = 0; c < s->channels && progress_report(self->search->item_progress, 0.0); c++)
         sum += blend_solve(s, count, c, &blend, self->weights[c]);
     return sum;
 }
@@ -209,8 +209,11 @@ static SearchAxis axis_of(double low, double high, double start) {
 static Search make_search(Walker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
     const WeftLobeInfo *info = info_of(self);
-    Search search = {
-        .error = error_at, .user = self, .descents = 3, .most = 1000, .share = self->search->share};
+    Search search = {.error = error_at,
+                     .user = self,
+                     .descents = 3,
+                     .most = 1000,
+                     .item_progress = self->search->item_progress};
     unsigned hold = hold_turning(self);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
@@ -272,7 +275,7 @@ WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
     out->lobe = lobe_at(&self, x);
     colors_of(&self, out);
     free(self.block);
-    bool whole = share_tell(search->share, 0.0);
+    bool whole = progress_report(search->item_progress, 0.0);
     return whole ? WEFT_OK : WEFT_INTERRUPTED;
 }
 
@@ -284,5 +287,5 @@ WeftResult lobe_search_glance(const LobeSearch *search, LobeFound *out) {
     const Search walk = make_search(&self, x);
     out->error = search_glance(&walk, walk.axes > 0 ? POINTS * walk.axes : 1, &out->evaluations);
     free(self.block);
-    return share_tell(search->share, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
+    return progress_report(search->item_progress, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
 }

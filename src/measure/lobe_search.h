@@ -11,10 +11,10 @@
 
 typedef struct LobeSearch {
     const Samples *samples;
-    const WeftLobe *base; /* its white x is what a base colour scales; NULL: none */
-    unsigned hold;        /* as weft_match_lobe has it */
-    bool isotropic;       /* what is to be met is: then a lobe that is stays so */
-    Share *share;         /* may be NULL */
+    const WeftLobe *base;        /* its white x is what a base colour scales; NULL: none */
+    unsigned hold;               /* as weft_match_lobe has it */
+    bool isotropic;              /* what is to be met is: then a lobe that is stays so */
+    ItemProgress *item_progress; /* may be NULL */
 } LobeSearch;
 
 typedef struct LobeFound {
@@ -24,7 +24,7 @@ typedef struct LobeFound {
     long long evaluations;
 } LobeFound;
 
-/* From out->lobe. WEFT_RESOURCES where memory is short, WEFT_INTERRUPTED where the share says that it should
+/* From out->lobe. WEFT_RESOURCES where memory is short, WEFT_INTERRUPTED where the progress says that it should
  * end. */
 WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
 

@@ -20,70 +20,74 @@ static WeftResult short_of_memory(WeftError *error) {
 }
 
 /* The directions with what is to be met. */
-static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftApart metric,
+static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftBrdfMetric metric,
                                WeftError *error) {
     char number[16];
     snprintf(number, sizeof number, "%d", (int)metric);
     *samples = (Samples){0};
-    if (!weft_apart_name(metric)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
+    if (!weft_brdf_metric_name(metric)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
     if (!samples_spread(samples, metric)) return short_of_memory(error);
     samples_ask(samples, from, part, samples->x);
     samples_settle(samples);
     return WEFT_OK;
 }
 
-static WeftResult apart_of(const Samples *samples, const WeftReflection *to, int part, double *apart,
-                           WeftError *error) {
+static WeftResult distance_of(const Samples *samples, const WeftReflection *to, int part, double *apart,
+                              WeftError *error) {
     Samples other;
     bool held = samples_create(&other, samples->count, samples->metric);
     if (held) {
         samples_ask(samples, to, part, other.x);
-        *apart = samples_apart(samples, samples->count, (const float *const *)other.x);
+        *apart = samples_distance(samples, samples->count, (const float *const *)other.x);
     }
     samples_free(&other);
     return held ? WEFT_OK : short_of_memory(error);
 }
 
-WeftResult weft_apart(const WeftReflection *to, const WeftReflection *from, int part, WeftApart metric,
-                      double *apart, WeftError *error) {
+WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
+                              WeftBrdfMetric metric, double *apart, WeftError *error) {
     Samples samples;
     *apart = 0.0;
     WeftResult result = samples_from(&samples, from, part, metric, error);
-    if (result == WEFT_OK) result = apart_of(&samples, to, part, apart, error);
+    if (result == WEFT_OK) result = distance_of(&samples, to, part, apart, error);
     samples_free(&samples);
     return result;
 }
 
 /* The error of a lobe as it is. */
-static WeftResult lobe_apart(const Samples *samples, const WeftLobe *lobe, double *apart, WeftError *error) {
+static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *apart,
+                                WeftError *error) {
     WeftReflection *to;
     WeftResult result = weft_reflection_of_lobe(lobe, &to, error);
-    if (result == WEFT_OK) result = apart_of(samples, to, WEFT_PART_ALL, apart, error);
+    if (result == WEFT_OK) result = distance_of(samples, to, WEFT_PART_ALL, apart, error);
     weft_reflection_free(to);
     return result;
 }
 
 static WeftResult lobe_matched(const Samples *samples, const WeftReflection *from, unsigned hold,
-                               Share *share, WeftLobe *lobe, WeftMatch *out, WeftError *error) {
-    const LobeSearch search = {
-        .samples = samples, .hold = hold, .isotropic = samples_isotropic(samples, from), .share = share};
+                               ItemProgress *item_progress, WeftLobe *lobe, WeftMatch *out,
+                               WeftError *error) {
+    const LobeSearch search = {.samples = samples,
+                               .hold = hold,
+                               .isotropic = samples_isotropic(samples, from),
+                               .item_progress = item_progress};
     LobeFound found = {.lobe = *lobe};
     double exact = 0.0;
-    WeftResult result = lobe_apart(samples, lobe, &out->copied, error);
+    WeftResult result = lobe_distance(samples, lobe, &out->copied, error);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
     result = lobe_search_run(&search, &found);
     if (result != WEFT_OK) return result == WEFT_RESOURCES ? short_of_memory(error) : result;
     out->evaluations = found.evaluations;
-    result = lobe_apart(samples, &found.lobe, &exact, error);
+    result = lobe_distance(samples, &found.lobe, &exact, error);
     if (result != WEFT_OK || !(exact < out->copied)) return result;
     out->matched = exact;
     *lobe = found.lobe;
     return WEFT_OK;
 }
 
-static WeftResult match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, Share *share,
-                             WeftLobe *lobe, WeftMatch *out, WeftError *error) {
+static WeftResult match_lobe(const WeftReflection *from, WeftBrdfMetric metric, unsigned hold,
+                             ItemProgress *item_progress, WeftLobe *lobe, WeftMatch *out, WeftError *error) {
     Samples samples;
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     char number[16];
@@ -93,28 +97,28 @@ static WeftResult match_lobe(const WeftReflection *from, WeftApart metric, unsig
     if (info->traits & WEFT_LOBE_REFERENCE) return walks(info->id, error);
     if (reflection_walks(from)) return walks(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, share, lobe, out, error);
+    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, item_progress, lobe, out, error);
     samples_free(&samples);
     return result;
 }
 
-WeftResult weft_match_lobe(const WeftReflection *from, WeftApart metric, unsigned hold, WeftLobe *lobe,
+WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, unsigned hold, WeftLobe *lobe,
                            WeftMatch *out, WeftError *error) {
     return match_lobe(from, metric, hold, NULL, lobe, out, error);
 }
 
-static WeftResult material_matched(const Samples *samples, const int *held, Share *share,
+static WeftResult material_matched(const Samples *samples, const int *held, ItemProgress *item_progress,
                                    WeftMaterial *material, WeftMatch *out, WeftError *error) {
     WeftReflection *copy;
     WeftMaterial changed = *material;
     WeftMatch found = {.copied = 0.0};
     WeftResult result = weft_reflection_create(material, &copy, error);
     if (result == WEFT_OK && reflection_walks(copy)) result = walks(reflection_walks(copy), error);
-    if (result == WEFT_OK) result = apart_of(samples, copy, WEFT_PART_ALL, &out->copied, error);
+    if (result == WEFT_OK) result = distance_of(samples, copy, WEFT_PART_ALL, &out->copied, error);
     weft_reflection_free(copy);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
-    result = material_search_run(samples, held, share, &changed, &found, error);
+    result = material_search_run(samples, held, item_progress, &changed, &found, error);
     out->evaluations = found.evaluations;
     if (result != WEFT_OK || !(found.matched < out->copied)) return result;
     out->matched = found.matched;
@@ -122,25 +126,26 @@ static WeftResult material_matched(const Samples *samples, const int *held, Shar
     return WEFT_OK;
 }
 
-WeftResult match_material(const WeftReflection *from, WeftApart metric, const int *held, Share *share,
-                          WeftMaterial *material, WeftMatch *out, WeftError *error) {
+WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
+                          ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out,
+                          WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
     if (reflection_walks(from)) return walks(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = material_matched(&samples, held, share, material, out, error);
+    if (result == WEFT_OK) result = material_matched(&samples, held, item_progress, material, out, error);
     samples_free(&samples);
     return result;
 }
 
-WeftResult weft_match_material(const WeftReflection *from, WeftApart metric, const int *held,
+WeftResult weft_match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
                                WeftMaterial *material, WeftMatch *out, WeftError *error) {
     return match_material(from, metric, held, NULL, material, out, error);
 }
 
 typedef struct Batch {
     WeftMatchJob *jobs;
-    WeftApart metric;
+    WeftBrdfMetric metric;
     Watch watch;
     WeftError *errors;
 } Batch;
@@ -149,18 +154,18 @@ static void job_run(void *user, int item, int thread) {
     (void)thread;
     Batch *batch = user;
     WeftMatchJob *job = &batch->jobs[item];
-    Share share = {.watch = &batch->watch};
+    ItemProgress item_progress = {.watch = &batch->watch};
     WeftError *error = &batch->errors[item];
     job->result = WEFT_INTERRUPTED;
-    if (!share_tell(&share, 0.0)) return;
-    job->result =
-        job->is_lobe
-            ? match_lobe(job->from, batch->metric, job->hold, &share, &job->lobe, &job->found, error)
-            : match_material(job->from, batch->metric, job->held, &share, &job->material, &job->found, error);
-    share_tell(&share, 1.0);
+    if (!progress_report(&item_progress, 0.0)) return;
+    job->result = job->is_lobe ? match_lobe(job->from, batch->metric, job->hold, &item_progress, &job->lobe,
+                                            &job->found, error)
+                               : match_material(job->from, batch->metric, job->held, &item_progress,
+                                                &job->material, &job->found, error);
+    progress_report(&item_progress, 1.0);
 }
 
-WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftApart metric, int threads,
+WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
                            WeftProgress progress, void *user, WeftError *error) {
     Batch batch = {.jobs = jobs, .metric = metric};
     batch.errors = alloc_array((size_t)count, sizeof *batch.errors);

@@ -5,9 +5,10 @@
 #include "measure/watch.h"
 #include "weft/match.h"
 
-/* The same, which tells share (may be NULL) how far it is, and ends early where that says so:
+/* The same, which tells item_progress (may be NULL) how far it is, and ends early where that says so:
  * WEFT_INTERRUPTED. */
-WeftResult match_material(const WeftReflection *from, WeftApart metric, const int *held, Share *share,
-                          WeftMaterial *material, WeftMatch *out, WeftError *error);
+WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
+                          ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out,
+                          WeftError *error);
 
 #endif

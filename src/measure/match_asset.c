@@ -79,7 +79,7 @@ typedef struct Search {
 typedef struct AssetSearch {
     WeftScene *scene;
     int from, to, held[WEFT_INPUTS_MAX];
-    WeftApart metric;
+    WeftBrdfMetric metric;
     WeftProgress progress; /* NULL: nobody */
     void *user;
     Watch watch;
@@ -227,18 +227,18 @@ static void search_run(void *user, int item, int thread) {
     (void)thread;
     AssetSearch *self = user;
     Search *search = &self->searches[item];
-    Share share = {.watch = &self->watch};
+    ItemProgress item_progress = {.watch = &self->watch};
     WeftReflection *original = NULL;
     search->result = WEFT_INTERRUPTED;
-    if (!share_tell(&share, 0.0)) return;
+    if (!progress_report(&item_progress, 0.0)) return;
     weft_material_choose(&search->average, CHOICE_profile, self->from);
     search->result = weft_reflection_create(&search->average, &original, &search->error);
     if (search->result != WEFT_OK) return;
     weft_material_choose(&search->average, CHOICE_profile, self->to);
-    search->result = match_material(original, self->metric, self->held, &share, &search->average,
+    search->result = match_material(original, self->metric, self->held, &item_progress, &search->average,
                                     &search->found, &search->error);
     weft_reflection_free(original);
-    share_tell(&share, 1.0);
+    progress_report(&item_progress, 1.0);
 }
 
 static WeftResult search_all(AssetSearch *self, WeftError *error) {
@@ -317,7 +317,7 @@ static WeftResult asset_rewrite(AssetSearch *self, const char *path, const char 
     return result;
 }
 
-WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftApart metric,
+WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftBrdfMetric metric,
                             WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
                             const WeftLog *log, WeftError *error) {
     AssetSearch self = {.from = from, .to = to, .metric = metric, .progress = progress, .user = user};

@@ -73,14 +73,14 @@ static void material_at(const Walker *self, const double *x, WeftMaterial *mater
     }
 }
 
-static double apart_at(Walker *self, const double *x, int count) {
+static double distance_at(Walker *self, const double *x, int count) {
     WeftMaterial material;
     material_at(self, x, &material);
     reflection_change(self->reflection, &material, self->table);
     Samples some = *self->samples;
     some.count = count;
     samples_ask(&some, self->reflection, WEFT_PART_ALL, self->x);
-    return samples_apart(self->samples, count, (const float *const *)self->x);
+    return samples_distance(self->samples, count, (const float *const *)self->x);
 }
 
 /* Scales the colours of base and sheen as if what each reflects were in proportion to them: nearly right,
@@ -112,12 +112,12 @@ static double error_at(void *user, double *x, SearchCare care) {
     enum { ROUNDS = 2 };
     Walker *self = user;
     const Samples *s = self->samples;
-    double error = apart_at(self, x, care == SEARCH_FULL ? s->count : s->first);
+    double error = distance_at(self, x, care == SEARCH_FULL ? s->count : s->first);
     for (int round = 0; care == SEARCH_GLANCE && round < ROUNDS; round++) {
         double before[SEARCH_MOST];
         memcpy(before, x, sizeof before);
         scale_colors(self, x);
-        double now = apart_at(self, x, s->first);
+        double now = distance_at(self, x, s->first);
         if (now < error) {
             error = now;
             continue;
@@ -169,31 +169,32 @@ static WeftResult walker_make(Walker *self, const Samples *samples, const WeftMa
 }
 
 /* The error of a material with E as it is. */
-static WeftResult exact_apart(Walker *self, const WeftMaterial *material, double *apart, WeftError *error) {
+static WeftResult exact_distance(Walker *self, const WeftMaterial *material, double *apart,
+                                 WeftError *error) {
     const Samples *s = self->samples;
     WeftReflection *exact;
     WeftResult result = weft_reflection_create(material, &exact, error);
     if (result != WEFT_OK) return result;
     samples_ask(s, exact, WEFT_PART_ALL, self->x);
-    *apart = samples_apart(s, s->count, (const float *const *)self->x);
+    *apart = samples_distance(s, s->count, (const float *const *)self->x);
     weft_reflection_free(exact);
     return WEFT_OK;
 }
 
-WeftResult material_search_run(const Samples *samples, const int *held, Share *share, WeftMaterial *material,
-                               WeftMatch *found, WeftError *error) {
+WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
+                               WeftMaterial *material, WeftMatch *found, WeftError *error) {
     Walker self;
     double x[SEARCH_MOST] = {0.0};
     WeftResult result = walker_make(&self, samples, material, error);
     if (result == WEFT_OK) {
         Search search = make_search(&self, held, x);
-        search.share = share;
+        search.item_progress = item_progress;
         search_run(&search, x, &found->evaluations);
-        if (!share_tell(share, 0.0)) result = WEFT_INTERRUPTED;
+        if (!progress_report(item_progress, 0.0)) result = WEFT_INTERRUPTED;
     }
     if (result == WEFT_OK) {
         material_at(&self, x, material);
-        result = exact_apart(&self, material, &found->matched, error);
+        result = exact_distance(&self, material, &found->matched, error);
     }
     weft_reflection_free(self.reflection);
     free(self.table);

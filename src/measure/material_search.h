@@ -6,9 +6,9 @@
 #include "measure/watch.h"
 
 /* As weft_match_material, from where material is; found->matched is the error of what it leaves in material.
- * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where share (may be NULL) says that it
+ * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that it
  * should end. */
-WeftResult material_search_run(const Samples *samples, const int *held, Share *share, WeftMaterial *material,
-                               WeftMatch *found, WeftError *error);
+WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
+                               WeftMaterial *material, WeftMatch *found, WeftError *error);
 
 #endif

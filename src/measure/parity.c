@@ -30,10 +30,10 @@ typedef struct Arrays {
     float *in[INPUTS], *out;
 } Arrays;
 
-static void fill(const Subject *subject, Arrays *arrays) {
+static void fill(const Bsdf *bsdf, Arrays *arrays) {
     Draw draw = draw_start(77, 0);
     for (size_t k = 0; k < PAIRS; k++) {
-        Lobe lobe = subject_lobe(subject, (int)(k % (size_t)subject->rows));
+        Lobe lobe = bsdf_lobe(bsdf, (int)(k % (size_t)bsdf->rows));
         Dir o = any_direction(&draw), i = any_direction(&draw);
         const float rows[2][4] = {{o.x, o.y, o.z, 0.0f}, {i.x, i.y, i.z, 0.0f}};
         for (size_t c = 0; c < 4; c++) {
@@ -45,13 +45,13 @@ static void fill(const Subject *subject, Arrays *arrays) {
     }
 }
 
-static void compare(const Subject *subject, const Arrays *arrays, WeftPassport *out) {
+static void compare(const Bsdf *bsdf, const Arrays *arrays, WeftPassport *out) {
     const double tolerance = 5e-4, least = 1e-5; /* relative; where f is small, absolute */
     double worst = 0.0;
     int beyond = 0;
     for (size_t k = 0; k < PAIRS; k++) {
         const float *o = arrays->in[0] + 4 * k, *i = arrays->in[1] + 4 * k, *gpu = arrays->out + 4 * k;
-        Lobe lobe = subject_lobe(subject, (int)(k % (size_t)subject->rows));
+        Lobe lobe = bsdf_lobe(bsdf, (int)(k % (size_t)bsdf->rows));
         LobeValue v = lobe_value(&lobe, angles_between(dir(o[0], o[1], o[2]), dir(i[0], i[1], i[2])));
         const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(&lobe, 1.0f, 1.0f))),
                                    (double)v.pdf,
@@ -68,10 +68,10 @@ static void compare(const Subject *subject, const Arrays *arrays, WeftPassport *
     out->parity_beyond = (float)beyond / (ANSWERS * PAIRS);
 }
 
-static WeftResult run(GlContext *context, const Subject *subject, Arrays *arrays, WeftError *error) {
+static WeftResult run(GlContext *context, const Bsdf *bsdf, Arrays *arrays, WeftError *error) {
     Text text;
     Compute *compute = NULL;
-    int id = subject->lobe.id;
+    int id = bsdf->lobe.id;
     text_begin(&text, &(TextDesc){.language = context_language(context), .tables = true});
     text_dispatch(&text, &id, 1);
     text_line(&text, "\nconst int FIRST = %d;", id);
@@ -87,10 +87,10 @@ static WeftResult run(GlContext *context, const Subject *subject, Arrays *arrays
     return result;
 }
 
-void parity_measure(const Subject *subject, WeftPassport *out) {
-    if (subject->whole || weft_lobe_info(subject->lobe.id)->traits & TRAIT_REFERENCE) {
+void parity_measure(const Bsdf *bsdf, WeftPassport *out) {
+    if (bsdf->whole || weft_lobe_info(bsdf->lobe.id)->traits & TRAIT_REFERENCE) {
         snprintf(out->parity_words, sizeof out->parity_words, "%s",
-                 subject->whole ? "profiles are compared in tests/raster" : "for the path tracer only");
+                 bsdf->whole ? "profiles are compared in tests/raster" : "for the path tracer only");
         return;
     }
     GlContext *context;
@@ -104,12 +104,12 @@ void parity_measure(const Subject *subject, WeftPassport *out) {
             held = held && arrays.in[k];
         }
         if (held) {
-            fill(subject, &arrays);
-            result = run(context, subject, &arrays, &error);
+            fill(bsdf, &arrays);
+            result = run(context, bsdf, &arrays, &error);
         }
         out->parity_measured = held && result == WEFT_OK;
         if (out->parity_measured) {
-            compare(subject, &arrays, out);
+            compare(bsdf, &arrays, out);
             snprintf(out->parity_words, sizeof out->parity_words, "%s", context_driver(context));
         }
         for (int k = 0; k < INPUTS; k++) free(arrays.in[k]);

@@ -2,9 +2,9 @@
 #ifndef WEFT_MEASURE_PARITY_H
 #define WEFT_MEASURE_PARITY_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 /* Fills the parity_ members of the passport of a lobe. */
-void parity_measure(const Subject *subject, WeftPassport *out);
+void parity_measure(const Bsdf *bsdf, WeftPassport *out);
 
 #endif

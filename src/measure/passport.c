@@ -7,9 +7,9 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "measure/chi_square.h"
+#include "measure/exceeds.h"
 #include "measure/furnace.h"
 #include "measure/half_floor.h"
-#include "measure/exceeds.h"
 #include "measure/parity.h"
 #include "measure/reciprocity.h"
 #include "measure/sweep.h"
@@ -28,10 +28,10 @@ enum { CELLS = 200, WHOLE_CELLS = 100, FURNACE_CELLS = 100 };
 /* What the parallel loops share. Each writes to its own places; extremes are found afterwards, in order, so
  * that threads cannot change them. */
 typedef struct Work {
-    const Subject *subject;
+    const Bsdf *bsdf;
     const WeftPassportDesc *desc;
     WeftPassport *out;
-    Subject *colored; /* the subject in a middle colour, where it is tinted; else NULL */
+    Bsdf *colored; /* the BSDF in a middle colour, where it is tinted; else NULL */
     atomic_bool short_of_memory;
 
     Reciprocity reciprocity[WEFT_PASSPORT_ROWS];
@@ -39,7 +39,7 @@ typedef struct Work {
     double missed[WEFT_PASSPORT_ROWS][WEFT_PASSPORT_VIEWS];
     bool drawn[WEFT_PASSPORT_ROWS];
     AlbedoTable sheens[WEFT_PASSPORT_SHEENS];
-    Sweep sweeps[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES];
+    Sweep sweeps[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
 } Work;
 
 /* Directional albedo. */
@@ -49,13 +49,13 @@ static void measure_albedo(void *user, int item, int thread) {
     Work *work = user;
     int row = item / WEFT_PASSPORT_COSINES, c = item % WEFT_PASSPORT_COSINES;
     Dir o = grid_direction((double)cosines[c], 0.0);
-    if (work->subject->whole) {
+    if (work->bsdf->whole) {
         View view;
-        work->subject->look(work->subject, row, o, &view);
+        work->bsdf->look(work->bsdf, row, o, &view);
         work->out->albedo[row][c] = (float)weight_albedo(&view, WHOLE_CELLS);
         return;
     }
-    Lobe lobe = subject_lobe(work->subject, row);
+    Lobe lobe = bsdf_lobe(work->bsdf, row);
     if (work->colored) {
         float tinted[3];
         albedo_in_color(&lobe, o, (const float[3]){1.0f, work->colored->albedo, 0.0f}, 1e-4, tinted);
@@ -87,9 +87,9 @@ static void find_albedo(Work *work) {
 static void measure_reciprocity(void *user, int row, int thread) {
     (void)thread;
     Work *work = user;
-    int pairs = (work->subject->whole ? 4000 : 20000) / (work->desc->quick ? 4 : 1);
+    int pairs = (work->bsdf->whole ? 4000 : 20000) / (work->desc->quick ? 4 : 1);
     Reciprocity *worst = &work->reciprocity[row];
-    *worst = reciprocity_measure(work->subject, row, pairs);
+    *worst = reciprocity_measure(work->bsdf, row, pairs);
     if (!work->colored) return;
     Reciprocity colored = reciprocity_measure(work->colored, row, pairs);
     if (exceeds_or_nan((double)colored.error, (double)worst->error)) *worst = colored;
@@ -110,7 +110,7 @@ static void find_reciprocity(Work *work) {
 static void fill_sheen(void *user, int k, int thread) {
     (void)thread;
     Work *work = user;
-    Lobe lobe = work->subject->lobe, rough = lobe_rough(lobe.id, sheens[k]);
+    Lobe lobe = work->bsdf->lobe, rough = lobe_rough(lobe.id, sheens[k]);
     lobe.params[0] = rough.params[0];
     albedo_table_fill(&work->sheens[k], &lobe, lobe.params[0], lobe.params[0], 1);
 }
@@ -121,7 +121,7 @@ static void measure_furnace(void *user, int item, int thread) {
     int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
     int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
     Dir o = grid_direction((double)views[view], 0.0);
-    Furnace f = furnace_measure(&work->subject->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS,
+    Furnace f = furnace_measure(&work->bsdf->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS,
                                 work->desc->quick ? 10000 : 300000);
     work->out->furnace[layer][k][view] = (float)f.e;
     work->out->furnace_noise[layer][k][view] = (float)f.noise;
@@ -132,7 +132,7 @@ static void measure_furnace(void *user, int item, int thread) {
 static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
 static void find_furnace(Work *work) {
-    if (work->subject->whole) return;
+    if (work->bsdf->whole) return;
     memcpy(work->out->sheens, sheens, sizeof sheens);
     int layers = 0;
     while (layers < WEFT_PASSPORT_LAYERS && weft_layer_id(layers)) layers++;
@@ -155,17 +155,17 @@ static void find_furnace(Work *work) {
 static void measure_sampling(void *user, int item, int thread) {
     (void)thread;
     Work *work = user;
-    const Subject *subject = work->subject;
+    const Bsdf *bsdf = work->bsdf;
     int row = item / WEFT_PASSPORT_VIEWS, v = item % WEFT_PASSPORT_VIEWS;
     View view;
-    subject->look(subject, row, grid_direction((double)views[v], 0.4 + v), &view);
-    Weight weight = weight_measure(&view, subject->whole ? WHOLE_CELLS : CELLS);
+    bsdf->look(bsdf, row, grid_direction((double)views[v], 0.4 + v), &view);
+    Weight weight = weight_measure(&view, bsdf->whole ? WHOLE_CELLS : CELLS);
     work->out->variance[row][v] = (float)weight.own;
     work->out->variance_cosine[row][v] = (float)weight.by_cosine;
     work->missed[row][v] = weight.missed;
     if (!work->drawn[row]) return;
     int count = work->desc->quick ? 15000 : 60000;
-    if (!chi_square_measure(&view, count, subject->whole ? 10 : 20, (uint32_t)item, &work->chi[row][v]))
+    if (!chi_square_measure(&view, count, bsdf->whole ? 10 : 20, (uint32_t)item, &work->chi[row][v]))
         work->short_of_memory = true;
 }
 
@@ -180,12 +180,12 @@ static double row_ratio(const WeftPassport *out, int row) {
 }
 
 static void find_sampling(Work *work) {
-    const Subject *subject = work->subject;
+    const Bsdf *bsdf = work->bsdf;
     WeftPassport *out = work->out;
     memcpy(out->views, views, sizeof views);
     for (int row = 0; row < out->rows; row++) /* a material's take long: the ends and the default */
-        work->drawn[row] = !work->desc->brief && (!subject->whole || row == 0 ||
-                                                  row == subject->row_default || row == out->rows - 1);
+        work->drawn[row] = !work->desc->brief &&
+                           (!bsdf->whole || row == 0 || row == bsdf->row_default || row == out->rows - 1);
     parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_VIEWS, measure_sampling, work);
     out->p = 1.0;
     for (int row = 0; row < out->rows; row++) {
@@ -194,7 +194,7 @@ static void find_sampling(Work *work) {
             out->variance_worst = (float)ratio;
             out->variance_value = out->values[row];
         }
-        if (row == subject->row_default) out->variance_ratio = (float)ratio;
+        if (row == bsdf->row_default) out->variance_ratio = (float)ratio;
         for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
             WeftPlace place = {.value = out->values[row], .cos_o = views[v]};
             if (exceeds_or_nan(work->missed[row][v], (double)out->missed * 1.0002)) {
@@ -223,7 +223,7 @@ static void measure_sweep(void *user, int setting, int thread) {
     (void)thread;
     Work *work = user;
     Sweep *sweep = &work->sweeps[setting];
-    *sweep = sweep_setting(work->subject, setting);
+    *sweep = sweep_setting(work->bsdf, setting);
     if (!work->colored) return;
     Sweep colored = sweep_setting(work->colored, setting);
     sweep->count += colored.count;
@@ -234,8 +234,8 @@ static void measure_sweep(void *user, int setting, int thread) {
 
 static void find_sweep(Work *work) {
     WeftPassport *out = work->out;
-    parallel_for(work->desc->threads, work->subject->settings, measure_sweep, work);
-    for (int k = 0; k < work->subject->settings; k++) {
+    parallel_for(work->desc->threads, work->bsdf->settings, measure_sweep, work);
+    for (int k = 0; k < work->bsdf->settings; k++) {
         out->sweep_count += work->sweeps[k].count;
         out->sweep_infinite += work->sweeps[k].infinite;
         out->sweep_negative += work->sweeps[k].negative;
@@ -243,41 +243,41 @@ static void find_sweep(Work *work) {
     }
 }
 
-/* The subject again, of what keeps half of the light. False when memory is short. */
+/* The BSDF again, of what keeps half of the light. False when memory is short. */
 static bool color_tinted(Work *work) {
-    const Subject *subject = work->subject;
-    if (subject->whole || !(weft_lobe_info(subject->lobe.id)->traits & TRAIT_TINTED)) return true;
+    const Bsdf *bsdf = work->bsdf;
+    if (bsdf->whole || !(weft_lobe_info(bsdf->lobe.id)->traits & TRAIT_TINTED)) return true;
     work->colored = malloc(sizeof *work->colored);
     if (!work->colored) return false;
-    *work->colored = *subject;
+    *work->colored = *bsdf;
     work->colored->albedo = 0.5f;
     return true;
 }
 
-bool passport_measure(const Subject *subject, const WeftPassportDesc *desc, WeftPassport *out) {
+bool passport_measure(const Bsdf *bsdf, const WeftPassportDesc *desc, WeftPassport *out) {
     Work *work = calloc(1, sizeof *work);
     if (!work) return false;
-    work->subject = subject;
+    work->bsdf = bsdf;
     work->desc = desc;
     work->out = out;
     if (!color_tinted(work)) {
         free(work);
         return false;
     }
-    out->rows = subject->rows;
-    out->row_default = subject->row_default;
-    memcpy(out->values, subject->values, sizeof out->values);
-    snprintf(out->parameter, sizeof out->parameter, "%s", subject->parameter);
+    out->rows = bsdf->rows;
+    out->row_default = bsdf->row_default;
+    memcpy(out->values, bsdf->values, sizeof out->values);
+    snprintf(out->parameter, sizeof out->parameter, "%s", bsdf->parameter);
     find_albedo(work);
     find_reciprocity(work);
     if (!desc->brief) find_furnace(work);
     find_sampling(work);
     if (!desc->brief) find_sweep(work);
-    half_floor_measure(subject, out, desc->threads);
+    half_floor_measure(bsdf, out, desc->threads);
     if (desc->no_gpu || desc->brief)
         snprintf(out->parity_words, sizeof out->parity_words, "skipped (--no-gpu)");
     else
-        parity_measure(subject, out);
+        parity_measure(bsdf, out);
     bool held = !work->short_of_memory;
     free(work->colored);
     free(work);
@@ -295,20 +295,20 @@ WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, W
     *out = (WeftPassport){.profile = profile >= 0};
     snprintf(out->id, sizeof out->id, "%s",
              profile >= 0 ? weft_profile_id(profile) : weft_lobe_info(lobe)->id);
-    Subject *subject = calloc(1, sizeof *subject);
-    bool held = subject != NULL;
+    Bsdf *bsdf = calloc(1, sizeof *bsdf);
+    bool held = bsdf != NULL;
     if (held && profile >= 0) {
-        held = subject_of_profile(subject, profile, desc->quick != 0, desc->threads);
-        snprintf(out->surface, sizeof out->surface, "%s", subject_velvet);
+        held = bsdf_of_profile(bsdf, profile, desc->quick != 0, desc->threads);
+        snprintf(out->surface, sizeof out->surface, "%s", bsdf_velvet);
     } else if (held) {
         Lobe inner = lobe_default(lobe);
         if (given) lobe_of(given, &inner);
         out->traits = weft_lobe_info(lobe)->traits;
-        subject_of_lobe(subject, &inner, desc->quick != 0);
+        bsdf_of_lobe(bsdf, &inner, desc->quick != 0);
     }
-    held = held && passport_measure(subject, desc, out);
-    if (subject) subject_free(subject);
-    free(subject);
+    held = held && passport_measure(bsdf, desc, out);
+    if (bsdf) bsdf_free(bsdf);
+    free(bsdf);
     return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, out->id, NULL);
 }
 

@@ -1,16 +1,16 @@
 #include "measure/reciprocity.h"
 
 #include "measure/draw.h"
-#include "measure/grid.h"
 #include "measure/exceeds.h"
+#include "measure/grid.h"
 
 static const double turn = 6.28318530717959;
 
-static float ask_f(const Subject *subject, int setting, Dir o, Dir i) {
+static float ask_f(const Bsdf *bsdf, int setting, Dir o, Dir i) {
     View view;
     float f;
-    subject->look(subject, setting, o, &view);
-    subject->f(&view, (Dirs){1, &i.x, &i.y, &i.z}, &f);
+    bsdf->look(bsdf, setting, o, &view);
+    bsdf->f(&view, (Dirs){1, &i.x, &i.y, &i.z}, &f);
     return f;
 }
 
@@ -20,17 +20,17 @@ static double any_cosine(Draw *draw, bool grazes) {
     return grazes ? u * u * u * u : u;
 }
 
-Reciprocity reciprocity_measure(const Subject *subject, int setting, int pairs) {
+Reciprocity reciprocity_measure(const Bsdf *bsdf, int setting, int pairs) {
     Draw draw = draw_start(2, (uint32_t)setting);
     Reciprocity worst = {0};
     for (int k = 0; k < pairs; k++) {
         double z_o = any_cosine(&draw, k % 4 == 0), z_i = any_cosine(&draw, k % 4 == 1);
         double phi = turn * (double)draw_unit(&draw), phi_o = turn * (double)draw_unit(&draw);
         Dir o = grid_direction(z_o, phi_o), i = grid_direction(z_i, phi_o + phi);
-        float f = ask_f(subject, setting, o, i), g = ask_f(subject, setting, i, o);
+        float f = ask_f(bsdf, setting, o, i), g = ask_f(bsdf, setting, i, o);
         float error = fabsf(f - g) / max(max(f, g), 1e-3f);
         if (!exceeds_or_nan((double)error, (double)worst.error)) continue;
-        float value = setting < subject->rows ? subject->values[setting] : 0.0f;
+        float value = setting < bsdf->rows ? bsdf->values[setting] : 0.0f;
         worst = (Reciprocity){error, {value, o.z, i.z, (float)(phi * (360.0 / turn))}};
     }
     return worst;

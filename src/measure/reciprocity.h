@@ -2,7 +2,7 @@
 #ifndef WEFT_MEASURE_RECIPROCITY_H
 #define WEFT_MEASURE_RECIPROCITY_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 typedef struct Reciprocity {
     float
@@ -11,6 +11,6 @@ typedef struct Reciprocity {
 } Reciprocity;
 
 /* Of one setting, over random pairs, half of which graze. */
-Reciprocity reciprocity_measure(const Subject *subject, int setting, int pairs);
+Reciprocity reciprocity_measure(const Bsdf *bsdf, int setting, int pairs);
 
 #endif

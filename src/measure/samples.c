@@ -10,13 +10,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const char *const names[WEFT_APART_COUNT] = {"cosine", "log", "picture"};
+static const char *const names[WEFT_BRDF_METRIC_COUNT] = {"cosine", "log", "picture"};
 
-const char *weft_apart_name(WeftApart metric) {
-    return (unsigned)metric < WEFT_APART_COUNT ? names[metric] : NULL;
+const char *weft_brdf_metric_name(WeftBrdfMetric metric) {
+    return (unsigned)metric < WEFT_BRDF_METRIC_COUNT ? names[metric] : NULL;
 }
 
-bool samples_create(Samples *self, int count, WeftApart metric) {
+bool samples_create(Samples *self, int count, WeftBrdfMetric metric) {
     size_t n = (size_t)count;
     *self = (Samples){.count = count, .first = count, .channels = 3, .metric = metric, .scale = 1.0f};
     self->block = n <= SIZE_MAX / 13 ? alloc_array(13 * n, sizeof(float)) : NULL;
@@ -74,7 +74,7 @@ static void put(Samples *self, int k, const double o[3], const double i[3], doub
 }
 
 /* wo uniform in cos_o^2, which is what a sphere shows, at the middles of strata, in azimuths all around. */
-static bool spread_wide(Samples *self, WeftApart metric) {
+static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
     enum { OUTS = 16, INS = 256 };
     if (!samples_create(self, OUTS * INS, metric)) return false;
     self->outs = OUTS;
@@ -97,7 +97,7 @@ static bool spread_wide(Samples *self, WeftApart metric) {
 static bool spread_pictures(Samples *self) {
     enum { SIDE = 15, LIGHTS = 4, ROOM = SIDE * SIDE * LIGHTS };
     static const double degrees[LIGHTS] = {15.0, 60.0, 105.0, 150.0};
-    if (!samples_create(self, ROOM, WEFT_APART_PICTURE)) return false;
+    if (!samples_create(self, ROOM, WEFT_BRDF_METRIC_PICTURE)) return false;
     int outs = 0;
     double normals[SIDE * SIDE][3];
     for (int p = 0; p < SIDE * SIDE; p++) {
@@ -123,8 +123,8 @@ static bool spread_pictures(Samples *self) {
     return true;
 }
 
-bool samples_spread(Samples *self, WeftApart metric) {
-    return metric == WEFT_APART_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
+bool samples_spread(Samples *self, WeftBrdfMetric metric) {
+    return metric == WEFT_BRDF_METRIC_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
 }
 
 void samples_ask(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
@@ -168,8 +168,8 @@ static float display(float linear) {
 
 static float goal_of(const Samples *self, float x) {
     switch (self->metric) {
-    case WEFT_APART_LOG: return log1pf(x / self->scale);
-    case WEFT_APART_PICTURE: return display((float)pi * x);
+    case WEFT_BRDF_METRIC_LOG: return log1pf(x / self->scale);
+    case WEFT_BRDF_METRIC_PICTURE: return display((float)pi * x);
     default: return x;
     }
 }
@@ -178,8 +178,8 @@ static float goal_of(const Samples *self, float x) {
 static float slope_of(const Samples *self, float a, float b) {
     float x = 0.5f * (a + b);
     switch (self->metric) {
-    case WEFT_APART_LOG: return 1.0f / (self->scale + x);
-    case WEFT_APART_PICTURE: {
+    case WEFT_BRDF_METRIC_LOG: return 1.0f / (self->scale + x);
+    case WEFT_BRDF_METRIC_PICTURE: {
         float y = (float)pi * x;
         return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
     }
@@ -200,7 +200,7 @@ static double whole_of(const Samples *self, int count) {
     for (int c = 0; c < self->channels; c++)
         for (int k = 0; k < count; k++)
             sum += (double)self->weight[k] *
-                   (self->metric == WEFT_APART_PICTURE ? 1.0 : (double)self->goal[c][k]);
+                   (self->metric == WEFT_BRDF_METRIC_PICTURE ? 1.0 : (double)self->goal[c][k]);
     return sum;
 }
 
@@ -218,10 +218,10 @@ void samples_settle(Samples *self) {
     self->whole[1] = whole_of(self, self->count);
 }
 
-static double channel_apart(const Samples *self, int count, int c, const float *x) {
+static double channel_distance(const Samples *self, int count, int c, const float *x) {
     double sum = 0.0;
     const float *w = self->weight, *goal = self->goal[c], *from = self->x[c];
-    if (self->metric == WEFT_APART_COSINE)
+    if (self->metric == WEFT_BRDF_METRIC_COSINE)
         for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(x[k] - from[k]));
     else
         for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(goal_of(self, x[k]) - goal[k]));
@@ -233,9 +233,9 @@ static double share(const Samples *self, int count, double sum) {
     return whole > 0.0 ? sum / whole : sum > 0.0 ? 1.0 : 0.0;
 }
 
-double samples_apart(const Samples *self, int count, const float *const x[3]) {
+double samples_distance(const Samples *self, int count, const float *const x[3]) {
     double sum = 0.0;
-    for (int c = 0; c < 3; c++) sum += channel_apart(self, count, c, x[c]) * self->channels / 3.0;
+    for (int c = 0; c < 3; c++) sum += channel_distance(self, count, c, x[c]) * self->channels / 3.0;
     return share(self, count, sum);
 }
 
@@ -317,7 +317,7 @@ static void blend_add(const Blend *blend, int count, int c, const double *weight
  * that are met from counting for everything. */
 static void weigh(const Samples *self, int count, int c, const float *x, float soft, float *w) {
     const float *from = self->x[c];
-    if (self->metric == WEFT_APART_COSINE)
+    if (self->metric == WEFT_BRDF_METRIC_COSINE)
         for (int k = 0; k < count; k++) w[k] = self->weight[k] / fmaxf(fabsf(x[k] - from[k]), soft);
     else
         for (int k = 0; k < count; k++)
@@ -341,5 +341,5 @@ double blend_solve(const Samples *self, int count, int c, const Blend *blend, do
         solve_positive(&normal, blend->columns, weights);
     }
     blend_add(blend, count, c, weights, x);
-    return share(self, count, channel_apart(self, count, c, x));
+    return share(self, count, channel_distance(self, count, c, x));
 }

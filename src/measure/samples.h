@@ -17,18 +17,18 @@ typedef struct Samples {
     float *weight;
     float *x[3];    /* what is to be met */
     float *goal[3]; /* g of it */
-    WeftApart metric;
+    WeftBrdfMetric metric;
     float scale;     /* the m of LOG */
     double whole[2]; /* what is below the line: of `first` samples, of all */
     float *block;
 } Samples;
 
 /* Room for count samples, all zero. False where memory is short; release with samples_free in any case. */
-bool samples_create(Samples *samples, int count, WeftApart metric);
+bool samples_create(Samples *samples, int count, WeftBrdfMetric metric);
 void samples_free(Samples *samples);
 
 /* The directions and weights that the metric is defined by. */
-bool samples_spread(Samples *samples, WeftApart metric);
+bool samples_spread(Samples *samples, WeftBrdfMetric metric);
 
 /* Fills x with a reflection's. */
 void samples_ask(const Samples *samples, const WeftReflection *reflection, int part, float *const x[3]);
@@ -40,7 +40,7 @@ bool samples_isotropic(const Samples *samples, const WeftReflection *reflection)
 void samples_settle(Samples *samples);
 
 /* The error of x over the first count samples: `first` or all of them. */
-double samples_apart(const Samples *samples, int count, const float *const x[3]);
+double samples_distance(const Samples *samples, int count, const float *const x[3]);
 
 /* Sums of columns whose weights are not negative, in each channel by itself. */
 enum { BLEND_MOST = 3 };

@@ -56,8 +56,9 @@ static double evaluations_most(const Search *search) {
 /* 1e30 for everything once it should end. */
 static double error_at(Walk *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
-    walk->stopped = walk->stopped || !share_tell(walk->search->share,
-                                                 (double)walk->evaluations / evaluations_most(walk->search));
+    walk->stopped =
+        walk->stopped || !progress_report(walk->search->item_progress,
+                                          (double)walk->evaluations / evaluations_most(walk->search));
     if (walk->stopped) return 1e30;
     walk->evaluations++;
     double error = walk->search->error(walk->search->user, x, care);

@@ -31,7 +31,7 @@ typedef struct Search {
     int grid;     /* points of it, 0: none */
     int descents; /* rough ones, from so many of the best, and from the caller's start */
     int most;     /* evaluations of a rough descent; careful: half of that, six times at most */
-    Share *share; /* may be NULL; where it says that the item should end, the search does */
+    ItemProgress *item_progress; /* may be NULL; where it says that the item should end, the search does */
 } Search;
 
 /* x comes as the start and leaves as the best that was found; returns its error. *evaluations (may be NULL)

@@ -56,7 +56,7 @@ static void judge(Sweep *sweep, float value, float z) {
         sweep->below++;
 }
 
-Sweep sweep_setting(const Subject *subject, int setting) {
+Sweep sweep_setting(const Bsdf *bsdf, int setting) {
     static const float corners[4] = {0.0f, 0.3f, 0.5f, 0x1.fffffep-1f};
     Sweep sweep = {0};
     Partners partners;
@@ -64,17 +64,17 @@ Sweep sweep_setting(const Subject *subject, int setting) {
     for (int k = 0; k < SWEEP_DIRS; k++) {
         View view;
         Dir o = sweep_dir(k);
-        subject->look(subject, setting, o, &view);
+        bsdf->look(bsdf, setting, o, &view);
         sweep_partners(o, k, true, &partners);
         Dirs dirs = {(size_t)partners.count, partners.x, partners.y, partners.z};
-        subject->f(&view, dirs, f);
-        subject->pdf(&view, dirs, pdf);
+        bsdf->f(&view, dirs, f);
+        bsdf->pdf(&view, dirs, pdf);
         for (int j = 0; j < partners.count; j++) {
             judge(&sweep, f[j], partners.z[j]);
             judge(&sweep, pdf[j], partners.z[j]);
         }
         for (int j = 0; j < 16; j++) {
-            Dir i = subject->sample(&view, corners[j & 3], corners[j >> 2]);
+            Dir i = bsdf->sample(&view, corners[j & 3], corners[j >> 2]);
             sweep.count++;
             sweep.infinite += !(sweep_finite(i.x) && sweep_finite(i.y) && sweep_finite(i.z));
         }

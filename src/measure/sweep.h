@@ -2,7 +2,7 @@
 #ifndef WEFT_MEASURE_SWEEP_H
 #define WEFT_MEASURE_SWEEP_H
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 /* By its bits: no compiler option can fold the question away. */
 static inline bool sweep_finite(float x) {
@@ -29,6 +29,6 @@ typedef struct Sweep {
 } Sweep;
 
 /* All pairs, and samples, of one setting. */
-Sweep sweep_setting(const Subject *subject, int setting);
+Sweep sweep_setting(const Bsdf *bsdf, int setting);
 
 #endif

@@ -10,14 +10,14 @@
 enum { WHOLE = 1000000 };
 static const long pause_ns = 50000000;
 
-bool share_tell(Share *share, double fraction) {
-    if (!share || !share->watch) return true;
+bool progress_report(ItemProgress *item_progress, double fraction) {
+    if (!item_progress || !item_progress->watch) return true;
     long long now = (long long)(fmin(fmax(fraction, 0.0), 1.0) * WHOLE);
-    if (now > share->told) {
-        atomic_fetch_add(&share->watch->done, now - share->told);
-        share->told = now;
+    if (now > item_progress->told) {
+        atomic_fetch_add(&item_progress->watch->done, now - item_progress->told);
+        item_progress->told = now;
     }
-    return !atomic_load(&share->watch->stopped);
+    return !atomic_load(&item_progress->watch->stopped);
 }
 
 /* The loop, on threads of its own. */

@@ -13,14 +13,14 @@ typedef struct Watch {
 } Watch;
 
 /* How far one item is. */
-typedef struct Share {
+typedef struct ItemProgress {
     Watch *watch; /* NULL: nobody watches */
     long long told;
-} Share;
+} ItemProgress;
 
-/* Says that this share of the item is done, where that is more than was said before. False where the item
- * should end. share may be NULL. */
-bool share_tell(Share *share, double fraction);
+/* Records that this fraction of the item is done, where that is more than was said before. False where the item
+ * should end. item_progress may be NULL. */
+bool progress_report(ItemProgress *item_progress, double fraction);
 
 /* parallel_for, while the caller's thread asks progress (may be NULL), twenty times a second. Without a
  * second thread it is asked between items. False where it was stopped. */

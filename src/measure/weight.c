@@ -8,7 +8,7 @@ double weight_albedo(const View *view, int cells) {
     grid_make(&grid, view->o, cells);
     for (int row = 0; row < cells; row++) {
         Dirs dirs = grid_ring(&grid, row, &ring);
-        view->subject->f(view, dirs, f);
+        view->bsdf->f(view, dirs, f);
         for (int c = 0; c < cells; c++) sum += (double)f[c] * (double)ring.z[c] * ring.area[c];
     }
     return sum;
@@ -30,8 +30,8 @@ Weight weight_measure(const View *view, int cells) {
     grid_make(&grid, view->o, cells);
     for (int row = 0; row < cells; row++) {
         Dirs dirs = grid_ring(&grid, row, &ring);
-        view->subject->f(view, dirs, f);
-        view->subject->pdf(view, dirs, pdf);
+        view->bsdf->f(view, dirs, f);
+        view->bsdf->pdf(view, dirs, pdf);
         for (int c = 0; c < cells; c++) {
             double p = (double)pdf[c], f_cos = (double)f[c] * (double)ring.z[c], q = (double)ring.z[c] / pi;
             double d = p > 0.0 ? f_cos / p - e : 0.0, b = f_cos / q - e;

@@ -6,7 +6,7 @@
 
 typedef struct Weight {
     double albedo;         /* E */
-    double own, by_cosine; /* variance of f cos / pdf: with the subject's sampling, with the cosine's */
+    double own, by_cosine; /* variance of f cos / pdf: with the bsdf's sampling, with the cosine's */
     double missed;         /* of E, from directions whose pdf is 0: no sample will find it */
 } Weight;
 

@@ -12,7 +12,7 @@ static const float angles[ANGLES] = {0.0f,  5.0f,  10.0f, 15.0f, 20.0f, 25.0f, 3
 
 typedef struct Row {
     const Making *making;
-    const WeftPlotSubject *subject;
+    const WeftPlotModel *model;
     float view; /* over roughness */
     const float *x;
     float *y;
@@ -29,7 +29,7 @@ static float albedo_of(const Making *making, const WeftReflection *reflection, f
 static void over_angle(void *user, int k, int thread) {
     (void)thread;
     const Row *row = user;
-    row->y[k] = albedo_of(row->making, row->subject->reflection, row->x[k]);
+    row->y[k] = albedo_of(row->making, row->model->reflection, row->x[k]);
 }
 
 static void over_roughness(void *user, int k, int thread) {
@@ -37,32 +37,32 @@ static void over_roughness(void *user, int k, int thread) {
     const Row *row = user;
     Rough rough;
     row->y[k] = NAN;
-    if (rough_make(row->subject, row->x[k], &rough))
+    if (rough_make(row->model, row->x[k], &rough))
         row->y[k] = albedo_of(row->making, rough.reflection, row->view);
     rough_free(&rough);
 }
 
-static bool angle_series(Making *making, WeftPlotPanel *panel, int subject) {
+static bool angle_series(Making *making, WeftPlotPanel *panel, int model) {
     float *x, *y;
     const int step = making->desc->quick ? QUICK : 1, count = ANGLES / step;
-    if (!making_series(making, panel, subject, count, &x, &y)) return false;
+    if (!making_series(making, panel, model, count, &x, &y)) return false;
     for (int k = 0; k < count; k++) x[k] = angles[(k + 1) * step - 1];
-    Row row = {.making = making, .subject = &making->desc->subjects[subject], .x = x, .y = y};
+    Row row = {.making = making, .model = &making->desc->models[model], .x = x, .y = y};
     parallel_for(0, count, over_angle, &row);
     return true;
 }
 
 /* Of what has a roughness. */
-static bool rough_series(Making *making, WeftPlotPanel *panel, int subject, float view) {
+static bool rough_series(Making *making, WeftPlotPanel *panel, int model, float view) {
     float *x, *y;
     Rough rough;
-    bool has_one = rough_make(&making->desc->subjects[subject], 0.5f, &rough);
+    bool has_one = rough_make(&making->desc->models[model], 0.5f, &rough);
     rough_free(&rough);
     if (!has_one) return true;
     const int count = making->desc->quick ? ROUGHS / 4 : ROUGHS;
-    if (!making_series(making, panel, subject, count, &x, &y)) return false;
+    if (!making_series(making, panel, model, count, &x, &y)) return false;
     for (int k = 0; k < count; k++) x[k] = (float)(k + 1) / (float)count;
-    Row row = {.making = making, .subject = &making->desc->subjects[subject], .view = view, .x = x, .y = y};
+    Row row = {.making = making, .model = &making->desc->models[model], .view = view, .x = x, .y = y};
     parallel_for(0, count, over_roughness, &row);
     return true;
 }
@@ -90,7 +90,7 @@ static void range_of_albedo(WeftPlotData *data, bool logarithmic) {
 WeftResult kind_albedo(Making *making) {
     const int views = making_view_count(making);
     if (!making_panels(making, 1 + views, 2)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int p = 0; p < 1 + views; p++) {
         const float view = p ? making_view(making, p - 1, 60.0f) : NAN;
         WeftPlotPanel *panel =

@@ -17,17 +17,17 @@ static WeftPlotPanel *one_panel(Making *making, float view, bool cosine) {
     return making_series_room(making, panel, making->desc->count) ? panel : NULL;
 }
 
-static bool both_series(Making *making, WeftPlotPanel *const panels[2], int subject, float view) {
+static bool both_series(Making *making, WeftPlotPanel *const panels[2], int model, float view) {
     float(*wi)[3] = arena_array(making->arena, PLANE_ANGLES, sizeof *wi);
     float(*f)[3] = arena_array(making->arena, PLANE_ANGLES, sizeof *f);
     float *x[2], *y[2], wo[3];
     if (!wi || !f) return false;
     for (int p = 0; p < 2; p++)
-        if (!making_series(making, panels[p], subject, PLANE_ANGLES, &x[p], &y[p])) return false;
+        if (!making_series(making, panels[p], model, PLANE_ANGLES, &x[p], &y[p])) return false;
     plane_angles(view, x[0]);
     direction_of_view(view, wo);
     for (int k = 0; k < PLANE_ANGLES; k++) direction_in_plane(x[0][k], wi[k]);
-    making_eval(&making->desc->subjects[subject], wo, PLANE_ANGLES, (const float(*)[3])wi,
+    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi,
                 making_walks(making, WALKS), f);
     for (int k = 0; k < PLANE_ANGLES; k++) {
         x[1][k] = x[0][k];
@@ -40,7 +40,7 @@ static bool both_series(Making *making, WeftPlotPanel *const panels[2], int subj
 WeftResult kind_cartesian(Making *making) {
     const int views = making_view_count(making);
     if (!making_panels(making, 2 * views, 2)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int k = 0; k < views; k++) {
         const float view = making_view(making, k, 60.0f);
         WeftPlotPanel *panels[2] = {one_panel(making, view, false), one_panel(making, view, true)};

@@ -8,7 +8,7 @@
 /* Middles of cells: theta_i from -90 to 90 degrees, theta_o from 0 to 90. */
 enum { COLUMNS = 180, ROWS = 90, WALKS = 64 };
 
-static bool fill(Making *making, int subject, float *values) {
+static bool fill(Making *making, int model, float *values) {
     float(*wi)[3] = arena_array(making->arena, COLUMNS, sizeof *wi);
     float(*f)[3] = arena_array(making->arena, COLUMNS, sizeof *f);
     if (!wi || !f) return false;
@@ -16,7 +16,7 @@ static bool fill(Making *making, int subject, float *values) {
     for (int row = 0; row < ROWS; row++) {
         float wo[3];
         direction_of_view(90.0f * ((float)row + 0.5f) / ROWS, wo);
-        making_eval(&making->desc->subjects[subject], wo, COLUMNS, (const float(*)[3])wi,
+        making_eval(&making->desc->models[model], wo, COLUMNS, (const float(*)[3])wi,
                     making_walks(making, WALKS), f);
         for (int k = 0; k < COLUMNS; k++) values[row * COLUMNS + k] = making_value(making, f[k]);
     }
@@ -72,7 +72,7 @@ static WeftPlotPanel *one_panel(Making *making, bool relative) {
 WeftResult kind_difference(Making *making) {
     const int cells = COLUMNS * ROWS;
     if (!making_panels(making, 2, 2)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     WeftPlotPanel *panels[2] = {one_panel(making, false), one_panel(making, true)};
     float *f[2], *values[2], *scratch = arena_array(making->arena, (size_t)cells, sizeof *scratch);
     for (int k = 0; k < 2; k++) {

@@ -78,7 +78,7 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
     return held;
 }
 
-static bool as_a_whole(Making *making, WeftPlotPanel *panel, int subject, int entry) {
+static bool as_a_whole(Making *making, WeftPlotPanel *panel, int model, int entry) {
     float *x, *y;
     const int count = count_of(making);
     if (!making_series(making, panel, entry, count, &x, &y)) return false;
@@ -86,7 +86,7 @@ static bool as_a_whole(Making *making, WeftPlotPanel *panel, int subject, int en
         float w[3], e[3];
         x[k] = angle_of(making, k);
         direction_of_view(x[k], w);
-        weft_reflection_albedo(making->desc->subjects[subject].reflection, WEFT_PART_ALL, w[2], e);
+        weft_reflection_albedo(making->desc->models[model].reflection, WEFT_PART_ALL, w[2], e);
         y[k] = making_value(making, e);
     }
     return true;
@@ -118,18 +118,18 @@ static void set_range(WeftPlotData *data) {
 WeftResult kind_furnace(Making *making) {
     const WeftPlotDesc *desc = making->desc;
     int lobes = 0, wholes = 0;
-    for (int n = 0; n < desc->count; n++) lobes += desc->subjects[n].lobe != NULL;
+    for (int n = 0; n < desc->count; n++) lobes += desc->models[n].lobe != NULL;
     wholes = desc->count - lobes;
     if (!making_panels(making, lobes + (wholes > 0), 2)) return making_short(making);
     for (int layer = 0; lobes && layer < LAYER_COUNT; layer++) making_legend(making, weft_layer_id(layer));
     for (int n = 0; n < desc->count; n++)
-        if (desc->subjects[n].lobe &&
-            !of_lobe(making, one_panel(making, making_label(making, n)), desc->subjects[n].lobe, 0))
+        if (desc->models[n].lobe &&
+            !of_lobe(making, one_panel(making, making_label(making, n)), desc->models[n].lobe, 0))
             return making_short(making);
     WeftPlotPanel *panel = wholes ? one_panel(making, "whole materials, as they are") : NULL;
     if (panel && !making_series_room(making, panel, wholes)) return making_short(making);
     for (int n = 0; n < desc->count; n++)
-        if (!desc->subjects[n].lobe &&
+        if (!desc->models[n].lobe &&
             !as_a_whole(making, panel, n, making_legend(making, making_label(making, n))))
             return making_short(making);
     set_range(making->data);

@@ -14,7 +14,7 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static bool one_surface(Making *making, WeftPlotPanel *panel, int subject, float view) {
+static bool one_surface(Making *making, WeftPlotPanel *panel, int model, float view) {
     const int phis = phis_of(making), thetas = thetas_of(making), count = phis * thetas;
     float *values = making_grid(making, panel, phis, thetas, 1), wo[3];
     float(*wi)[3] = arena_array(making->arena, (size_t)count, sizeof *wi);
@@ -29,8 +29,8 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int subject, float
             w[0] = (float)(s * cos(phi)), w[1] = (float)(s * sin(phi)), w[2] = (float)cos(theta);
         }
     direction_of_view(view, wo);
-    making_eval(&making->desc->subjects[subject], wo, count, (const float(*)[3])wi,
-                making_walks(making, WALKS), f);
+    making_eval(&making->desc->models[model], wo, count, (const float(*)[3])wi, making_walks(making, WALKS),
+                f);
     for (int k = 0; k < count; k++)
         values[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
     return true;
@@ -63,7 +63,7 @@ WeftResult kind_lobe3d(Making *making) {
     int columns = views > 1 ? views : count > 3 ? 3 : count;
     if (!scratch || !making_panels(making, views * count, columns > 3 ? 3 : columns))
         return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++) {
             const float view = making_view(making, k, 60.0f);

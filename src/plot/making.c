@@ -65,14 +65,14 @@ int making_legend(Making *making, const char *text) {
     return data->legend_count++;
 }
 
-static const char *const numbers[WEFT_PLOT_SUBJECTS_MAX] = {"1", "2", "3", "4", "5", "6", "7", "8"};
+static const char *const numbers[WEFT_PLOT_MODELS_MAX] = {"1", "2", "3", "4", "5", "6", "7", "8"};
 
-const char *making_label(const Making *making, int subject) {
-    const char *label = making->desc->subjects[subject].label;
-    return label ? label : numbers[subject];
+const char *making_label(const Making *making, int model) {
+    const char *label = making->desc->models[model].label;
+    return label ? label : numbers[model];
 }
 
-void making_subjects(Making *making) {
+void making_models(Making *making) {
     for (int k = 0; k < making->desc->count; k++) making_legend(making, making_label(making, k));
 }
 
@@ -128,7 +128,7 @@ void direction_across(float degrees, float w[3]) {
 }
 
 typedef struct Evaluation {
-    const WeftPlotSubject *subject;
+    const WeftPlotModel *model;
     const float *wo;
     const float (*wi)[3];
     float (*f)[3];
@@ -156,8 +156,8 @@ static void eval_mean(const Evaluation *self, const float wi[3], float f[3]) {
             uint32_t n = (uint32_t)(at + k);
             move(wi, unit_float(hash_combine(n, 1)), unit_float(hash_combine(n, 2)), near[k]);
         }
-        weft_reflection_eval(self->subject->reflection, WEFT_PART_ALL, self->wo, count,
-                             (const float(*)[3])near, value);
+        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, (const float(*)[3])near,
+                             value);
         for (int k = 0; k < count; k++)
             for (int c = 0; c < 3; c++) sum[c] += (double)value[k][c] / self->walks;
     }
@@ -171,14 +171,14 @@ static void eval_block(void *user, int item, int thread) {
     if (self->walks > 1)
         for (int k = 0; k < count; k++) eval_mean(self, self->wi[from + k], self->f[from + k]);
     else
-        weft_reflection_eval(self->subject->reflection, WEFT_PART_ALL, self->wo, count, self->wi + from,
+        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, self->wi + from,
                              self->f + from);
 }
 
-void making_eval(const WeftPlotSubject *subject, const float wo[3], int count, const float (*wi)[3],
-                 int walks, float (*f)[3]) {
-    bool random = subject->lobe && weft_lobe_info(subject->lobe->lobe)->traits & WEFT_LOBE_REFERENCE;
-    Evaluation evaluation = {subject, wo, wi, f, count, random ? walks : 1};
+void making_eval(const WeftPlotModel *model, const float wo[3], int count, const float (*wi)[3], int walks,
+                 float (*f)[3]) {
+    bool random = model->lobe && weft_lobe_info(model->lobe->lobe)->traits & WEFT_LOBE_REFERENCE;
+    Evaluation evaluation = {model, wo, wi, f, count, random ? walks : 1};
     parallel_for(count > BLOCK ? 0 : 1, (count + BLOCK - 1) / BLOCK, eval_block, &evaluation);
     for (int k = 0; k < count; k++)
         for (int c = 0; c < 3; c++)

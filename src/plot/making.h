@@ -46,10 +46,10 @@ WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, i
 /* A grid of values for the caller to fill. */
 float *making_grid(Making *making, WeftPlotPanel *panel, int columns, int rows, int channels);
 
-/* One more line of the legend; its number. All subjects have theirs first. */
+/* One more line of the legend; its number. All models have theirs first. */
 int making_legend(Making *making, const char *text);
-void making_subjects(Making *making);
-const char *making_label(const Making *making, int subject);
+void making_models(Making *making);
+const char *making_label(const Making *making, int model);
 
 void making_axis(WeftPlotAxis *axis, const char *label, const char *unit, float low, float high);
 __attribute__((format(printf, 3, 4))) void making_mark(WeftPlotPanel *panel, float x, const char *label, ...);
@@ -66,8 +66,8 @@ void direction_in_plane(float degrees, float w[3]);
 void direction_across(float degrees, float w[3]);
 
 /* f of many directions. Of what walks at random each is the mean of `walks` pairs within a degree. */
-void making_eval(const WeftPlotSubject *subject, const float wo[3], int count, const float (*wi)[3],
-                 int walks, float (*f)[3]);
+void making_eval(const WeftPlotModel *model, const float wo[3], int count, const float (*wi)[3], int walks,
+                 float (*f)[3]);
 
 /* So many, or a part of that where a first look is asked for. */
 int making_walks(const Making *making, int walks);
@@ -82,15 +82,15 @@ const char *making_f(const Making *making);
 enum { PLANE_STEPS = 360, PLANE_NEAR = 10, PLANE_ANGLES = PLANE_STEPS + 2 * PLANE_NEAR + 1 };
 void plane_angles(float mirror, float theta[PLANE_ANGLES]);
 
-/* A subject at another of an artist's roughness: the first parameter of a lobe, sheen_roughness of a material
+/* A model at another of an artist's roughness: the first parameter of a lobe, sheen_roughness of a material
  * that has a sheen, else roughness. Made in `out`, which has no label, and released with rough_free. False
- * where the subject has none, or memory is short. */
+ * where the model has none, or memory is short. */
 typedef struct Rough {
     WeftLobe lobe;
     WeftReflection *reflection;
-    WeftPlotSubject subject;
+    WeftPlotModel model;
 } Rough;
-bool rough_make(const WeftPlotSubject *subject, float roughness, Rough *out);
+bool rough_make(const WeftPlotModel *model, float roughness, Rough *out);
 void rough_free(Rough *rough);
 
 /* Sets high, and low of a logarithmic axis, of the y of all panels of one form so that they show their series

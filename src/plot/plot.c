@@ -40,7 +40,7 @@ static const Kind kinds[WEFT_PLOT_KINDS] = {
                           kind_sphere},
     [WEFT_PLOT_SAMPLES] = {"samples", "lobes only: histogram of what is drawn, pdf, and their ratio",
                            "Samples against their density", kind_samples},
-    [WEFT_PLOT_DIFFERENCE] = {"difference", "where in theta_o and theta_i two subjects differ", "Difference",
+    [WEFT_PLOT_DIFFERENCE] = {"difference", "where in theta_o and theta_i two models differ", "Difference",
                               kind_difference},
 };
 
@@ -55,11 +55,11 @@ const char *weft_plot_kind_help(int kind) {
 /* What is wrong with a descriptor; NULL: nothing. */
 static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->kind < 0 || desc->kind >= WEFT_PLOT_KINDS) return "there is no such kind";
-    if (!desc->subjects || desc->count < 1 || desc->count > WEFT_PLOT_SUBJECTS_MAX)
-        return "a figure has 1 to 8 subjects";
+    if (!desc->models || desc->count < 1 || desc->count > WEFT_PLOT_MODELS_MAX)
+        return "a figure has 1 to 8 models";
     for (int k = 0; k < desc->count; k++)
-        if (!desc->subjects[k].reflection) return "a subject has no reflection";
-    if (desc->kind == WEFT_PLOT_DIFFERENCE && desc->count != 2) return "a difference is of two subjects";
+        if (!desc->models[k].reflection) return "a model has no reflection";
+    if (desc->kind == WEFT_PLOT_DIFFERENCE && desc->count != 2) return "a difference is of two models";
     if (desc->view_count < 0 || desc->view_count > WEFT_PLOT_VIEWS_MAX) return "a figure has up to 6 views";
     for (int k = 0; k < desc->view_count; k++)
         if (!(desc->views[k] >= 0.0f && desc->views[k] < (desc->kind == WEFT_PLOT_SPHERE ? 180.0f : 90.0f)))
@@ -70,17 +70,17 @@ static const char *complaint(const WeftPlotDesc *desc) {
         return "a side has up to 8192 pixels";
     if (desc->kind == WEFT_PLOT_SAMPLES)
         for (int k = 0; k < desc->count; k++)
-            if (!desc->subjects[k].lobe) return "only lobes are sampled by themselves";
+            if (!desc->models[k].lobe) return "only lobes are sampled by themselves";
     return NULL;
 }
 
-/* The kind's own title names the one subject there is. */
+/* The kind's own title names the one model there is. */
 static void make_title(const WeftPlotDesc *desc, WeftPlotData *data) {
     const char *own = kinds[desc->kind].title;
     if (desc->title)
         snprintf(data->title, sizeof data->title, "%s", desc->title);
-    else if (desc->count == 1 && desc->subjects[0].label)
-        snprintf(data->title, sizeof data->title, "%s: %.128s", own, desc->subjects[0].label);
+    else if (desc->count == 1 && desc->models[0].label)
+        snprintf(data->title, sizeof data->title, "%s: %.128s", own, desc->models[0].label);
     else
         snprintf(data->title, sizeof data->title, "%s", own);
 }

@@ -81,7 +81,7 @@ static WeftResult image_put(Vector *page, const WeftPlotDesc *desc, WeftError *e
 static void labels_put(Vector *page, const WeftPlotDesc *desc) {
     for (int k = 0; k < desc->count; k++) {
         if (k) vector_print(page, ", ");
-        vector_escaped(page, desc->subjects[k].label ? desc->subjects[k].label : "subject");
+        vector_escaped(page, desc->models[k].label ? desc->models[k].label : "model");
     }
 }
 
@@ -95,7 +95,7 @@ static WeftResult figure_put(Vector *page, const WeftPlotDesc *desc, WeftError *
     return result;
 }
 
-/* E of every subject, as one reads it off the figure. */
+/* E of every model, as one reads it off the figure. */
 static void table_put(Vector *page, const WeftPlotDesc *desc) {
     static const float angles[] = {0.0f, 30.0f, 45.0f, 60.0f, 75.0f, 85.0f};
     enum { ANGLES = sizeof angles / sizeof *angles };
@@ -106,11 +106,11 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
     vector_print(page, "</tr>\n");
     for (int n = 0; n < desc->count; n++) {
         vector_print(page, "<tr><th>");
-        vector_escaped(page, desc->subjects[n].label ? desc->subjects[n].label : "subject");
+        vector_escaped(page, desc->models[n].label ? desc->models[n].label : "model");
         vector_print(page, "</th>");
         for (int k = 0; k < ANGLES; k++) {
             float e[3];
-            weft_reflection_albedo(desc->subjects[n].reflection, WEFT_PART_ALL,
+            weft_reflection_albedo(desc->models[n].reflection, WEFT_PART_ALL,
                                    (float)cos((double)angles[k] * 0.017453292519943295), e);
             vector_print(page, "<td>%.4f</td>",
                          0.2126 * (double)e[0] + 0.7152 * (double)e[1] + 0.0722 * (double)e[2]);
@@ -122,14 +122,14 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
                  "comes back.</p>\n");
 }
 
-/* Whether a kind has something to show, and of which subjects. */
-static bool serves(WeftPlotDesc *desc, WeftPlotSubject *chosen) {
+/* Whether a kind has something to show, and of which models. */
+static bool serves(WeftPlotDesc *desc, WeftPlotModel *chosen) {
     int count = 0;
     if (desc->kind == WEFT_PLOT_DIFFERENCE) return desc->count == 2;
     if (desc->kind != WEFT_PLOT_SAMPLES) return true;
     for (int k = 0; k < desc->count; k++)
-        if (desc->subjects[k].lobe) chosen[count++] = desc->subjects[k];
-    desc->subjects = chosen;
+        if (desc->models[k].lobe) chosen[count++] = desc->models[k];
+    desc->models = chosen;
     desc->count = count;
     return count > 0;
 }
@@ -137,7 +137,7 @@ static bool serves(WeftPlotDesc *desc, WeftPlotSubject *chosen) {
 static void links_put(Vector *page, const WeftPlotDesc *desc) {
     vector_print(page, "<nav><a href=\"#numbers\">numbers</a>");
     for (int k = 0; k < WEFT_PLOT_KINDS; k++) {
-        WeftPlotSubject chosen[WEFT_PLOT_SUBJECTS_MAX];
+        WeftPlotModel chosen[WEFT_PLOT_MODELS_MAX];
         WeftPlotDesc one = *desc;
         one.kind = (WeftPlotKind)k;
         const char *name = weft_plot_kind_name(k);
@@ -167,7 +167,7 @@ static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *e
     links_put(page, desc);
     table_put(page, desc);
     for (int k = 0; k < WEFT_PLOT_KINDS && result == WEFT_OK; k++) {
-        WeftPlotSubject chosen[WEFT_PLOT_SUBJECTS_MAX];
+        WeftPlotModel chosen[WEFT_PLOT_MODELS_MAX];
         WeftPlotDesc one = *desc;
         one.kind = (WeftPlotKind)k;
         one.title = "";

@@ -5,11 +5,11 @@
 
 enum { WALKS = 4000 };
 
-static bool one_series(Making *making, WeftPlotPanel *panel, int subject, float view, bool across) {
+static bool one_series(Making *making, WeftPlotPanel *panel, int model, float view, bool across) {
     float(*wi)[3] = arena_array(making->arena, PLANE_ANGLES, sizeof *wi);
     float(*f)[3] = arena_array(making->arena, PLANE_ANGLES, sizeof *f);
     float *x, *y, wo[3];
-    if (!wi || !f || !making_series(making, panel, subject, PLANE_ANGLES, &x, &y)) return false;
+    if (!wi || !f || !making_series(making, panel, model, PLANE_ANGLES, &x, &y)) return false;
     plane_angles(across ? 0.0f : view, x);
     direction_of_view(view, wo);
     for (int k = 0; k < PLANE_ANGLES; k++)
@@ -17,7 +17,7 @@ static bool one_series(Making *making, WeftPlotPanel *panel, int subject, float 
             direction_across(x[k], wi[k]);
         else
             direction_in_plane(x[k], wi[k]);
-    making_eval(&making->desc->subjects[subject], wo, PLANE_ANGLES, (const float(*)[3])wi,
+    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi,
                 making_walks(making, WALKS), f);
     for (int k = 0; k < PLANE_ANGLES; k++)
         y[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
@@ -27,7 +27,7 @@ static bool one_series(Making *making, WeftPlotPanel *panel, int subject, float 
 WeftResult kind_polar(Making *making) {
     const int views = making_view_count(making);
     if (!making_panels(making, 2 * views, 2)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int k = 0; k < 2 * views; k++) {
         const bool across = k % 2 != 0;
         const float view = making_view(making, k / 2, 60.0f);

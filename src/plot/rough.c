@@ -18,19 +18,19 @@ static bool rough_material(const WeftMaterial *given, float roughness, WeftRefle
            weft_reflection_create(&material, out, NULL) == WEFT_OK;
 }
 
-bool rough_make(const WeftPlotSubject *subject, float roughness, Rough *out) {
+bool rough_make(const WeftPlotModel *model, float roughness, Rough *out) {
     *out = (Rough){.reflection = NULL};
-    if (subject->lobe) {
-        const WeftLobeInfo *info = weft_lobe_info(subject->lobe->lobe);
+    if (model->lobe) {
+        const WeftLobeInfo *info = weft_lobe_info(model->lobe->lobe);
         if (info->param_count < 1 || info->params[0].choices) return false;
-        out->lobe = *subject->lobe;
-        out->lobe.params[0] = lobe_rough(subject->lobe->lobe, roughness).params[0];
+        out->lobe = *model->lobe;
+        out->lobe.params[0] = lobe_rough(model->lobe->lobe, roughness).params[0];
         if (weft_reflection_of_lobe(&out->lobe, &out->reflection, NULL) != WEFT_OK) return false;
-    } else if (!subject->material || !rough_material(subject->material, roughness, &out->reflection)) {
+    } else if (!model->material || !rough_material(model->material, roughness, &out->reflection)) {
         return false;
     }
-    out->subject = (WeftPlotSubject){
-        .reflection = out->reflection, .lobe = subject->lobe ? &out->lobe : NULL, .label = subject->label};
+    out->model = (WeftPlotModel){
+        .reflection = out->reflection, .lobe = model->lobe ? &out->lobe : NULL, .label = model->label};
     return true;
 }
 

@@ -33,7 +33,7 @@ static int cell_of(const float w[3]) {
     return row * PHIS + column;
 }
 
-static void draw_all(const WeftPlotSubject *subject, const float wo[3], Histogram *out) {
+static void draw_all(const WeftPlotModel *model, const float wo[3], Histogram *out) {
     double sum = 0.0;
     for (uint32_t k = 0; k < (uint32_t)out->count; k++) {
         /* strata in u, a hash in v: a histogram with less noise of its own */
@@ -41,10 +41,10 @@ static void draw_all(const WeftPlotSubject *subject, const float wo[3], Histogra
                       unit_float(hash_combine(k, 12))};
         float wi[1][3], f[1][3];
         u[0] = fminf(u[0], 0.99999994f);
-        float pdf = weft_lobe_sample(subject->lobe, wo, u, wi[0]);
+        float pdf = weft_lobe_sample(model->lobe, wo, u, wi[0]);
         if (!(pdf > 0.0f) || !(wi[0][2] > 0.0f)) continue;
         out->seen[cell_of(wi[0])] += 1.0f;
-        weft_reflection_eval(subject->reflection, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
+        weft_reflection_eval(model->reflection, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
         float value = (0.2126f * f[0][0] + 0.7152f * f[0][1] + 0.0722f * f[0][2]) * wi[0][2] / pdf;
         if (isfinite(value)) sum += (double)value;
     }
@@ -66,13 +66,12 @@ static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int 
     return sum / (points * points);
 }
 
-static void compare_all(const WeftPlotSubject *subject, const float wo[3], Histogram *out) {
+static void compare_all(const WeftPlotModel *model, const float wo[3], Histogram *out) {
     const float least = 50.0f; /* samples expected in a cell for a ratio to say something */
     for (int row = 0; row < THETAS; row++)
         for (int k = 0; k < PHIS; k++) {
             const int at = row * PHIS + k;
-            const double angle = cell_solid_angle(row),
-                         pdf = cell_pdf(subject->lobe, wo, out->points, row, k);
+            const double angle = cell_solid_angle(row), pdf = cell_pdf(model->lobe, wo, out->points, row, k);
             out->integral += pdf * angle;
             out->pdf[at] = (float)pdf;
             out->ratio[at] = (float)((double)out->seen[at] / (pdf * angle * out->count));
@@ -83,19 +82,19 @@ static void compare_all(const WeftPlotSubject *subject, const float wo[3], Histo
 
 /* p of the passport's test, whose bins crowd where the lobe is narrow. */
 static double test(const WeftLobe *given, float view, int count) {
-    Subject *subject = alloc_array(1, sizeof *subject);
+    Model *model = alloc_array(1, sizeof *model);
     ChiSquare found = {.p = (double)NAN};
     View look;
-    if (!subject) return (double)NAN;
+    if (!model) return (double)NAN;
     Lobe lobe = lobe_default(given->lobe);
     for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&lobe, k, given->params[k]);
-    subject_of_lobe(subject, &lobe, true);
-    subject->rows = 1;
-    subject->values[0] = lobe.params[0];
-    subject->look(subject, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
+    model_of_lobe(model, &lobe, true);
+    model->rows = 1;
+    model->values[0] = lobe.params[0];
+    model->look(model, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
     if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = (double)NAN;
-    subject_free(subject);
-    free(subject);
+    model_free(model);
+    free(model);
     return found.p;
 }
 
@@ -139,21 +138,21 @@ static bool one_row(Making *making, int n, float view) {
                        .pdf = values[1],
                        .ratio = values[2]};
     direction_of_view(view, wo);
-    draw_all(&making->desc->subjects[n], wo, &found);
-    compare_all(&making->desc->subjects[n], wo, &found);
+    draw_all(&making->desc->models[n], wo, &found);
+    compare_all(&making->desc->models[n], wo, &found);
     set_ranges(making, panels);
     making_figure(panels[0], "samples", "", found.count);
     making_figure(panels[0], "mean f cos / pdf", "", found.weight);
     making_figure(panels[1], "integral", "", found.integral);
     making_figure(panels[2], "p of chi-square", "",
-                  test(making->desc->subjects[n].lobe, view, quick ? TESTED / 6 : TESTED));
+                  test(making->desc->models[n].lobe, view, quick ? TESTED / 6 : TESTED));
     return true;
 }
 
 WeftResult kind_samples(Making *making) {
     const int views = making_view_count(making), count = making->desc->count;
     if (!making_panels(making, 3 * views * count, 3)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++)
             if (!one_row(making, n, making_view(making, k, 60.0f))) return making_short(making);

@@ -21,7 +21,7 @@ static void pair(int side, int row, int column, float wo[3], float wi[3]) {
     wi[2] = wo[2] = (float)(cos(h) * cos(d));
 }
 
-static bool one_map(Making *making, WeftPlotPanel *panel, int subject) {
+static bool one_map(Making *making, WeftPlotPanel *panel, int model) {
     const bool colored = panel->colored != 0;
     const int side = side_of(making);
     float *values = making_grid(making, panel, side, side, colored ? 3 : 1);
@@ -30,7 +30,7 @@ static bool one_map(Making *making, WeftPlotPanel *panel, int subject) {
         for (int k = 0; k < side; k++) {
             float wo[3], wi[1][3], f[1][3];
             pair(side, row, k, wo, wi[0]);
-            making_eval(&making->desc->subjects[subject], wo, 1, (const float(*)[3])wi,
+            making_eval(&making->desc->models[model], wo, 1, (const float(*)[3])wi,
                         making_walks(making, WALKS), f);
             float *to = values + (colored ? 3 : 1) * (row * side + k);
             *to = making_value(making, f[0]);
@@ -80,7 +80,7 @@ static void set_ranges(Making *making) {
 WeftResult kind_slice(Making *making) {
     const int count = making->desc->count;
     if (!making_panels(making, count, count > 2 ? 3 : count)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     for (int n = 0; n < count; n++) {
         WeftPlotPanel *panel = making_panel(making, WEFT_PLOT_MAP,
                                             "%s, \xcf\x86"

@@ -1,4 +1,4 @@
-/* sphere.c - a sphere in the light of one direction, as each subject reflects it, and at other roughnesses;
+/* sphere.c - a sphere in the light of one direction, as each model reflects it, and at other roughnesses;
  * what has none, as a measurement, in other lights
  *
  * Seen from far away; the light lies above to the left and gives pi of irradiance, so that white Lambert is 1
@@ -18,7 +18,7 @@ static const float backdrop = 0.02f;
 
 typedef struct Ball {
     const Making *making;
-    const WeftPlotSubject *subject;
+    const WeftPlotModel *model;
     float light[3];
     int side, walks;
     float *values; /* of its corner */
@@ -37,7 +37,7 @@ static void radiance(const Ball *ball, float x, float y, float color[3]) {
     float wi[1][3] = {{dot(ball->light, t), dot(ball->light, b), dot(ball->light, n)}}, f[1][3];
     for (int c = 0; c < 3; c++) color[c] = 0.0f;
     if (!(wo[2] > 0.0f && wi[0][2] > 0.0f)) return;
-    making_eval(ball->subject, wo, 1, (const float(*)[3])wi, ball->walks, f);
+    making_eval(ball->model, wo, 1, (const float(*)[3])wi, ball->walks, f);
     for (int c = 0; c < 3; c++) color[c] = isfinite(f[0][c]) ? f[0][c] * wi[0][2] * 3.14159265f : 0.0f;
 }
 
@@ -73,11 +73,11 @@ static void set_light(Ball *ball, float angle) {
     ball->light[2] = (float)cos(radians);
 }
 
-/* One ball of a strip: the subject as it is, then at other roughnesses or in other lights. */
-static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotSubject *subject, int k, float angle) {
+/* One ball of a strip: the model as it is, then at other roughnesses or in other lights. */
+static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotModel *model, int k, float angle) {
     Rough rough = {.reflection = NULL};
-    bool rougher = k > 0 && rough_make(subject, roughs[k - 1], &rough);
-    ball->subject = rougher ? &rough.subject : subject;
+    bool rougher = k > 0 && rough_make(model, roughs[k - 1], &rough);
+    ball->model = rougher ? &rough.model : model;
     set_light(ball, k == 0 || rougher ? angle : lights[k - 1]);
     if (k == 0)
         snprintf(panel->cells[k], sizeof panel->cells[k], "as given");
@@ -89,20 +89,20 @@ static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotSubject *su
     rough_free(&rough);
 }
 
-static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotSubject *subject, float angle,
+static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotModel *model, float angle,
                       float *values) {
     Ball ball = {.making = making, .side = panel->rows, .walks = making_walks(making, WALKS)};
     panel->cell_count = CELLS;
     for (int k = 0; k < CELLS; k++) {
         ball.values = values + 3 * k * panel->rows;
-        one_ball(&ball, panel, subject, k, angle);
+        one_ball(&ball, panel, model, k, angle);
     }
 }
 
 WeftResult kind_sphere(Making *making) {
     const int views = making_view_count(making), count = making->desc->count;
     if (!making_panels(making, views * count, 1)) return making_short(making);
-    making_subjects(making);
+    making_models(making);
     const int side = making->desc->quick ? SIDE_QUICK : SIDE;
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++) {
@@ -113,7 +113,7 @@ WeftResult kind_sphere(Making *making) {
             float *values = making_grid(making, panel, CELLS * side, side, 3);
             if (!values) return making_short(making);
             panel->colored = 1;
-            one_strip(making, panel, &making->desc->subjects[n], angle, values);
+            one_strip(making, panel, &making->desc->models[n], angle, values);
         }
     snprintf(making->data->note, sizeof making->data->note,
              "irradiance \xcf\x80, tone-mapped (PBR Neutral); roughness as an artist sets it");

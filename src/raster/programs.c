@@ -188,7 +188,7 @@ static void build(Programs *programs, const GlContext *context, Job *jobs, int c
     Batch batch = {.jobs = jobs, .count = count};
     for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
     share_contexts(&batch, context, programs->fits.threads);
-    if (batch.threads) run_apart(compile_all, &batch);
+    if (batch.threads) run_in_thread(compile_all, &batch);
     for (int k = 0; k < batch.threads; k++) context_destroy(batch.contexts[k]);
     for (int k = 0; k < count; k++) {
         /* where no context is shared, or a thread could not enter its own */

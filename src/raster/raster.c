@@ -554,7 +554,7 @@ static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) 
     return start_occlusion(self, true, NULL, error);
 }
 
-WeftResult weft_raster_settle(WeftRaster *self, WeftError *error) {
+WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
     GlOuter outer;
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;

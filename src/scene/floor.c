@@ -25,7 +25,7 @@ Floor floor_of(const WeftScene *scene, const WeftFloor *wanted) {
                    .roughness = wanted->roughness};
 }
 
-float floor_share(const Floor *floor, Vec3 point) {
+float floor_coverage(const Floor *floor, Vec3 point) {
     float x = point.x - floor->middle.x, z = point.z - floor->middle.z;
     float s = fminf(fmaxf(2.0f - 2.0f * sqrtf(x * x + z * z) / floor->radius, 0.0f), 1.0f);
     return s * s * (3.0f - 2.0f * s);
@@ -35,5 +35,5 @@ float floor_distance(const Floor *floor, Vec3 origin, Vec3 direction) {
     if (!floor->there || !(direction.y < 0.0f) || !(origin.y > floor->middle.y)) return -1.0f;
     float t = (floor->middle.y - origin.y) / direction.y;
     Vec3 point = vec3_madd(origin, direction, t);
-    return floor_share(floor, point) > 0.0f ? t : -1.0f;
+    return floor_coverage(floor, point) > 0.0f ? t : -1.0f;
 }

@@ -22,7 +22,7 @@ Floor floor_of(const WeftScene *scene, const WeftFloor *wanted);
 
 /* The share of what it catches that a point of the floor shows: 1 up to half of the radius, 0 at the rim,
  * between them s^2 (3 - 2 s). */
-float floor_share(const Floor *floor, Vec3 point);
+float floor_coverage(const Floor *floor, Vec3 point);
 
 /* The distance along a ray from above to the floor; below 0 where it meets none. */
 float floor_distance(const Floor *floor, Vec3 origin, Vec3 direction);

@@ -6,7 +6,7 @@
 #include "base/fail.h"
 #include "weft/material.h"
 
-int picture_share(WeftScene *scene, Texture texture) {
+int texture_number_of(WeftScene *scene, Texture texture) {
     size_t count = (size_t)scene->texture_count;
     Texture *textures = arena_array(&scene->arena, count + 1, sizeof *textures);
     if (!textures) return 0;
@@ -21,7 +21,7 @@ int picture_add(WeftScene *scene, WeftImage *image, Texture like) {
     WeftImage *images = arena_array(&scene->arena, count + 1, sizeof *images);
     if (!images) return 0;
     like.image = scene->image_count;
-    int number = picture_share(scene, like);
+    int number = texture_number_of(scene, like);
     if (!number) return 0;
     if (count) memcpy(images, scene->images, count * sizeof *images);
     images[count] = *image;

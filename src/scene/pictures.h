@@ -9,7 +9,7 @@
 int picture_add(WeftScene *scene, WeftImage *image, Texture like);
 
 /* Another texture of an image that is there already, likewise. */
-int picture_share(WeftScene *scene, Texture texture);
+int texture_number_of(WeftScene *scene, Texture texture);
 
 /* Puts pixels in the place of an image's, zeroes *fresh, and marks all textures of it as changed and of that
  * file, or NULL: of none. path must live as long as the scene. */

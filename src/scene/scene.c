@@ -56,7 +56,7 @@ WeftSceneInfo weft_scene_info(const WeftScene *scene) {
     return info;
 }
 
-int weft_scene_material_worn(const WeftScene *scene, int index) {
+int weft_scene_material_used(const WeftScene *scene, int index) {
     for (int m = 0; m < scene_own_meshes(scene); m++)
         if (scene->meshes[m].material == index && scene->meshes[m].triangle_count) return 1;
     return 0;

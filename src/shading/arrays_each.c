@@ -3,7 +3,7 @@
  *
  * What depends on parameters alone is made anew for each element, so these take longer than those of
  * arrays.c, which make it once. */
-#define FN_APART FN /* no loop of vectors has a call */
+#define FN_NOINLINE FN /* no loop of vectors has a call */
 #include "shading/each.h"
 #include "shading/loop.h"
 #include "shading/registry.h"

@@ -14,7 +14,7 @@
 #if defined(GL_ES) || defined(GL_core_profile) /* predefined by every GLSL compiler */
 
 #define FN
-#define FN_APART
+#define FN_NOINLINE
 #define STRUCT(Name) struct Name
 #define UNION(Name)  struct Name /* GLSL has no unions: all members, of which a shader reads one */
 
@@ -41,8 +41,8 @@
 #endif
 /* One that is to stay out of its callers: long text that runs once for many pairs, or has loops, which only
  * lobes with TRAIT_REFERENCE may. A file in which it runs for each pair says otherwise. */
-#ifndef FN_APART
-#define FN_APART static __attribute__((noinline, unused))
+#ifndef FN_NOINLINE
+#define FN_NOINLINE static __attribute__((noinline, unused))
 #endif
 #define STRUCT(Name)                                                                                         \
     typedef struct Name Name;                                                                                \

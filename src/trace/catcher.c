@@ -34,7 +34,7 @@ static bool mirrored(const PathContext *context, const Floor *floor, Vec3 point,
 void catcher_sample(const PathContext *context, const Floor *floor, const Ray *ray, float t,
                     const float behind[4], Sampler *sampler, Caught *caught, float sum[4], long long *rays) {
     Vec3 point = vec3_madd(ray->origin, ray->direction, t);
-    float share = floor_share(floor, point), r = share * floor->reflection, c = 0.0f;
+    float share = floor_coverage(floor, point), r = share * floor->reflection, c = 0.0f;
     Rgb mirror = {0};
     TwoPoints two = sampler_next(sampler), four = sampler_next(sampler);
     const Point uv[LIGHT_GROUPS] = {two.first, two.second, four.first};

@@ -179,8 +179,8 @@ static void wear_folders(Loaded *loaded, const WeftLog *log) {
         char target[16];
         WeftError error = {0};
         snprintf(target, sizeof target, "%d", folders->materials[k]);
-        WeftResult result = weft_scene_wear_folder(loaded->scene, folders->materials[k] < 0 ? NULL : target,
-                                                   folders->paths[k], NULL, log, &error);
+        WeftResult result = weft_scene_bind_maps(loaded->scene, folders->materials[k] < 0 ? NULL : target,
+                                                 folders->paths[k], NULL, log, &error);
         if (result != WEFT_OK) log->fn(log->user, error.message, error.text);
         if (result != WEFT_OK) continue;
         memmove(folders->paths[kept], folders->paths[k], LOOK_PATH);

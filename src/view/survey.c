@@ -10,7 +10,7 @@ float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *cam
     columns = columns < 1 ? 1 : columns > 4 * ROWS ? 4 * ROWS : columns;
     float *shares = calloc((size_t)count + 1, sizeof *shares);
     if (!shares) return NULL;
-    for (int k = 0; k < count; k++) shares[k] = weft_scene_material_worn(scene, k) ? 0.0f : -1.0f;
+    for (int k = 0; k < count; k++) shares[k] = weft_scene_material_used(scene, k) ? 0.0f : -1.0f;
     for (int y = 0; y < ROWS; y++)
         for (int x = 0; x < columns; x++) {
             WeftPicked at;

@@ -105,8 +105,8 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
     truth_hold(self->truth);
     switch (task->kind) {
     case TASK_WEAR:
-        result = weft_scene_wear_folder(self->scene, task->index < 0 ? NULL : target, task->path,
-                                        &news->index, &log, error);
+        result = weft_scene_bind_maps(self->scene, task->index < 0 ? NULL : target, task->path, &news->index,
+                                      &log, error);
         snprintf(news->text, sizeof news->text, "%d maps of %.400s", news->index, task->path);
         snprintf(news->path, sizeof news->path, "%s", task->path);
         if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
@@ -117,7 +117,8 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
             snprintf(target + used, sizeof target - used, ".%s", weft_material_input_name(task->input));
             result = weft_scene_set_texture(self->scene, target, task->path, &log, error);
         } else {
-            result = weft_scene_dress(self->scene, task->index < 0 ? NULL : target, task->path, &log, error);
+            result = weft_scene_assign_material(self->scene, task->index < 0 ? NULL : target, task->path,
+                                                &log, error);
             if (result == WEFT_OK && task->index >= 0)
                 look_set_preset(&self->is, task->index, preset_of(task->path));
         }

@@ -1,4 +1,4 @@
-/* parallel_for does every item once, whatever the number of threads; run_apart is past when it returns */
+/* parallel_for does every item once, whatever the number of threads; run_in_thread is past when it returns */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -77,7 +77,7 @@ static void note_thread(void *user) { *(pthread_t *)user = pthread_self(); }
 static void work_apart_is_done_in_another_thread(void **state) {
     (void)state;
     pthread_t thread = pthread_self();
-    run_apart(note_thread, &thread);
+    run_in_thread(note_thread, &thread);
     assert_false(pthread_equal(thread, pthread_self()));
 }
 

@@ -33,22 +33,22 @@ static void assert_has(const char *path, const char *part) {
     free(text);
 }
 
-static void all_subjects_are_found(void **state) {
+static void all_models_are_found(void **state) {
     (void)state;
-    static const char *const subjects[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
-                                              {"khronos", "weft_khronos_shade"},
-                                              {"metallic", "weft_metallic_shade"},
-                                              {"velvet", "weft_velvet_shade"},
-                                              {"preset:silk", "weft_silk_shade"},
-                                              {"scene.gltf", "weft_cloth_shade"},
-                                              {"scene.gltf:cloth", "weft_cloth_shade"},
-                                              {"scene.gltf:0", "weft_cloth_shade"},
-                                              {"own.json", "weft_own_shade"}};
+    static const char *const models[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
+                                            {"khronos", "weft_khronos_shade"},
+                                            {"metallic", "weft_metallic_shade"},
+                                            {"velvet", "weft_velvet_shade"},
+                                            {"preset:silk", "weft_silk_shade"},
+                                            {"scene.gltf", "weft_cloth_shade"},
+                                            {"scene.gltf:cloth", "weft_cloth_shade"},
+                                            {"scene.gltf:0", "weft_cloth_shade"},
+                                            {"own.json", "weft_own_shade"}};
     static const char own[] = "{\"base_color\": [0.5, 0.25, 0.125], \"sheen_color\": [1, 0.5, 0.25]}";
     file_make("own.json", own, sizeof own - 1);
-    for (size_t k = 0; k < sizeof subjects / sizeof subjects[0]; k++) {
-        finish(done(LIST("export", subjects[k][0], "--target", "c", "-o", "out.h")));
-        assert_has("out.h", subjects[k][1]);
+    for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
+        finish(done(LIST("export", models[k][0], "--target", "c", "-o", "out.h")));
+        assert_has("out.h", models[k][1]);
         assert_has("out.h", "SPDX-License-Identifier: MIT");
         assert_has("out.h", "Conventions");
     }
@@ -80,7 +80,7 @@ static void options_are_heeded(void **state) {
     ran_free(&ran);
 }
 
-static void several_subjects_make_one_file(void **state) {
+static void several_models_make_one_file(void **state) {
     (void)state;
     finish(done(LIST("export", "khronos", "velvet", "ggx", "--target", "hlsl", "-o", "all.hlsl")));
     assert_has("all.hlsl", "weft_khronos_shade(");
@@ -289,9 +289,9 @@ static void nonsense_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_is_complete),
-        cmocka_unit_test(all_subjects_are_found),
+        cmocka_unit_test(all_models_are_found),
         cmocka_unit_test(options_are_heeded),
-        cmocka_unit_test(several_subjects_make_one_file),
+        cmocka_unit_test(several_models_make_one_file),
         cmocka_unit_test(tables_are_read_back),
         cmocka_unit_test(png_is_scaled),
         cmocka_unit_test(nonsense_is_refused),

@@ -35,7 +35,7 @@ static void every_kind_is_written(void **state) {
     }
 }
 
-static void subjects_of_all_kinds_stand_together(void **state) {
+static void models_of_all_kinds_stand_together(void **state) {
     (void)state;
     Ran ran =
         RUN("plot", "polar", "fibre", "three:sheen_roughness=0.4", "preset:velvet", "--view", "30", "--view",
@@ -142,7 +142,7 @@ static void wrong_commands_are_refused(void **state) {
     assert_complaint(NULL, LIST("plot", "polar", "ggx:alhpa=1", "-o", "a.png"), 2, "alhpa");
     assert_complaint(NULL, LIST("plot", "polar", "none.binary", "-o", "a.png"), 3,
                      "none.binary: cannot be opened");
-    assert_complaint(NULL, LIST("plot", "difference", "ggx", "-o", "a.png"), 2, "is of two subjects, not 1");
+    assert_complaint(NULL, LIST("plot", "difference", "ggx", "-o", "a.png"), 2, "is of two models, not 1");
     assert_complaint(NULL, LIST("plot", "difference", "ggx", "ggx", "ggx", "-o", "a.png"), 2, "not 3");
     assert_complaint(NULL, LIST("plot", "samples", "three", "-o", "a.png"), 2, "three: is not a lobe");
     assert_complaint(NULL, LIST("plot", "polar", "ggx", "-o", "a.jpg"), 2, "a plot is a .png, .svg or .pdf");
@@ -186,12 +186,9 @@ static void help_lists_the_kinds(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_is_written),
-        cmocka_unit_test(subjects_of_all_kinds_stand_together),
-        cmocka_unit_test(json_is_what_is_drawn),
-        cmocka_unit_test(csv_is_a_table),
-        cmocka_unit_test(two_runs_write_the_same_bytes),
-        cmocka_unit_test(wrong_commands_are_refused),
+        cmocka_unit_test(every_kind_is_written),         cmocka_unit_test(models_of_all_kinds_stand_together),
+        cmocka_unit_test(json_is_what_is_drawn),         cmocka_unit_test(csv_is_a_table),
+        cmocka_unit_test(two_runs_write_the_same_bytes), cmocka_unit_test(wrong_commands_are_refused),
         cmocka_unit_test(help_lists_the_kinds),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

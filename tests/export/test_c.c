@@ -1,15 +1,15 @@
 /* The texts for C compile with gcc and clang, as C99, C11 and C++, without a warning, all in one file under
  * prefixes of their own; and answer as the library does. */
-#include "export/subjects.h"
+#include "export/models.h"
 
 #include <dlfcn.h>
 
 enum { BODY = 1 << 14 };
 
-static Exported subjects[SUBJECTS_MAX];
-static int subject_count;
+static Exported models[MODELS_MAX];
+static int model_count;
 static char folder[] = "/tmp/weft-test-export-XXXXXX";
-static Arrays arrays[SUBJECTS_MAX];
+static Arrays arrays[MODELS_MAX];
 
 static bool has_program(const char *name) {
     char command[128];
@@ -26,23 +26,23 @@ static FILE *file_open(const char *name) {
 }
 
 /* The text, and a function run_K that puts the questions to it. */
-static void put_subject(FILE *all, int k) {
+static void put_model(FILE *all, int k) {
     char prefix[16], name[32], type[16], dir[32], rgb[32], *body = malloc(BODY);
-    const Exported *s = &subjects[k];
+    const Exported *s = &models[k];
     snprintf(prefix, sizeof prefix, "w%d_", k);
     snprintf(type, sizeof type, "W%d", k);
     snprintf(dir, sizeof dir, "%sDir", type);
     snprintf(rgb, sizeof rgb, "%sRgb", type);
     snprintf(name, sizeof name, "%d.h", k);
-    WeftExportDesc desc = subject_desc(s, WEFT_EXPORT_C);
+    WeftExportDesc desc = model_desc(s, WEFT_EXPORT_C);
     desc.prefix = prefix;
-    WeftExport made = subject_export(&desc);
+    WeftExport made = model_export(&desc);
     assert_int_equal(made.table_count, 0);
     FILE *header = file_open(name);
     fputs(made.text, header);
     assert_int_equal(fclose(header), 0);
     assert_non_null(body);
-    subject_body(s, &made, prefix, &(Language){dir, rgb, "(int)", "(float)", "(void) {", true}, body, BODY);
+    model_body(s, &made, prefix, &(Language){dir, rgb, "(int)", "(float)", "(void) {", true}, body, BODY);
     fprintf(all, "#include \"%s\"\nvoid run_%d(int n, const float4 *const in[6], float4 *const out[2]);\n",
             name, k);
     fprintf(all, "void run_%d(int n, const float4 *const in[6], float4 *const out[2]) {\n", k);
@@ -71,7 +71,7 @@ static void agree(const char *compiler) {
     if (!has_program(compiler)) skip();
     void *library = dlopen(path, RTLD_NOW);
     if (!library) fail_msg("%s", dlerror());
-    for (int k = 0; k < subject_count; k++) {
+    for (int k = 0; k < model_count; k++) {
         union {
             void *symbol;
             void (*run)(int n, float *const in[6], float *const out[2]);
@@ -81,7 +81,7 @@ static void agree(const char *compiler) {
         at.symbol = dlsym(library, name);
         assert_non_null(at.symbol);
         at.run(PAIRS, arrays[k].in, arrays[k].out);
-        assert_agree(&subjects[k], compiler, &arrays[k]);
+        assert_agree(&models[k], compiler, &arrays[k]);
     }
     dlclose(library);
 }
@@ -107,16 +107,16 @@ static void is_cpp(void **state) {
 static int begin(void **state) {
     (void)state;
     if (!mkdtemp(folder)) return -1;
-    subject_count = subjects_lobes(subjects);
-    subject_count += subjects_profiles(subjects + subject_count);
-    subject_count += subjects_choices(subjects + subject_count);
-    if (getenv("WEFT_TEST_LONG")) subject_count += subjects_presets(subjects + subject_count);
+    model_count = models_lobes(models);
+    model_count += models_profiles(models + model_count);
+    model_count += models_choices(models + model_count);
+    if (getenv("WEFT_TEST_LONG")) model_count += models_presets(models + model_count);
     FILE *all = file_open("all.c");
     fprintf(all, "typedef struct { float x, y, z, w; } float4;\n");
-    for (int k = 0; k < subject_count; k++) {
-        put_subject(all, k);
+    for (int k = 0; k < model_count; k++) {
+        put_model(all, k);
         arrays[k] = arrays_make();
-        arrays_fill(&subjects[k], &arrays[k]);
+        arrays_fill(&models[k], &arrays[k]);
     }
     return fclose(all);
 }
@@ -124,7 +124,7 @@ static int begin(void **state) {
 static int end(void **state) {
     (void)state;
     char command[64];
-    for (int k = 0; k < subject_count; k++) arrays_free(&arrays[k]);
+    for (int k = 0; k < model_count; k++) arrays_free(&arrays[k]);
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command);
 }

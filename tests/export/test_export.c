@@ -1,18 +1,18 @@
 /* What weft_export promises of every text: it says what it is, is readable, has what is needed and nothing
  * else; folded or explicit, pi gives one picture; a descriptor that makes no sense is refused */
-#include "export/subjects.h"
+#include "export/models.h"
 
 #include <dlfcn.h>
 
-static Exported subjects[SUBJECTS_MAX];
-static int subject_count;
+static Exported models[MODELS_MAX];
+static int model_count;
 
 static int begin(void **state) {
     (void)state;
-    subject_count = subjects_lobes(subjects);
-    subject_count += subjects_profiles(subjects + subject_count);
-    subject_count += subjects_choices(subjects + subject_count);
-    subject_count += subjects_presets(subjects + subject_count);
+    model_count = models_lobes(models);
+    model_count += models_profiles(models + model_count);
+    model_count += models_choices(models + model_count);
+    model_count += models_presets(models + model_count);
     return 0;
 }
 
@@ -31,14 +31,14 @@ static void assert_text(const Exported *s, const char *target, const char *text)
 
 static void texts_are_clean(void **state) {
     (void)state;
-    for (int k = 0; k < subject_count; k++) {
-        const Exported *s = &subjects[k];
+    for (int k = 0; k < model_count; k++) {
+        const Exported *s = &models[k];
         if (s->profile && !getenv("WEFT_TEST_LONG") && k % 4) continue; /* test_gpu makes all of them */
         for (int t = 0; t < WEFT_EXPORT_TARGETS; t++) {
             if (!s->is_lobe && t != WEFT_EXPORT_SHADERTOY && !getenv("WEFT_TEST_LONG")) continue;
-            WeftExportDesc desc = subject_desc(s, (WeftExportTarget)t);
+            WeftExportDesc desc = model_desc(s, (WeftExportTarget)t);
             desc.albedo = 0;
-            WeftExport made = subject_export(&desc);
+            WeftExport made = model_export(&desc);
             assert_int_equal(made.size, strlen(made.text));
             assert_text(s, weft_export_target(t), made.text);
             if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made.text, "Example"));
@@ -52,10 +52,10 @@ static void texts_are_clean(void **state) {
 /* A text has the functions that its model calls, and no others: each name is there twice or more. */
 static void nothing_is_idle(void **state) {
     (void)state;
-    for (int k = 0; k < subject_count && subjects[k].is_lobe; k++) {
-        WeftExportDesc desc = subject_desc(&subjects[k], WEFT_EXPORT_C);
+    for (int k = 0; k < model_count && models[k].is_lobe; k++) {
+        WeftExportDesc desc = model_desc(&models[k], WEFT_EXPORT_C);
         desc.albedo = 0;
-        WeftExport made = subject_export(&desc);
+        WeftExport made = model_export(&desc);
         for (const char *c = made.text; (c = strstr(c, "\nstatic inline ")); c++) {
             char name[128];
             const char *open = strchr(c, '('), *start = open;
@@ -63,7 +63,7 @@ static void nothing_is_idle(void **state) {
             snprintf(name, sizeof name, "%.*s", (int)(open - start) + 1, start);
             int found = 0;
             for (const char *at = made.text; (at = strstr(at, name)); at++) found++;
-            if (found < 2) fail_msg("%s: nothing calls %s)", subjects[k].id, name);
+            if (found < 2) fail_msg("%s: nothing calls %s)", models[k].id, name);
         }
         weft_export_free(&made);
     }
@@ -125,15 +125,15 @@ static int nesting_of(const char *code, const char *name, size_t size) {
 /* WebGL takes records in four levels and no more: "WebGL Specification", version 1.0.3, section 6.19. */
 static void records_nest_as_webgl_takes_them(void **state) {
     (void)state;
-    for (int k = 0; k < subject_count; k++)
+    for (int k = 0; k < model_count; k++)
         for (int toy = 0; toy < 2; toy++) {
-            WeftExportDesc desc = subject_desc(&subjects[k], toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL);
-            WeftExport made = subject_export(&desc);
+            WeftExportDesc desc = model_desc(&models[k], toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL);
+            WeftExport made = model_export(&desc);
             char *code = code_of(made.text);
             for (const char *c = code; (c = strstr(c, "struct ")); c++) {
                 size_t size = strcspn(c + 7, " ");
                 int deep = nesting_of(code, c + 7, size);
-                if (deep > 4) fail_msg("%s: %.*s is %d deep", subjects[k].id, (int)size, c + 7, deep);
+                if (deep > 4) fail_msg("%s: %.*s is %d deep", models[k].id, (int)size, c + 7, deep);
             }
             free(code);
             weft_export_free(&made);
@@ -155,13 +155,13 @@ static void texts_read_natively(void **state) {
         "using",     "sample",    "patch",    "point",  "line",     "linear",    "pass",    "matrix",
         "vector",    "string",    "export",   "shared", "triangle", "technique", "precise", "interface",
         "namespace", "register",  "compile"};
-    for (int k = 0; k < subject_count; k++) {
-        const Exported *s = &subjects[k];
+    for (int k = 0; k < model_count; k++) {
+        const Exported *s = &models[k];
         if (!s->is_lobe && !getenv("WEFT_TEST_LONG") && k % 6) continue;
         for (int t = WEFT_EXPORT_GLSL; t <= WEFT_EXPORT_HLSL; t++) {
-            WeftExportDesc desc = subject_desc(s, (WeftExportTarget)t);
+            WeftExportDesc desc = model_desc(s, (WeftExportTarget)t);
             desc.albedo = 0;
-            WeftExport made = subject_export(&desc);
+            WeftExport made = model_export(&desc);
             char *code = code_of(made.text);
             for (size_t n = 0; n < sizeof banned / sizeof *banned; n++)
                 if (strstr(code, banned[n])) fail_msg("%s: %.60s", s->id, strstr(code, banned[n]));
@@ -196,15 +196,15 @@ static void pi_gives_one_picture(void **state) {
         for (int fold = 0; fold < 2; fold++) {
             const Exported *s = NULL;
             char prefix[16], id[64];
-            for (int n = 0; n < subject_count; n++)
-                if (!subjects[n].fixed && strcmp(subjects[n].id, ids[k]) == 0) s = &subjects[n];
+            for (int n = 0; n < model_count; n++)
+                if (!models[n].fixed && strcmp(models[n].id, ids[k]) == 0) s = &models[n];
             assert_non_null(s);
             snprintf(prefix, sizeof prefix, "%c%d_", fold ? 'f' : 'e', k);
-            WeftExportDesc desc = subject_desc(s, WEFT_EXPORT_C);
+            WeftExportDesc desc = model_desc(s, WEFT_EXPORT_C);
             desc.albedo = 0;
             desc.prefix = prefix;
             desc.fold_pi = fold;
-            WeftExport made = subject_export(&desc);
+            WeftExport made = model_export(&desc);
             assert_non_null(strstr(made.text, fold ? "pi: FOLDED" : "pi: EXPLICIT"));
             fputs(made.text, stream);
             snprintf(id, sizeof id, "%s", ids[k]);
@@ -252,7 +252,7 @@ static void pi_gives_one_picture(void **state) {
     assert_int_equal(system(command), 0);
 }
 
-/* One text of several subjects, and each in a text of its own, beside each other in one program of C. */
+/* One text of several models, and each in a text of its own, beside each other in one program of C. */
 static void several_share_one_text(void **state) {
     (void)state;
     enum { COUNT = 5 };
@@ -269,15 +269,15 @@ static void several_share_one_text(void **state) {
     size_t apart = 0;
     for (int k = 0; k < COUNT; k++) {
         const Exported *s = NULL;
-        for (int n = 0; n < subject_count; n++)
-            if (!subjects[n].fixed && strcmp(subjects[n].id, ids[k]) == 0) s = &subjects[n];
+        for (int n = 0; n < model_count; n++)
+            if (!models[n].fixed && strcmp(models[n].id, ids[k]) == 0) s = &models[n];
         assert_non_null(s);
         char prefix[16];
         snprintf(prefix, sizeof prefix, "p%d_", k);
-        descs[k] = subject_desc(s, WEFT_EXPORT_C);
+        descs[k] = model_desc(s, WEFT_EXPORT_C);
         descs[k].albedo = 0;
         descs[k].prefix = prefix;
-        made = subject_export(&descs[k]);
+        made = model_export(&descs[k]);
         descs[k].prefix = "all_";
         apart += made.size;
         fputs(made.text, stream);
@@ -338,7 +338,7 @@ static void several_share_one_text(void **state) {
     descs[1] = (WeftExportDesc){.profile = "disney", .target = WEFT_EXPORT_GLSL};
     assert_int_not_equal(weft_export_all(descs, 2, &made, &error), WEFT_OK);
     assert_int_not_equal(weft_export_all(descs, 0, &made, &error), WEFT_OK);
-    assert_int_not_equal(weft_export_all(descs, WEFT_EXPORT_SUBJECTS_MAX + 1, &made, &error), WEFT_OK);
+    assert_int_not_equal(weft_export_all(descs, WEFT_EXPORT_MODELS_MAX + 1, &made, &error), WEFT_OK);
 }
 
 /* GLSL keeps names with "__" for itself, and any program may call a material anything. */

@@ -2,7 +2,7 @@
  * as they are, HLSL by way of SPIR-V. Every lobe, workflow and profile; presets in the long runs.
  *
  * What is put in place of a text's samplers are layers of one array texture, which is what compute.h has. */
-#include "export/subjects.h"
+#include "export/models.h"
 
 #include <unistd.h>
 
@@ -14,12 +14,12 @@ static const WeftExportTarget targets[WAYS] = {WEFT_EXPORT_GLSL, WEFT_EXPORT_ESS
 
 enum { BODY = 1 << 14 };
 
-static Exported subjects[SUBJECTS_MAX];
-static int lobe_count, subject_count;
+static Exported models[MODELS_MAX];
+static int lobe_count, model_count;
 static char folder[] = "/tmp/weft-test-export-XXXXXX";
 static GlContext *contexts[2]; /* GLSL 3.30, ES 3.00; NULL where the machine has none */
-static Arrays arrays[SUBJECTS_MAX];
-static WeftExport exported[WAYS][SUBJECTS_MAX];
+static Arrays arrays[MODELS_MAX];
+static WeftExport exported[WAYS][MODELS_MAX];
 
 static bool has_program(const char *name) {
     char command[128];
@@ -123,16 +123,16 @@ static void run(const Exported *s, GlContext *context, const WeftExport *made, c
     text_free(&shader);
 }
 
-/* A file of a subject's: a lobe and a preset may share a name. */
+/* A file of a model's: a lobe and a preset may share a name. */
 static void name_file(const Exported *s, const char *end, char name[128]) {
-    snprintf(name, 128, "%03d-%s%s", (int)(s - subjects), s->id, end);
+    snprintf(name, 128, "%03d-%s%s", (int)(s - models), s->id, end);
 }
 
 /* A whole shader of HLSL around the body. */
 static void hlsl_put(const Exported *s, const WeftExport *made) {
     char *body = malloc(BODY), *tail = malloc(BODY + 2048), name[128];
     assert_true(body && tail);
-    subject_body(s, made, "weft_", &language_hlsl, body, BODY);
+    model_body(s, made, "weft_", &language_hlsl, body, BODY);
     snprintf(tail, BODY + 2048,
              "struct Answers { float4 out0 : SV_Target0; float4 out1 : SV_Target1; };\n"
              "Answers main(float4 a0 : TEXCOORD0, float4 a1 : TEXCOORD1, float4 a2 : TEXCOORD2,\n"
@@ -165,8 +165,8 @@ static void agree(Way way) {
     char *body = malloc(BODY);
     assert_non_null(body);
     if (!context) skip();
-    for (int k = 0; k < subject_count; k++) {
-        const Exported *s = &subjects[k];
+    for (int k = 0; k < model_count; k++) {
+        const Exported *s = &models[k];
         const WeftExport *made = &exported[way][k];
         if (way == WAY_HLSL) {
             char path[256], name[128];
@@ -178,7 +178,7 @@ static void agree(Way way) {
             run(s, context, made, text, body, true, &arrays[k]);
             free(text);
         } else {
-            subject_body(s, made, "weft_", &language_glsl, body, BODY);
+            model_body(s, made, "weft_", &language_glsl, body, BODY);
             run(s, context, made, made->text, body, false, &arrays[k]);
         }
         assert_agree(s, way_names[way], &arrays[k]);
@@ -189,11 +189,11 @@ static void agree(Way way) {
 static void glsl_compiles(void **state) {
     (void)state;
     if (!has_program("glslangValidator")) skip();
-    for (int k = 0; k < subject_count; k++)
+    for (int k = 0; k < model_count; k++)
         for (Way way = WAY_GLSL; way <= WAY_ESSL; way++) {
             char name[128], end[16];
             snprintf(end, sizeof end, ".%s.frag", way_names[way]);
-            name_file(&subjects[k], end, name);
+            name_file(&models[k], end, name);
             file_put(name,
                      way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
                      exported[way][k].text, "\nout vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n");
@@ -204,7 +204,7 @@ static void glsl_compiles(void **state) {
 static void hlsl_compiles(void **state) {
     (void)state;
     if (!has_program("glslangValidator")) skip();
-    for (int k = 0; k < subject_count; k++) hlsl_put(&subjects[k], &exported[WAY_HLSL][k]);
+    for (int k = 0; k < model_count; k++) hlsl_put(&models[k], &exported[WAY_HLSL][k]);
     shell("for f in *.frag.hlsl; do glslangValidator -D -V -e main -S frag $f -o ${f%.frag.hlsl}.spv >log "
           "2>&1 || "
           "{ grep ERROR log | head -3; exit 1; }; done");
@@ -229,18 +229,18 @@ static void hlsl_agrees(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    lobe_count = subjects_lobes(subjects);
-    subject_count = lobe_count + subjects_profiles(subjects + lobe_count);
-    subject_count += subjects_choices(subjects + subject_count);
-    if (getenv("WEFT_TEST_LONG")) subject_count += subjects_presets(subjects + subject_count);
+    lobe_count = models_lobes(models);
+    model_count = lobe_count + models_profiles(models + lobe_count);
+    model_count += models_choices(models + model_count);
+    if (getenv("WEFT_TEST_LONG")) model_count += models_presets(models + model_count);
     context_create(TEXT_GLSL_330, &contexts[0], NULL);
     context_create(TEXT_GLSL_ES_300, &contexts[1], NULL);
-    for (int k = 0; k < subject_count; k++) {
+    for (int k = 0; k < model_count; k++) {
         arrays[k] = arrays_make();
-        arrays_fill(&subjects[k], &arrays[k]);
+        arrays_fill(&models[k], &arrays[k]);
         for (Way way = WAY_GLSL; way < WAYS; way++) {
-            WeftExportDesc desc = subject_desc(&subjects[k], targets[way]);
-            exported[way][k] = subject_export(&desc);
+            WeftExportDesc desc = model_desc(&models[k], targets[way]);
+            exported[way][k] = model_export(&desc);
         }
     }
     return mkdtemp(folder) ? 0 : -1;
@@ -249,7 +249,7 @@ static int begin(void **state) {
 static int end(void **state) {
     (void)state;
     char command[64];
-    for (int k = 0; k < subject_count; k++) {
+    for (int k = 0; k < model_count; k++) {
         arrays_free(&arrays[k]);
         for (Way way = WAY_GLSL; way < WAYS; way++) weft_export_free(&exported[way][k]);
     }

@@ -1,10 +1,10 @@
 /* Every text of WGSL reads as WGSL: none of its reserved words, no word or mark of the other languages,
  * braces behind every condition, names that are declared once. Whether a compiler takes it is asked in a
  * browser (tests/extra/wgsl.sh). */
-#include "export/subjects.h"
+#include "export/models.h"
 
-static Exported subjects[SUBJECTS_MAX];
-static int subject_count;
+static Exported models[MODELS_MAX];
+static int model_count;
 
 /* World Wide Web Consortium, "WebGPU Shading Language", section 15.4. */
 static const char reserved[] =
@@ -138,17 +138,17 @@ static void assert_wgsl(const char *name, const WeftExport *made) {
 
 static void every_text_is_wgsl(void **state) {
     (void)state;
-    for (int k = 0; k < subject_count; k++) {
-        WeftExportDesc desc = subject_desc(&subjects[k], WEFT_EXPORT_WGSL);
-        WeftExport made = subject_export(&desc);
-        assert_wgsl(subjects[k].id, &made);
+    for (int k = 0; k < model_count; k++) {
+        WeftExportDesc desc = model_desc(&models[k], WEFT_EXPORT_WGSL);
+        WeftExport made = model_export(&desc);
+        assert_wgsl(models[k].id, &made);
         weft_export_free(&made);
     }
 }
 
-static int find_subject(const char *id) {
-    for (int k = 0; k < subject_count; k++)
-        if (!subjects[k].fixed && strcmp(subjects[k].id, id) == 0) return k;
+static int find_model(const char *id) {
+    for (int k = 0; k < model_count; k++)
+        if (!models[k].fixed && strcmp(models[k].id, id) == 0) return k;
     fail_msg("no %s", id);
     return 0;
 }
@@ -159,7 +159,7 @@ static void several_are_wgsl(void **state) {
     WeftExportDesc descs[4];
     WeftExport made;
     WeftError error;
-    for (int k = 0; k < 4; k++) descs[k] = subject_desc(&subjects[find_subject(ids[k])], WEFT_EXPORT_WGSL);
+    for (int k = 0; k < 4; k++) descs[k] = model_desc(&models[find_model(ids[k])], WEFT_EXPORT_WGSL);
     if (weft_export_all(descs, 4, &made, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_wgsl("several", &made);
     assert_non_null(strstr(made.text, "WeftKhronosSurface"));
@@ -171,9 +171,9 @@ static void several_are_wgsl(void **state) {
 static void tables_are_where_they_fit(void **state) {
     (void)state;
     for (int inside = 0; inside < 2; inside++) {
-        WeftExportDesc desc = subject_desc(&subjects[find_subject("babylon")], WEFT_EXPORT_WGSL);
+        WeftExportDesc desc = model_desc(&models[find_model("babylon")], WEFT_EXPORT_WGSL);
         desc.lut = inside ? WEFT_EXPORT_LUT_C : WEFT_EXPORT_LUT_EXR;
-        WeftExport made = subject_export(&desc);
+        WeftExport made = model_export(&desc);
         bool array = strstr(made.text, " = array<f32, ") != NULL;
         for (int k = 0; k < made.table_count; k++) {
             char line[WEFT_EXPORT_NAME + 64];
@@ -190,10 +190,10 @@ static void tables_are_where_they_fit(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    subject_count = subjects_lobes(subjects);
-    subject_count += subjects_profiles(subjects + subject_count);
-    subject_count += subjects_choices(subjects + subject_count);
-    subject_count += subjects_presets(subjects + subject_count);
+    model_count = models_lobes(models);
+    model_count += models_profiles(models + model_count);
+    model_count += models_choices(models + model_count);
+    model_count += models_presets(models + model_count);
     return 0;
 }
 

@@ -1,15 +1,15 @@
 /* wgsl_questions - writes what a browser asks every WGSL text, and the library's answers: texts, tables and
  * numbers as a script, on standard output
  *
- *   const subjects = [{name, code, tables: [{width, height, texels}], questions, answers}], ...];
+ *   const models = [{name, code, tables: [{width, height, texels}], questions, answers}], ...];
  *
  * questions: six numbers of four parts for each of COUNT pairs; answers: two. Every lobe, workflow, profile
  * and preset, and then texts of several. */
-#include "export/subjects.h"
+#include "export/models.h"
 
 enum { COUNT = 512, BODY = 1 << 14 };
 
-static Exported subjects[SUBJECTS_MAX];
+static Exported models[MODELS_MAX];
 
 /* As a string of JavaScript. */
 static void put_string(const char *text) {
@@ -55,7 +55,7 @@ static void put_tables(const WeftExport *text) {
 /* The text, and around its calls what reads questions and writes answers. */
 static void put_code(const Exported *s, const WeftExport *text) {
     static char body[BODY], tail[BODY + 1024];
-    subject_body(s, text, "weft_", &language_wgsl, body, BODY);
+    model_body(s, text, "weft_", &language_wgsl, body, BODY);
     snprintf(tail, sizeof tail,
              "\n@group(1) @binding(0) var<storage, read> questions: array<vec4f>;\n"
              "@group(1) @binding(1) var<storage, read_write> answers: array<vec4f>;\n"
@@ -73,9 +73,9 @@ static void put_code(const Exported *s, const WeftExport *text) {
     printf(",\n");
 }
 
-static void put_subject(const Exported *s, Arrays *a) {
-    WeftExportDesc desc = subject_desc(s, WEFT_EXPORT_WGSL);
-    WeftExport text = subject_export(&desc);
+static void put_model(const Exported *s, Arrays *a) {
+    WeftExportDesc desc = model_desc(s, WEFT_EXPORT_WGSL);
+    WeftExport text = model_export(&desc);
     printf("{name: \"%s\", lobe: %s,\n", s->id, s->is_lobe ? "true" : "false");
     put_code(s, &text);
     put_tables(&text);
@@ -91,27 +91,27 @@ static void put_several(int first, int count) {
     WeftExport made;
     WeftError error;
     for (int k = 0; k < count; k++) {
-        descs[k] = subject_desc(&subjects[first + k], WEFT_EXPORT_WGSL);
+        descs[k] = model_desc(&models[first + k], WEFT_EXPORT_WGSL);
         descs[k].lut = WEFT_EXPORT_LUT_C;
     }
     if (weft_export_all(descs, count, &made, &error) != WEFT_OK) fail_msg("%s", error.text);
-    printf("{name: \"%s and %d more\", code: ", subjects[first].id, count - 1);
+    printf("{name: \"%s and %d more\", code: ", models[first].id, count - 1);
     put_string(made.text);
     printf("},\n");
     weft_export_free(&made);
 }
 
 int main(void) {
-    int count = subjects_lobes(subjects), catalogue;
-    count += subjects_profiles(subjects + count);
+    int count = models_lobes(models), catalogue;
+    count += models_profiles(models + count);
     catalogue = count;
-    count += subjects_choices(subjects + count);
-    count += subjects_presets(subjects + count);
+    count += models_choices(models + count);
+    count += models_presets(models + count);
     Arrays arrays = arrays_make();
-    printf("const subjects = [\n");
+    printf("const models = [\n");
     for (int k = 0; k < count; k++) {
-        arrays_fill(&subjects[k], &arrays);
-        put_subject(&subjects[k], &arrays);
+        arrays_fill(&models[k], &arrays);
+        put_model(&models[k], &arrays);
     }
     for (int k = 0; k < catalogue; k += 3) put_several(k, catalogue - k < 3 ? catalogue - k : 3);
     printf("];\n");

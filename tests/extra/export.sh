@@ -15,9 +15,9 @@ cd "$2/export"
 cp "$here/export.html" .
 rm -f ./*.toy ./*.essl
 "$program" export ashikhmin-neubelt charlie-neubelt --target shadertoy --quiet -o sides
-for subject in $("$program" models --json | jq -r '(.lobes, .profiles, .workflows)[].id' | grep -v -e '^none$' -e '^fibre-walk$'); do
-    "$program" export "$subject" --target shadertoy --quiet -o "$subject.toy"
-    "$program" export "$subject" --target essl --lut npy --quiet -o "$subject.essl"
+for model in $("$program" models --json | jq -r '(.lobes, .profiles, .workflows)[].id' | grep -v -e '^none$' -e '^fibre-walk$'); do
+    "$program" export "$model" --target shadertoy --quiet -o "$model.toy"
+    "$program" export "$model" --target essl --lut npy --quiet -o "$model.essl"
 done
 texts() { for file in ./*."$1"; do jq -Rs --arg name "${file#./}" '{($name): .}' "$file"; done | jq -s add; }
 {

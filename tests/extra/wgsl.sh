@@ -11,7 +11,7 @@ command -v chromium >/dev/null || {
 mkdir -p "$2/wgsl"
 cd "$2/wgsl"
 cp "$here/wgsl.html" .
-"$questions" >subjects.js
+"$questions" >models.js
 # Its virtual time does not wait for a GPU, so the browser stays until the page has said all it has to say.
 chromium --headless --no-sandbox --enable-unsafe-webgpu --enable-features=Vulkan,WebGPU --use-webgpu-adapter=swiftshader \
     --user-data-dir="$PWD/profile" --enable-logging=stderr "file://$PWD/wgsl.html" >/dev/null 2>chromium.log &

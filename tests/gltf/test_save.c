@@ -133,7 +133,7 @@ static void presets_come_back(void **state) {
         WeftError error;
         WeftScene *scene = load("builtin:cloth");
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
-        assert_int_equal(weft_scene_dress(scene, NULL, path, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, NULL, path, NULL, &error), WEFT_OK);
         WeftScene *back = saved(scene, k % 2 ? "p.glb" : "p.gltf");
         assert_same(scene, back, path);
         weft_scene_free(back);

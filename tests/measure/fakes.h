@@ -1,15 +1,15 @@
-/* fakes.h - subjects that are wrong in one way each, for the measurements to find out
+/* fakes.h - bsdfs that are wrong in one way each, for the measurements to find out
  *
  * Include it after cmocka: the dialect's names shadow <math.h>. */
 #ifndef WEFT_TEST_MEASURE_FAKES_H
 #define WEFT_TEST_MEASURE_FAKES_H
 
+#include "measure/bsdf.h"
 #include "measure/passport.h"
-#include "measure/subject.h"
 #include "shading/warp.h"
 
-static inline void fake_look(const Subject *subject, int setting, Dir o, View *view) {
-    view->subject = subject;
+static inline void fake_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+    view->bsdf = bsdf;
     view->o = o;
 }
 
@@ -25,20 +25,20 @@ static inline void fake_pdf(const View *view, Dirs i, float *pdf) {
 static inline Dir fake_sample(const View *view, float u, float v) { return warp_cosine(u, v); }
 
 /* A white Lambert surface: nothing is wrong with it. */
-static inline Subject fake_lambert(void) {
-    return (Subject){.rows = 1,
-                     .parameter = "",
-                     .settings = 1,
-                     .whole = true,
-                     .look = fake_look,
-                     .f = fake_f,
-                     .pdf = fake_pdf,
-                     .sample = fake_sample};
+static inline Bsdf fake_lambert(void) {
+    return (Bsdf){.rows = 1,
+                  .parameter = "",
+                  .settings = 1,
+                  .whole = true,
+                  .look = fake_look,
+                  .f = fake_f,
+                  .pdf = fake_pdf,
+                  .sample = fake_sample};
 }
 
-static inline WeftPassport fake_passport(const Subject *subject) {
+static inline WeftPassport fake_passport(const Bsdf *bsdf) {
     WeftPassport passport = {0};
-    assert_true(passport_measure(subject, &(WeftPassportDesc){.no_gpu = 1}, &passport));
+    assert_true(passport_measure(bsdf, &(WeftPassportDesc){.no_gpu = 1}, &passport));
     return passport;
 }
 

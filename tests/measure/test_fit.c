@@ -283,8 +283,9 @@ static void bad_tables_end_in_one_line(void **state) {
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "velours"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.base = "ggx"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "lambert"}, &fit, &error), WEFT_USAGE);
-    assert_int_equal(weft_fit(data, &(WeftFitDesc){.metric = WEFT_APART_PICTURE, .chosen = 1}, &fit, &error),
-                     WEFT_USAGE);
+    assert_int_equal(
+        weft_fit(data, &(WeftFitDesc){.metric = WEFT_BRDF_METRIC_PICTURE, .chosen = 1}, &fit, &error),
+        WEFT_USAGE);
     weft_data_free(data);
 }
 

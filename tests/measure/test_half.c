@@ -124,12 +124,12 @@ static void small_floors_vanish(void **state) {
 static void found_floors_are_the_smallest(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
-    Subject subject;
+    Bsdf bsdf;
     WeftPassport p = {0};
     Lobe lobe = lobe_default(weft_lobe_find("ggx"));
     lobe.params[0] = 0.2f;
-    subject_of_lobe(&subject, &lobe, true);
-    half_floor_measure(&subject, &p, 1);
+    bsdf_of_lobe(&bsdf, &lobe, true);
+    half_floor_measure(&bsdf, &p, 1);
     assert_true(p.half_measured && p.half_bad > 0 && p.half_bad < p.half_count);
     assert_in_range(p.half_cosine, WEFT_HALF_MOST, WEFT_HALF_FREE);
     assert_true(p.half_parameter > 0.01f && p.half_parameter < 0.3f);

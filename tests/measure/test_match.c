@@ -73,17 +73,20 @@ static void half_is_half(void **state) {
     WeftReflection *a = of_lobe(&white), *b = of_lobe(&grey);
     WeftError error;
     double apart;
-    assert_int_equal(weft_apart(b, a, WEFT_PART_ALL, WEFT_APART_COSINE, &apart, &error), WEFT_OK);
+    assert_int_equal(weft_brdf_distance(b, a, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error),
+                     WEFT_OK);
     assert_true(fabs(apart - 0.5) < 1e-6);
-    assert_int_equal(weft_apart(a, b, WEFT_PART_ALL, WEFT_APART_COSINE, &apart, &error), WEFT_OK);
+    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error),
+                     WEFT_OK);
     assert_true(fabs(apart - 1.0) < 1e-6);
     /* parts that neither has, and that one has */
-    assert_int_equal(weft_apart(a, b, WEFT_PART_SHEEN, WEFT_APART_COSINE, &apart, &error), WEFT_OK);
+    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_SHEEN, WEFT_BRDF_METRIC_COSINE, &apart, &error),
+                     WEFT_OK);
     assert_true(!(apart > 0.0));
-    assert_int_equal(weft_apart(a, b, WEFT_PART_ALL, (WeftApart)7, &apart, &error), WEFT_USAGE);
+    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_ALL, (WeftBrdfMetric)7, &apart, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
-    assert_string_equal(weft_apart_name(WEFT_APART_PICTURE), "picture");
-    assert_null(weft_apart_name(WEFT_APART_COUNT));
+    assert_string_equal(weft_brdf_metric_name(WEFT_BRDF_METRIC_PICTURE), "picture");
+    assert_null(weft_brdf_metric_name(WEFT_BRDF_METRIC_COUNT));
     weft_reflection_free(a);
     weft_reflection_free(b);
 }
@@ -108,12 +111,15 @@ static void the_sum_is_the_integral(void **state) {
             integral += (double)e[0] / STEPS;
         }
         /* over what lambert reflects, |f - 0| sums up to E */
-        assert_int_equal(weft_apart(of, to, WEFT_PART_ALL, WEFT_APART_COSINE, &apart, NULL), WEFT_OK);
+        assert_int_equal(weft_brdf_distance(of, to, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
+                         WEFT_OK);
         assert_true(fabs(apart - 1.0) < 1e-6);
         WeftLobe grown = lobe;
         for (int c = 0; c < 3; c++) grown.f0[c] *= 100.0f, grown.f90[c] *= 100.0f;
         WeftReflection *large = of_lobe(&grown);
-        assert_int_equal(weft_apart(large, lambert, WEFT_PART_ALL, WEFT_APART_COSINE, &apart, NULL), WEFT_OK);
+        assert_int_equal(
+            weft_brdf_distance(large, lambert, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
+            WEFT_OK);
         print_message("%s: %.4f, by quadrature %.4f\n", ids[k], (apart + 1.0) / 100.0, integral);
         assert_true(fabs((apart + 1.0) / 100.0 - integral) < 0.03 * integral);
         weft_reflection_free(large);
@@ -131,8 +137,8 @@ static void itself_stays(void **state) {
         WeftLobe lobe = coloured(index), found = lobe;
         WeftReflection *from = of_lobe(&lobe);
         WeftMatch match;
-        for (int metric = 0; metric < WEFT_APART_COUNT; metric++) {
-            assert_int_equal(weft_match_lobe(from, (WeftApart)metric, 0, &found, &match, NULL), WEFT_OK);
+        for (int metric = 0; metric < WEFT_BRDF_METRIC_COUNT; metric++) {
+            assert_int_equal(weft_match_lobe(from, (WeftBrdfMetric)metric, 0, &found, &match, NULL), WEFT_OK);
             for (int k = 0; k < WEFT_LOBE_PARAMS_MAX; k++)
                 assert_true(fabsf(found.params[k] - lobe.params[k]) <= 1e-3f);
             for (int c = 0; c < 3; c++) assert_true(fabsf(found.f0[c] - lobe.f0[c]) <= 1e-3f);
@@ -144,7 +150,8 @@ static void itself_stays(void **state) {
         WeftMaterial material = cloth(profile), found = material;
         WeftReflection *from = of_material(&material);
         WeftMatch match;
-        assert_int_equal(weft_match_material(from, WEFT_APART_COSINE, NULL, &found, &match, NULL), WEFT_OK);
+        assert_int_equal(weft_match_material(from, WEFT_BRDF_METRIC_COSINE, NULL, &found, &match, NULL),
+                         WEFT_OK);
         for (int k = 0; k < WEFT_INPUTS_MAX; k++)
             for (int c = 0; c < 3; c++)
                 assert_true(fabsf(found.inputs[k].value[c] - material.inputs[k].value[c]) <= 1e-3f);
@@ -157,7 +164,8 @@ static void itself_stays(void **state) {
 static double lobes_apart(const WeftLobe *a, const WeftLobe *b) {
     WeftReflection *to = of_lobe(a), *from = of_lobe(b);
     double apart = 1.0;
-    assert_int_equal(weft_apart(to, from, WEFT_PART_ALL, WEFT_APART_COSINE, &apart, NULL), WEFT_OK);
+    assert_int_equal(weft_brdf_distance(to, from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
+                     WEFT_OK);
     weft_reflection_free(to);
     weft_reflection_free(from);
     return apart;
@@ -181,7 +189,7 @@ static void lobes_come_back(void **state) {
         WeftLobe lobe = coloured(index), found = lobe_named(info->id);
         WeftReflection *from = of_lobe(&lobe);
         WeftMatch match;
-        assert_int_equal(weft_match_lobe(from, WEFT_APART_COSINE, 0, &found, &match, NULL), WEFT_OK);
+        assert_int_equal(weft_match_lobe(from, WEFT_BRDF_METRIC_COSINE, 0, &found, &match, NULL), WEFT_OK);
         print_message("%-28s %.4f -> %.1e, %lld evaluations\n", info->id, match.copied, match.matched,
                       match.evaluations);
         if (!(match.matched < 1e-5)) fail_msg("%s: %g is left", info->id, match.matched);
@@ -201,24 +209,27 @@ static void what_is_held_stays(void **state) {
     to.params[1] = 2.5f;
     WeftReflection *reflection = of_lobe(&from);
     WeftMatch match;
-    assert_int_equal(weft_match_lobe(reflection, WEFT_APART_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL),
-                     WEFT_OK);
+    assert_int_equal(
+        weft_match_lobe(reflection, WEFT_BRDF_METRIC_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL), WEFT_OK);
     assert_true(fabsf(to.params[1] - 2.5f) < 1e-6f && fabsf(to.f0[0] - 1.0f) < 1e-6f);
     assert_true(match.matched < match.copied);
     WeftLobe walk = lobe_named("fibre-walk");
     WeftError error;
-    assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error),
+                     WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
     /* nor is an estimate something to be met */
     WeftReflection *noise = of_lobe(&walk);
     WeftMaterial any = cloth(0);
-    assert_int_equal(weft_match_lobe(noise, WEFT_APART_COSINE, 0, &to, &match, &error), WEFT_USAGE);
+    assert_int_equal(weft_match_lobe(noise, WEFT_BRDF_METRIC_COSINE, 0, &to, &match, &error), WEFT_USAGE);
     assert_non_null(strstr(error.text, "match fibre"));
-    assert_int_equal(weft_match_material(noise, WEFT_APART_COSINE, NULL, &any, &match, &error), WEFT_USAGE);
+    assert_int_equal(weft_match_material(noise, WEFT_BRDF_METRIC_COSINE, NULL, &any, &match, &error),
+                     WEFT_USAGE);
     assert_non_null(strstr(error.text, "match fibre"));
     weft_reflection_free(noise);
     walk.lobe = -1;
-    assert_int_equal(weft_match_lobe(reflection, WEFT_APART_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error),
+                     WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     weft_reflection_free(reflection);
     int held[WEFT_INPUTS_MAX] = {0};
@@ -226,7 +237,8 @@ static void what_is_held_stays(void **state) {
     for (int k = 0; weft_material_input_name(k); k++)
         held[k] = strcmp(weft_material_input_name(k), "sheen_roughness") != 0;
     reflection = of_material(&material);
-    assert_int_equal(weft_match_material(reflection, WEFT_APART_COSINE, held, &found, &match, NULL), WEFT_OK);
+    assert_int_equal(weft_match_material(reflection, WEFT_BRDF_METRIC_COSINE, held, &found, &match, NULL),
+                     WEFT_OK);
     for (int k = 0; weft_material_input_name(k); k++)
         if (held[k])
             for (int c = 0; c < 3; c++)
@@ -251,14 +263,15 @@ static void never_worse_than_the_copy(void **state) {
     for (int k = 1; k < count * count; k += step)
         all[jobs++] = (WeftMatchJob){.from = from[k / count], .material = cloth(k % count)};
     WeftError error;
-    if (weft_match_many(all, jobs, WEFT_APART_COSINE, 0, NULL, NULL, &error) != WEFT_OK)
+    if (weft_match_many(all, jobs, WEFT_BRDF_METRIC_COSINE, 0, NULL, NULL, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     for (int j = 0; j < jobs; j++) {
         int k = 1 + j * step;
         double again;
         WeftReflection *to = of_material(&all[j].material);
-        assert_int_equal(weft_apart(to, all[j].from, WEFT_PART_ALL, WEFT_APART_COSINE, &again, NULL),
-                         WEFT_OK);
+        assert_int_equal(
+            weft_brdf_distance(to, all[j].from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &again, NULL),
+            WEFT_OK);
         print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_id(k / count), weft_profile_id(k % count),
                       all[j].found.copied, all[j].found.matched);
         assert_true(all[j].found.matched <= all[j].found.copied);
@@ -283,8 +296,8 @@ static void threads_change_nothing(void **state) {
             jobs[run][k].is_lobe = 1;
             jobs[run][k].lobe = lobes[1];
         }
-        assert_int_equal(weft_match_many(jobs[run], 3, WEFT_APART_COSINE, run ? 4 : 1, NULL, NULL, NULL),
-                         WEFT_OK);
+        assert_int_equal(
+            weft_match_many(jobs[run], 3, WEFT_BRDF_METRIC_COSINE, run ? 4 : 1, NULL, NULL, NULL), WEFT_OK);
     }
     for (int k = 0; k < 3; k++) {
         assert_true(fabsf(jobs[0][k].lobe.params[0] - jobs[1][k].lobe.params[0]) <= 0.0f);
@@ -305,7 +318,7 @@ static void a_batch_is_stopped(void **state) {
     WeftReflection *from = of_lobe(&lobe);
     WeftMatchJob job = {.from = from, .is_lobe = 1, .lobe = lobe_named("threads")};
     int calls = 0;
-    assert_int_equal(weft_match_many(&job, 1, WEFT_APART_COSINE, 1, count_and_stop, &calls, NULL),
+    assert_int_equal(weft_match_many(&job, 1, WEFT_BRDF_METRIC_COSINE, 1, count_and_stop, &calls, NULL),
                      WEFT_INTERRUPTED);
     assert_int_equal(calls, 2);
     assert_int_equal(job.result, WEFT_INTERRUPTED);
@@ -388,8 +401,8 @@ static void channels_change_nothing(void **state) {
         int count;
         picture_write(picture, k + 1);
         WeftAssetMatch *report;
-        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"), WEFT_APART_COSINE,
-                             NULL, NULL, &report, &count, NULL, &error) != WEFT_OK)
+        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"),
+                             WEFT_BRDF_METRIC_COSINE, NULL, NULL, &report, &count, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         assert_true(count == 1 && report->changed);
         found[k] = *report;
@@ -444,7 +457,7 @@ static WeftResult cloths_match(const char *letters, Asked *asked, WeftAssetMatch
     cloths_write("cloths.gltf", letters);
     WeftResult result =
         weft_match_asset("cloths.gltf", "cloths-out.gltf", profile_named("khronos"), profile_named("three"),
-                         WEFT_APART_COSINE, note_asked, asked, report, &count, NULL, &error);
+                         WEFT_BRDF_METRIC_COSINE, note_asked, asked, report, &count, NULL, &error);
     if (result == WEFT_OK) assert_int_equal(count, strlen(letters));
     unlink("cloths.gltf");
     return result;

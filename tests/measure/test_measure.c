@@ -10,9 +10,9 @@
 #include "fakes.h"
 
 #include "measure/chi_square.h"
+#include "measure/exceeds.h"
 #include "measure/furnace.h"
 #include "measure/grid.h"
-#include "measure/exceeds.h"
 #include "measure/sweep.h"
 #include "measure/weight.h"
 
@@ -24,8 +24,8 @@ static void assert_near(double got, double expected, double tolerance) {
 
 static void lambert_is_found_right(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    WeftPassport p = fake_passport(&bsdf);
     for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) assert_near((double)p.albedo[0][c], 1.0, 1e-3);
     assert_int_equal(p.albedo_above, 0);
     assert_near((double)p.reciprocity, 0.0, 0.0);
@@ -45,9 +45,9 @@ static void one_sided_f(const View *view, Dirs i, float *f) {
 
 static void what_is_not_reciprocal_is_found(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.f = one_sided_f;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.f = one_sided_f;
+    WeftPassport p = fake_passport(&bsdf);
     assert_true(p.reciprocity > 0.99f);
     float z_o = p.reciprocity_place.cos_o, z_i = p.reciprocity_place.cos_i; /* there it is so */
     assert_near((double)(fabsf(z_o - z_i) / max(max(z_o, z_i), PI * 1e-3f)), (double)p.reciprocity, 1e-3);
@@ -62,9 +62,9 @@ static void gaining_f(const View *view, Dirs i, float *f) {
 
 static void gain_is_found_where_it_is(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.f = gaining_f;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.f = gaining_f;
+    WeftPassport p = fake_passport(&bsdf);
     int expected = 0;
     for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) expected += p.cosines[c] < 0.03f;
     assert_true(expected > 0);
@@ -78,9 +78,9 @@ static Dir uniform_sample(const View *view, float u, float v) { return warp_unif
 
 static void wrong_samples_are_found(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.sample = uniform_sample;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.sample = uniform_sample;
+    WeftPassport p = fake_passport(&bsdf);
     assert_true(weft_passport_significance(p.p, p.tests) < 1e-9);
 }
 
@@ -91,9 +91,9 @@ static void large_pdf(const View *view, Dirs i, float *pdf) {
 
 static void a_pdf_of_more_than_one_is_found(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.pdf = large_pdf;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.pdf = large_pdf;
+    WeftPassport p = fake_passport(&bsdf);
     assert_near((double)p.pdf_most, 1.02, 1e-3);
 }
 
@@ -105,9 +105,9 @@ static void holed_pdf(const View *view, Dirs i, float *pdf) {
 
 static void impossible_samples_are_found(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.pdf = holed_pdf;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.pdf = holed_pdf;
+    WeftPassport p = fake_passport(&bsdf);
     assert_true(p.stray > 0);
     assert_true(weft_passport_significance(p.p, p.tests) < 1e-9);
 }
@@ -125,10 +125,10 @@ static Dir halved_sample(const View *view, float u, float v) {
 
 static void what_samples_miss_is_found(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.pdf = halved_pdf;
-    subject.sample = halved_sample;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.pdf = halved_pdf;
+    bsdf.sample = halved_sample;
+    WeftPassport p = fake_passport(&bsdf);
     assert_int_equal(p.stray, 0);
     assert_near((double)p.pdf_most, 1.0, 0.01);
     assert_near((double)p.missed, 0.5, 0.01);
@@ -148,10 +148,10 @@ static void broken_pdf(const View *view, Dirs i, float *pdf) {
 
 static void no_nan_gets_lost(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.f = broken_f;
-    subject.pdf = broken_pdf;
-    WeftPassport p = fake_passport(&subject);
+    Bsdf bsdf = fake_lambert();
+    bsdf.f = broken_f;
+    bsdf.pdf = broken_pdf;
+    WeftPassport p = fake_passport(&bsdf);
     assert_true(isnan(p.albedo_most) && p.albedo_place.cos_o == 0.05f && p.albedo_above == 1);
     assert_true(isnan(p.reciprocity));
     assert_true(isnan(p.pdf_most) && p.pdf_place.cos_o == 0.4f);
@@ -169,9 +169,9 @@ static void wild_f(const View *view, Dirs i, float *f) {
 
 static void the_sweep_counts_what_is_wild(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
-    subject.f = wild_f;
-    Sweep sweep = sweep_setting(&subject, 0);
+    Bsdf bsdf = fake_lambert();
+    bsdf.f = wild_f;
+    Sweep sweep = sweep_setting(&bsdf, 0);
     assert_true(sweep.infinite >= SWEEP_DIRS && sweep.negative >= SWEEP_DIRS && sweep.below >= SWEEP_DIRS);
     assert_true(sweep.infinite + sweep.negative + sweep.below < sweep.count);
 }
@@ -202,15 +202,15 @@ static void mixed_pdf(const View *view, Dirs i, float *pdf) {
 
 static void variances_are_those_of_closed_forms(void **state) {
     (void)state;
-    Subject subject = fake_lambert();
+    Bsdf bsdf = fake_lambert();
     View view;
-    subject.f = rising_f;
-    subject.look(&subject, 0, grid_direction(0.3, 1.0), &view);
+    bsdf.f = rising_f;
+    bsdf.look(&bsdf, 0, grid_direction(0.3, 1.0), &view);
     Weight weight = weight_measure(&view, 200);
     assert_near(weight.albedo, 1.0, 1e-4);
     assert_near(weight.own, 1.0 / 8.0, 1e-4);
     assert_near(weight.by_cosine, 1.0 / 8.0, 1e-4);
-    subject.pdf = mixed_pdf;
+    bsdf.pdf = mixed_pdf;
     weight = weight_measure(&view, 200);
     /* integral of (3 z^2 / 2 pi)^2 / pdf = 27/2 integral over [0, 1] of z^4 / (1 + z) = 27/2 (ln 2 - 7/12) */
     assert_near(weight.own, 13.5 * ((log)(2.0) - 7.0 / 12.0) - 1.0, 1e-4);

@@ -1,4 +1,4 @@
-/* cloth.h - subjects of figures, with all they are made of */
+/* cloth.h - models of figures, with all they are made of */
 #ifndef WEFT_TESTS_PLOT_CLOTH_H
 #define WEFT_TESTS_PLOT_CLOTH_H
 
@@ -16,12 +16,12 @@
 
 #include "weft/weft.h"
 
-/* A subject with all it is made of. */
+/* A model with all it is made of. */
 typedef struct Cloth {
     WeftLobe lobe;
     WeftMaterial material;
     WeftReflection *reflection;
-    WeftPlotSubject subject;
+    WeftPlotModel model;
 } Cloth;
 
 static inline void cloth_of_lobe(Cloth *cloth, const char *id, const char *param, const char *value) {
@@ -29,7 +29,7 @@ static inline void cloth_of_lobe(Cloth *cloth, const char *id, const char *param
     assert_int_equal(weft_lobe_create(id, &cloth->lobe, &error), WEFT_OK);
     if (param) assert_int_equal(weft_lobe_set(&cloth->lobe, param, value, NULL, &error), WEFT_OK);
     assert_int_equal(weft_reflection_of_lobe(&cloth->lobe, &cloth->reflection, &error), WEFT_OK);
-    cloth->subject = (WeftPlotSubject){.reflection = cloth->reflection, .lobe = &cloth->lobe, .label = id};
+    cloth->model = (WeftPlotModel){.reflection = cloth->reflection, .lobe = &cloth->lobe, .label = id};
 }
 
 static inline void cloth_of_profile(Cloth *cloth, const char *id) {
@@ -39,8 +39,8 @@ static inline void cloth_of_profile(Cloth *cloth, const char *id) {
     assert_int_equal(weft_material_set(&cloth->material, "sheen_color", "1", NULL, &error), WEFT_OK);
     assert_int_equal(weft_material_set(&cloth->material, "sheen_roughness", "0.5", NULL, &error), WEFT_OK);
     assert_int_equal(weft_reflection_create(&cloth->material, &cloth->reflection, &error), WEFT_OK);
-    cloth->subject =
-        (WeftPlotSubject){.reflection = cloth->reflection, .material = &cloth->material, .label = id};
+    cloth->model =
+        (WeftPlotModel){.reflection = cloth->reflection, .material = &cloth->material, .label = id};
 }
 
 static inline void cloth_free(Cloth *cloth) { weft_reflection_free(cloth->reflection); }

@@ -67,10 +67,10 @@ static void assert_numbers(WeftPlotDesc desc, const char *name) {
 
 static void every_kind(const Cloth *cloth, const Cloth *other, const char *name) {
     for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++) {
-        if (kind == WEFT_PLOT_SAMPLES && !cloth->subject.lobe) continue;
-        const WeftPlotSubject subjects[2] = {cloth->subject, other->subject};
+        if (kind == WEFT_PLOT_SAMPLES && !cloth->model.lobe) continue;
+        const WeftPlotModel models[2] = {cloth->model, other->model};
         const WeftPlotDesc desc = {
-            .kind = (WeftPlotKind)kind, .subjects = subjects, .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1};
+            .kind = (WeftPlotKind)kind, .models = models, .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1};
         assert_drawn(desc, name);
         /* what takes longest is looked at as a picture alone */
         if (kind == WEFT_PLOT_POLAR || kind == WEFT_PLOT_CARTESIAN || kind == WEFT_PLOT_SLICE ||

@@ -17,9 +17,9 @@ static void nothing_is_drawn_of_black(void **state) {
             continue; /* white and pdf are what they show */
         WeftImage image[2];
         for (int k = 0; k < 2; k++) {
-            const WeftPlotSubject subjects[2] = {k ? black.subject : white.subject, black.subject};
+            const WeftPlotModel models[2] = {k ? black.model : white.model, black.model};
             const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
-                                       .subjects = subjects,
+                                       .models = models,
                                        .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
                                        .quick = 1,
                                        .width = 420,
@@ -57,7 +57,7 @@ static void curves_are_the_lobe(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "ggx", "color", "0.9,0.4,0.2");
-    WeftPlotDesc desc = {.subjects = &cloth.subject, .count = 1, .views = {40.0f}, .view_count = 1};
+    WeftPlotDesc desc = {.models = &cloth.model, .count = 1, .views = {40.0f}, .view_count = 1};
     for (int kind = 0; kind < 2; kind++) {
         desc.kind = kind ? WEFT_PLOT_POLAR : WEFT_PLOT_CARTESIAN;
         WeftPlotData data = data_of(&desc);
@@ -87,8 +87,8 @@ static void axes_fit_what_is_told(void **state) {
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "ggx", "alpha", "0.01");
     cloth_of_lobe(&cloth[1], "lambert", NULL, NULL);
-    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
-    WeftPlotDesc desc = {.kind = WEFT_PLOT_CARTESIAN, .subjects = subjects, .count = 2};
+    const WeftPlotModel models[2] = {cloth[0].model, cloth[1].model};
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_CARTESIAN, .models = models, .count = 2};
     WeftPlotData data = data_of(&desc); /* a peak of thousands does not flatten what is beside it */
     assert_true(data.panels[0].y.high < 4.0f && data.panels[0].y.high > 0.318f);
     weft_plot_data_free(&data);
@@ -96,8 +96,8 @@ static void axes_fit_what_is_told(void **state) {
     weft_reflection_free(cloth[0].reflection);
     cloth[0].lobe.params[0] = 0.25f;
     assert_int_equal(weft_reflection_of_lobe(&cloth[0].lobe, &cloth[0].reflection, &error), WEFT_OK);
-    const WeftPlotSubject both[2] = {{.reflection = cloth[0].reflection}, cloth[1].subject};
-    desc.subjects = both;
+    const WeftPlotModel both[2] = {{.reflection = cloth[0].reflection}, cloth[1].model};
+    desc.models = both;
     data = data_of(&desc);
     float top = 0.0f;
     for (int k = 0; k < data.panels[0].series[0].count; k++) top = fmaxf(top, data.panels[0].series[0].y[k]);
@@ -106,8 +106,8 @@ static void axes_fit_what_is_told(void **state) {
     weft_reflection_free(cloth[0].reflection);
     cloth[0].lobe.params[0] = 0.01f;
     assert_int_equal(weft_reflection_of_lobe(&cloth[0].lobe, &cloth[0].reflection, &error), WEFT_OK);
-    const WeftPlotSubject again[2] = {{.reflection = cloth[0].reflection}, cloth[1].subject};
-    desc.subjects = again;
+    const WeftPlotModel again[2] = {{.reflection = cloth[0].reflection}, cloth[1].model};
+    desc.models = again;
     desc.logarithmic = 1;
     data = data_of(&desc);
     assert_true(data.panels[0].y.logarithmic && data.panels[0].y.low > 0.0f &&
@@ -125,7 +125,7 @@ static void albedo_and_furnace_are_the_library_s(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "charlie-neubelt", "alpha", "0.25");
-    WeftPlotDesc desc = {.kind = WEFT_PLOT_ALBEDO, .subjects = &cloth.subject, .count = 1, .quick = 1};
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_ALBEDO, .models = &cloth.model, .count = 1, .quick = 1};
     WeftPlotData data = data_of(&desc);
     assert_int_equal(data.count, 2);
     for (int k = 0; k < data.panels[0].series[0].count; k++) {
@@ -167,8 +167,8 @@ static void maps_are_the_lobe(void **state) {
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "burley", NULL, NULL);
     cloth_of_lobe(&cloth[1], "lambert", "color", "0.5");
-    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
-    WeftPlotDesc desc = {.kind = WEFT_PLOT_DIFFERENCE, .subjects = subjects, .count = 2};
+    const WeftPlotModel models[2] = {cloth[0].model, cloth[1].model};
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_DIFFERENCE, .models = models, .count = 2};
     WeftPlotData data = data_of(&desc);
     const WeftPlotPanel *panel = &data.panels[0];
     double most = 0.0;
@@ -220,7 +220,7 @@ static void samples_follow_their_pdf(void **state) {
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "ashikhmin-neubelt", NULL, NULL);
     const WeftPlotDesc desc = {
-        .kind = WEFT_PLOT_SAMPLES, .subjects = &cloth.subject, .count = 1, .views = {30.0f}, .view_count = 1};
+        .kind = WEFT_PLOT_SAMPLES, .models = &cloth.model, .count = 1, .views = {30.0f}, .view_count = 1};
     WeftPlotData data = data_of(&desc);
     float e[3];
     weft_lobe_albedo(&cloth.lobe, (float)cos(30.0 * degree), e);
@@ -295,12 +295,12 @@ static void files_are_valid_and_the_same_twice(void **state) {
     static const char *const suffixes[] = {"png", "svg", "pdf"};
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "charlie-neubelt", NULL, NULL);
-    cloth.subject.label = "<velvet> & \"co\" \xff";
+    cloth.model.label = "<velvet> & \"co\" \xff";
     for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++)
         for (int s = 0; s < 3; s++) {
-            const WeftPlotSubject subjects[2] = {cloth.subject, cloth.subject};
+            const WeftPlotModel models[2] = {cloth.model, cloth.model};
             const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
-                                       .subjects = subjects,
+                                       .models = models,
                                        .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
                                        .quick = 1,
                                        .width = 320};
@@ -335,9 +335,9 @@ static void the_report_stands_alone(void **state) {
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "charlie-neubelt", NULL, NULL);
     cloth_of_profile(&cloth[1], "three");
-    cloth[0].subject.label = "<b>&";
-    const WeftPlotSubject subjects[2] = {cloth[0].subject, cloth[1].subject};
-    const WeftPlotDesc desc = {.subjects = subjects, .count = 2, .quick = 1};
+    cloth[0].model.label = "<b>&";
+    const WeftPlotModel models[2] = {cloth[0].model, cloth[1].model};
+    const WeftPlotDesc desc = {.models = models, .count = 2, .quick = 1};
     char path[80];
     WeftError error;
     size_t size;
@@ -382,23 +382,21 @@ static void nonsense_is_refused(void **state) {
     Cloth cloth = {.reflection = NULL}, whole = {.reflection = NULL};
     cloth_of_lobe(&cloth, "lambert", NULL, NULL);
     cloth_of_profile(&whole, "three");
-    const WeftPlotSubject none = {.label = "x"};
-    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_KINDS, .subjects = &cloth.subject, .count = 1}, "kind");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 0}, "1 to 8");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 9}, "1 to 8");
-    assert_refused(&(WeftPlotDesc){.subjects = NULL, .count = 1}, "1 to 8");
-    assert_refused(&(WeftPlotDesc){.subjects = &none, .count = 1}, "no reflection");
-    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_DIFFERENCE, .subjects = &cloth.subject, .count = 1},
-                   "two");
-    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_SAMPLES, .subjects = &whole.subject, .count = 1},
-                   "lobes");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .views = {90.0f}, .view_count = 1},
+    const WeftPlotModel none = {.label = "x"};
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_KINDS, .models = &cloth.model, .count = 1}, "kind");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 0}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 9}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.models = NULL, .count = 1}, "1 to 8");
+    assert_refused(&(WeftPlotDesc){.models = &none, .count = 1}, "no reflection");
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_DIFFERENCE, .models = &cloth.model, .count = 1}, "two");
+    assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_SAMPLES, .models = &whole.model, .count = 1}, "lobes");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {90.0f}, .view_count = 1},
                    "view");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .views = {NAN}, .view_count = 1},
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {NAN}, .view_count = 1},
                    "view");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .view_count = 7}, "6 views");
-    assert_refused(&(WeftPlotDesc){.subjects = &cloth.subject, .count = 1, .width = 9000}, "8192");
-    const WeftPlotDesc well = {.subjects = &cloth.subject, .count = 1, .quick = 1};
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .view_count = 7}, "6 views");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .width = 9000}, "8192");
+    const WeftPlotDesc well = {.models = &cloth.model, .count = 1, .quick = 1};
     WeftError error;
     assert_int_equal(weft_plot_write(&well, "figure.jpg", &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_OUTPUT_SUFFIX);
@@ -417,12 +415,12 @@ static void any_size_is_drawn(void **state) {
     static const int sizes[][2] = {{1, 1}, {8, 400}, {64, 64}, {3000, 200}, {0, 700}};
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "ggx", NULL, NULL);
-    const WeftPlotSubject subjects[2] = {cloth.subject, cloth.subject};
+    const WeftPlotModel models[2] = {cloth.model, cloth.model};
     for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++)
         for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
             WeftImage image;
             const WeftPlotDesc desc = {.kind = (WeftPlotKind)kind,
-                                       .subjects = subjects,
+                                       .models = models,
                                        .count = kind == WEFT_PLOT_DIFFERENCE ? 2 : 1,
                                        .quick = 1,
                                        .width = sizes[k][0],

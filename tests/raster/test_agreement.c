@@ -12,7 +12,7 @@
 #include "weft/weft.h"
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
-static const double relative = 0.01, floor_share = 1e-3, share_least = 0.999;
+static const double relative = 0.01, floor_coverage = 1e-3, share_least = 0.999;
 static const float light_color = 3.0f;
 
 static bool inside[PIXELS]; /* of one surface, with all neighbours */
@@ -94,7 +94,7 @@ static double agreeing(const WeftImage *a, const WeftImage *b) {
         bool same = true;
         for (int c = 0; c < 3; c++) {
             double x = (double)p[4 * k + c], y = (double)q[4 * k + c];
-            same &= fabs(x - y) <= relative * fabs(x) + floor_share * (double)light_color;
+            same &= fabs(x - y) <= relative * fabs(x) + floor_coverage * (double)light_color;
             lit += x > 0.01;
         }
         all++;

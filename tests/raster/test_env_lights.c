@@ -68,7 +68,7 @@ static WeftRaster *raster_of(const WeftScene *scene, int occlusion) {
 static WeftImage drawn(WeftRaster *raster) {
     WeftImage image;
     const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = camera};
-    assert_int_equal(weft_raster_settle(raster, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_wait(raster, NULL), WEFT_OK);
     assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
     assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
     return image;

@@ -50,7 +50,7 @@ static WeftRaster *raster_of(const WeftScene *scene) {
     WeftError error;
     const WeftRasterDesc desc = {.threads = 1, .occlusion = 16, .no_cache = 1};
     if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_settle(raster, &error) != WEFT_OK)
+        weft_raster_wait(raster, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return raster;
 }

@@ -68,7 +68,7 @@ static void switch_presets(Switches *self) {
     for (int k = 0; weft_preset_name(k) && self->done < self->wanted; k++) {
         char name[128];
         snprintf(name, sizeof name, "preset:%s", weft_preset_name(k));
-        if (weft_scene_dress(self->scene, NULL, name, NULL, NULL) == WEFT_OK) draw(self);
+        if (weft_scene_assign_material(self->scene, NULL, name, NULL, NULL) == WEFT_OK) draw(self);
     }
 }
 

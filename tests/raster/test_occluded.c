@@ -54,7 +54,7 @@ static double drawn(const WeftScene *scene) {
     WeftRaster *raster;
     WeftImage image;
     assert_int_equal(weft_raster_create(scene, &desc, &raster, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_raster_settle(raster, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_wait(raster, NULL), WEFT_OK);
     assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
     assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
     weft_raster_free(raster);

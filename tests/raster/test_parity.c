@@ -34,14 +34,14 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS
 
 /* What is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
  */
-typedef struct Subject {
+typedef struct Model {
     const char *body;
     int inputs;                     /* vec4 */
     const char *answers;            /* a letter each: n a number, d part of a direction, p of noise */
     void (*put)(Text *, int which); /* declarations */
     void (*fill)(Random *, int which, float row[4 * INPUTS]);
     void (*answer)(int which, const float row[4 * INPUTS], float answers[ANSWERS]);
-} Subject;
+} Model;
 
 static const TextLanguage languages[LANGUAGES] = {TEXT_GLSL_330, TEXT_GLSL_ES_300};
 static const char *const language_names[LANGUAGES] = {"330", "es"};
@@ -96,9 +96,9 @@ static Angles row_angles(const float *row) { return angles_between(row_o(row), d
     "    Dir o = dir(in0.x, in0.y, in0.z);\n"                                                                \
     "    Angles a = angles_between(o, dir(in1.x, in1.y, in1.z));\n"
 
-/* A subject's programs, one a language. */
+/* A model's programs, one a language. */
 typedef struct Programs {
-    const Subject *subject;
+    const Model *model;
     int which;
     const char *name, *folder; /* in which other text may lie, or NULL */
     Compute *computes[LANGUAGES];
@@ -107,20 +107,20 @@ typedef struct Programs {
 
 static void make_program(void *user, int language, int thread) {
     Programs *programs = user;
-    const Subject *subject = programs->subject;
+    const Model *model = programs->model;
     GlContext *context = contexts[language];
     WeftError *error = &programs->errors[language];
     Text text;
     if (!context) return;
     text_begin(&text, &(TextDesc){
                           .language = context_language(context), .tables = true, .folder = programs->folder});
-    subject->put(&text, programs->which);
+    model->put(&text, programs->which);
     if (text_end(&text, error) == WEFT_OK) {
         ComputeDesc desc = {.name = programs->name,
                             .text = &text,
-                            .body = subject->body,
-                            .inputs = subject->inputs,
-                            .outputs = ((int)strlen(subject->answers) + 3) / 4};
+                            .body = model->body,
+                            .inputs = model->inputs,
+                            .outputs = ((int)strlen(model->answers) + 3) / 4};
         if (compute_create(context, &desc, &programs->computes[language], error) == WEFT_OK)
             compute_tables(programs->computes[language], text.tables, text.table_count, error);
     }
@@ -141,8 +141,8 @@ static void check_programs(const Programs *programs) {
 }
 
 /* Both languages at once: most of the time is the drivers', who compile. */
-static Programs make_programs(const Subject *subject, int which, const char *name, const char *folder) {
-    Programs programs = {.subject = subject, .which = which, .name = name, .folder = folder};
+static Programs make_programs(const Model *model, int which, const char *name, const char *folder) {
+    Programs programs = {.model = model, .which = which, .name = name, .folder = folder};
     parallel_for(LANGUAGES, LANGUAGES, make_program, &programs);
     check_programs(&programs);
     return programs;
@@ -157,13 +157,13 @@ static void free_programs(Programs *programs) {
     for (int k = 0; k < LANGUAGES; k++) compute_destroy(programs->computes[k]);
 }
 
-static void fill(const Subject *subject, int which) {
+static void fill(const Model *model, int which) {
     Random random = {(uint64_t)which};
     for (size_t s = 0; s < samples; s++) {
         float row[4 * INPUTS] = {0};
-        subject->fill(&random, which, row);
-        subject->answer(which, row, expected + ANSWERS * s);
-        for (size_t k = 0; k < 4 * (size_t)subject->inputs; k++) in[k / 4][4 * s + k % 4] = row[k];
+        model->fill(&random, which, row);
+        model->answer(which, row, expected + ANSWERS * s);
+        for (size_t k = 0; k < 4 * (size_t)model->inputs; k++) in[k / 4][4 * s + k % 4] = row[k];
     }
 }
 
@@ -173,15 +173,15 @@ typedef struct Tally {
     size_t sample; /* where */
 } Tally;
 
-static Tally compare(const Subject *subject, int language) {
+static Tally compare(const Model *model, int language) {
     Tally tally = {0};
     for (size_t s = 0; s < samples; s++) {
         double most = 0.0;
-        for (size_t k = 0; subject->answers[k]; k++) {
+        for (size_t k = 0; model->answers[k]; k++) {
             double c = (double)expected[ANSWERS * s + k], gpu = (double)out[language][k / 4][4 * s + k % 4];
-            double allowed = subject->answers[k] == 'd'   ? TURN
-                             : subject->answers[k] == 'p' ? PATCH
-                                                          : RELATIVE * fabs(c) + ABSOLUTE;
+            double allowed = model->answers[k] == 'd'   ? TURN
+                             : model->answers[k] == 'p' ? PATCH
+                                                        : RELATIVE * fabs(c) + ABSOLUTE;
             double error = isfinite(gpu) && isfinite(c) ? fabs(gpu - c) / allowed : HUGE_VAL;
             if (error > tally.worst) {
                 tally.worst = error;
@@ -198,18 +198,18 @@ static bool holds(const Tally *tally, double share) {
     return (double)tally->beyond <= ceil(share * (double)samples);
 }
 
-static void report(const Subject *subject, int language, const char *name, const Tally *tally) {
+static void report(const Model *model, int language, const char *name, const Tally *tally) {
     print_message("%-3s %s: %.2g of the tolerance", language_names[language], name, tally->worst);
     if (tally->beyond) print_message(", %zu beyond it", tally->beyond);
     print_message("\n");
     if (!tally->beyond) return;
     size_t s = tally->sample;
     print_message("    answers for what C answers:");
-    for (size_t k = 0; subject->answers[k]; k++)
+    for (size_t k = 0; model->answers[k]; k++)
         print_message(" %.9g/%.9g", (double)out[language][k / 4][4 * s + k % 4],
                       (double)expected[ANSWERS * s + k]);
     print_message("\n    of");
-    for (size_t r = 0; r < 4 * (size_t)subject->inputs; r++)
+    for (size_t r = 0; r < 4 * (size_t)model->inputs; r++)
         print_message(" %.9g", (double)in[r / 4][4 * s + r % 4]);
     print_message("\n");
 }
@@ -217,19 +217,19 @@ static void report(const Subject *subject, int language, const char *name, const
 /* Whether both languages agree with C. */
 static bool programs_agree(Programs *programs, int which, const char *name, double share) {
     bool good = true;
-    fill(programs->subject, which);
+    fill(programs->model, which);
     run_programs(programs);
     for (int language = 0; language < LANGUAGES; language++) {
         if (!contexts[language]) continue;
-        Tally tally = compare(programs->subject, language);
-        report(programs->subject, language, name, &tally);
+        Tally tally = compare(programs->model, language);
+        report(programs->model, language, name, &tally);
         good &= holds(&tally, share);
     }
     return good;
 }
 
-static bool agree(const Subject *subject, int which, const char *name) {
-    Programs programs = make_programs(subject, which, name, NULL);
+static bool agree(const Model *model, int which, const char *name) {
+    Programs programs = make_programs(model, which, name, NULL);
     bool good = programs_agree(&programs, which, name, 0.0);
     free_programs(&programs);
     return good;
@@ -260,7 +260,7 @@ static void answer_lobe(int which, const float *row, float *answers) {
     memcpy(answers, all, sizeof all);
 }
 
-static const Subject lobes = {
+static const Model lobes = {
     .body = ANGLES "    Lobe m;\n    m.id = in0.w < 2.0 ? FIRST : -1;\n" /* no constant to the compiler */
                    "    for (int k = 0; k < 4; k++) {\n"
                    "        m.params[k] = in2[k];\n        m.params[k + 4] = in3[k];\n    }\n"
@@ -316,7 +316,7 @@ static void answer_any_lobe(int which, const float *row, float *answers) {
 /* The chain of questions finds each lobe, with its defaults and its own meaning of roughness. */
 static void lobes_are_told_apart(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
                        "    LobeValue v = lobe_value(m, a), w = lobe_value(lobe_rough(m.id, in1.w), a);\n"
                        "    out0 = vec4(v.f, v.s, v.pdf, lobe_second(m, 0.25, 0.75));\n"
@@ -328,7 +328,7 @@ static void lobes_are_told_apart(void **state) {
         .answer = answer_any_lobe,
     };
     need_gpu();
-    assert_true(agree(&subject, 0, "all lobes"));
+    assert_true(agree(&model, 0, "all lobes"));
 }
 
 static void put_term(Text *text, int which) {
@@ -359,7 +359,7 @@ static void answer_f(int which, const float *row, float *answers) {
     answers[2] = fresnel_weight_mix(answers[0], row[3], 1.0f);
 }
 
-static const Subject d_terms = {
+static const Model d_terms = {
     .body = ANGLES
     "    float ax = in2.x * in2.y;\n    Dir h = term_facet(TERM, in2.x, ax, in2.x, in0.w, in1.w);\n"
     "    out0 = vec4(term_d(TERM, in2.x, ax, in2.x, a.h), h.x, h.y, h.z);\n",
@@ -369,7 +369,7 @@ static const Subject d_terms = {
     .fill = fill_term,
     .answer = answer_d,
 };
-static const Subject v_terms = {
+static const Model v_terms = {
     .body = ANGLES "    out0.x = term_v(TERM, in2.x, in2.x * in2.y, in2.x, a);\n",
     .inputs = 3,
     .answers = "n",
@@ -377,7 +377,7 @@ static const Subject v_terms = {
     .fill = fill_term,
     .answer = answer_v,
 };
-static const Subject f_terms = {
+static const Model f_terms = {
     .body = ANGLES "    out0.x = term_f(TERM, in2.z, in2.w, a.d);\n"
                    "    out0.y = term_second(TERM, in0.w, in1.w);\n"
                    "    out0.z = fresnel_weight_mix(out0.x, in0.w, 1.0);\n",
@@ -390,7 +390,7 @@ static const Subject f_terms = {
 
 static void terms_agree(void **state) {
     (void)state;
-    static const Subject *const subjects[] = {
+    static const Model *const models[] = {
         [WEFT_TERM_D] = &d_terms, [WEFT_TERM_V] = &v_terms, [WEFT_TERM_F] = &f_terms};
     need_gpu();
     bool good = true;
@@ -398,7 +398,7 @@ static void terms_agree(void **state) {
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
         for (int k = 0; weft_term_id((WeftTermKind)kind, k); k++) {
             snprintf(name, sizeof name, "%c %s", "dvf"[kind], weft_term_id((WeftTermKind)kind, k));
-            good &= agree(subjects[kind], k, name);
+            good &= agree(models[kind], k, name);
         }
     assert_true(good);
 }
@@ -420,7 +420,7 @@ static void answer_layer(int which, const float *row, float *answers) {
 
 static void layers_agree(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body = "    out0.x = layer_base(LAYER, in0.x, in0.y, in0.z, in0.w);\n",
         .inputs = 1,
         .answers = "n",
@@ -430,7 +430,7 @@ static void layers_agree(void **state) {
     };
     need_gpu();
     bool good = true;
-    for (int k = 0; weft_layer_id(k); k++) good &= agree(&subject, k, weft_layer_id(k));
+    for (int k = 0; weft_layer_id(k); k++) good &= agree(&model, k, weft_layer_id(k));
     assert_true(good);
 }
 
@@ -558,7 +558,7 @@ static void answer_stack(int which, const float *row, float *answers) {
  * mixed. */
 static void stacks_agree(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
             ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19)
                 ROW(20) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
@@ -575,7 +575,7 @@ static void stacks_agree(void **state) {
         .answer = answer_stack,
     };
     need_gpu();
-    Programs programs = make_programs(&subject, 0, "stacks", NULL);
+    Programs programs = make_programs(&model, 0, "stacks", NULL);
     bool good = true;
     int which = 0;
     for (; stack_name(which); which++) good &= programs_agree(&programs, which, stack_name(which), 0.0);
@@ -616,7 +616,7 @@ static void answer_dust(int which, const float *row, float *answers) {
 /* The noise has the same patches to 1e-4, the hash below it the same whole numbers. */
 static void dust_agrees(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body =
             "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
             "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
@@ -631,7 +631,7 @@ static void dust_agrees(void **state) {
         .answer = answer_dust,
     };
     need_gpu();
-    assert_true(agree(&subject, 0, "dust"));
+    assert_true(agree(&model, 0, "dust"));
 }
 
 /* E of a tinted lobe, with s, q and e; and of one whose fibres lean, by one tilt and by all. */
@@ -676,7 +676,7 @@ static void answer_tables(int which, const float *row, float *answers) {
 /* Each table is found in its own layer and mixed alike; one that the text was not given is 0. */
 static void tables_agree(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body =
             "    TableRef e = lobe_table_charlie_neubelt();\n"
             "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_sheen_average(e, table_rows(e, in0.y)).e,\n"
@@ -692,7 +692,7 @@ static void tables_agree(void **state) {
         .answer = answer_tables,
     };
     need_gpu();
-    assert_true(agree(&subject, 0, "tables"));
+    assert_true(agree(&model, 0, "tables"));
 }
 
 static void put_leaning(Text *text, int which) {
@@ -723,7 +723,7 @@ static void answer_nap(int which, const float *row, float *answers) {
 
 static void naps_agree(void **state) {
     (void)state;
-    static const Subject subject = {
+    static const Model model = {
         .body =
             "    Dir w = dir(in0.x, in0.y, in0.z);\n    Nap nap = nap_of(in1.z, dir(in1.x, in1.y, 0.0));\n"
             "    out0.x = table_sheen_nap(leaning(), w, nap, table_rows(leaning(), in0.w)).e;\n"
@@ -739,7 +739,7 @@ static void naps_agree(void **state) {
         .answer = answer_nap,
     };
     need_gpu();
-    assert_true(agree(&subject, 0, "naps"));
+    assert_true(agree(&model, 0, "naps"));
 }
 
 /* A term whose text says something else by a thousandth, laid over the library's. */

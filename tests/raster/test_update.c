@@ -125,7 +125,7 @@ static void swap_back(WeftScene *scene) {
 }
 static void wear_one(WeftScene *scene) { scene->meshes[0].material = 1; }
 
-/* As weft_scene_dress does: the lists grow, and a material looks up what is new. */
+/* As weft_scene_assign_material does: the lists grow, and a material looks up what is new. */
 static void put_texture(WeftScene *scene) {
     scene->images = arena_array(&scene->arena, 1, sizeof *scene->images);
     scene->textures = arena_array(&scene->arena, 1, sizeof *scene->textures);
@@ -265,8 +265,8 @@ static void environments_are_as_new(void **state) {
         assert_int_equal(progress_calls > 0, k == 0 || k == 2);
         WeftRaster *fresh;
         assert_int_equal(weft_raster_create(scene, &desc, &fresh, NULL, &error), WEFT_OK);
-        assert_int_equal(weft_raster_settle(raster, &error), WEFT_OK);
-        assert_int_equal(weft_raster_settle(fresh, &error), WEFT_OK);
+        assert_int_equal(weft_raster_wait(raster, &error), WEFT_OK);
+        assert_int_equal(weft_raster_wait(fresh, &error), WEFT_OK);
         WeftImage is = drawn(raster), should = drawn(fresh);
         if (!is_same(&is, &should)) fail_msg("environment %d: not as a new raster draws it", k);
         if (is_same(&is, &before)) fail_msg("environment %d: nothing has changed", k);

@@ -179,7 +179,7 @@ static void materials_of_lights_are_their_own(void **state) {
     float losses[1];
     assert_int_equal(weft_scene_add_light(scene, &panel, &error), WEFT_OK);
     assert_int_equal(weft_scene_set(scene, "*.emission_strength", "0", NULL, &error), WEFT_OK);
-    assert_int_equal(weft_scene_dress(scene, "*", "preset:denim", NULL, &error), WEFT_OK);
+    assert_int_equal(weft_scene_assign_material(scene, "*", "preset:denim", NULL, &error), WEFT_OK);
     assert_int_equal(weft_scene_convert(scene, "specular", losses, &error), WEFT_OK);
     assert_true(material_emits(&scene->materials[1]));
     assert_float_equal(scene->materials[1].inputs[INPUT_base_color].value[0], 0.0f, 0.0f);

@@ -43,7 +43,7 @@ static void presets_are_as_on_a_scene(void **state) {
         WeftReflection *reflection;
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
         assert_int_equal(weft_material_read(path, &alone, NULL, &error), WEFT_OK);
-        assert_int_equal(weft_scene_dress(scene, "0", path, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, "0", path, NULL, &error), WEFT_OK);
         assert_int_equal(weft_scene_material(scene, 0, &worn, &error), WEFT_OK);
         for (int i = 0; weft_material_input_name(i); i++)
             if (i != input("normal") && i != input("occlusion") && i != input("opacity"))

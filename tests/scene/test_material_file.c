@@ -231,7 +231,7 @@ static WeftScene *load(const char *name) {
 }
 
 static WeftResult dress(WeftScene *scene, const char *material, const char *text, WeftError *error) {
-    return weft_scene_dress_memory(scene, material, text, strlen(text), "mine.json", NULL, error);
+    return weft_scene_assign_material_memory(scene, material, text, strlen(text), "mine.json", NULL, error);
 }
 
 static void the_cloth_is_dressed_and_its_shape_stays(void **state) {
@@ -273,9 +273,9 @@ static void a_failure_changes_nothing(void **state) {
     assert_int_equal(dress(scene, NULL, "{\"roughness\":0.9,\"layer\":\"glue\"}", &error), WEFT_INPUT);
     assert_int_equal(dress(scene, "Wool", "{}", &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_MATERIAL_NAME);
-    assert_int_equal(weft_scene_dress(scene, NULL, "preset:silc", NULL, &error), WEFT_USAGE);
+    assert_int_equal(weft_scene_assign_material(scene, NULL, "preset:silc", NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_PRESET_NAME);
-    assert_int_equal(weft_scene_dress(scene, NULL, "/nowhere/mine.json", NULL, &error), WEFT_INPUT);
+    assert_int_equal(weft_scene_assign_material(scene, NULL, "/nowhere/mine.json", NULL, &error), WEFT_INPUT);
     assert_memory_equal(before, scene->materials, (size_t)scene->material_count * sizeof *before);
     free(before);
     weft_scene_free(scene);
@@ -311,7 +311,7 @@ static void textures_lie_beside_the_file(void **state) {
                "\"nap_direction\":{\"texture\":\"orm.png\"}}");
     WeftScene *scene = load("builtin:cloth");
     int images = scene->image_count, textures = scene->texture_count;
-    if (weft_scene_dress(scene, "Cloth", json, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_scene_assign_material(scene, "Cloth", json, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(scene->image_count, images + 1);
     assert_int_equal(scene->texture_count, textures + 4);
     const Input *roughness = &scene->materials[0].inputs[INPUT_roughness],
@@ -333,7 +333,7 @@ static void textures_lie_beside_the_file(void **state) {
     /* one that is not there is named by its own path, and nothing leaks */
     scene = load("builtin:cloth");
     write_text(json, "{\"base_color\":{\"texture\":\"orm.png\"},\"roughness\":{\"texture\":\"none.png\"}}");
-    assert_int_equal(weft_scene_dress(scene, "Cloth", json, NULL, &error), WEFT_INPUT);
+    assert_int_equal(weft_scene_assign_material(scene, "Cloth", json, NULL, &error), WEFT_INPUT);
     assert_non_null(strstr(error.text, "none.png: "));
     assert_int_equal(scene->image_count, images);
     weft_scene_free(scene);

@@ -171,7 +171,7 @@ static void what_is_hardly_real_is_said_once(void **state) {
         WeftError error;
         char path[64];
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
-        assert_int_equal(weft_scene_dress(scene, "0", path, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, "0", path, NULL, &error), WEFT_OK);
         assert_int_equal(weft_scene_material(scene, 0, &material, &error), WEFT_OK);
         if (said_of(&material)) fail_msg("%s is hardly real", path);
         weft_scene_free(scene);

@@ -68,7 +68,7 @@ static void save_and_compare(const WeftScene *scene, const char *file, const cha
     WeftScene *fresh = load("builtin:cloth");
     snprintf(path, sizeof path, "%s/%s", folder, file);
     if (weft_scene_save_material(scene, 0, path, &error) != WEFT_OK) fail_msg("%s", error.text);
-    if (weft_scene_dress(fresh, "0", path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_scene_assign_material(fresh, "0", path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_same(scene, fresh, name);
     weft_scene_free(fresh);
 }
@@ -80,7 +80,7 @@ static void presets_come_back(void **state) {
         char path[64];
         WeftScene *scene = load("builtin:cloth");
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
-        assert_int_equal(weft_scene_dress(scene, "0", path, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, "0", path, NULL, &error), WEFT_OK);
         save_and_compare(scene, "preset.json", path);
         weft_scene_free(scene);
     }

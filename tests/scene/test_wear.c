@@ -163,7 +163,7 @@ static void a_folder_is_worn(void **state) {
     int count;
     snprintf(path, sizeof path, "%s", in_folder("0"));
     assert_int_equal(mkdir(path, 0700), 0);
-    assert_int_equal(weft_scene_wear_folder(scene, NULL, path, &count, &log, &error), WEFT_INPUT);
+    assert_int_equal(weft_scene_bind_maps(scene, NULL, path, &count, &log, &error), WEFT_INPUT);
     assert_int_equal(error.message, WEFT_MESSAGE_FILE_OPEN);
     static const char *const files[] = {"0/Albedo.tga",         "0/NORMAL.PNG", "0/chair_Roughness.jpg",
                                         "0/Specular.exr",       "0/Sheen.png",  "0/chair.nap.png",
@@ -171,8 +171,7 @@ static void a_folder_is_worn(void **state) {
                                         "0/myroughness2.png",   "0/Thumbs.db"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) draw(files[k], 4, 100 + (int)k);
     warned = 0;
-    if (weft_scene_wear_folder(scene, NULL, path, &count, &log, &error) != WEFT_OK)
-        fail_msg("%s", error.text);
+    if (weft_scene_bind_maps(scene, NULL, path, &count, &log, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(count, 6);
     assert_int_equal(warned, 2); /* of a second base_color, and in one line of what is not understood */
     const Material *cloth = named(scene, "Cloth");
@@ -187,20 +186,20 @@ static void a_folder_is_worn(void **state) {
     draw("0/chair_ORM.png", 4, 7);
     int images = scene->image_count;
     assert_int_equal(weft_scene_set(scene, "Cloth.workflow", "metallic", NULL, &error), WEFT_OK);
-    assert_int_equal(weft_scene_wear_folder(scene, "Cloth", path, &count, &log, &error), WEFT_OK);
+    assert_int_equal(weft_scene_bind_maps(scene, "Cloth", path, &count, &log, &error), WEFT_OK);
     assert_int_equal(scene->image_count, images + 1); /* the others were there and are read again */
     cloth = named(scene, "Cloth");
     assert_int_equal(cloth->choices[CHOICE_workflow], WORKFLOW_METALLIC);
     assert_int_equal(cloth->inputs[INPUT_metallic].channel, 2);
     assert_int_equal(cloth->inputs[INPUT_roughness].channel, 1); /* chair_ORM is before chair_Roughness */
-    assert_int_equal(weft_scene_wear_folder(scene, "none", path, &count, &log, &error), WEFT_USAGE);
-    assert_int_equal(weft_scene_wear_folder(scene, NULL, "/nowhere", &count, &log, &error), WEFT_INPUT);
+    assert_int_equal(weft_scene_bind_maps(scene, "none", path, &count, &log, &error), WEFT_USAGE);
+    assert_int_equal(weft_scene_bind_maps(scene, NULL, "/nowhere", &count, &log, &error), WEFT_INPUT);
     /* one that is damaged: the scene is as it was */
     WeftMaterial before, after;
     assert_int_equal(weft_scene_material(scene, 0, &before, &error), WEFT_OK);
     FILE *half = fopen(in_folder("0/ao.png"), "wb");
     assert_true(half && fwrite("\x89PNG\r\n\x1a\n", 1, 8, half) == 8 && fclose(half) == 0);
-    assert_int_equal(weft_scene_wear_folder(scene, "0", path, &count, &log, &error), WEFT_INPUT);
+    assert_int_equal(weft_scene_bind_maps(scene, "0", path, &count, &log, &error), WEFT_INPUT);
     assert_int_equal(count, 0);
     assert_int_equal(weft_scene_material(scene, 0, &after, &error), WEFT_OK);
     assert_memory_equal(&before, &after, sizeof before);
@@ -246,7 +245,7 @@ static void maps_of_the_principled_model_are_read(void **state) {
             draw(file, 4, 100 + (int)k);
         }
         last_said[0] = '\0';
-        assert_int_equal(weft_scene_wear_folder(scene, NULL, path, &count, &log, &error), WEFT_OK);
+        assert_int_equal(weft_scene_bind_maps(scene, NULL, path, &count, &log, &error), WEFT_OK);
         assert_string_equal(last_said, "");
         assert_int_equal(count, 10);
         const Material *cloth = named(scene, "Cloth");
@@ -257,7 +256,7 @@ static void maps_of_the_principled_model_are_read(void **state) {
         draw(file, 4, 1);
         snprintf(file, sizeof file, "%s/mask.png", spelling ? "b" : "a");
         draw(file, 4, 1);
-        assert_int_equal(weft_scene_wear_folder(scene, NULL, path, &count, &log, &error), WEFT_OK);
+        assert_int_equal(weft_scene_bind_maps(scene, NULL, path, &count, &log, &error), WEFT_OK);
         assert_non_null(strstr(last_said, "no map is called so: flakes.png, mask.png"));
         weft_scene_free(scene);
     }

@@ -58,9 +58,9 @@ static void lobes_sample_what_their_pdf_says(void **state) {
                 if (!test_turn(&turn, 1, 7)) continue;
                 tests++;
                 Dir o = direction_cos(elevations[e], 0.4 + e);
-                Subject subject;
-                subject_of_lobe(&subject, &lobe, true);
-                check_proposal(&(View){.subject = &subject, .o = o, .lobe = lobe}, case_name(&lobe, o).text);
+                Bsdf bsdf;
+                bsdf_of_lobe(&bsdf, &lobe, true);
+                check_proposal(&(View){.bsdf = &bsdf, .o = o, .lobe = lobe}, case_name(&lobe, o).text);
             }
     print_message("%d proposals of lobes\n", tests);
     assert_true(tests <= TESTS - STACK_TESTS); /* else raise TESTS */
@@ -70,7 +70,7 @@ static void stack_pdf(const View *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
 static Dir stack_draw(const View *view, float u, float v) { return seen_sample(&view->whole, u, v); }
-static const Subject stacked = {.pdf = stack_pdf, .sample = stack_draw};
+static const Bsdf stacked = {.pdf = stack_pdf, .sample = stack_draw};
 
 static void stacks_sample_what_their_pdf_says(void **state) {
     (void)state;
@@ -82,8 +82,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
         if (k % 3 == 1) surface = dusted(surface, 0.1f * (float)k);
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
-            View view = {
-                .subject = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
+            View view = {.bsdf = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
             char name[64];
             snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
             check_proposal(&view, name);
@@ -101,11 +100,11 @@ static void leaning_pdf(const View *view, Dirs i, float *pdf) {
 static void a_wrong_pdf_is_found(void **state) {
     (void)state;
     Lobe lambert = lobe_default(LOBE_LAMBERT);
-    Subject subject;
-    subject_of_lobe(&subject, &lambert, true);
+    Bsdf bsdf;
+    bsdf_of_lobe(&bsdf, &lambert, true);
     for (int e = 0; e < ELEVATIONS; e++) {
-        View view = {.subject = &subject, .o = direction_cos(elevations[e], 0.4 + e), .lobe = lambert};
-        subject.pdf = leaning_pdf;
+        View view = {.bsdf = &bsdf, .o = direction_cos(elevations[e], 0.4 + e), .lobe = lambert};
+        bsdf.pdf = leaning_pdf;
         ChiSquare found = measure(&view);
         assert_true(fabs(found.integral - 1.0) < 1e-3 && found.stray == 0);
         assert_true(found.p < significance());

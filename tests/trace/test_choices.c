@@ -72,7 +72,8 @@ static void every_preset_makes_a_picture(void **state) {
         char path[64];
         WeftScene *scene = load();
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
-        if (weft_scene_dress(scene, NULL, path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
         check(scene, "preset", weft_preset_name(k));
         weft_scene_free(scene);
     }

@@ -87,7 +87,7 @@ FN FibreWalker fibre_walk_turn(FibreWalker w, float s, Dir t, uint64_t *stream) 
 }
 
 /* f2 + f3 + ... by one walk from a, connected to b. */
-FN_APART float fibre_walk_more(FibreWalk m, Dir a, Dir b, uint64_t stream) {
+FN_NOINLINE float fibre_walk_more(FibreWalk m, Dir a, Dir b, uint64_t stream) {
     float s = m.alpha * m.alpha, sum = 0.0f;
     Dir t = flake_axis(m.tilt, m.azimuth);
     float nu_b = dir_dot(b, t), sigma_b = flake_sigma(s, nu_b);
@@ -122,7 +122,7 @@ FN float fibre_walk_f(FibreWalk m, Angles a) {
 }
 
 /* E: the share of walks that come back. The same random numbers for every wo make it smooth. */
-FN_APART float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
+FN_NOINLINE float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
     float s = m.alpha * m.alpha;
     Dir t = flake_axis(m.tilt, m.azimuth);
     int back = 0;

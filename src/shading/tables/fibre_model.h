@@ -44,7 +44,7 @@ STRUCT(FibreNumbers) {
     float tc0, tc1, tc2;
 };
 
-FN_APART FibreNumbers fibre_numbers(float t, float l, float s) {
+FN_NOINLINE FibreNumbers fibre_numbers(float t, float l, float s) {
     FibreNumbers m;
     m.thin = max(-7.10619254e-02f - t, 0.0f);
     t = t + m.thin;

@@ -1,4 +1,4 @@
-/* subject.h - something that reflects, as the command line names it
+/* model.h - something that reflects, as the command line names it
  *
  *   ashikhmin-neubelt                  a lobe, with its defaults
  *   ggx:alpha=0.2,color=1,0.8,0.3      with parameters
@@ -10,56 +10,56 @@
  *
  * A kind before the name settles what two of them share: "lobe:silk", "preset:silk". Textures are left out:
  * of a material only the numbers count, and a warning says so. */
-#ifndef WEFT_CLI_SUBJECT_H
-#define WEFT_CLI_SUBJECT_H
+#ifndef WEFT_CLI_MODEL_H
+#define WEFT_CLI_MODEL_H
 
 #include <stdbool.h>
 
 #include "weft/weft.h"
 
-typedef enum SubjectKind {
-    SUBJECT_LOBE,
-    SUBJECT_PROFILE,
-    SUBJECT_WORKFLOW,
-    SUBJECT_MATERIAL,
-    SUBJECT_MEASURED
-} SubjectKind;
+typedef enum ModelKind {
+    MODEL_LOBE,
+    MODEL_PROFILE,
+    MODEL_WORKFLOW,
+    MODEL_MATERIAL,
+    MODEL_MEASURED
+} ModelKind;
 
-typedef struct Subject {
-    SubjectKind kind;
+typedef struct Model {
+    ModelKind kind;
     char name[128];  /* what it is called: an id, a material's own name, a file without folder and suffix */
-    char path[1024]; /* SUBJECT_MEASURED: the file */
+    char path[1024]; /* MODEL_MEASURED: the file */
     bool bare;       /* a profile or workflow has its own defaults */
     bool given;      /* settings stood behind the name */
     char words[256]; /* as it was typed, cut where it is long: for labels */
-    WeftLobe lobe;   /* SUBJECT_LOBE */
-    WeftMaterial material;      /* SUBJECT_PROFILE, SUBJECT_WORKFLOW, SUBJECT_MATERIAL */
+    WeftLobe lobe;   /* MODEL_LOBE */
+    WeftMaterial material;      /* MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL */
     WeftReflection *reflection; /* owned */
-} Subject;
+} Model;
 
 /* What follows the name, for help texts. */
-#define SUBJECT_FORM "NAME[:KEY=VALUE,...]"
+#define MODEL_FORM "NAME[:KEY=VALUE,...]"
 
 /* Reads what was typed. A profile or workflow without inputs has a grey cloth with a white sheen: base_color
  * 0.2, sheen_color 1, sheen_roughness 0.5, roughness 1. Returns 0, or an exit code after one line on standard
- * error. Release with subject_free in any case. */
-int subject_read(const char *typed, Subject *out);
+ * error. Release with model_free in any case. */
+int model_read(const char *typed, Model *out);
 
 /* Without the reflection. */
-int subject_parse(const char *typed, Subject *out);
+int model_parse(const char *typed, Model *out);
 
 /* The same, but a profile or workflow has its own defaults and no grey cloth. */
-int subject_parse_bare(const char *typed, Subject *out);
+int model_parse_bare(const char *typed, Model *out);
 
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */
-int subject_prepare(Subject *subject);
+int model_prepare(Model *model);
 
 /* Says on standard error where it takes another number than it was given. */
-void subject_warn(const Subject *subject);
+void model_warn(const Model *model);
 
 /* Whether it has a material: a profile and a workflow have one too. */
-bool subject_is_material(const Subject *subject);
+bool model_is_material(const Model *model);
 
-void subject_free(Subject *subject);
+void model_free(Model *model);
 
 #endif

@@ -1,7 +1,7 @@
-/* subjects.h - all that can be exported, the same questions put to a text in any language, and the library's
+/* models.h - all that can be exported, the same questions put to a text in any language, and the library's
  * answers */
-#ifndef WEFT_TESTS_EXPORT_SUBJECTS_H
-#define WEFT_TESTS_EXPORT_SUBJECTS_H
+#ifndef WEFT_TESTS_EXPORT_MODELS_H
+#define WEFT_TESTS_EXPORT_MODELS_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -27,7 +27,7 @@
 #include "shading/choice.h"
 #include "shading/material_stack.h"
 
-enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, SUBJECTS_MAX = 128 };
+enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, MODELS_MAX = 128 };
 
 /* A lobe, or a material: a profile's, a workflow's or a preset's. */
 typedef struct Exported {
@@ -39,7 +39,7 @@ typedef struct Exported {
     bool profile;
 } Exported;
 
-static inline int subjects_lobes(Exported *out) {
+static inline int models_lobes(Exported *out) {
     int count = 0;
     for (int k = 0; k < weft_lobe_count(); k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
@@ -51,7 +51,7 @@ static inline int subjects_lobes(Exported *out) {
     return count;
 }
 
-static inline int subjects_profiles(Exported *out) {
+static inline int models_profiles(Exported *out) {
     int count = 0;
     for (int k = 0; weft_workflow_id(k); k++) {
         out[count] = (Exported){.id = weft_workflow_id(k), .profile = true};
@@ -68,7 +68,7 @@ static inline int subjects_profiles(Exported *out) {
 
 /* Materials of choices beside a workflow: rules below the interface, a sheen of free terms with an F of its
  * colour, and a round highlight on a brushed base. */
-static inline int subjects_choices(Exported *out) {
+static inline int models_choices(Exported *out) {
     static const struct {
         const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f;
     } rows[] = {
@@ -101,14 +101,14 @@ static inline int subjects_choices(Exported *out) {
     return ROWS;
 }
 
-static inline int subjects_presets(Exported *out) {
+static inline int models_presets(Exported *out) {
     int count = 0;
     WeftScene *scene;
     assert_int_equal(weft_scene_load("builtin:spheres", &scene, NULL, NULL), WEFT_OK);
     for (; weft_preset_name(count); count++) {
         char path[64];
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(count));
-        assert_int_equal(weft_scene_dress(scene, "*", path, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, "*", path, NULL, NULL), WEFT_OK);
         out[count] = (Exported){.id = weft_preset_name(count), .fixed = true};
         assert_int_equal(weft_scene_material(scene, 0, &out[count].numbers, NULL), WEFT_OK);
         out[count].material = material_of_numbers(&out[count].numbers);
@@ -121,7 +121,7 @@ static inline bool has_albedo(const Exported *s) {
     return s->is_lobe && !(weft_lobe_info(s->lobe.lobe)->traits & WEFT_LOBE_ANISOTROPIC);
 }
 
-static inline WeftExportDesc subject_desc(const Exported *s, WeftExportTarget target) {
+static inline WeftExportDesc model_desc(const Exported *s, WeftExportTarget target) {
     WeftExportDesc desc = {.target = target, .lut = WEFT_EXPORT_LUT_EXR, .name = s->id};
     if (target == WEFT_EXPORT_C) desc.lut = WEFT_EXPORT_LUT_C;
     if (s->is_lobe) {
@@ -136,7 +136,7 @@ static inline WeftExportDesc subject_desc(const Exported *s, WeftExportTarget ta
     return desc;
 }
 
-static inline WeftExport subject_export(const WeftExportDesc *desc) {
+static inline WeftExport model_export(const WeftExportDesc *desc) {
     WeftExport out;
     WeftError error = {0};
     if (weft_export(desc, &out, &error) != WEFT_OK) fail_msg("%s: %s", desc->name, error.text);
@@ -161,7 +161,7 @@ static inline Dir any_direction(Draw *draw) {
 }
 
 /* in[row][4 k + column] */
-static inline void subject_inputs(const Exported *s, float *in[INPUTS]) {
+static inline void model_inputs(const Exported *s, float *in[INPUTS]) {
     Draw draw = draw_start(20, 0);
     for (size_t k = 0; k < PAIRS; k++) {
         Dir o = any_direction(&draw), i = any_direction(&draw);
@@ -213,8 +213,8 @@ static inline void body_declare(Body *body, const Language *language, const char
 }
 
 /* The function of that name that returns a record: what it returns, and its text from there on. */
-static inline const char *subject_record(const WeftExport *text, const Language *language, const char *end,
-                                         char type[64]) {
+static inline const char *model_record(const WeftExport *text, const Language *language, const char *end,
+                                       char type[64]) {
     char call[64];
     snprintf(call, sizeof call, "%s%s", end, language->of);
     const char *at = strstr(text->text, call), *record = at;
@@ -234,7 +234,7 @@ static inline void put_lobe_questions(const Exported *s, const WeftExport *text,
     const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
     bool two = info->traits & WEFT_LOBE_TWO_COLORS;
     char type[64];
-    subject_record(text, l, "_default", type);
+    model_record(text, l, "_default", type);
     body_declare(body, l, type, "m");
     body_put(body, " = %s_default();\n", id);
     for (int p = 0; p < info->param_count; p++)
@@ -258,7 +258,7 @@ static inline void put_lobe_questions(const Exported *s, const WeftExport *text,
 static inline void put_material_questions(const Exported *s, const WeftExport *text, const Language *l,
                                           const char *id, Body *body) {
     char type[64];
-    const char *numbers = subject_record(text, l, "_surface", type);
+    const char *numbers = model_record(text, l, "_surface", type);
     body_declare(body, l, type, "s");
     body_put(body, " = %s_surface();\n", id);
     for (int v = 0; v < VARIED && !s->fixed; v++) {
@@ -278,8 +278,8 @@ static inline void put_material_questions(const Exported *s, const WeftExport *t
 }
 
 /* Statements which read in0 .. in5 and set members of out0 and out1. */
-static inline void subject_body(const Exported *s, const WeftExport *text, const char *prefix,
-                                const Language *l, char *out, size_t room) {
+static inline void model_body(const Exported *s, const WeftExport *text, const char *prefix,
+                              const Language *l, char *out, size_t room) {
     char id[64];
     Body body = {.text = out, .room = room};
     snprintf(id, sizeof id, "%s%s", prefix, s->id);
@@ -350,7 +350,7 @@ static inline void material_answers(const Exported *s, float *const in[INPUTS], 
     free(table);
 }
 
-static inline void subject_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
+static inline void model_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
     (s->is_lobe ? lobe_answers : material_answers)(s, in, out);
 }
 
@@ -362,8 +362,8 @@ typedef struct Arrays {
 static inline void arrays_fill(const Exported *s, Arrays *a);
 
 static inline void arrays_fill(const Exported *s, Arrays *a) {
-    subject_inputs(s, a->in);
-    subject_answers(s, a->in, a->expected);
+    model_inputs(s, a->in);
+    model_answers(s, a->in, a->expected);
 }
 
 static inline Arrays arrays_make(void) {

@@ -1,5 +1,5 @@
 /* dress.c - putting the material of a file, or a preset, on a scene */
-#include "scene/dress.h"
+#include "scene/assign.h"
 #include "base/fail.h"
 #include "scene/material_file.h"
 #include "scene/pictures.h"
@@ -30,7 +30,7 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
         texture.image = image[from];
         if (!texture.path) return false;
         number[k] = image[from] < 0 ? picture_add(scene, &file->images[from], texture)
-                                    : picture_share(scene, texture);
+                                    : texture_number_of(scene, texture);
         if (!number[k]) return false;
         image[from] = scene->textures[number[k] - 1].image;
     }
@@ -58,7 +58,7 @@ static Material dressed(const Material *old, const MaterialFile *file) {
     return fresh;
 }
 
-bool *materials_wished(WeftScene *scene, const char *material, WeftError *error) {
+bool *materials_matching(WeftScene *scene, const char *material, WeftError *error) {
     int matched = 0;
     bool *wished = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *wished);
     if (!wished) {
@@ -78,7 +78,7 @@ bool *materials_wished(WeftScene *scene, const char *material, WeftError *error)
 
 static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
     WeftError said = {.result = WEFT_RESOURCES};
-    const bool *wears = materials_wished(scene, material, &said);
+    const bool *wears = materials_matching(scene, material, &said);
     if (!wears && error) *error = said;
     if (!wears) return said.result;
     if (!adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -94,15 +94,16 @@ static WeftResult dress_from(WeftScene *scene, const char *material, MaterialFil
     return result;
 }
 
-WeftResult weft_scene_dress_memory(WeftScene *scene, const char *material, const void *data, size_t size,
-                                   const char *name, const WeftLog *log, WeftError *error) {
+WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material, const void *data,
+                                             size_t size, const char *name, const WeftLog *log,
+                                             WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
     return dress_from(scene, material, &file, read, error);
 }
 
-WeftResult weft_scene_dress(WeftScene *scene, const char *material, const char *path, const WeftLog *log,
-                            WeftError *error) {
+WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
+                                      const WeftLog *log, WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_load(path, &file, log, error);
     return dress_from(scene, material, &file, read, error);

@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
-#include "scene/dress.h"
+#include "scene/assign.h"
 #include "scene/pictures.h"
 #include "scene/set.h"
 #include "scene/tangents.h"
@@ -51,7 +51,7 @@ static bool take_over(WeftScene *scene, Picture *picture) {
     int image = scene->textures[before].image, plain = find_plain(scene, image);
     Texture texture = {
         .image = image, .path = scene->textures[before].path, .turn = scene->textures[before].turn};
-    picture->texture = plain < 0 ? picture_share(scene, texture) : plain + 1;
+    picture->texture = plain < 0 ? texture_number_of(scene, texture) : plain + 1;
     if (picture->texture) picture_replace(scene, image, &picture->image, texture.path);
     return picture->texture != 0;
 }
@@ -108,7 +108,7 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     WeftError said = {0};
     WeftResult result = read_target(text, &target, error);
     if (result != WEFT_OK) return result;
-    const bool *wished = materials_wished(scene, target.material, &said);
+    const bool *wished = materials_matching(scene, target.material, &said);
     if (!wished && error) *error = said;
     if (!wished) return said.result;
     Picture picture = {.path = strdup(path)};
@@ -311,12 +311,12 @@ static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
     if (any && workflow >= 0) material_choose(material, CHOICE_workflow, workflow);
 }
 
-WeftResult weft_scene_wear_folder(WeftScene *scene, const char *material, const char *folder, int *count,
-                                  const WeftLog *log, WeftError *error) {
+WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder, int *count,
+                                const WeftLog *log, WeftError *error) {
     Wardrobe wardrobe = {0};
     WeftError said = {0};
     if (count) *count = 0;
-    const bool *wished = materials_wished(scene, material, &said);
+    const bool *wished = materials_matching(scene, material, &said);
     if (!wished && error) *error = said;
     if (!wished) return said.result;
     WeftResult result = read_folder(folder, &wardrobe, log, error);

@@ -1,6 +1,6 @@
 #include <stdlib.h>
 
-#include "measure/subject.h"
+#include "measure/bsdf.h"
 
 #include "base/memory.h"
 #include "base/thread.h"
@@ -33,19 +33,19 @@ static bool extreme(const Lobe *lobe, int k, Lobe *out) {
     return false;
 }
 
-Lobe subject_lobe(const Subject *subject, int setting) {
-    Lobe lobe = subject->lobe;
-    if (setting >= subject->rows)
-        extreme(&subject->lobe, setting - subject->rows, &lobe);
+Lobe bsdf_lobe(const Bsdf *bsdf, int setting) {
+    Lobe lobe = bsdf->lobe;
+    if (setting >= bsdf->rows)
+        extreme(&bsdf->lobe, setting - bsdf->rows, &lobe);
     else if (is_number(weft_lobe_info(lobe.id)))
-        lobe_set(&lobe, 0, subject->values[setting]);
+        lobe_set(&lobe, 0, bsdf->values[setting]);
     return lobe;
 }
 
-static void lobe_look(const Subject *subject, int setting, Dir o, View *view) {
-    view->subject = subject;
+static void lobe_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+    view->bsdf = bsdf;
     view->o = o;
-    view->lobe = subject_lobe(subject, setting);
+    view->lobe = bsdf_lobe(bsdf, setting);
     view->second = lobe_second(&view->lobe, 1.0f, 1.0f);
 }
 
@@ -62,7 +62,7 @@ static void ours_fill(Ours *ours, Dir o) {
 
 static void lobe_f(const View *view, Dirs i, float *f) {
     Ours o;
-    float share[BLOCK], same[2][BLOCK], w = view->subject->albedo;
+    float share[BLOCK], same[2][BLOCK], w = view->bsdf->albedo;
     ours_fill(&o, view->o);
     unsigned traits = weft_lobe_info(view->lobe.id)->traits;
     bool mixes = (traits & TRAIT_TWO_COLORS) != 0, tinted = traits & TRAIT_TINTED && w < 1.0f;
@@ -89,44 +89,44 @@ static void lobe_density(const View *view, Dirs i, float *pdf) {
 
 static Dir lobe_draw(const View *view, float u, float v) { return lobe_sample(&view->lobe, view->o, u, v); }
 
-static int nearest_row(const Subject *subject, float value) {
+static int nearest_row(const Bsdf *bsdf, float value) {
     int best = 0;
-    for (int k = 1; k < subject->rows; k++)
-        if (fabsf(subject->values[k] - value) < fabsf(subject->values[best] - value)) best = k;
+    for (int k = 1; k < bsdf->rows; k++)
+        if (fabsf(bsdf->values[k] - value) < fabsf(bsdf->values[best] - value)) best = k;
     return best;
 }
 
-void subject_of_lobe(Subject *subject, const Lobe *lobe, bool quick) {
+void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    *subject = (Subject){.lobe = *lobe,
-                         .albedo = 1.0f,
-                         .parameter = "",
-                         .look = lobe_look,
-                         .f = lobe_f,
-                         .pdf = lobe_density,
-                         .sample = lobe_draw};
+    *bsdf = (Bsdf){.lobe = *lobe,
+                   .albedo = 1.0f,
+                   .parameter = "",
+                   .look = lobe_look,
+                   .f = lobe_f,
+                   .pdf = lobe_density,
+                   .sample = lobe_draw};
     if (is_number(info)) {
         const WeftParamInfo *p = &info->params[0];
-        subject->parameter = p->name;
+        bsdf->parameter = p->name;
         for (int k = 0; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
             float value = lobe_rough(lobe->id, (float)k / (WEFT_PASSPORT_ROWS - 1)).params[0];
             value = clamp(value, p->low, p->high);
-            if (subject->rows > 0 && value < 1.001f * subject->values[subject->rows - 1]) continue;
-            subject->values[subject->rows++] = value;
+            if (bsdf->rows > 0 && value < 1.001f * bsdf->values[bsdf->rows - 1]) continue;
+            bsdf->values[bsdf->rows++] = value;
         }
-        subject->row_default = nearest_row(subject, p->def);
+        bsdf->row_default = nearest_row(bsdf, p->def);
     } else {
-        subject->rows = 1;
+        bsdf->rows = 1;
     }
     Lobe ignored;
     int extremes = 0;
-    while (extremes < SUBJECT_EXTREMES && extreme(lobe, extremes, &ignored)) extremes++;
-    subject->settings = subject->rows + extremes;
+    while (extremes < BSDF_EXTREMES && extreme(lobe, extremes, &ignored)) extremes++;
+    bsdf->settings = bsdf->rows + extremes;
 }
 
 /* Materials. */
 
-const char subject_velvet[] =
+const char bsdf_velvet[] =
     "white velvet: base_color, sheen_color and specular_color 1, roughness 1, ior 1.5, "
     "no metal, no coat";
 
@@ -163,11 +163,11 @@ static Surface extreme_velvet(int k) {
     return s;
 }
 
-static void whole_look(const Subject *subject, int setting, Dir o, View *view) {
-    view->subject = subject;
+static void whole_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+    view->bsdf = bsdf;
     view->o = o;
-    seen_make(&view->whole, &subject->surfaces[setting], &subject->choices,
-              albedo_table_ref(&subject->tables[subject->table_of[setting]]), o);
+    seen_make(&view->whole, &bsdf->surfaces[setting], &bsdf->choices,
+              albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]), o);
 }
 
 static void whole_f(const View *view, Dirs i, float *f) {
@@ -196,63 +196,63 @@ static bool same_sheen(const Sheen *a, const Sheen *b) {
     return same;
 }
 
-static Sheen sheen_of(const Subject *subject, int setting) {
+static Sheen sheen_of(const Bsdf *bsdf, int setting) {
     Stack stack;
-    stack_make(&stack, &subject->surfaces[setting], &subject->choices, (TableRef){.kind = TABLE_NONE});
+    stack_make(&stack, &bsdf->surfaces[setting], &bsdf->choices, (TableRef){.kind = TABLE_NONE});
     return (Sheen){stack.sheen.lobe, stack.albedo_coord};
 }
 
 typedef struct Fill {
-    Subject *subject;
-    Sheen sheens[WEFT_PASSPORT_ROWS + SUBJECT_EXTREMES]; /* of table k */
+    Bsdf *bsdf;
+    Sheen sheens[WEFT_PASSPORT_ROWS + BSDF_EXTREMES]; /* of table k */
 } Fill;
 
 static void fill_table(void *user, int k, int thread) {
     (void)thread;
     const Fill *fill = user;
-    albedo_table_fill(&fill->subject->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at,
-                      fill->sheens[k].at, 1);
+    albedo_table_fill(&fill->bsdf->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at, fill->sheens[k].at,
+                      1);
 }
 
 /* One table for all settings of the same sheen. False when memory is short. */
-static bool fill_tables(Subject *subject, int threads) {
-    Fill fill = {.subject = subject};
+static bool fill_tables(Bsdf *bsdf, int threads) {
+    Fill fill = {.bsdf = bsdf};
     int count = 0;
-    for (int k = 0; k < subject->settings; k++) {
-        Sheen sheen = sheen_of(subject, k);
+    for (int k = 0; k < bsdf->settings; k++) {
+        Sheen sheen = sheen_of(bsdf, k);
         int found = 0;
         while (found < count && !same_sheen(&fill.sheens[found], &sheen)) found++;
         if (found == count) fill.sheens[count++] = sheen;
-        subject->table_of[k] = found;
+        bsdf->table_of[k] = found;
     }
-    subject->tables = alloc_array((size_t)count, sizeof *subject->tables);
-    if (!subject->tables) return false;
+    bsdf->tables = alloc_array((size_t)count, sizeof *bsdf->tables);
+    if (!bsdf->tables) return false;
     parallel_for(threads, count, fill_table, &fill);
     return true;
 }
 
-bool subject_of_profile(Subject *subject, int profile, bool quick, int threads) {
-    *subject = (Subject){.whole = true,
-                         .parameter = "sheen_roughness",
-                         .look = whole_look,
-                         .f = whole_f,
-                         .pdf = whole_pdf,
-                         .sample = whole_sample};
-    subject->choices = choices_unmade();
-    subject->choices.profile = profile;
+bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
+    *bsdf = (Bsdf){.whole = true,
+                   .parameter = "sheen_roughness",
+                   .look = whole_look,
+                   .f = whole_f,
+                   .pdf = whole_pdf,
+                   .sample = whole_sample};
+    bsdf->choices = choices_unmade();
+    bsdf->choices.profile = profile;
     for (int k = 1; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
-        Surface *s = &subject->surfaces[subject->rows];
+        Surface *s = &bsdf->surfaces[bsdf->rows];
         *s = velvet;
         s->sheen_roughness = (float)k / (WEFT_PASSPORT_ROWS - 1);
-        subject->values[subject->rows++] = s->sheen_roughness;
+        bsdf->values[bsdf->rows++] = s->sheen_roughness;
     }
-    subject->row_default = nearest_row(subject, 0.5f);
-    for (int k = 0; k < SUBJECT_EXTREMES; k++) subject->surfaces[subject->rows + k] = extreme_velvet(k);
-    subject->settings = subject->rows + SUBJECT_EXTREMES;
-    return fill_tables(subject, threads);
+    bsdf->row_default = nearest_row(bsdf, 0.5f);
+    for (int k = 0; k < BSDF_EXTREMES; k++) bsdf->surfaces[bsdf->rows + k] = extreme_velvet(k);
+    bsdf->settings = bsdf->rows + BSDF_EXTREMES;
+    return fill_tables(bsdf, threads);
 }
 
-void subject_free(Subject *subject) {
-    free(subject->tables);
-    subject->tables = NULL;
+void bsdf_free(Bsdf *bsdf) {
+    free(bsdf->tables);
+    bsdf->tables = NULL;
 }

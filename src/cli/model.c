@@ -1,4 +1,4 @@
-#include "subject.h"
+#include "model.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ typedef struct Parts {
 } Parts;
 
 /* A colon begins settings where a '=' follows it; a kind or a file's material where none does. */
-static int take_apart(const char *typed, Parts *parts) {
+static int split_name(const char *typed, Parts *parts) {
     *parts = (Parts){.kind = NULL};
     parts->name = parts->text;
     if (strlen(typed) >= sizeof parts->text) return report(WEFT_USAGE, "%.60s...: is too long a name", typed);
@@ -35,7 +35,7 @@ static int take_apart(const char *typed, Parts *parts) {
     if (equals)
         for (char *at = parts->name; at < equals; at++)
             if (*at == ':') colon = at;
-    if (equals && !colon) return report(WEFT_USAGE, "%.200s: write " SUBJECT_FORM, typed);
+    if (equals && !colon) return report(WEFT_USAGE, "%.200s: write " MODEL_FORM, typed);
     if (colon) {
         *colon = '\0';
         parts->settings = colon + 1;
@@ -50,56 +50,56 @@ static void warned(void *user, WeftMessage message, const char *text) {
     snprintf(last, sizeof((WeftError *)0)->text, "%s", text);
 }
 
-static int set_one(Subject *subject, const char *key, const char *value, const WeftLog *log) {
+static int set_one(Model *model, const char *key, const char *value, const WeftLog *log) {
     WeftError error;
-    WeftResult result = subject->kind == SUBJECT_LOBE
-                            ? weft_lobe_set(&subject->lobe, key, value, log, &error)
-                            : weft_material_set(&subject->material, key, value, log, &error);
+    WeftResult result = model->kind == MODEL_LOBE
+                            ? weft_lobe_set(&model->lobe, key, value, log, &error)
+                            : weft_material_set(&model->material, key, value, log, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* KEY=VALUE,KEY=VALUE: what has no '=' belongs to the value before it, as the green in color=1,0.8,0.3. */
-static int set_all(Subject *subject, char *settings) {
+static int set_all(Model *model, char *settings) {
     WeftError last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
     int result = 0;
     for (char *key = settings; result == 0 && key;) {
         char *value = strchr(key, '='), *next = value ? value : key;
         if (!value || value == key)
-            return report(WEFT_USAGE, "%.200s: \"%.80s\" is not KEY=VALUE", subject->words, key);
+            return report(WEFT_USAGE, "%.200s: \"%.80s\" is not KEY=VALUE", model->words, key);
         *value++ = '\0';
         do next = strchr(next == value - 1 ? value : next + 1, ',');
         while (next && !memchr(next + 1, '=', strcspn(next + 1, ",")));
         if (next) *next++ = '\0';
-        result = set_one(subject, key, value, &log);
+        result = set_one(model, key, value, &log);
         key = next;
     }
     return result;
 }
 
-static int of_lobe(Subject *subject, const char *id) {
+static int of_lobe(Model *model, const char *id) {
     WeftError error;
-    subject->kind = SUBJECT_LOBE;
-    return weft_lobe_create(id, &subject->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
+    model->kind = MODEL_LOBE;
+    return weft_lobe_create(id, &model->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* A choice, "profile" or "workflow", on a grey cloth unless it is to be bare. */
-static int of_choice(Subject *subject, const char *choice, const char *id) {
+static int of_choice(Model *model, const char *choice, const char *id) {
     static const char *const cloth[][2] = {
         {"base_color", "0.2"}, {"sheen_color", "1"}, {"sheen_roughness", "0.5"}, {"roughness", "1"}};
     WeftError error;
-    weft_material_default(&subject->material);
-    WeftResult result = weft_material_set(&subject->material, choice, id, NULL, &error);
-    for (size_t k = 0; result == WEFT_OK && !subject->bare && k < sizeof cloth / sizeof *cloth; k++)
-        result = weft_material_set(&subject->material, cloth[k][0], cloth[k][1], NULL, &error);
+    weft_material_default(&model->material);
+    WeftResult result = weft_material_set(&model->material, choice, id, NULL, &error);
+    for (size_t k = 0; result == WEFT_OK && !model->bare && k < sizeof cloth / sizeof *cloth; k++)
+        result = weft_material_set(&model->material, cloth[k][0], cloth[k][1], NULL, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-static int of_material(Subject *subject, const char *path) {
+static int of_material(Model *model, const char *path) {
     WeftError error, last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
-    subject->kind = SUBJECT_MATERIAL;
-    return weft_material_read(path, &subject->material, &log, &error) == WEFT_OK ? 0 : report_error(&error);
+    model->kind = MODEL_MATERIAL;
+    return weft_material_read(path, &model->material, &log, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* The material called so, or by its index; NULL: the only one. */
@@ -124,25 +124,25 @@ static int material_index(const WeftScene *scene, const char *path, const char *
 }
 
 /* Without its textures, under its own name where it has one. */
-static void take_material(Subject *subject, const char *name, const char *path) {
+static void take_material(Model *model, const char *name, const char *path) {
     bool textured = false;
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
-        textured |= subject->material.inputs[k].texture != 0;
-        subject->material.inputs[k].texture = 0;
+        textured |= model->material.inputs[k].texture != 0;
+        model->material.inputs[k].texture = 0;
     }
     if (textured) report(0, "warning: %.200s: its textures are left out: only its numbers count here", path);
-    if (*name) snprintf(subject->name, sizeof subject->name, "%s", name);
+    if (*name) snprintf(model->name, sizeof model->name, "%s", name);
 }
 
-static int of_scene(Subject *subject, const char *path, const char *wanted) {
+static int of_scene(Model *model, const char *path, const char *wanted) {
     WeftError error;
     WeftScene *scene;
-    subject->kind = SUBJECT_MATERIAL;
+    model->kind = MODEL_MATERIAL;
     if (weft_scene_load(path, &scene, NULL, &error) != WEFT_OK) return report_error(&error);
     int index = material_index(scene, path, wanted), result = index < 0 ? WEFT_USAGE : 0;
-    if (result == 0 && weft_scene_material(scene, index, &subject->material, &error) != WEFT_OK)
+    if (result == 0 && weft_scene_material(scene, index, &model->material, &error) != WEFT_OK)
         result = report_error(&error);
-    if (result == 0) take_material(subject, weft_scene_material_name(scene, index), path);
+    if (result == 0) take_material(model, weft_scene_material_name(scene, index), path);
     weft_scene_free(scene);
     return result;
 }
@@ -167,96 +167,96 @@ static int not_known(const char *name) {
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }
 
-static int of_kind(Subject *subject, const Kind *kind, const char *name) {
+static int of_kind(Model *model, const Kind *kind, const char *name) {
     char path[160];
     if (kind_named(kind, name) < 0) return WEFT_USAGE;
-    if (kind == kind_of("lobe")) return of_lobe(subject, name);
+    if (kind == kind_of("lobe")) return of_lobe(model, name);
     if (kind != kind_of("preset")) {
-        subject->kind = kind == kind_of("profile") ? SUBJECT_PROFILE : SUBJECT_WORKFLOW;
-        return of_choice(subject, kind->id, name);
+        model->kind = kind == kind_of("profile") ? MODEL_PROFILE : MODEL_WORKFLOW;
+        return of_choice(model, kind->id, name);
     }
     snprintf(path, sizeof path, "preset:%.120s", name);
-    return of_material(subject, path);
+    return of_material(model, path);
 }
 
-static int of_name(Subject *subject, const Parts *parts) {
-    if (parts->kind) return of_kind(subject, parts->kind, parts->name);
+static int of_name(Model *model, const Parts *parts) {
+    if (parts->kind) return of_kind(model, parts->kind, parts->name);
     for (size_t k = 0; k < KINDS; k++)
         if (kind_find(kind_of(taken[k]), parts->name) >= 0)
-            return of_kind(subject, kind_of(taken[k]), parts->name);
+            return of_kind(model, kind_of(taken[k]), parts->name);
     char *end = scene_end(parts->name);
     if (end) {
         const char *wanted = *end ? end + 1 : NULL;
         *end = '\0';
-        return of_scene(subject, parts->name, wanted);
+        return of_scene(model, parts->name, wanted);
     }
-    if (path_ends(parts->name, ".json")) return of_material(subject, parts->name);
+    if (path_ends(parts->name, ".json")) return of_material(model, parts->name);
     if (!path_ends(parts->name, ".binary")) return not_known(parts->name);
-    subject->kind = SUBJECT_MEASURED;
-    snprintf(subject->path, sizeof subject->path, "%s", parts->name);
+    model->kind = MODEL_MEASURED;
+    snprintf(model->path, sizeof model->path, "%s", parts->name);
     return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)
                            : 0;
 }
 
 /* The last part of a path, up to its suffix; of an id, all of it. */
-static void name_after(Subject *subject, const char *path) {
+static void name_after(Model *model, const char *path) {
     const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path, *point = strchr(file, '.');
     size_t length = point && point > file ? (size_t)(point - file) : strlen(file);
-    if (length >= sizeof subject->name) length = sizeof subject->name - 1;
-    memcpy(subject->name, file, length);
-    subject->name[length] = '\0';
+    if (length >= sizeof model->name) length = sizeof model->name - 1;
+    memcpy(model->name, file, length);
+    model->name[length] = '\0';
 }
 
-static int parse(const char *typed, bool bare, Subject *out) {
+static int parse(const char *typed, bool bare, Model *out) {
     Parts parts;
     memset(out, 0, sizeof *out);
     out->bare = bare;
-    int result = take_apart(typed, &parts);
+    int result = split_name(typed, &parts);
     if (result != 0) return result;
     out->given = parts.settings != NULL;
     snprintf(out->words, sizeof out->words, "%s", typed);
     name_after(out, parts.name);
     result = of_name(out, &parts);
     if (result == 0 && parts.settings) result = set_all(out, parts.settings);
-    if (result == 0) subject_warn(out);
+    if (result == 0) model_warn(out);
     return result;
 }
 
-void subject_warn(const Subject *subject) {
+void model_warn(const Model *model) {
     WeftError last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
-    if (subject->kind == SUBJECT_LOBE)
-        weft_lobe_fitted(&subject->lobe, subject->name, &log);
-    else if (subject_is_material(subject))
-        weft_material_fitted(&subject->material, subject->name, &log);
+    if (model->kind == MODEL_LOBE)
+        weft_lobe_fitted(&model->lobe, model->name, &log);
+    else if (model_is_material(model))
+        weft_material_fitted(&model->material, model->name, &log);
 }
 
-int subject_parse(const char *typed, Subject *out) { return parse(typed, false, out); }
+int model_parse(const char *typed, Model *out) { return parse(typed, false, out); }
 
-int subject_parse_bare(const char *typed, Subject *out) { return parse(typed, true, out); }
+int model_parse_bare(const char *typed, Model *out) { return parse(typed, true, out); }
 
-int subject_prepare(Subject *subject) {
+int model_prepare(Model *model) {
     WeftError error;
-    weft_reflection_free(subject->reflection);
-    subject->reflection = NULL;
-    WeftResult result = subject->kind == SUBJECT_LOBE
-                            ? weft_reflection_of_lobe(&subject->lobe, &subject->reflection, &error)
-                        : subject->kind == SUBJECT_MEASURED
-                            ? weft_reflection_read(subject->path, &subject->reflection, &error)
-                            : weft_reflection_create(&subject->material, &subject->reflection, &error);
+    weft_reflection_free(model->reflection);
+    model->reflection = NULL;
+    WeftResult result = model->kind == MODEL_LOBE
+                            ? weft_reflection_of_lobe(&model->lobe, &model->reflection, &error)
+                        : model->kind == MODEL_MEASURED
+                            ? weft_reflection_read(model->path, &model->reflection, &error)
+                            : weft_reflection_create(&model->material, &model->reflection, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-int subject_read(const char *typed, Subject *out) {
-    int result = subject_parse(typed, out);
-    return result == 0 ? subject_prepare(out) : result;
+int model_read(const char *typed, Model *out) {
+    int result = model_parse(typed, out);
+    return result == 0 ? model_prepare(out) : result;
 }
 
-bool subject_is_material(const Subject *subject) {
-    return subject->kind != SUBJECT_LOBE && subject->kind != SUBJECT_MEASURED;
+bool model_is_material(const Model *model) {
+    return model->kind != MODEL_LOBE && model->kind != MODEL_MEASURED;
 }
 
-void subject_free(Subject *subject) {
-    weft_reflection_free(subject->reflection);
-    subject->reflection = NULL;
+void model_free(Model *model) {
+    weft_reflection_free(model->reflection);
+    model->reflection = NULL;
 }

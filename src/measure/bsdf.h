@@ -1,0 +1,62 @@
+/* bsdf.h - what a passport is made of: a lobe, or a whole material under a profile, behind one signature
+ *
+ * A BSDF is white, unless it is tinted and `albedo` says otherwise. It has settings: the rows of the
+ * passport, then extremes for the sweep. The calls are pointers so that a test can put a wrong one in. */
+#ifndef WEFT_MEASURE_BSDF_H
+#define WEFT_MEASURE_BSDF_H
+
+#include "shading/material_stack.h"
+#include "weft/measure.h"
+
+typedef struct Bsdf Bsdf;
+
+/* A BSDF at one setting, seen from one direction. */
+typedef struct View {
+    const Bsdf *bsdf;
+    Dir o;
+    Lobe lobe; /* of a lobe */
+    float second;
+    SeenStack whole; /* of a material */
+} View;
+
+/* Many directions: structures of arrays. */
+typedef struct Dirs {
+    size_t n;
+    const float *x, *y, *z;
+} Dirs;
+
+enum { BSDF_EXTREMES = 64 };
+
+struct Bsdf {
+    int rows, row_default;
+    float values[WEFT_PASSPORT_ROWS]; /* of the parameter */
+    const char *parameter;            /* its name, "" without one */
+    int settings;                     /* rows and extremes */
+
+    Lobe lobe;
+    float albedo; /* what a tinted lobe is made of; 1: it is white */
+    bool whole;   /* a material: */
+    Surface surfaces[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
+    Choices choices;
+    AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
+    int table_of[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
+
+    void (*look)(const Bsdf *bsdf, int setting, Dir o, View *view); /* o.z > 0 */
+    void (*f)(const View *view, Dirs i, float *f);                  /* 0 below the horizon */
+    void (*pdf)(const View *view, Dirs i, float *pdf);
+    Dir (*sample)(const View *view, float u, float v);
+};
+
+/* The lobe as it is given: rows run over its parameter 0. */
+void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick);
+
+/* The white velvet of a profile (bsdf_velvet says it in words). False when memory is short. */
+bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads);
+extern const char bsdf_velvet[];
+
+void bsdf_free(Bsdf *bsdf);
+
+/* The lobe of a setting. */
+Lobe bsdf_lobe(const Bsdf *bsdf, int setting);
+
+#endif
