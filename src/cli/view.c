@@ -36,19 +36,19 @@ static const Option view_options[] = {
     OPTION_END,
 };
 
-static WeftResult dress_scene(void *user, WeftScene *scene, Around *around, const WeftLog *log,
+static WeftResult dress_scene(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
                               WeftError *error) {
     const Staging *staging = user;
-    around->rotation = (float)staging->env_rotation;
-    around->strength = (float)staging->env_strength;
-    around->ambient = (float)staging->env_ambient;
-    around->reflection = (float)staging->env_reflection;
+    environment->rotation = (float)staging->env_rotation;
+    environment->strength = (float)staging->env_strength;
+    environment->ambient = (float)staging->env_ambient;
+    environment->reflection = (float)staging->env_reflection;
     if (staging->env_is_color) {
-        around->kind = AROUND_COLOR;
-        memcpy(around->color, staging->env_color, sizeof around->color);
-    } else if (staging->env && strlen(staging->env) < sizeof around->path) {
-        around->kind = AROUND_FILE;
-        snprintf(around->path, sizeof around->path, "%s", staging->env);
+        environment->kind = ENVIRONMENT_COLOR;
+        memcpy(environment->color, staging->env_color, sizeof environment->color);
+    } else if (staging->env && strlen(staging->env) < sizeof environment->path) {
+        environment->kind = ENVIRONMENT_FILE;
+        snprintf(environment->path, sizeof environment->path, "%s", staging->env);
     }
     return staging_apply(staging, 0, scene, log, error);
 }
@@ -85,7 +85,7 @@ static int view_verb_run(const Options *options) {
     if (staging.dress.count > 1)
         return report(WEFT_USAGE, "%s: the window shows one picture: give one value",
                       staging.dress.varied[0].option);
-    desc.dress = dress_scene;
+    desc.configure = dress_scene;
     desc.user = &staging;
     desc.camera = staging.camera;
     desc.background = staging.background;
@@ -101,10 +101,10 @@ static int view_verb_run(const Options *options) {
     desc.unseen = option_given(options, "--windowless");
     desc.forget = option_given(options, "--forget");
     desc.report = option_given(options, "--json");
-    char *dressed = command_dress_text(options);
-    desc.options = dressed;
+    char *configured = command_dress_text(options);
+    desc.options = configured;
     int code = view_run(&desc, why);
-    free(dressed);
+    free(configured);
     return code ? report(code, "%s", why) : 0;
 }
 

@@ -71,8 +71,8 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
 
 /* What was changed in a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
-    WeftMaterial was = *look_material(&v->first, index);
-    const WeftMaterial *is = look_material(&v->look, index);
+    WeftMaterial was = *scene_state_material(&v->first, index);
+    const WeftMaterial *is = scene_state_material(&v->state, index);
     for (int k = 0; weft_material_choice_name(k); k++) {
         if (is->choices[k] == was.choices[k]) continue;
         const char *id = is->choices[k] < 0 ? "auto" : weft_material_choice_value(k, is->choices[k]);
@@ -115,7 +115,7 @@ static void put_light(Line *line, const WeftLight *l) {
 }
 
 static void put_lights(Line *line, const Viewer *v) {
-    const Look *a = &v->first, *b = &v->look;
+    const SceneState *a = &v->first, *b = &v->state;
     if (a->light_count == b->light_count &&
         memcmp(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights) == 0)
         return;
@@ -123,12 +123,12 @@ static void put_lights(Line *line, const Viewer *v) {
     for (int k = 0; k < b->light_count; k++) put_light(line, &b->lights[k]);
 }
 
-static void put_around(Line *line, const Around *a) {
-    if (a->kind == AROUND_FILE) {
+static void put_environment(Line *line, const EnvironmentState *a) {
+    if (a->kind == ENVIRONMENT_FILE) {
         put(line, " --env");
         put_word(line, a->path);
     }
-    if (a->kind == AROUND_COLOR)
+    if (a->kind == ENVIRONMENT_COLOR)
         put(line, " --env %.9g,%.9g,%.9g", (double)a->color[0], (double)a->color[1], (double)a->color[2]);
     if (differs(a->rotation, 0.0f)) put(line, " --env-rotation %.9g", (double)a->rotation);
     if (differs(a->strength, 1.0f)) put(line, " --env-strength %.9g", (double)a->strength);
@@ -141,7 +141,7 @@ static void put_view(Line *line, const Viewer *v) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none"};
     static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
     char camera[ORBIT_TEXT];
-    put(line, " --width %d --height %d --camera", v->order.view.width, v->order.view.height);
+    put(line, " --width %d --height %d --camera", v->request.view.width, v->request.view.height);
     put_word(line, orbit_text(&v->orbit, camera));
     if (v->background == WEFT_BACKGROUND_COLOR)
         put(line, " --background %.9g,%.9g,%.9g", (double)v->background_color[0],
@@ -174,22 +174,22 @@ char *command_line(const Viewer *v, bool *lost) {
         put(&line, " --lobe");
         put_word(&line, v->lobes[k]);
     }
-    if (v->desc->options && v->desc->options[0] && strcmp(v->dressed, v->facts.path) == 0)
+    if (v->desc->options && v->desc->options[0] && strcmp(v->configured, v->facts.path) == 0)
         put(&line, " %s", v->desc->options);
-    if (v->desc->materials && strcmp(v->dressed, v->facts.path) == 0) { /* which the first look wears */
+    if (v->desc->materials && strcmp(v->configured, v->facts.path) == 0) { /* which the first look wears */
         put(&line, " --materials");
         put_word(&line, v->desc->materials);
     }
-    gone |= v->look.variant < 0 && v->first.variant >= 0;
-    if (v->look.variant != v->first.variant && v->look.variant >= 0) {
+    gone |= v->state.variant < 0 && v->first.variant >= 0;
+    if (v->state.variant != v->first.variant && v->state.variant >= 0) {
         put(&line, " --variant");
-        put_word(&line, v->facts.variants[v->look.variant]);
+        put_word(&line, v->facts.variants[v->state.variant]);
     }
-    for (int k = 0; k < v->look.material_count && k < v->first.material_count; k++)
+    for (int k = 0; k < v->state.material_count && k < v->first.material_count; k++)
         put_material(&line, v, k, &gone);
-    for (int k = 0; k < LOOK_NAPS; k++) gone |= v->look.naps[k] != NULL;
+    for (int k = 0; k < STATE_NAPS; k++) gone |= v->state.naps[k] != NULL;
     put_lights(&line, v);
-    put_around(&line, &v->look.around);
+    put_environment(&line, &v->state.environment);
     put_view(&line, v);
     put(&line, " -o picture.png");
     if (lost) *lost = gone;

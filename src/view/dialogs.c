@@ -14,7 +14,7 @@ static void cancel(void) {
 }
 
 static void use_map(Viewer *v, const char *path) {
-    viewer_task(v, TASK_DRESS, path, v->material, v->dropped_input);
+    viewer_task(v, TASK_ASSIGN, path, v->material, v->dropped_input);
 }
 
 /* Dialogs that choose a file, and what becomes of it; some take the folder that is shown. */
@@ -59,7 +59,7 @@ static void draw_save(Viewer *v) {
     ui_scope("Save the scene");
     ui_dim(".glb or .gltf: the scene as it is now, read again it gives the same picture.\n.json: the "
            "material that is edited.");
-    bool entered = ui_input("file", v->save_path, LOOK_PATH);
+    bool entered = ui_input("file", v->save_path, STATE_PATH);
     ui_tip("Where to write; from the folder the program was started in.");
     ui_dim(path_stamp(v->save_path) ? "A file of this name is there: it will be replaced." : " ");
     bool pressed = ui_button("Save");
@@ -82,9 +82,9 @@ static void draw_save(Viewer *v) {
 static void draw_shot(Viewer *v) {
     if (!ui_dialog("Save a picture", 560.0f * ui_scale(), 0.0f)) return;
     ui_scope("Save a picture");
-    bool entered = ui_input("file", v->shot_path, LOOK_PATH);
+    bool entered = ui_input("file", v->shot_path, STATE_PATH);
     ui_tip(".png as it is shown, .exr, .hdr or .npy linear.");
-    ui_disabled(v->shot_truth);
+    ui_disabled(v->shot_traced);
     ui_slider_int("width", 16, 8192, &v->shot_width);
     ui_tip("Pixels; any size, whatever the window's.");
     ui_slider_int("height", 16, 8192, &v->shot_height);
@@ -92,7 +92,7 @@ static void draw_shot(Viewer *v) {
     ui_checkbox("transparent", &v->shot_transparent);
     ui_tip("Alpha 0 where nothing is.");
     ui_disabled_end();
-    ui_checkbox("path traced", &v->shot_truth);
+    ui_checkbox("path traced", &v->shot_traced);
     ui_tip("What the path tracer has gathered, in the size it is seen in.");
     v->shot_width = v->shot_width < 1 ? 1 : v->shot_width > 16384 ? 16384 : v->shot_width;
     v->shot_height = v->shot_height < 1 ? 1 : v->shot_height > 16384 ? 16384 : v->shot_height;
@@ -122,7 +122,7 @@ static void draw_use(Viewer *v) {
     ui_choice("as", &inputs, &v->dropped_input);
     ui_text(v->has_scene ? v->facts.materials[v->material] : "");
     if (ui_button("Use")) {
-        viewer_task(v, TASK_DRESS, v->dropped, v->material, v->dropped_input);
+        viewer_task(v, TASK_ASSIGN, v->dropped, v->material, v->dropped_input);
         ui_dialog_close();
     }
     ui_tip("Puts the picture in the place of this input's map.");

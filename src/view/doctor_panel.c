@@ -21,7 +21,7 @@ static void draw_heading(Viewer *v, const WeftFinding *f, int k) {
     char label[256], engines[200], tip[700];
     snprintf(label, sizeof label, "%s: %s, %.96s###finding %d", weft_severity_name(f->severity),
              weft_finding_name((int)f->kind), f->subject, k);
-    bool chooses = f->of == WEFT_OF_MATERIAL && f->index < v->look.material_count;
+    bool chooses = f->of == WEFT_OF_MATERIAL && f->index < v->state.material_count;
     if (ui_selectable(label, chooses && f->index == v->material) && chooses) {
         v->material = f->index;
         viewer_say(v, false, "%s", v->facts.materials[f->index]);

@@ -306,8 +306,8 @@ void inspect_panel(Viewer *v) {
         v->inspection->angle = 45.0f;
     }
     Inspection *self = v->inspection;
-    if (v->material >= v->look.material_count) return;
-    refresh(self, look_material(&v->look, v->material));
+    if (v->material >= v->state.material_count) return;
+    refresh(self, scene_state_material(&v->state, v->material));
     if (ui_section("Lobes", true)) {
         ui_slider("light from", &angles, &self->angle);
         ui_tip("The angle between light and normal.");

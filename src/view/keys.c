@@ -40,7 +40,7 @@ static void plain(Viewer *v, const UiPress *p) {
 
 static void named(Viewer *v, const UiPress *p) {
     switch (p->key) {
-    case GLFW_KEY_TAB: viewer_mode(v, p->shift ? MODE_DIFFERENCE : MODE_TRUTH); break;
+    case GLFW_KEY_TAB: viewer_mode(v, p->shift ? MODE_DIFFERENCE : MODE_REFERENCE); break;
     case GLFW_KEY_HOME: viewer_reset_camera(v); break;
     case GLFW_KEY_F1: v->help_open = !v->help_open; break;
     case GLFW_KEY_F6: ui_go_to_next_panel(); break;

@@ -17,14 +17,14 @@ static const char *const kind_helps[] = {
 static const char *light_name(const void *user, int k) {
     static char text[64];
     const Viewer *v = user;
-    snprintf(text, sizeof text, "%d: %s", k + 1, kinds[v->look.lights[k].kind]);
+    snprintf(text, sizeof text, "%d: %s", k + 1, kinds[v->state.lights[k].kind]);
     return text;
 }
 
 /* A new one shines from beside and above the eye onto what is looked at. */
 static void add_light(Viewer *v, WeftLightKind kind) {
-    if (v->look.light_count == LOOK_LIGHTS) {
-        viewer_say(v, true, "no more than %d lights", LOOK_LIGHTS);
+    if (v->state.light_count == STATE_LIGHTS) {
+        viewer_say(v, true, "no more than %d lights", STATE_LIGHTS);
         return;
     }
     WeftLight light;
@@ -43,16 +43,16 @@ static void add_light(Viewer *v, WeftLightKind kind) {
     for (int k = 0; k < 3; k++) light.color[k] = color;
     if (kind == WEFT_LIGHT_POLYGON) light.size[0] = light.size[1] = 0.4f * far, light.corners = 4;
     if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
-    v->light = v->look.light_count;
-    v->look.lights[v->look.light_count++] = light;
+    v->light = v->state.light_count;
+    v->state.lights[v->state.light_count++] = light;
 }
 
 static void remove_light(Viewer *v) {
-    WeftLight *lights = v->look.lights;
-    v->look.light_count--;
+    WeftLight *lights = v->state.lights;
+    v->state.light_count--;
     memmove(lights + v->light, lights + v->light + 1,
-            (size_t)(v->look.light_count - v->light) * sizeof *lights);
-    memset(&lights[v->look.light_count], 0, sizeof *lights);
+            (size_t)(v->state.light_count - v->light) * sizeof *lights);
+    memset(&lights[v->state.light_count], 0, sizeof *lights);
     if (v->light > 0) v->light--;
 }
 
@@ -122,15 +122,15 @@ static void draw_lights(Viewer *v) {
         if (ui_button(label)) add_light(v, (WeftLightKind)k);
         ui_tip(kind_helps[k]);
     }
-    if (!v->look.light_count) {
+    if (!v->state.light_count) {
         ui_dim("No light of its own: what is seen is lit from far away alone.");
         return;
     }
-    if (v->light >= v->look.light_count) v->light = v->look.light_count - 1;
-    const UiChoices lights = {v->look.light_count, light_name, NULL, v};
+    if (v->light >= v->state.light_count) v->light = v->state.light_count - 1;
+    const UiChoices lights = {v->state.light_count, light_name, NULL, v};
     ui_choice("light", &lights, &v->light);
     ui_tip("The light that is edited; its handle in the picture moves it.");
-    WeftLight *l = &v->look.lights[v->light];
+    WeftLight *l = &v->state.lights[v->light];
     draw_color(l);
     draw_place(l);
     draw_shape(l);
@@ -138,11 +138,11 @@ static void draw_lights(Viewer *v) {
     ui_tip("Takes this light away; Ctrl+Z brings it back.");
 }
 
-static const char *around_name(const void *user, int k) {
+static const char *environment_name(const void *user, int k) {
     static const char *const names[] = {"studio", "picture", "colour"};
     return names[k];
 }
-static const char *around_help(const void *user, int k) {
+static const char *environment_help(const void *user, int k) {
     static const char *const helps[] = {
         "The built-in soft boxes.",
         "A lat-long picture (.hdr, .exr), or the folder of a cubemap: open or drop one.",
@@ -150,28 +150,28 @@ static const char *around_help(const void *user, int k) {
     return helps[k];
 }
 
-static void draw_around(Viewer *v) {
+static void draw_environment(Viewer *v) {
     static const UiRange turn = {-180.0f, 180.0f, 0.0f, "deg", false},
                          strength = {0.0f, 4.0f, 1.0f, NULL, false};
     static const float grey[3] = {1.0f, 1.0f, 1.0f};
-    const UiChoices rows = {3, around_name, around_help, NULL};
-    Around *a = &v->look.around;
+    const UiChoices rows = {3, environment_name, environment_help, NULL};
+    EnvironmentState *a = &v->state.environment;
     int kind = (int)a->kind;
     if (ui_choice("source", &rows, &kind)) {
-        if (kind == AROUND_FILE && !a->path[0]) {
+        if (kind == ENVIRONMENT_FILE && !a->path[0]) {
             viewer_dialog(v, "Choose a light");
         } else {
-            if (kind == AROUND_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
+            if (kind == ENVIRONMENT_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
                 a->color[0] = a->color[1] = a->color[2] = 1.0f;
-            a->kind = (AroundKind)kind;
+            a->kind = (EnvironmentKind)kind;
         }
     }
     ui_indent();
     if (ui_button("Choose a picture ...")) viewer_dialog(v, "Choose a light");
     ui_tip("Another lat-long picture, or the folder of a cubemap.");
     ui_indent_end();
-    if (a->kind == AROUND_FILE) ui_dim(a->path);
-    if (a->kind == AROUND_COLOR) {
+    if (a->kind == ENVIRONMENT_FILE) ui_dim(a->path);
+    if (a->kind == ENVIRONMENT_COLOR) {
         ui_color("radiance", grey, a->color);
         ui_tip("W/(m^2 sr), linear.");
     }
@@ -207,7 +207,7 @@ static const char *ambient_help(const void *user, int k) {
 void light_panel(Viewer *v) {
     if (ui_section("Lights", true)) draw_lights(v);
     if (ui_section("Environment: light from far away###Environment", true)) {
-        draw_around(v);
+        draw_environment(v);
         const UiChoices rows = {5, ambient_name, ambient_help, NULL};
         int ambient = (int)v->ambient;
         if (ui_choice("by OpenGL", &rows, &ambient)) v->ambient = (WeftAmbient)ambient;

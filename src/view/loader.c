@@ -15,7 +15,7 @@
 struct Loader {
     Window *window;
     const ViewDesc *desc;
-    bool dressed;
+    bool configured;
     float aspect;
     pthread_t thread;
     atomic_int thousandths; /* done; -1: unknown */
@@ -133,17 +133,17 @@ void facts_free(Facts *facts) {
     free(facts->variants);
     free(facts->maps);
     weft_image_free(&facts->thumbs);
-    free(facts->shares);
+    free(facts->coverage);
     *facts = (Facts){0};
 }
 
-static void on_said(void *user, WeftMessage message, const char *text) {
+static void on_warning(void *user, WeftMessage message, const char *text) {
     Loaded *loaded = user;
-    size_t used = loaded->said ? strlen(loaded->said) : 0;
+    size_t used = loaded->warnings ? strlen(loaded->warnings) : 0;
     if (used > 16384) return;
-    char *grown = realloc(loaded->said, used + strlen(text) + 2);
+    char *grown = realloc(loaded->warnings, used + strlen(text) + 2);
     if (!grown) return;
-    loaded->said = grown;
+    loaded->warnings = grown;
     sprintf(grown + used, "%s\n", text);
 }
 
@@ -158,7 +158,7 @@ static int on_progress(void *user, double fraction) {
  * that frames it all. */
 static const char *first_camera(const Loader *self) {
     bool builtin = strncmp(self->loaded.path, "builtin:", 8) == 0;
-    if (self->dressed && self->desc->camera) return self->desc->camera;
+    if (self->configured && self->desc->camera) return self->desc->camera;
     return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
 }
 
@@ -167,12 +167,12 @@ static void survey(Loader *self) {
     Loaded *loaded = &self->loaded;
     WeftPick *pick;
     if (weft_pick_create(loaded->scene, &pick, NULL) != WEFT_OK) return;
-    loaded->facts.shares = survey_take(pick, loaded->scene, loaded->camera, self->aspect);
+    loaded->facts.coverage = survey_take(pick, loaded->scene, loaded->camera, self->aspect);
     weft_pick_free(pick);
 }
 
 /* A folder that is gone since, or has no maps, keeps no scene from being shown. */
-static void wear_folders(Loaded *loaded, const WeftLog *log) {
+static void bind_folders(Loaded *loaded, const WeftLog *log) {
     Folders *folders = &loaded->folders;
     int kept = 0;
     for (int k = 0; k < folders->count; k++) {
@@ -183,7 +183,7 @@ static void wear_folders(Loaded *loaded, const WeftLog *log) {
                                                  folders->paths[k], NULL, log, &error);
         if (result != WEFT_OK) log->fn(log->user, error.message, error.text);
         if (result != WEFT_OK) continue;
-        memmove(folders->paths[kept], folders->paths[k], LOOK_PATH);
+        memmove(folders->paths[kept], folders->paths[k], STATE_PATH);
         folders->materials[kept++] = folders->materials[k];
     }
     folders->count = kept;
@@ -191,24 +191,24 @@ static void wear_folders(Loaded *loaded, const WeftLog *log) {
 
 static WeftResult load(Loader *self, WeftError *error) {
     Loaded *loaded = &self->loaded;
-    const WeftLog log = {on_said, loaded};
+    const WeftLog log = {on_warning, loaded};
     const ViewDesc *desc = self->desc;
-    Around around = around_studio();
+    EnvironmentState environment = environment_state_studio();
     WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, error) : WEFT_OK;
     if (result != WEFT_OK) return result;
     loaded->taken = loaded->lobe[0] != 0;
     result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
-    if (result == WEFT_OK && self->dressed && desc->dress)
-        result = desc->dress(desc->user, loaded->scene, &around, &log, error);
+    if (result == WEFT_OK && self->configured && desc->configure)
+        result = desc->configure(desc->user, loaded->scene, &environment, &log, error);
     if (result != WEFT_OK) return result;
-    wear_folders(loaded, &log);
-    if (!look_read(&loaded->look, loaded->scene) ||
+    bind_folders(loaded, &log);
+    if (!scene_state_read(&loaded->state, loaded->scene) ||
         !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
         snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
         return WEFT_RESOURCES;
     }
-    loaded->look.around = around;
+    loaded->state.environment = environment;
     loaded->camera = first_camera(self);
     survey(self);
     return WEFT_OK;
@@ -223,7 +223,7 @@ static void *work(void *user) {
         self->loaded.scene = NULL;
         snprintf(self->loaded.failure, sizeof self->loaded.failure, "%s", error.text);
     }
-    atomic_store(&self->done, true);
+    atomic_store(&self->drawn, true);
     window_wake(self->window);
     return NULL;
 }
@@ -233,23 +233,23 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
     if (!self) return NULL;
     self->window = window;
     self->desc = desc;
-    self->dressed = reading->dressed;
+    self->configured = reading->configured;
     self->aspect = reading->aspect;
     self->loaded.again = reading->again;
     self->loaded.folders = *reading->folders;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
     snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
     atomic_init(&self->thousandths, -1);
-    atomic_init(&self->done, false);
+    atomic_init(&self->drawn, false);
     atomic_init(&self->stop, false);
     if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
     free(self);
     return NULL;
 }
 
-float loader_share(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
+float loader_progress(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
 
-bool loader_done(Loader *self) { return atomic_load(&self->done); }
+bool loader_done(Loader *self) { return atomic_load(&self->drawn); }
 
 const char *loader_path(const Loader *self, bool *again) {
     *again = self->loaded.again;
@@ -270,8 +270,8 @@ void loader_finish(Loader *self, Loaded *loaded) {
 
 void loaded_free(Loaded *loaded) {
     weft_scene_free(loaded->scene);
-    look_free(&loaded->look);
+    scene_state_free(&loaded->state);
     facts_free(&loaded->facts);
-    free(loaded->said);
+    free(loaded->warnings);
     *loaded = (Loaded){0};
 }

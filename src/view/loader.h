@@ -2,7 +2,7 @@
 #ifndef WEFT_VIEW_LOADER_H
 #define WEFT_VIEW_LOADER_H
 
-#include "view/look.h"
+#include "view/state.h"
 #include "view/view.h"
 #include "view/window.h"
 
@@ -10,14 +10,16 @@ enum { FACTS_NAME = 64, FACTS_MOST = 512, FACTS_THUMB = 32, FACTS_THUMBS = 128 }
 
 typedef char FactName[FACTS_NAME];
 
-/* What there is in a scene: copies, since the scene is the painter's. */
+/* What there is in a scene: copies, since the scene is the renderer's. */
 typedef struct Facts {
-    char path[LOOK_PATH];
+    char path[STATE_PATH];
     FactName *materials, *cameras, *variants; /* owned */
     FactName *maps;                           /* files of textures, as it was read; owned */
     int map_count;
-    WeftImage thumbs; /* of those in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
-    float *shares; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
+    WeftImage
+        thumbs; /* of those in the same request, FACTS_THUMB a side, one below the other: U8 RGB; owned */
+    float
+        *coverage; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
 
@@ -32,17 +34,17 @@ typedef struct Loader Loader;
 /* What has been loaded, or why not. */
 typedef struct Loaded {
     WeftScene *scene; /* owned; NULL on failure */
-    Look look;        /* owned; what it is dressed as */
+    SceneState state; /* owned; what it is configured as */
     Facts facts;      /* owned */
-    char path[LOOK_PATH];
+    char path[STATE_PATH];
     WeftResult result;
     char failure[512];
-    char *said;           /* warnings, one a line; owned, may be NULL */
-    const char *camera;   /* through which it is seen first; a constant, or the command line's */
-    bool again;           /* it is the scene that was there, read anew */
-    Folders folders;      /* that it wears */
-    char lobe[LOOK_PATH]; /* file of a lobe that was to be taken before; "": none */
-    bool taken;           /* it was, whatever became of the scene */
+    char *warnings;        /* warnings, one a line; owned, may be NULL */
+    const char *camera;    /* through which it is seen first; a constant, or the command line's */
+    bool again;            /* it is the scene that was there, read anew */
+    Folders folders;       /* that it wears */
+    char lobe[STATE_PATH]; /* file of a lobe that was to be taken before; "": none */
+    bool taken;            /* it was, whatever became of the scene */
 } Loaded;
 
 /* What is to be read. */
@@ -50,7 +52,7 @@ typedef struct Reading {
     const char *path;
     const char *lobe;       /* file of a lobe to be taken before; may be NULL */
     bool again;             /* the scene that is there */
-    bool dressed;           /* desc.dress is called, in that thread */
+    bool configured;        /* desc.configure is called, in that thread */
     const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */
     float aspect;           /* width / height of the picture that it will be seen in */
 } Reading;
@@ -59,7 +61,7 @@ typedef struct Reading {
 Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading);
 
 /* The finished share, or -1 while it is not known. */
-float loader_share(Loader *loader);
+float loader_progress(Loader *loader);
 bool loader_done(Loader *loader);
 
 /* The scene that it reads, as long as it is there itself; again: as in Reading. */

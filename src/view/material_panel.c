@@ -202,20 +202,20 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
 static const char *material_name(const void *user, int k) {
     static char text[FACTS_NAME + 16];
     const Facts *facts = &((const Viewer *)user)->facts;
-    bool unused = facts->shares && facts->shares[k] < 0.0f;
+    bool unused = facts->coverage && facts->coverage[k] < 0.0f;
     snprintf(text, sizeof text, "%s%s", facts->materials[k], unused ? " (not worn)" : "");
     return text;
 }
 static const char *material_help(const void *user, int k) {
     static char text[160];
     const Facts *facts = &((const Viewer *)user)->facts;
-    float share = facts->shares ? facts->shares[k] : 0.0f;
+    float coverage = facts->coverage ? facts->coverage[k] : 0.0f;
     snprintf(text, sizeof text, "The material that is edited; a click on the picture chooses what is there.");
-    if (share < 0.0f) snprintf(text, sizeof text, "Nothing wears it now: it is there for a variant.");
-    if (share > 0.0f) {
+    if (coverage < 0.0f) snprintf(text, sizeof text, "Nothing wears it now: it is there for a variant.");
+    if (coverage > 0.0f) {
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "\n%.1f %% of the picture, at first.",
-                 100.0 * (double)share);
+                 100.0 * (double)coverage);
     }
     return text;
 }
@@ -228,20 +228,20 @@ static const char *preset_help(const void *user, int k) {
 }
 
 static void draw_which(Viewer *v) {
-    const UiChoices materials = {v->look.material_count, material_name, material_help, v};
+    const UiChoices materials = {v->state.material_count, material_name, material_help, v};
     const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
-    int count = 0, variant = v->look.variant + 1, preset = look_preset(&v->look, v->material);
+    int count = 0, variant = v->state.variant + 1, preset = scene_state_preset(&v->state, v->material);
     while (weft_preset_name(count)) count++;
     const UiChoices presets = {count + 1, preset_name, preset_help, v};
     ui_choice("material", &materials, &v->material);
     if (v->facts.info.variant_count) {
-        if (ui_choice("variant", &variants, &variant)) v->look.variant = variant - 1;
+        if (ui_choice("variant", &variants, &variant)) v->state.variant = variant - 1;
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
-        viewer_task(v, TASK_DRESS, path, v->material, -1);
+        viewer_task(v, TASK_ASSIGN, path, v->material, -1);
     }
 }
 
@@ -255,8 +255,8 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_tip("Puts the copied material here (Ctrl+V).");
     ui_same_line();
     if (ui_button("Reset") && v->material < v->first.material_count) {
-        *m = *look_material(&v->first, v->material);
-        look_set_preset(&v->look, v->material, 0);
+        *m = *scene_state_material(&v->first, v->material);
+        scene_state_set_preset(&v->state, v->material, 0);
     }
     ui_tip("Back to what the file says.");
     ui_same_line();
@@ -269,7 +269,7 @@ typedef struct Lines {
     int count;
 } Lines;
 
-static void on_said(void *user, WeftMessage message, const char *text) {
+static void on_warning(void *user, WeftMessage message, const char *text) {
     Lines *lines = user;
     size_t used = strlen(lines->text);
     snprintf(lines->text + used, sizeof lines->text - used, "%s%s", used ? "\n" : "", text);
@@ -279,7 +279,7 @@ static void on_said(void *user, WeftMessage message, const char *text) {
 static void draw_plausible(Viewer *v, const WeftMaterial *m) {
     Lines lines = {.count = 0};
     char label[64];
-    const WeftLog log = {on_said, &lines};
+    const WeftLog log = {on_warning, &lines};
     weft_material_plausible(m, v->facts.materials[v->material], &log);
     snprintf(label, sizeof label,
              lines.count ? "Plausibility: %d to look at###Plausibility" : "Plausibility: good###Plausibility",
@@ -319,13 +319,13 @@ static void draw_models(WeftMaterial *m) {
 }
 
 void material_panel(Viewer *v) {
-    if (v->material >= v->look.material_count) v->material = 0;
-    if (!v->look.material_count) {
+    if (v->material >= v->state.material_count) v->material = 0;
+    if (!v->state.material_count) {
         ui_dim("this scene has no materials");
         return;
     }
     draw_which(v);
-    WeftMaterial m = *look_material(&v->look, v->material);
+    WeftMaterial m = *scene_state_material(&v->state, v->material);
     draw_buttons(v, &m);
     draw_plausible(v, &m);
     for (int g = 0; g < GROUPS; g++) {

@@ -65,7 +65,8 @@ static void compare_menu(Viewer *v) {
         viewer_split(v, v->split == SPLIT_SIDES ? SPLIT_NONE : SPLIT_SIDES);
     if (ui_menu_item("Edit the other", "X", false, v->split != SPLIT_NONE)) viewer_swap(v);
     ui_rule();
-    if (ui_menu_item("Path traced", "Tab", v->mode == MODE_TRUTH, v->has_scene)) viewer_mode(v, MODE_TRUTH);
+    if (ui_menu_item("Path traced", "Tab", v->mode == MODE_REFERENCE, v->has_scene))
+        viewer_mode(v, MODE_REFERENCE);
     if (ui_menu_item("Difference", "Shift+Tab", v->mode == MODE_DIFFERENCE, v->has_scene))
         viewer_mode(v, MODE_DIFFERENCE);
     ui_rule();
@@ -118,8 +119,8 @@ static void draw_modes(Viewer *v) {
     ui_same_line();
     if (ui_checkbox("Brush", &brush)) v->tool = brush ? TOOL_BRUSH : TOOL_ORBIT;
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
-    if (v->tool != TOOL_BRUSH || v->material >= v->look.material_count) return;
-    if (weft_material_reads(look_material(&v->look, v->material), input_number("nap"))) return;
+    if (v->tool != TOOL_BRUSH || v->material >= v->state.material_count) return;
+    if (weft_material_reads(scene_state_material(&v->state, v->material), input_number("nap"))) return;
     ui_same_line();
     if (ui_button("Make it fibre")) viewer_make_fibre(v);
     ui_tip("The sheen of this material has no nap: gives it the lobe fibre, which has one.");
@@ -150,11 +151,11 @@ static int lines_of(const char *text) {
 /* A picture of before that is shown while shaders compile is named as such. */
 static const char *goes_on(const Viewer *v) {
     bool instead = v->mode == MODE_LIVE && viewer_shows(v) == SHOWS_TRACED;
-    return v->has_pending    ? "preparing"
-           : instead         ? "compiling, path traced meanwhile"
-           : v->late         ? "compiling, picture of before"
-           : v->painted.busy ? "looking"
-                             : "ready";
+    return v->has_pending     ? "preparing"
+           : instead          ? "compiling, path traced meanwhile"
+           : v->late          ? "compiling, picture of before"
+           : v->rendered.busy ? "looking"
+                              : "ready";
 }
 
 void status_draw(Viewer *v) {
@@ -167,7 +168,7 @@ void status_draw(Viewer *v) {
     ui_fill(bar, 0xFF1C1B1Au);
     snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
              v->frame_seconds > 0.0 ? 1.0 / v->frame_seconds : 0.0, 1e3 * v->picture_seconds,
-             v->painted.width, v->painted.height, goes_on(v));
+             v->rendered.width, v->rendered.height, goes_on(v));
     float room = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->warnings);
     text[0] = '\0';

@@ -1,4 +1,4 @@
-/* Files: a scene is read in the background, handed to the painter, and shown once that can draw it. */
+/* Files: a scene is read in the background, handed to the renderer, and shown once that can draw it. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/opening.h"
 
@@ -14,21 +14,22 @@
 
 enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
 
-/* The files of scene, light and lobes; those of textures are the painter's to watch. */
+/* The files of scene, light and lobes; those of textures are the renderer's to watch. */
 static void watch_files(Viewer *v) {
-    watchman_forget(v->watchman);
-    if (strncmp(v->facts.path, "builtin:", 8) != 0) watchman_watch(v->watchman, v->facts.path, WATCH_SCENE);
-    if (v->look.around.kind == AROUND_FILE) watchman_watch(v->watchman, v->look.around.path, WATCH_LIGHT);
-    for (int k = 0; k < v->lobe_count; k++) watchman_watch(v->watchman, v->lobes[k], WATCH_LOBES + k);
-    snprintf(v->watched, sizeof v->watched, "%s", v->look.around.path);
+    file_watch_clear(v->file_watch);
+    if (strncmp(v->facts.path, "builtin:", 8) != 0) file_watch_add(v->file_watch, v->facts.path, WATCH_SCENE);
+    if (v->state.environment.kind == ENVIRONMENT_FILE)
+        file_watch_add(v->file_watch, v->state.environment.path, WATCH_LIGHT);
+    for (int k = 0; k < v->lobe_count; k++) file_watch_add(v->file_watch, v->lobes[k], WATCH_LOBES + k);
+    snprintf(v->watched, sizeof v->watched, "%s", v->state.environment.path);
 }
 
 /* It is watched from now on. */
 static void keep_lobe(Viewer *v, const char *path) {
     for (int k = 0; k < v->lobe_count; k++)
         if (strcmp(v->lobes[k], path) == 0) return;
-    if (v->lobe_count == LOOK_LOBES) return;
-    snprintf(v->lobes[v->lobe_count++], LOOK_PATH, "%s", path);
+    if (v->lobe_count == STATE_LOBES) return;
+    snprintf(v->lobes[v->lobe_count++], STATE_PATH, "%s", path);
     if (v->has_scene) watch_files(v);
 }
 
@@ -54,11 +55,11 @@ static void let_go(Viewer *v) {
 
 static void start_reading(Viewer *v, const char *path, const char *lobe, bool again) {
     if (v->loader) let_go(v);
-    bool dressed = !v->dressed[0] || strcmp(v->dressed, path) == 0;
-    if (!v->dressed[0]) snprintf(v->dressed, sizeof v->dressed, "%s", path);
+    bool configured = !v->configured[0] || strcmp(v->configured, path) == 0;
+    if (!v->configured[0]) snprintf(v->configured, sizeof v->configured, "%s", path);
     Folders folders = {0};
-    if (dressed && !v->has_scene && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
-    const Reading reading = {path, lobe, again, dressed, again ? &v->folders : &folders, viewer_aspect(v)};
+    if (configured && !v->has_scene && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
+    const Reading reading = {path, lobe, again, configured, again ? &v->folders : &folders, viewer_aspect(v)};
     v->loader = loader_start(v->window, v->desc, &reading);
     if (v->loader) return;
     v->opened = WEFT_RESOURCES;
@@ -67,7 +68,7 @@ static void start_reading(Viewer *v, const char *path, const char *lobe, bool ag
 
 void opening_start(Viewer *v, const char *path, bool again) { start_reading(v, path, NULL, again); }
 
-/* With the scene that is being read, that is with the painter, or that is there. */
+/* With the scene that is being read, that is with the renderer, or that is there. */
 void opening_lobe(Viewer *v, const char *path) {
     bool again = true;
     const char *scene = v->facts.path;
@@ -106,7 +107,7 @@ void viewer_open(Viewer *v, const char *path) {
     switch (kind) {
     case PATH_SCENE: opening_start(v, path, false); break;
     case PATH_LIGHT: viewer_light_by(v, path); break;
-    case PATH_MATERIAL: viewer_task(v, TASK_DRESS, path, v->material, -1); break;
+    case PATH_MATERIAL: viewer_task(v, TASK_ASSIGN, path, v->material, -1); break;
     case PATH_LOBE: opening_lobe(v, path); break;
     case PATH_PICTURE:
         snprintf(v->dropped, sizeof v->dropped, "%s", path);
@@ -117,7 +118,7 @@ void viewer_open(Viewer *v, const char *path) {
         if (path_is_cubemap(path))
             viewer_light_by(v, path);
         else
-            viewer_task(v, TASK_WEAR, path, -1, -1);
+            viewer_task(v, TASK_BIND_MAPS, path, -1, -1);
         break;
     case PATH_UNKNOWN:
         viewer_say(
@@ -135,7 +136,7 @@ void opening_home(Viewer *v, const float eye[3], const float target[3]) {
     v->reach = fmaxf(0.5f * v->reach, 1e-3f);
 }
 
-/* Where it is seen from; how large things are, until the painter knows what is in the middle. */
+/* Where it is seen from; how large things are, until the renderer knows what is in the middle. */
 static void start_seeing(Viewer *v, const Loaded *loaded) {
     if (!orbit_at(&v->orbit, loaded->scene, loaded->camera, viewer_aspect(v))) {
         viewer_say(v, true, "%.100s: %s", loaded->camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
@@ -146,28 +147,28 @@ static void start_seeing(Viewer *v, const Loaded *loaded) {
 }
 
 /* What was edited stays edited where the scene is read again; maps are those of the file. */
-static void keep_edits(const Viewer *v, Look *look) {
-    for (int k = 0; k < look->material_count; k++) {
-        if (look_same_material(&v->look, &v->first, k)) continue;
-        WeftMaterial m = *look_material(&v->look, k);
+static void keep_edits(const Viewer *v, SceneState *state) {
+    for (int k = 0; k < state->material_count; k++) {
+        if (scene_state_same_material(&v->state, &v->first, k)) continue;
+        WeftMaterial m = *scene_state_material(&v->state, k);
         for (int i = 0; i < WEFT_INPUTS_MAX; i++)
-            if (m.inputs[i].texture) m.inputs[i].texture = look_material(look, k)->inputs[i].texture;
-        look_set_material(look, k, &m);
-        look_set_preset(look, k, look_preset(&v->look, k));
+            if (m.inputs[i].texture) m.inputs[i].texture = scene_state_material(state, k)->inputs[i].texture;
+        scene_state_set_material(state, k, &m);
+        scene_state_set_preset(state, k, scene_state_preset(&v->state, k));
     }
-    look->variant = v->look.variant;
-    look->light_count = v->look.light_count;
-    memcpy(look->lights, v->look.lights, sizeof look->lights);
-    look->around = v->look.around;
-    look_take_naps(look, &v->look);
+    state->variant = v->state.variant;
+    state->light_count = v->state.light_count;
+    memcpy(state->lights, v->state.lights, sizeof state->lights);
+    state->environment = v->state.environment;
+    scene_state_take_naps(state, &v->state);
 }
 
 void opening_forget(Viewer *v) {
-    look_free(&v->look);
-    look_free(&v->first);
-    look_free(&v->before);
-    look_free(&v->sent);
-    look_free(&v->other);
+    scene_state_free(&v->state);
+    scene_state_free(&v->first);
+    scene_state_free(&v->before);
+    scene_state_free(&v->sent);
+    scene_state_free(&v->other);
     history_free(&v->history);
     history_free(&v->other_history);
     facts_free(&v->facts);
@@ -175,55 +176,56 @@ void opening_forget(Viewer *v) {
 
 /* The material that is seen largest, of those with a sheen where one is seen: a backdrop is larger than what
  * stands before it. */
-static int largest_seen(const Look *look, const float *shares) {
-    int count = look->material_count, largest = -1;
+static int largest_seen(const SceneState *state, const float *coverage) {
+    int count = state->material_count, largest = -1;
     char *sheens = calloc((size_t)count + 1, 1);
     for (int k = 0; k < count && sheens; k++)
-        sheens[k] = (char)(weft_material_reads(look_material(look, k), input_number("sheen_roughness")) != 0);
-    if (sheens && shares) largest = survey_largest(shares, count, sheens);
-    if (largest < 0 && shares) largest = survey_largest(shares, count, NULL);
+        sheens[k] =
+            (char)(weft_material_reads(scene_state_material(state, k), input_number("sheen_roughness")) != 0);
+    if (sheens && coverage) largest = survey_largest(coverage, count, sheens);
+    if (largest < 0 && coverage) largest = survey_largest(coverage, count, NULL);
     free(sheens);
     return largest > 0 ? largest : 0;
 }
 
 /* Those of the panels, of a scene that is another one. */
-static void choose_first(Viewer *v, const Look *look) {
-    v->material = largest_seen(look, v->facts.shares);
+static void choose_first(Viewer *v, const SceneState *state) {
+    v->material = largest_seen(state, v->facts.coverage);
     v->light = 0;
     v->has_probe = v->has_copied = false;
     v->save_path[0] = v->shot_path[0] = '\0';
 }
 
 /* The choice goes to what the variant has put on, and away from what nothing wears any more. */
-void opening_varied(Viewer *v, float **shares) {
-    int count = v->look.material_count;
-    const float *is = *shares, *was = v->facts.shares;
+void opening_varied(Viewer *v, float **coverage) {
+    int count = v->state.material_count;
+    const float *is = *coverage, *was = v->facts.coverage;
     char *put_on = calloc((size_t)count + 1, 1);
     for (int k = 0; k < count && put_on && was; k++) put_on[k] = (char)(was[k] < 0.0f && is[k] >= 0.0f);
     int other = put_on ? survey_largest(is, count, put_on) : -1;
     if (other < 0 && v->material < count && is[v->material] < 0.0f) other = survey_largest(is, count, NULL);
     if (other >= 0) v->material = other;
     free(put_on);
-    free(v->facts.shares);
-    v->facts.shares = *shares;
-    *shares = NULL;
+    free(v->facts.coverage);
+    v->facts.coverage = *coverage;
+    *coverage = NULL;
 }
 
 bool opening_watch(Viewer *v, double seconds) {
-    if (v->has_scene && strcmp(v->watched, v->look.around.path) != 0) watch_files(v);
+    if (v->has_scene && strcmp(v->watched, v->state.environment.path) != 0) watch_files(v);
     if (v->loader || v->has_pending) return false;
-    int changed = watchman_look(v->watchman, seconds);
+    int changed = file_watch_poll(v->file_watch, seconds);
     if (changed == WATCH_SCENE) opening_start(v, v->facts.path, true);
-    if (changed == WATCH_LIGHT) viewer_light_by(v, v->look.around.path);
+    if (changed == WATCH_LIGHT) viewer_light_by(v, v->state.environment.path);
     if (changed >= WATCH_LOBES) opening_lobe(v, v->lobes[changed - WATCH_LOBES]);
     return changed >= 0;
 }
 
-/* The scene that was read goes to the painter; it is shown once that can draw it. */
+/* The scene that was read goes to the renderer; it is shown once that can draw it. */
 static void hand_over(Viewer *v, Loaded *loaded) {
     if (v->has_pending) loaded_free(&v->pending);
     if (!loaded->again || !v->has_scene) start_seeing(v, loaded);
-    painter_give(v->painter, loaded->scene, &loaded->look, &loaded->folders, ++v->scenes);
+    renderer_set_scene(v->renderer, loaded->scene, &loaded->state, &loaded->folders, ++v->scenes);
     loaded->scene = NULL;
     v->pending = *loaded;
     v->has_pending = true;
@@ -231,45 +233,45 @@ static void hand_over(Viewer *v, Loaded *loaded) {
 }
 
 static void show_scene(Viewer *v, Loaded *loaded) {
-    Look look, before;
-    bool again = loaded->again && v->has_scene && loaded->look.material_count == v->look.material_count &&
+    SceneState state, before;
+    bool again = loaded->again && v->has_scene && loaded->state.material_count == v->state.material_count &&
                  strcmp(loaded->path, v->facts.path) == 0;
-    if (!look_copy(&look, &loaded->look)) return;
-    if (again) keep_edits(v, &look);
-    if (!look_copy(&before, &look)) {
-        look_free(&look);
+    if (!scene_state_copy(&state, &loaded->state)) return;
+    if (again) keep_edits(v, &state);
+    if (!scene_state_copy(&before, &state)) {
+        scene_state_free(&state);
         return;
     }
     opening_forget(v);
     examination_free(v->examination); /* of the file as it was */
     v->examination = NULL;
-    v->look = look;
+    v->state = state;
     v->before = before;
-    v->first = loaded->look;
+    v->first = loaded->state;
     v->facts = loaded->facts;
     v->folders = loaded->folders;
     viewer_show_maps(v);
-    loaded->look = (Look){0};
+    loaded->state = (SceneState){0};
     loaded->facts = (Facts){0};
     v->split = SPLIT_NONE;
     v->side = 0;
-    if (!again) choose_first(v, &v->look);
+    if (!again) choose_first(v, &v->state);
     v->has_scene = v->ask = true;
     v->profiles_made = false;
-    snprintf(v->warnings, sizeof v->warnings, "%s", loaded->said ? loaded->said : "");
+    snprintf(v->warnings, sizeof v->warnings, "%s", loaded->warnings ? loaded->warnings : "");
     settings_opened(&v->settings, v->facts.path);
     watch_files(v);
 }
 
-/* The painter has taken the scene, or could not: then the old one stays. */
-void opening_take(Viewer *v, const News *news) {
-    if (!v->has_pending || news->scene != v->scenes) return;
+/* The renderer has taken the scene, or could not: then the old one stays. */
+void opening_take(Viewer *v, const RenderEvent *event) {
+    if (!v->has_pending || event->scene != v->scenes) return;
     Loaded loaded = v->pending;
     v->has_pending = false;
-    if (!news->failed) {
+    if (!event->failed) {
         char title[300];
         show_scene(v, &loaded);
-        v->scene = news->scene;
+        v->scene = event->scene;
         viewer_say(v, false, "%.200s: %lld triangles, %d materials%s%.200s", v->facts.path,
                    v->facts.info.triangle_count, v->facts.info.material_count,
                    v->folders.count ? ", maps of " : "", v->folders.count ? v->folders.paths[0] : "");
@@ -277,7 +279,7 @@ void opening_take(Viewer *v, const News *news) {
         snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
         window_title(v->window, title);
     }
-    v->opened = news->result;
+    v->opened = event->result;
     loaded_free(&loaded);
 }
 

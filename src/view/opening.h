@@ -20,11 +20,11 @@ void opening_poll(Viewer *v);
 /* Looks for files that have changed; true where one had. seconds: of a steady clock. */
 bool opening_watch(Viewer *v, double seconds);
 
-/* The painter has taken a scene, or could not. */
-void opening_take(Viewer *v, const News *news);
+/* The renderer has taken a scene, or could not. */
+void opening_take(Viewer *v, const RenderEvent *event);
 
-/* Materials were changed by a variant: shares, of the look's materials, are taken over. */
-void opening_varied(Viewer *v, float **shares);
+/* Materials were changed by a variant: coverage, of the state's materials, are taken over. */
+void opening_varied(Viewer *v, float **coverage);
 
 /* Where things are, and how large: half as far as they are looked at from. */
 void opening_home(Viewer *v, const float eye[3], const float target[3]);

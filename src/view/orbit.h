@@ -22,7 +22,7 @@ bool orbit_at(Orbit *orbit, const WeftScene *scene, const char *camera, float as
 /* About the target; right and down are positive. */
 void orbit_turn(Orbit *orbit, float across, float down);
 
-/* Eye and target move with what is under the mouse: shares of the picture's height. */
+/* Eye and target move with what is under the mouse: coverage of the picture's height. */
 void orbit_pan(Orbit *orbit, float across, float down);
 
 /* Towards the target, so that the distance is multiplied. */
@@ -31,7 +31,7 @@ void orbit_dolly(Orbit *orbit, float factor);
 /* Looks elsewhere from where the eye is. */
 void orbit_look(Orbit *orbit, float across, float down);
 
-/* Moves the eye: along where it looks, to the right, up the world; metres. */
+/* Moves the eye: along where it states, to the right, up the world; metres. */
 void orbit_fly(Orbit *orbit, float forward, float right, float up);
 
 /* Puts all of a box into a picture of that aspect, from where it is looked at now. */
@@ -40,7 +40,7 @@ void orbit_frame(Orbit *orbit, const float low[3], const float high[3], float as
 /* As `weft render --camera` takes it. */
 const char *orbit_text(const Orbit *orbit, char text[ORBIT_TEXT]);
 
-/* Where a point of the world is in a picture, shares of its width and height from the top left; false where
+/* Where a point of the world is in a picture, coverage of its width and height from the top left; false where
  * it is behind the eye. */
 bool orbit_project(const Orbit *orbit, const float point[3], float aspect, float at[2]);
 

@@ -206,7 +206,7 @@ static int button_of(const char *name) { return is(name, "right") ? 1 : is(name,
 /* Waits: true while it goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = now());
-    bool done = is(what, "rest")                    ? viewer_at_rest(v) && v->has_scene && ++self->tries > 4
+    bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->has_scene && ++self->tries > 4
                 : strncmp(what, "samples ", 8) == 0 ? v->traced.samples >= atof(what + 8)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(viewer_shows(v)))
                 : strncmp(what, "message ", 8) == 0 ? strstr(v->message, what + 8) != NULL
@@ -228,7 +228,7 @@ static bool write_command(const Viewer *v, const char *path) {
 /* A picture of the size of the stage. */
 static void scene_shot(Viewer *v, const char *path) {
     v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
-    v->shot_truth = v->mode == MODE_TRUTH;
+    v->shot_traced = v->mode == MODE_REFERENCE;
     viewer_shot(v, path);
 }
 

@@ -19,9 +19,9 @@ static double resident(void) {
 }
 
 static json_t *material_json(const Viewer *v, int index) {
-    const WeftMaterial *m = look_material(&v->look, index);
+    const WeftMaterial *m = scene_state_material(&v->state, index);
     json_t *object = json_object();
-    int preset = look_preset(&v->look, index);
+    int preset = scene_state_preset(&v->state, index);
     json_object_set_new(object, "name", json_string(v->facts.materials[index]));
     json_object_set_new(object, "preset", json_string(preset ? weft_preset_name(preset - 1) : ""));
     for (int k = 0; weft_material_choice_name(k); k++) {
@@ -61,13 +61,13 @@ void report_state(Viewer *v, bool settled) {
     char camera[ORBIT_TEXT];
     if (!settled) return;
     json_t *materials = json_array();
-    for (int k = 0; k < v->look.material_count; k++) json_array_append_new(materials, material_json(v, k));
+    for (int k = 0; k < v->state.material_count; k++) json_array_append_new(materials, material_json(v, k));
     bool lost = false;
     char *command = v->has_scene ? command_line(v, &lost) : NULL;
     json_t *root = json_object();
     json_object_set_new(root, "frame", json_integer(v->frame));
     json_object_set_new(root, "clock", json_real(v->clock));
-    json_object_set_new(root, "rest", json_boolean(viewer_at_rest(v)));
+    json_object_set_new(root, "rest", json_boolean(viewer_is_idle(v)));
     json_object_set_new(root, "scene", json_string(v->has_scene ? v->facts.path : ""));
     json_object_set_new(root, "camera", json_string(orbit_text(&v->orbit, camera)));
     json_object_set_new(
@@ -79,17 +79,17 @@ void report_state(Viewer *v, bool settled) {
     json_object_set_new(root, "part", json_string(weft_part_name((int)v->part)));
     json_object_set_new(root, "material", json_integer(v->material));
     json_object_set_new(root, "materials", materials);
-    json_object_set_new(root, "lights", json_integer(v->look.light_count));
-    json_object_set_new(root, "rotation", json_real((double)v->look.around.rotation));
+    json_object_set_new(root, "lights", json_integer(v->state.light_count));
+    json_object_set_new(root, "rotation", json_real((double)v->state.environment.rotation));
     json_object_set_new(root, "samples", json_real(v->traced.samples));
     json_object_set_new(root, "relmse", json_real(v->traced.compared ? v->traced.difference.relmse : -1.0));
     json_object_set_new(root, "message", json_string(v->message));
     json_object_set_new(root, "complaint", json_string(v->shader_complaint));
-    json_object_set_new(root, "variant", json_integer(v->has_scene ? v->look.variant : -1));
+    json_object_set_new(root, "variant", json_integer(v->has_scene ? v->state.variant : -1));
     json_object_set_new(root, "lost", json_boolean(lost));
     json_object_set_new(root, "command", json_string(command ? command : ""));
-    json_object_set_new(root, "driver", json_string(v->painted.driver));
-    json_object_set_new(root, "picture", json_integer((json_int_t)v->painted.number));
+    json_object_set_new(root, "driver", json_string(v->rendered.driver));
+    json_object_set_new(root, "picture", json_integer((json_int_t)v->rendered.number));
     json_object_set_new(root, "picture_ms", json_real(1e3 * v->picture_seconds));
     json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame_seconds));
     json_object_set_new(root, "worst_ms", json_real(1e3 * v->worst_seconds));

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/brush.h"
 #include "view/inputs.h"
-#include "view/strokes.h"
 #include "view/viewer.h"
 
 enum { LEFT, RIGHT, MIDDLE };
@@ -17,7 +17,7 @@ static bool over_stage(const Viewer *v) {
            v->input.y < s->y + s->height;
 }
 
-/* Where the look that is edited is seen: half of the stage where two stand side by side. */
+/* Where the state that is edited is seen: half of the stage where two stand side by side. */
 static UiBox seen_box(const Viewer *v) {
     UiBox box = v->stage;
     if (v->split != SPLIT_SIDES || v->mode != MODE_LIVE) return box;
@@ -31,7 +31,7 @@ static float seen_aspect(const Viewer *v) {
     return fmaxf(box.width, 1.0f) / fmaxf(box.height, 1.0f);
 }
 
-/* Where the mouse is on that picture, shares of its sides. */
+/* Where the mouse is on that picture, coverage of its sides. */
 static void on_picture(const Viewer *v, float at[2]) {
     UiBox box = seen_box(v);
     at[0] = (v->input.x - box.x) / box.width;
@@ -51,7 +51,7 @@ static void handle_place(const Viewer *v, const WeftLight *light, float place[3]
 
 static bool handle_at(const Viewer *v, int light, float at[2]) {
     float place[3];
-    handle_place(v, &v->look.lights[light], place);
+    handle_place(v, &v->state.lights[light], place);
     if (!orbit_project(&v->orbit, place, seen_aspect(v), at)) return false;
     UiBox box = seen_box(v);
     at[0] = box.x + at[0] * box.width;
@@ -63,14 +63,14 @@ static bool handles_shown(const Viewer *v) { return v->panel == PANEL_LIGHT && v
 
 static int handle_under(const Viewer *v) {
     float at[2], most = 12.0f * ui_scale();
-    for (int k = 0; k < v->look.light_count && handles_shown(v); k++)
+    for (int k = 0; k < v->state.light_count && handles_shown(v); k++)
         if (handle_at(v, k, at) && hypotf(at[0] - v->input.x, at[1] - v->input.y) < most) return k;
     return -1;
 }
 
 /* Moves a light with the mouse: in the plane that faces the eye, a sun over its sphere. */
 static void drag_light(Viewer *v) {
-    WeftLight *light = &v->look.lights[v->held_light];
+    WeftLight *light = &v->state.lights[v->dragged_light];
     float at[2], ray[3], place[3], right[3], up[3], forward[3];
     on_picture(v, at);
     orbit_ray(&v->orbit, seen_aspect(v), at[0], at[1], ray);
@@ -103,12 +103,12 @@ static void ask(Viewer *v, TaskKind kind, unsigned why) {
     Task task = {.kind = kind, .scene = v->scene, .x = v->input.x - v->stage.x, .y = v->input.y - v->stage.y};
     task.nap = why == ASK_BRUSH;
     task.stamp = ++v->stamps * ASK_KINDS + why;
-    painter_task(v->painter, &task);
+    renderer_add_task(v->renderer, &task);
 }
 
 /* Where nothing leans yet the map says what does, and the number how far. */
 static void begin_nap(Viewer *v, int material) {
-    WeftMaterial m = *look_material(&v->look, material);
+    WeftMaterial m = *scene_state_material(&v->state, material);
     int nap = input_number("nap");
     if (m.inputs[nap].value[0] > 0.0f) return;
     m.inputs[nap].value[0] = 0.436332f; /* 25 degrees */
@@ -118,7 +118,7 @@ static void begin_nap(Viewer *v, int material) {
 
 /* What has no nap takes no stroke, and stays as it is. */
 static bool takes_strokes(Viewer *v, int material) {
-    if (weft_material_reads(look_material(&v->look, material), input_number("nap"))) return true;
+    if (weft_material_reads(scene_state_material(&v->state, material), input_number("nap"))) return true;
     viewer_say(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",
                v->facts.materials[material]);
     v->brush.down = false;
@@ -134,7 +134,7 @@ static void lay_along(const Brush *brush, WeftImage *image, const Probe *at, con
     for (int k = 1; k <= steps; k++) {
         float t = (float)k / (float)steps;
         const float place[2] = {brush->uv[0] + t * du, brush->uv[1] + t * dv};
-        stroke_lay(image, far < 0.25f ? place : at->texcoord, radius, along, brush->strength);
+        brush_stroke(image, far < 0.25f ? place : at->texcoord, radius, along, brush->strength);
     }
 }
 
@@ -151,12 +151,12 @@ static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     }
     bool moved = goes_on && hypotf(d[0], d[1]) > 0.05f * brush->radius;
     WeftImage *image;
-    Nap *nap = moved ? nap_copy(&v->look, at->material, own->pixels ? own : NULL, &image) : NULL;
+    Nap *nap = moved ? nap_copy(&v->state, at->material, own->pixels ? own : NULL, &image) : NULL;
     if (nap) {
         lay_along(brush, image, at, d);
         begin_nap(v, at->material);
-        if (!look_set_nap(&v->look, nap))
-            viewer_say(v, true, "no more than %d materials can be brushed", LOOK_NAPS);
+        if (!scene_state_set_nap(&v->state, nap))
+            viewer_say(v, true, "no more than %d materials can be brushed", STATE_NAPS);
     }
     if (goes_on && !moved) return;
     memcpy(brush->at, at->position, sizeof brush->at);
@@ -165,10 +165,10 @@ static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     brush->material = at->material;
 }
 
-void stage_picked(Viewer *v, const News *news) {
-    const Probe *at = &news->probe;
-    unsigned why = news->stamp % ASK_KINDS;
-    if (!at->hit || at->material < 0 || at->material >= v->look.material_count) {
+void stage_picked(Viewer *v, const RenderEvent *event) {
+    const Probe *at = &event->probe;
+    unsigned why = event->stamp % ASK_KINDS;
+    if (!at->hit || at->material < 0 || at->material >= v->state.material_count) {
         v->brush.known = false;
         return;
     }
@@ -176,18 +176,18 @@ void stage_picked(Viewer *v, const News *news) {
         v->material = at->material;
         viewer_say(v, false, "%s", v->facts.materials[at->material]);
     }
-    if (why == ASK_BRUSH) brush_at(v, at, &news->image);
+    if (why == ASK_BRUSH) brush_at(v, at, &event->image);
 }
 
 /* ---- what the mouse does ---- */
 
 static void begin_drag(Viewer *v, int button) {
     float middle = v->stage.x + v->split_at * v->stage.width;
-    v->held_light = button == LEFT ? handle_under(v) : -1;
-    v->held_split = button == LEFT && v->split == SPLIT_LINE && v->mode == MODE_LIVE &&
-                    fabsf(v->input.x - middle) < 8.0f * ui_scale();
-    if (v->held_light >= 0) v->light = v->held_light;
-    v->brush.down = button == LEFT && v->tool == TOOL_BRUSH && v->held_light < 0 && !v->held_split;
+    v->dragged_light = button == LEFT ? handle_under(v) : -1;
+    v->dragged_split = button == LEFT && v->split == SPLIT_LINE && v->mode == MODE_LIVE &&
+                       fabsf(v->input.x - middle) < 8.0f * ui_scale();
+    if (v->dragged_light >= 0) v->light = v->dragged_light;
+    v->brush.down = button == LEFT && v->tool == TOOL_BRUSH && v->dragged_light < 0 && !v->dragged_split;
     v->brush.known = false;
     if (v->brush.down) ask(v, TASK_PICK, ASK_BRUSH);
     v->press_x = v->input.x, v->press_y = v->input.y;
@@ -195,16 +195,16 @@ static void begin_drag(Viewer *v, int button) {
 }
 
 static void turn_environment(Viewer *v, float across) {
-    float *r = &v->look.around.rotation;
+    float *r = &v->state.environment.rotation;
     *r = fmodf(*r + 180.0f * across, 360.0f);
 }
 
 static void drag(Viewer *v, float dx, float dy) {
     float across = dx / v->stage.height, down = dy / v->stage.height, turn = 3.5f;
     bool pans = v->pressed[MIDDLE] || (v->pressed[LEFT] && v->input.shift);
-    if (v->held_split) {
+    if (v->dragged_split) {
         v->split_at = fminf(fmaxf((v->input.x - v->stage.x) / v->stage.width, 0.02f), 0.98f);
-    } else if (v->held_light >= 0) {
+    } else if (v->dragged_light >= 0) {
         drag_light(v);
     } else if (v->brush.down) {
         ask(v, TASK_PICK, ASK_BRUSH);
@@ -220,11 +220,11 @@ static void drag(Viewer *v, float dx, float dy) {
 }
 
 static void end_drag(Viewer *v, int button) {
-    bool clicked = !v->moved && button == LEFT && v->held_light < 0 && !v->held_split;
+    bool clicked = !v->moved && button == LEFT && v->dragged_light < 0 && !v->dragged_split;
     if (clicked && v->tool == TOOL_PROBE) ask(v, TASK_PROBE, 0);
     if (clicked && v->tool == TOOL_ORBIT) ask(v, TASK_PICK, ASK_SELECT);
-    v->held_light = -1;
-    v->held_split = v->brush.down = false;
+    v->dragged_light = -1;
+    v->dragged_split = v->brush.down = false;
 }
 
 static void fly(Viewer *v) {
@@ -269,7 +269,7 @@ static void tag(float x, float y, const char *text) {
 
 static void draw_handles(const Viewer *v) {
     float at[2];
-    for (int k = 0; k < v->look.light_count && handles_shown(v); k++) {
+    for (int k = 0; k < v->state.light_count && handles_shown(v); k++) {
         if (!handle_at(v, k, at)) continue;
         bool chosen = k == v->light;
         ui_disc(at[0], at[1], 7.0f * ui_scale(), dark);
@@ -284,8 +284,8 @@ static void draw_handles(const Viewer *v) {
  * differ. */
 static void name_side(const Viewer *v, int side, char text[128]) {
     bool edited = v->side == side;
-    const WeftMaterial *is = look_material(edited ? &v->look : &v->other, v->material),
-                       *beside = look_material(edited ? &v->other : &v->look, v->material);
+    const WeftMaterial *is = scene_state_material(edited ? &v->state : &v->other, v->material),
+                       *beside = scene_state_material(edited ? &v->other : &v->state, v->material);
     int k = 0, length = snprintf(text, 128, "%c", side == 0 ? 'A' : 'B');
     while (weft_material_choice_name(k) && is->choices[k] == beside->choices[k]) k++;
     if (weft_material_choice_name(k))
@@ -323,7 +323,7 @@ static void draw_scale(const Viewer *v) {
 static void draw_tags(const Viewer *v) {
     const UiBox *s = &v->stage;
     char text[128] = "";
-    if (v->mode == MODE_TRUTH)
+    if (v->mode == MODE_REFERENCE)
         snprintf(text, sizeof text, "path traced   %.0f of %d spp", v->traced.samples, TRACE_SAMPLES);
     else if (v->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "OpenGL less path traced");
@@ -346,12 +346,12 @@ static void draw_tags(const Viewer *v) {
 static void draw_progress(const Viewer *v) {
     const UiBox *s = &v->stage;
     char text[64] = "reading";
-    float share = loader_share(v->loader), width = 260.0f * ui_scale();
+    float fraction = loader_progress(v->loader), width = 260.0f * ui_scale();
     UiBox box = {s->x + 0.5f * (s->width - width), s->y + 0.5f * s->height, width, 5.0f * ui_scale()};
-    if (share >= 0.0f) snprintf(text, sizeof text, "reading %.0f %%", 100.0 * (double)share);
+    if (fraction >= 0.0f) snprintf(text, sizeof text, "reading %.0f %%", 100.0 * (double)fraction);
     tag(box.x, box.y - 30.0f * ui_scale(), text);
     ui_fill(box, dark);
-    box.width *= fminf(fmaxf(share, 0.02f), 1.0f);
+    box.width *= fminf(fmaxf(fraction, 0.02f), 1.0f);
     ui_fill(box, accent);
 }
 
@@ -368,9 +368,9 @@ void stage_draw(Viewer *v) {
     static const char welcome[] = "Drop a .glb or .gltf here, or File > Open ...";
     ui_behind(true);
     if (viewer_shows(v) == SHOWS_TRACED)
-        ui_picture(v->truth_texture, v->stage, false);
+        ui_picture(v->reference_texture, v->stage, false);
     else if (viewer_shows(v) == SHOWS_DRAWN)
-        ui_picture(v->painted.texture, v->stage, true);
+        ui_picture(v->rendered.texture, v->stage, true);
     ui_clip(&v->stage);
     draw_split(v);
     draw_handles(v);

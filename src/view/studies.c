@@ -8,10 +8,10 @@
 
 enum { WIDTH = 300, COLUMNS = 4 };
 
-void study_start(Study *self, const Look *look, int material, const WeftRasterView *view, const char *camera,
-                 WeftTonemap tonemap, float exposure, unsigned stamp) {
+void study_start(Study *self, const SceneState *state, int material, const WeftRasterView *view,
+                 const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp) {
     study_stop(self);
-    if (material < 0 || material >= look->material_count || !look_copy(&self->look, look)) return;
+    if (material < 0 || material >= state->material_count || !scene_state_copy(&self->state, state)) return;
     self->material = material;
     self->under_way = true;
     self->stamp = stamp;
@@ -28,18 +28,18 @@ void study_start(Study *self, const Look *look, int material, const WeftRasterVi
 
 void study_stop(Study *self) {
     for (int k = 0; k < STUDY_MOST; k++) weft_image_free(&self->pictures[k]);
-    look_free(&self->look);
+    scene_state_free(&self->state);
     memset(self, 0, sizeof *self);
 }
 
-bool study_look(const Study *self, Look *look) {
-    if (!look_copy(look, &self->look)) {
-        *look = (Look){0};
+bool study_state(const Study *self, SceneState *state) {
+    if (!scene_state_copy(state, &self->state)) {
+        *state = (SceneState){0};
         return false;
     }
-    WeftMaterial m = *look_material(look, self->material);
+    WeftMaterial m = *scene_state_material(state, self->material);
     weft_material_choose(&m, choice_number("profile"), self->next - 1);
-    return look_set_material(look, self->material, &m);
+    return scene_state_set_material(state, self->material, &m);
 }
 
 WeftRasterView study_view(const Study *self) {

@@ -3,8 +3,8 @@
 #ifndef WEFT_VIEW_STUDIES_H
 #define WEFT_VIEW_STUDIES_H
 
-#include "view/look.h"
 #include "view/orbit.h"
+#include "view/state.h"
 #include "weft/raster.h"
 
 enum { STUDY_MOST = 40 };
@@ -13,7 +13,7 @@ enum { STUDY_MOST = 40 };
 typedef struct Study {
     bool under_way;
     unsigned stamp;
-    Look look;
+    SceneState state;
     int material;
     WeftRasterView view;
     char camera[ORBIT_TEXT];
@@ -23,13 +23,13 @@ typedef struct Study {
     WeftImage pictures[STUDY_MOST];
 } Study;
 
-/* Of what a look is; what is under way is given up. */
-void study_start(Study *study, const Look *look, int material, const WeftRasterView *view, const char *camera,
-                 WeftTonemap tonemap, float exposure, unsigned stamp);
+/* Of what a state is; what is under way is given up. */
+void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view,
+                 const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp);
 void study_stop(Study *study);
 
 /* What the next picture is of, and how it is seen. False where memory is short; look is empty then. */
-bool study_look(const Study *study, Look *look);
+bool study_state(const Study *study, SceneState *state);
 WeftRasterView study_view(const Study *study);
 void study_add(Study *study, WeftImage *linear); /* takes it over */
 bool study_done(const Study *study);

@@ -9,6 +9,6 @@
 float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *camera, float aspect);
 
 /* The material with the largest share of those for which `of` is not 0 (NULL: all); -1: none is seen. */
-int survey_largest(const float *shares, int count, const char *of);
+int survey_largest(const float *coverage, int count, const char *of);
 
 #endif

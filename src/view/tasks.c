@@ -2,39 +2,41 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/painting.h"
+#include "view/renderer_state.h"
 #include "view/survey.h"
 #include "weft/save.h"
 
-static WeftResult shot(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+static WeftResult shot(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                       WeftError *error) {
     WeftImage linear = {0}, display = {0};
-    WeftRasterView view = order->view;
+    WeftRasterView view = request->view;
     WeftResult result = WEFT_OK;
-    view.camera = order->camera;
+    view.camera = request->camera;
     if (task->width > 0) view.width = task->width, view.height = task->height;
     if (task->transparent) view.background = WEFT_BACKGROUND_TRANSPARENT;
-    if (task->truth) {
-        if (!truth_image(self->truth, &linear)) {
+    if (task->reference) {
+        if (!reference_image(self->reference, &linear)) {
             snprintf(error->text, sizeof error->text, "there is no path-traced picture yet");
             return WEFT_INPUT;
         }
     } else {
-        result = painting_wear(self, painting_edited(order), error);
+        result = frame_apply_state(self, frame_edited_state(request), error);
         if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
         if (result == WEFT_OK) result = weft_raster_image(self->raster, &linear, error);
     }
     const WeftImage *image = &linear;
     if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
-        bool number = order->view.part >= WEFT_PART_BASE_COLOR && !task->truth;
-        WeftTonemap curve = number ? WEFT_TONEMAP_NONE : order->tonemap;
-        float exposure = number ? 0.0f : order->exposure;
-        result = order->laid_behind && !task->transparent
-                     ? weft_image_tonemap_over(&linear, curve, exposure, order->behind, &display, error)
+        bool number = request->view.part >= WEFT_PART_BASE_COLOR && !task->reference;
+        WeftTonemap curve = number ? WEFT_TONEMAP_NONE : request->tonemap;
+        float exposure = number ? 0.0f : request->exposure;
+        result = request->laid_behind && !task->transparent
+                     ? weft_image_tonemap_over(&linear, curve, exposure, request->behind, &display, error)
                      : weft_image_tonemap(&linear, curve, exposure, &display, error);
         image = &display;
     }
     if (result == WEFT_OK) result = weft_image_write(task->path, image, error);
-    snprintf(news->text, sizeof news->text, "wrote %.400s, %d x %d", task->path, linear.width, linear.height);
+    snprintf(event->text, sizeof event->text, "wrote %.400s, %d x %d", task->path, linear.width,
+             linear.height);
     weft_image_free(&linear);
     weft_image_free(&display);
     return result;
@@ -45,47 +47,48 @@ static bool ends_with(const char *text, const char *end) {
     return a >= b && strcmp(text + a - b, end) == 0;
 }
 
-static WeftResult save(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
-    WeftResult result = painting_wear(self, painting_edited(order), error);
+static WeftResult save(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                       WeftError *error) {
+    WeftResult result = frame_apply_state(self, frame_edited_state(request), error);
     if (result != WEFT_OK) return result;
-    snprintf(news->text, sizeof news->text, "wrote %.450s", task->path);
+    snprintf(event->text, sizeof event->text, "wrote %.450s", task->path);
     if (ends_with(task->path, ".json"))
         return weft_scene_save_material(self->scene, task->index, task->path, error);
     return weft_scene_save(self->scene, task->path, error);
 }
 
 /* What its materials have become, for the window to know. */
-static WeftResult dressed(Painter *self, WeftResult result, News *news, WeftError *error) {
-    const WeftLog log = painter_log(self);
+static WeftResult finish_assign(Renderer *self, WeftResult result, RenderEvent *event, WeftError *error) {
+    const WeftLog log = renderer_log(self);
     if (result == WEFT_OK) {
-        Around around = self->is.around;
-        Look look;
-        if (!look_read(&look, self->scene)) return WEFT_RESOURCES;
-        look.around = around;
-        look_take_naps(&look, &self->is);
-        look_take_presets(&look, &self->is);
-        look_free(&self->is);
-        self->is = look;
-        news->look_changed = look_copy(&news->look, &self->is);
-        facts_read_maps(&news->maps, self->scene);
-        painter_watch(self);
+        EnvironmentState environment = self->is.environment;
+        SceneState state;
+        if (!scene_state_read(&state, self->scene)) return WEFT_RESOURCES;
+        state.environment = environment;
+        scene_state_take_naps(&state, &self->is);
+        scene_state_take_presets(&state, &self->is);
+        scene_state_free(&self->is);
+        self->is = state;
+        event->state_changed = scene_state_copy(&event->state, &self->is);
+        facts_read_maps(&event->maps, self->scene);
+        renderer_watch_files(self);
         result = weft_raster_update(self->raster, &log, error);
     }
-    truth_release(self->truth, self->scene, ~0u);
+    reference_resume(self->reference, self->scene, ~0u);
     self->stale = true;
     return result;
 }
 
 /* NULL where nothing can be seen, or memory is short. */
-static float *survey(Painter *self, const Order *order) {
+static float *survey(Renderer *self, const FrameRequest *request) {
     if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return NULL;
-    return survey_take(self->pick, self->scene, order->camera,
-                       (float)order->view.width / (float)order->view.height);
+    return survey_take(self->pick, self->scene, request->camera,
+                       (float)request->view.width / (float)request->view.height);
 }
 
-void tasks_survey(Painter *self, const Order *order) {
-    News news = {.kind = TASK_SURVEY, .scene = self->scene_number, .shares = survey(self, order)};
-    painter_tell(self, &news);
+void tasks_survey(Renderer *self, const FrameRequest *request) {
+    RenderEvent event = {.kind = TASK_SURVEY, .scene = self->scene_number, .coverage = survey(self, request)};
+    renderer_post(self, &event);
 }
 
 /* The number of a preset of that name, counted from 1; 0: it is a file's. */
@@ -96,19 +99,20 @@ static int preset_of(const char *path) {
     return weft_preset_name(k) ? k + 1 : 0;
 }
 
-static WeftResult dress(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
-    const WeftLog log = painter_log(self);
+static WeftResult assign_material(Renderer *self, const Task *task, const FrameRequest *request,
+                                  RenderEvent *event, WeftError *error) {
+    const WeftLog log = renderer_log(self);
     char target[64];
     snprintf(target, sizeof target, "%d", task->index);
-    WeftResult result = painting_wear(self, painting_edited(order), error);
+    WeftResult result = frame_apply_state(self, frame_edited_state(request), error);
     if (result != WEFT_OK) return result;
-    truth_hold(self->truth);
+    reference_pause(self->reference);
     switch (task->kind) {
-    case TASK_WEAR:
-        result = weft_scene_bind_maps(self->scene, task->index < 0 ? NULL : target, task->path, &news->index,
+    case TASK_BIND_MAPS:
+        result = weft_scene_bind_maps(self->scene, task->index < 0 ? NULL : target, task->path, &event->index,
                                       &log, error);
-        snprintf(news->text, sizeof news->text, "%d maps of %.400s", news->index, task->path);
-        snprintf(news->path, sizeof news->path, "%s", task->path);
+        snprintf(event->text, sizeof event->text, "%d maps of %.400s", event->index, task->path);
+        snprintf(event->path, sizeof event->path, "%s", task->path);
         if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
         break;
     default:
@@ -120,52 +124,54 @@ static WeftResult dress(Painter *self, const Task *task, const Order *order, New
             result = weft_scene_assign_material(self->scene, task->index < 0 ? NULL : target, task->path,
                                                 &log, error);
             if (result == WEFT_OK && task->index >= 0)
-                look_set_preset(&self->is, task->index, preset_of(task->path));
+                scene_state_set_preset(&self->is, task->index, preset_of(task->path));
         }
         break;
     }
-    return dressed(self, result, news, error);
+    return finish_assign(self, result, event, error);
 }
 
-/* A look names the file of a light once it has been read, not before. */
-static WeftResult light(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
-    Look look;
-    if (!look_copy(&look, painting_edited(order))) return WEFT_RESOURCES;
-    look.around.kind = AROUND_FILE;
-    snprintf(look.around.path, sizeof look.around.path, "%s", task->path);
-    look.around.again = ++self->readings;
-    WeftResult result = painting_wear(self, &look, error);
-    const char *refusal = painting_refuses(self, &look);
+/* A state names the file of a light once it has been read, not before. */
+static WeftResult light(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                        WeftError *error) {
+    SceneState state;
+    if (!scene_state_copy(&state, frame_edited_state(request))) return WEFT_RESOURCES;
+    state.environment.kind = ENVIRONMENT_FILE;
+    snprintf(state.environment.path, sizeof state.environment.path, "%s", task->path);
+    state.environment.again = ++self->readings;
+    WeftResult result = frame_apply_state(self, &state, error);
+    const char *refusal = frame_refusal(self, &state);
     if (result == WEFT_OK && refusal) {
         snprintf(error->text, sizeof error->text, "%s", refusal);
         result = WEFT_INPUT;
     }
-    snprintf(news->text, sizeof news->text, "lit by %.450s", task->path);
-    news->look_changed = result == WEFT_OK && look_copy(&news->look, &look);
-    look_free(&look);
+    snprintf(event->text, sizeof event->text, "lit by %.450s", task->path);
+    event->state_changed = result == WEFT_OK && scene_state_copy(&event->state, &state);
+    scene_state_free(&state);
     self->stale = true;
     return result;
 }
 
-WeftResult tasks_reload(Painter *self, int texture, WeftError *error) {
-    const WeftLog log = painter_log(self);
-    truth_hold(self->truth);
+WeftResult tasks_reload(Renderer *self, int texture, WeftError *error) {
+    const WeftLog log = renderer_log(self);
+    reference_pause(self->reference);
     WeftResult result = weft_scene_read_texture(self->scene, texture, &log, error);
-    truth_release(self->truth, self->scene,
-                  result == WEFT_OK ? WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS : 0);
+    reference_resume(self->reference, self->scene,
+                     result == WEFT_OK ? WEFT_CHANGED_MATERIALS | WEFT_CHANGED_LIGHTS : 0);
     return result == WEFT_OK ? weft_raster_update(self->raster, &log, error) : result;
 }
 
-static WeftResult pick(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+static WeftResult pick(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                       WeftError *error) {
     WeftPicked at;
     WeftResult result = self->pick ? WEFT_OK : weft_pick_create(self->scene, &self->pick, error);
     if (result != WEFT_OK) return result;
-    Probe *probe = &news->probe;
-    int width = order->view.width, half = width / 2;
-    bool sides = order->split == SPLIT_SIDES;
+    Probe *probe = &event->probe;
+    int width = request->view.width, half = width / 2;
+    bool sides = request->split == SPLIT_SIDES;
     float x = sides && task->x >= (float)half ? task->x - (float)half : task->x;
-    probe->hit = weft_pick_at(self->pick, order->camera, sides ? half : width, order->view.height, x, task->y,
-                              &at) != 0;
+    probe->hit = weft_pick_at(self->pick, request->camera, sides ? half : width, request->view.height, x,
+                              task->y, &at) != 0;
     if (!probe->hit) return WEFT_OK;
     probe->material = at.material;
     probe->distance = at.distance;
@@ -175,84 +181,86 @@ static WeftResult pick(Painter *self, const Task *task, const Order *order, News
     memcpy(probe->tangent, at.tangent, sizeof probe->tangent);
     memcpy(probe->bitangent, at.bitangent, sizeof probe->bitangent);
     memcpy(probe->texcoord, at.texcoord[0], sizeof probe->texcoord);
-    const Look *look = painting_edited(order);
-    if (task->nap && at.material < look->material_count && !look_nap(look, at.material))
-        nap_own(self->scene, look_material(look, at.material), &news->image);
+    const SceneState *state = frame_edited_state(request);
+    if (task->nap && at.material < state->material_count && !scene_state_nap(state, at.material))
+        nap_own(self->scene, scene_state_material(state, at.material), &event->image);
     return WEFT_OK;
 }
 
 /* The pixel once for each part, as far as a person asks for. */
-static WeftResult probe(Painter *self, const Task *task, const Order *order, News *news, WeftError *error) {
+static WeftResult probe(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                        WeftError *error) {
     static const WeftPart parts[] = {WEFT_PART_ALL,      WEFT_PART_DIFFUSE,    WEFT_PART_SPECULAR,
                                      WEFT_PART_SHEEN,    WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,
                                      WEFT_PART_ROUGHNESS};
-    WeftResult result = pick(self, task, order, news, error);
-    if (result == WEFT_OK) result = painting_wear(self, painting_edited(order), error);
+    WeftResult result = pick(self, task, request, event, error);
+    if (result == WEFT_OK) result = frame_apply_state(self, frame_edited_state(request), error);
     int x = (int)task->x, y = (int)task->y;
-    if (x < 0 || y < 0 || x >= order->view.width || y >= order->view.height) return result;
+    if (x < 0 || y < 0 || x >= request->view.width || y >= request->view.height) return result;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && result == WEFT_OK; k++) {
         WeftImage image;
-        WeftRasterView view = order->view;
-        view.camera = order->camera;
+        WeftRasterView view = request->view;
+        view.camera = request->camera;
         view.part = parts[k];
         view.crop[0] = x, view.crop[1] = y, view.crop[2] = view.crop[3] = 1;
         result = weft_raster_draw(self->raster, &view, error);
         if (result == WEFT_OK) result = weft_raster_image(self->raster, &image, error);
         if (result != WEFT_OK) break;
         const float *p = (const float *)image.pixels + 4 * ((size_t)y * (size_t)image.width + (size_t)x);
-        memcpy(news->probe.value[parts[k]], p, sizeof news->probe.value[0]);
+        memcpy(event->probe.value[parts[k]], p, sizeof event->probe.value[0]);
         weft_image_free(&image);
     }
     return result;
 }
 
-void tasks_do(Painter *self, const Task *task, const Order *order) {
+void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     WeftError error = {0};
-    News news = {.kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
+    RenderEvent event = {
+        .kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
     WeftResult result = WEFT_OK;
     switch (task->kind) {
-    case TASK_SHOT: result = shot(self, task, order, &news, &error); break;
-    case TASK_SAVE: result = save(self, task, order, &news, &error); break;
-    case TASK_PICK: result = pick(self, task, order, &news, &error); break;
-    case TASK_PROBE: result = probe(self, task, order, &news, &error); break;
-    case TASK_LIGHT: result = light(self, task, order, &news, &error); break;
+    case TASK_SHOT: result = shot(self, task, request, &event, &error); break;
+    case TASK_SAVE: result = save(self, task, request, &event, &error); break;
+    case TASK_PICK: result = pick(self, task, request, &event, &error); break;
+    case TASK_PROBE: result = probe(self, task, request, &event, &error); break;
+    case TASK_LIGHT: result = light(self, task, request, &event, &error); break;
     case TASK_SCENE:
     case TASK_SURVEY: return;
     case TASK_PROFILES:
-        study_start(&self->study, painting_edited(order), task->index, &order->view, order->camera,
-                    order->tonemap, order->exposure, task->stamp);
+        study_start(&self->study, frame_edited_state(request), task->index, &request->view, request->camera,
+                    request->tonemap, request->exposure, task->stamp);
         return;
-    case TASK_DRESS:
-    case TASK_WEAR: result = dress(self, task, order, &news, &error); break;
+    case TASK_ASSIGN:
+    case TASK_BIND_MAPS: result = assign_material(self, task, request, &event, &error); break;
     }
-    news.failed = result != WEFT_OK;
-    if (news.failed)
-        snprintf(news.text, sizeof news.text, "%s", error.text[0] ? error.text : "out of memory");
-    painter_tell(self, &news);
+    event.failed = result != WEFT_OK;
+    if (event.failed)
+        snprintf(event.text, sizeof event.text, "%s", error.text[0] ? error.text : "out of memory");
+    renderer_post(self, &event);
 }
 
 /* One more picture of a sheet. */
-void tasks_study(Painter *self) {
-    News news = {.kind = TASK_PROFILES, .scene = self->scene_number, .stamp = self->study.stamp};
-    Look look;
+void tasks_study(Renderer *self) {
+    RenderEvent event = {.kind = TASK_PROFILES, .scene = self->scene_number, .stamp = self->study.stamp};
+    SceneState state;
     WeftError error = {0};
     WeftImage linear;
-    bool good = study_look(&self->study, &look);
+    bool good = study_state(&self->study, &state);
     WeftRasterView view = study_view(&self->study);
-    if (good) good = painting_wear(self, &look, &error) == WEFT_OK;
+    if (good) good = frame_apply_state(self, &state, &error) == WEFT_OK;
     if (good) good = weft_raster_draw(self->raster, &view, &error) == WEFT_OK;
     if (good) good = weft_raster_image(self->raster, &linear, &error) == WEFT_OK;
     if (good) study_add(&self->study, &linear);
-    look_free(&look);
+    scene_state_free(&state);
     if (!good) {
-        news.failed = true;
-        snprintf(news.text, sizeof news.text, "%s", error.text[0] ? error.text : "out of memory");
+        event.failed = true;
+        snprintf(event.text, sizeof event.text, "%s", error.text[0] ? error.text : "out of memory");
         study_stop(&self->study);
-        painter_tell(self, &news);
+        renderer_post(self, &event);
     } else if (study_done(&self->study)) {
-        news.failed = !study_sheet(&self->study, &news.image);
+        event.failed = !study_sheet(&self->study, &event.image);
         study_stop(&self->study);
-        painter_tell(self, &news);
+        renderer_post(self, &event);
     }
-    self->stale = true; /* the scene is dressed otherwise */
+    self->stale = true; /* the scene is configured otherwise */
 }

@@ -23,7 +23,7 @@ struct Ui {
     std::vector<size_t> scopes;
     std::vector<UiControl> shown, last;
     std::string reveal;
-    std::vector<std::string> panels;         /* of this frame, in their order */
+    std::vector<std::string> panels;         /* of this frame, in their request */
     std::string panel;                       /* that has the keyboard; "": none */
     bool to_menus = false, to_panel = false; /* goes there with the next frame */
     bool navigates = false;
@@ -383,7 +383,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 }
 
 void ui_same_line(void) { ImGui::SameLine(); }
-void ui_column(float share) { ImGui::SameLine(share * ImGui::GetWindowContentRegionMax().x); }
+void ui_column(float fraction) { ImGui::SameLine(fraction * ImGui::GetWindowContentRegionMax().x); }
 void ui_beside(void) {
     float width = ImGui::CalcTextSize("...").x + 2.0f * ImGui::GetStyle().FramePadding.x;
     ImGui::SameLine(0.40f * ImGui::GetWindowContentRegionMax().x - width -
@@ -608,9 +608,9 @@ bool ui_input(const char *label, char *text, int size) {
     return entered;
 }
 
-void ui_progress(float share, const char *text) {
+void ui_progress(float fraction, const char *text) {
     float phase = static_cast<float>(std::fmod(ImGui::GetTime(), 1.0));
-    ImGui::ProgressBar(share >= 0.0f ? share : phase, at(-1.0f, 0.0f), text);
+    ImGui::ProgressBar(fraction >= 0.0f ? fraction : phase, at(-1.0f, 0.0f), text);
 }
 
 bool ui_canvas(const char *label, float width, float height, UiBox *box) {

@@ -111,7 +111,7 @@ void ui_menu_end(void);
 bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool enabled);
 
 void ui_same_line(void);
-void ui_column(float share); /* goes on in this row, from that share of the width on */
+void ui_column(float fraction); /* goes on in this row, from that fraction of the width on */
 void ui_beside(void);        /* the next, a small button, goes to the end of this row's column of names */
 void ui_rule(void);
 void ui_disabled(bool disabled);
@@ -161,7 +161,7 @@ bool ui_color(const char *label, const float initial[3], float color[3]);
 /* A small square of that colour, linear; true where it was clicked. */
 bool ui_swatch(const char *label, const float color[3]);
 bool ui_input(const char *label, char *text, int size);
-void ui_progress(float share, const char *text); /* share below 0: under way */
+void ui_progress(float fraction, const char *text); /* fraction below 0: under way */
 
 /* A place to draw in: `box` receives it. True while the mouse is over it or holds it. */
 bool ui_canvas(const char *label, float width, float height, UiBox *box);

@@ -1,20 +1,21 @@
-/* view.h - the window: open a cloth asset, switch every term, see the truth behind it */
+/* view.h - the window: open a cloth asset, switch every term, see the reference behind it */
 #ifndef WEFT_VIEW_VIEW_H
 #define WEFT_VIEW_VIEW_H
 
 #include <stdbool.h>
 
-#include "view/look.h"
+#include "view/state.h"
 #include "weft/raster.h"
 
 /* What the window starts with. Texts must outlive it. */
 typedef struct ViewDesc {
     const char *scene; /* NULL: the built-in cloth */
     const char
-        *options; /* how the scene is dressed, as a command line has it: for the copied one; may be NULL */
-    /* Dresses and lights a scene that was just loaded; `around` receives the light from far away. May be
+        *options; /* how the scene is configured, as a command line has it: for the copied one; may be NULL */
+    /* Dresses and lights a scene that was just loaded; `environment` receives the light from far away. May be
      * NULL. */
-    WeftResult (*dress)(void *user, WeftScene *scene, Around *around, const WeftLog *log, WeftError *error);
+    WeftResult (*configure)(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
+                            WeftError *error);
     void *user;
     const char *camera; /* NULL: a built-in scene's first one, else auto */
     WeftBackground background;

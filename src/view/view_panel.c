@@ -63,12 +63,12 @@ static const char *part_help(const void *user, int k) {
 }
 
 static void draw_floor(Viewer *v) {
-    static const UiRange share = {0.0f, 1.0f, 0.1f, NULL, false}, rough = {0.0f, 1.0f, 0.3f, NULL, false};
+    static const UiRange fraction = {0.0f, 1.0f, 0.1f, NULL, false}, rough = {0.0f, 1.0f, 0.3f, NULL, false};
     bool on = v->floor.on;
     if (ui_checkbox("Floor", &on)) v->floor.on = on;
     ui_tip("Catches the shadow of the scene and mirrors it, and is seen by nothing else (G).");
     if (!on) return;
-    ui_slider("mirrored", &share, &v->floor.reflection);
+    ui_slider("mirrored", &fraction, &v->floor.reflection);
     ui_tip("Share of the scene that the floor mirrors.");
     ui_slider("floor roughness", &rough, &v->floor.roughness);
     ui_tip("Of the mirror: 0 is a polished floor.");
@@ -110,8 +110,8 @@ static void draw_compare(Viewer *v) {
     ui_tip("What the panels edit: A, on the left, or B (X).");
     ui_same_line();
     if (ui_button("Same as this")) {
-        look_free(&v->other);
-        look_copy(&v->other, &v->look);
+        scene_state_free(&v->other);
+        scene_state_copy(&v->other, &v->state);
         v->ask = true;
     }
     ui_tip("Makes the other what this one is.");

@@ -13,11 +13,11 @@
 #include "view/browser.h"
 #include "view/clock.h"
 #include "view/examine.h"
+#include "view/file_watch.h"
 #include "view/opening.h"
-#include "view/orders.h"
 #include "view/replay.h"
 #include "view/report.h"
-#include "view/watchman.h"
+#include "view/requests.h"
 
 void viewer_say(Viewer *v, bool grave, const char *format, ...) {
     va_list list;
@@ -46,9 +46,9 @@ void viewer_upload(unsigned *texture, const WeftImage *image) {
 }
 
 Shows viewer_shows(const Viewer *v) {
-    bool asked = v->mode != MODE_LIVE, instead = v->traced.number > v->painted.number;
-    if (v->truth_texture && (asked || instead)) return SHOWS_TRACED;
-    return v->painted.texture && v->painted.scene == v->scene ? SHOWS_DRAWN : SHOWS_NOTHING;
+    bool asked = v->mode != MODE_LIVE, instead = v->traced.number > v->rendered.number;
+    if (v->reference_texture && (asked || instead)) return SHOWS_TRACED;
+    return v->rendered.texture && v->rendered.scene == v->scene ? SHOWS_DRAWN : SHOWS_NOTHING;
 }
 
 const char *shows_name(Shows shows) {
@@ -66,11 +66,11 @@ float viewer_aspect(const Viewer *v) {
 
 static void note_history(Viewer *v) {
     bool held = v->input.button[0] || v->input.button[1] || v->input.button[2];
-    if (v->has_scene && !look_same(&v->look, &v->before)) {
-        if (v->look.material_count == v->before.material_count) history_keep(&v->history, &v->before);
-        Look copy;
-        if (look_copy(&copy, &v->look)) {
-            look_free(&v->before);
+    if (v->has_scene && !scene_state_same(&v->state, &v->before)) {
+        if (v->state.material_count == v->before.material_count) history_keep(&v->history, &v->before);
+        SceneState copy;
+        if (scene_state_copy(&copy, &v->state)) {
+            scene_state_free(&v->before);
             v->before = copy;
         }
     }
@@ -129,17 +129,17 @@ static void run_frame(Viewer *v, double started) {
     lay_out(v);
     keys_input(v);
     stage_input(v);
-    orders_send(v);
-    orders_await(v);
-    orders_camera(v);
-    orders_news(v);
-    orders_truth(v);
+    requests_send(v);
+    requests_wait_frame(v);
+    requests_read_camera(v);
+    requests_take_events(v);
+    requests_take_reference(v);
     draw_frame(v);
-    orders_send(v);
+    requests_send(v);
     note_history(v);
     v->worst_seconds = fmax(v->worst_seconds, now() - started);
     v->frame_seconds += 0.1 * (now() - started - v->frame_seconds);
-    v->picture_seconds = (double)v->painted.whole_seconds;
+    v->picture_seconds = (double)v->rendered.whole_seconds;
 }
 
 static bool start(Viewer *v, char why[512]) {
@@ -150,11 +150,12 @@ static bool start(Viewer *v, char why[512]) {
     if (!v->window) return false;
     snprintf(why, 512, "out of memory");
     if (!ui_create(window_scale(v->window), window_clipboard(v->window))) return false;
-    v->truth = truth_start(v->window);
-    if (v->truth) v->painter = painter_start(v->window, v->truth, v->desc->shader_dir, v->desc->occlusion);
-    v->watchman = watchman_start();
+    v->reference = reference_start(v->window);
+    if (v->reference)
+        v->renderer = renderer_start(v->window, v->reference, v->desc->shader_dir, v->desc->occlusion);
+    v->file_watch = file_watch_start();
     v->browser = browser_create(v->settings.folder);
-    if (!v->painter || !v->watchman || !v->browser) return false;
+    if (!v->renderer || !v->file_watch || !v->browser) return false;
     lay_out(v);
     opening_begin(v);
     return true;
@@ -164,16 +165,16 @@ static void stop(Viewer *v) {
     examination_free(v->examination);
     if (v->loader) loader_finish(v->loader, NULL);
     if (v->leaving) loader_finish(v->leaving, NULL);
-    painter_stop(v->painter);
-    truth_stop(v->truth);
+    renderer_stop(v->renderer);
+    reference_stop(v->reference);
     replay_close(v->replay);
-    watchman_stop(v->watchman);
+    file_watch_stop(v->file_watch);
     if (v->browser) snprintf(v->settings.folder, sizeof v->settings.folder, "%s", browser_folder(v->browser));
     browser_free(v->browser);
     if (v->window) {
         window_size(v->window, &v->settings.width, &v->settings.height);
         if (v->has_scene && !v->desc->forget) settings_write(&v->settings);
-        glDeleteTextures(1, &v->truth_texture);
+        glDeleteTextures(1, &v->reference_texture);
         glDeleteTextures(1, &v->profiles_texture);
         glDeleteTextures(1, &v->thumbs);
         ui_destroy();
@@ -193,14 +194,14 @@ static double patience(const Viewer *v, int due) {
     if (window_hidden(v->window)) return 0.25;
     if (due > 0 || flies || v->desc->frames) return 0.0;
     if (v->replay) return 0.005;
-    return orders_finer(v) ? 0.05 : 0.25;
+    return requests_can_refine(v) ? 0.05 : 0.25;
 }
 
 static int run(Viewer *v, char why[512]) {
     int due = 3; /* frames until all widgets have settled */
     why[0] = '\0';
     while (!window_closing(v->window) && !v->ending) {
-        unsigned shown = v->painted.number;
+        unsigned shown = v->rendered.number;
         window_wait(v->window, patience(v, due));
         double started = now();
         if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
@@ -208,8 +209,9 @@ static int run(Viewer *v, char why[512]) {
         for (char *path; (path = window_dropped(v->window)); free(path)) viewer_open(v, path), any = true;
         opening_poll(v);
         any |= opening_watch(v, started);
-        any |= painter_fresh(v->painter) || truth_fresh(v->truth) || v->loader || v->painted.number != shown;
-        any |= orders_finer(v) && v->mode == MODE_LIVE;
+        any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->loader ||
+               v->rendered.number != shown;
+        any |= requests_can_refine(v) && v->mode == MODE_LIVE;
         if (!v->has_scene && v->opened != WEFT_OK) {
             snprintf(why, 512, "%s", v->message);
             return (int)v->opened;
@@ -246,7 +248,7 @@ int view_run(const ViewDesc *desc, char why[512]) {
     v->floor = desc->floor;
     v->hide_lights = desc->hide_lights;
     v->split_at = 0.5f;
-    v->held_light = -1;
+    v->dragged_light = -1;
     v->brush = (Brush){.radius = 0.05f, .strength = 0.7f};
     int code = WEFT_INPUT;
     if (!desc->script || (v->replay = replay_open(desc->script, why)))

@@ -3,17 +3,17 @@
 #ifndef WEFT_VIEW_VIEWER_H
 #define WEFT_VIEW_VIEWER_H
 
+#include "view/file_watch.h"
 #include "view/history.h"
 #include "view/loader.h"
-#include "view/painter.h"
+#include "view/renderer.h"
 #include "view/settings.h"
 #include "view/view.h"
-#include "view/watchman.h"
 #include "weft/measure.h"
 #include "weft/reflection.h"
 
 /* What the stage shows: OpenGL, the path tracer, or how they differ. */
-typedef enum Mode { MODE_LIVE, MODE_TRUTH, MODE_DIFFERENCE } Mode;
+typedef enum Mode { MODE_LIVE, MODE_REFERENCE, MODE_DIFFERENCE } Mode;
 typedef enum Tool { TOOL_ORBIT, TOOL_PROBE, TOOL_BRUSH } Tool;
 
 /* What of it is there to be seen. */
@@ -34,18 +34,18 @@ typedef struct Brush {
 typedef struct Inspection Inspection;
 struct Examination;
 
-/* The panels at the side, in the order of their tabs. */
+/* The panels at the side, in the request of their tabs. */
 enum { PANEL_MATERIAL, PANEL_LIGHT, PANEL_VIEW, PANEL_INSPECT, PANEL_DOCTOR };
 
 typedef struct Viewer {
     const ViewDesc *desc;
     Window *window;
-    Painter *painter;
-    Truth *truth;
+    Renderer *renderer;
+    ReferenceView *reference;
     Loader *loader;  /* NULL: nothing is being read */
     Loader *leaving; /* one that was told to stop, and has not yet; NULL: none */
     struct Replay *replay;
-    Watchman *watchman;
+    FileWatch *file_watch;
     Settings settings;
     UiInput input;
     double clock; /* s, of this frame */
@@ -54,18 +54,19 @@ typedef struct Viewer {
 
     /* the scene */
     bool has_scene;
-    WeftResult opened;                 /* why there is none, where the first could not be had */
-    char dressed[LOOK_PATH];           /* path of the scene that is dressed as the command line has it */
-    char watched[LOOK_PATH];           /* light whose file is watched */
-    char lobes[LOOK_LOBES][LOOK_PATH]; /* files of lobes, which are watched too */
+    WeftResult opened;                   /* why there is none, where the first could not be had */
+    char configured[STATE_PATH];         /* path of the scene that is configured as the command line has it */
+    char watched[STATE_PATH];            /* light whose file is watched */
+    char lobes[STATE_LOBES][STATE_PATH]; /* files of lobes, which are watched too */
     int lobe_count;
     unsigned scene, scenes; /* number of the one that is shown; of the last one that was read */
-    Loaded pending;         /* read, and with the painter: its look and facts, until that has taken it */
+    Loaded pending;         /* read, and with the renderer: its state and facts, until that has taken it */
     bool has_pending;
     Facts facts;
-    Look look, first, before, sent; /* as it is edited; as it was read; a frame ago; as last ordered */
-    Look other;                     /* the other of A and B; empty without a comparison */
-    int side;                       /* which of them `look` is: 0 is A */
+    SceneState state, first, before,
+        sent;         /* as it is edited; as it was read; a frame ago; as last requested */
+    SceneState other; /* the other of A and B; empty without a comparison */
+    int side;         /* which of them `state` is: 0 is A */
     History history, other_history;
     int material, light; /* that the panels show */
     Folders folders;     /* of maps that the scene wears */
@@ -95,15 +96,15 @@ typedef struct Viewer {
     int panel;   /* that is open at the side: PANEL_MATERIAL ... */
 
     /* what came back */
-    Painted painted;
-    unsigned ordered; /* number of the last order */
-    Order order;      /* that it was; its looks are empty */
-    bool ask;         /* an order is due */
-    double changed;   /* when the last one was another than the one before, s */
-    bool late;        /* the painter is at something long: it is not waited for */
-    unsigned truth_texture;
-    int truth_width, truth_height;
-    TruthPicture traced; /* without its image */
+    RenderedFrame rendered;
+    unsigned requested;   /* number of the last request */
+    FrameRequest request; /* that it was; its states are empty */
+    bool ask;             /* an request is due */
+    double changed;       /* when the last one was another than the one before, s */
+    bool late;            /* the renderer is at something long: it is not waited for */
+    unsigned reference_texture;
+    int reference_width, reference_height;
+    ReferenceFrame traced; /* without its image */
     Probe probe;
     bool has_probe;
     unsigned profiles_texture; /* sheet of all profiles */
@@ -123,17 +124,17 @@ typedef struct Viewer {
     struct Browser *browser;
     bool help_open, warnings_open;
     char open_dialog[32]; /* to be opened in this frame */
-    char save_path[LOOK_PATH], shot_path[LOOK_PATH];
+    char save_path[STATE_PATH], shot_path[STATE_PATH];
     int shot_width, shot_height;
-    bool shot_transparent, shot_truth;
-    char dropped[LOOK_PATH]; /* a picture that waits to be told what it is for */
+    bool shot_transparent, shot_traced;
+    char dropped[STATE_PATH]; /* a picture that waits to be told what it is for */
     int dropped_input;
 
     /* of the mouse on the stage */
     bool pressed[3], moved;
     float press_x, press_y, last_x, last_y;
-    int held_light; /* whose handle is dragged, -1 none */
-    bool held_split;
+    int dragged_light; /* whose handle is dragged, -1 none */
+    bool dragged_split;
     unsigned stamps;
 
     /* rates */
@@ -150,7 +151,8 @@ void viewer_say(Viewer *v, bool grave, const char *format, ...) __attribute__((f
 void viewer_open(Viewer *v, const char *path);
 
 /* What the user asks for by menu, key or replay. */
-void viewer_settle(Viewer *v); /* the look is as it is by undo or news: that is no change of its own */
+void viewer_accept_state(
+    Viewer *v); /* the state is as it is by undo or event: that is no change of its own */
 void viewer_undo(Viewer *v);
 void viewer_copy_material(Viewer *v);
 void viewer_paste_material(Viewer *v);
@@ -170,16 +172,16 @@ void viewer_copy_command(Viewer *v);
 void viewer_profiles(Viewer *v);
 void viewer_dialog(Viewer *v, const char *name);
 
-/* Changes a material of the look. */
+/* Changes a material of the state. */
 void viewer_set_material(Viewer *v, int index, const WeftMaterial *material);
 
 /* The newest picture of the scene: the path traced one where it is asked for, or where OpenGL has none of
- * that order yet. */
+ * that request yet. */
 Shows viewer_shows(const Viewer *v);
 const char *shows_name(Shows shows); /* "nothing", "drawn", "traced" */
 
 /* Whether all that was asked for is shown: nothing is being read, drawn or compiled. */
-bool viewer_at_rest(Viewer *v);
+bool viewer_is_idle(Viewer *v);
 
 /* "WxH" pixels of the stage. */
 float viewer_aspect(const Viewer *v);
@@ -194,7 +196,7 @@ void viewer_upload(unsigned *texture, const WeftImage *image);
 void stage_input(Viewer *v);
 void stage_draw(Viewer *v);
 /* What lies where the mouse was: the answer to a question of the stage. */
-void stage_picked(Viewer *v, const News *news);
+void stage_picked(Viewer *v, const RenderEvent *event);
 
 /* panels, one file each */
 void menu_draw(Viewer *v);
@@ -211,7 +213,7 @@ void inspection_free(Inspection *inspection);
 bool inspection_busy(const Inspection *inspection); /* it measures on in the next frame */
 
 /* command.c: the command line that draws what the window shows. Release with free; NULL where memory is
- * short; `lost` (may be NULL) is set where a painted nap is not in it. */
+ * short; `lost` (may be NULL) is set where a rendered nap is not in it. */
 char *command_line(const Viewer *v, bool *lost);
 
 #endif

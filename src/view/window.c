@@ -128,9 +128,9 @@ static void make_target(Window *self) {
 }
 
 static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
-    const char *said = NULL;
+    const char *warnings = NULL;
     if (!glfwInit()) {
-        glfwGetError(&said);
+        glfwGetError(&reason);
         snprintf(why, 256,
                  "there is no display to open a window on; `weft render` makes pictures without one");
         return false;
@@ -149,9 +149,9 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     if (self->seen) self->worker = glfwCreateWindow(16, 16, desc->title, NULL, self->seen);
     if (!self->worker) {
-        glfwGetError(&said);
+        glfwGetError(&reason);
         snprintf(why, 256, "no window with OpenGL 3.3 can be had%s%.120s; `weft render` needs none",
-                 said ? ": " : "", said ? said : "");
+                 reason ? ": " : "", reason ? reason : "");
         return false;
     }
     glfwSetWindowUserPointer(self->seen, self);

@@ -1,4 +1,4 @@
-/* The parts of the window that need none: the camera, history, the watchman, strokes, names of files, and how
+/* The parts of the window that need none: the camera, history, the file_watch, strokes, names of files, and how
  * a command line is quoted. */
 #include <math.h>
 #include <setjmp.h>
@@ -13,9 +13,9 @@
 
 #include <cmocka.h>
 
+#include "view/brush.h"
 #include "view/inputs.h"
 #include "view/paths.h"
-#include "view/strokes.h"
 #include "view/viewer.h"
 
 static char folder[] = "/tmp/weft-parts-XXXXXX";
@@ -177,52 +177,52 @@ static void a_camera_is_read_as_it_is_written(void **state) {
 
 /* ---- looks to go back to ---- */
 
-/* A look with one light that is as bright as a number. */
-static Look look_of(int number) {
-    Look look = {.light_count = 1, .around = around_studio()};
-    look.lights[0].color[0] = (float)number;
-    return look;
+/* A state with one light that is as bright as a number. */
+static SceneState state_of(int number) {
+    SceneState state = {.light_count = 1, .environment = environment_state_studio()};
+    state.lights[0].color[0] = (float)number;
+    return state;
 }
 
-static int number_of(const Look *look) { return (int)look->lights[0].color[0]; }
+static int number_of(const SceneState *state) { return (int)state->lights[0].color[0]; }
 
-static void change(History *history, Look *look, int number) {
-    history_keep(history, look);
-    look->lights[0].color[0] = (float)number;
+static void change(History *history, SceneState *state, int number) {
+    history_keep(history, state);
+    state->lights[0].color[0] = (float)number;
 }
 
 static void what_was_done_is_undone(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
-    Look look = look_of(0);
+    SceneState state = state_of(0);
     assert_non_null(history);
-    assert_false(history_undo(history, &look));
-    assert_false(history_redo(history, &look));
+    assert_false(history_undo(history, &state));
+    assert_false(history_redo(history, &state));
     for (int k = 1; k <= 3; k++) {
-        change(history, &look, 10 * k);
-        change(history, &look, 10 * k + 1); /* the same drag: one step */
+        change(history, &state, 10 * k);
+        change(history, &state, 10 * k + 1); /* the same drag: one step */
         history_close(history);
     }
     static const int back[] = {21, 11, 0}, forth[] = {11, 21, 31};
     for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < 3; k++) {
-            assert_true(history_undo(history, &look));
-            assert_int_equal(number_of(&look), back[k]);
+            assert_true(history_undo(history, &state));
+            assert_int_equal(number_of(&state), back[k]);
         }
-        assert_false(history_undo(history, &look));
+        assert_false(history_undo(history, &state));
         for (int k = 0; k < 3; k++) {
-            assert_true(history_redo(history, &look));
-            assert_int_equal(number_of(&look), forth[k]);
+            assert_true(history_redo(history, &state));
+            assert_int_equal(number_of(&state), forth[k]);
         }
-        assert_false(history_redo(history, &look));
+        assert_false(history_redo(history, &state));
     }
-    assert_true(history_undo(history, &look));
-    change(history, &look, 99); /* what was undone is gone */
+    assert_true(history_undo(history, &state));
+    change(history, &state, 99); /* what was undone is gone */
     history_close(history);
-    assert_false(history_redo(history, &look));
-    assert_true(history_undo(history, &look));
-    assert_int_equal(number_of(&look), 21);
-    look_free(&look);
+    assert_false(history_redo(history, &state));
+    assert_true(history_undo(history, &state));
+    assert_int_equal(number_of(&state), 21);
+    scene_state_free(&state);
     history_free(history);
     free(history);
 }
@@ -230,16 +230,16 @@ static void what_was_done_is_undone(void **state) {
 static void the_oldest_steps_are_forgotten(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
-    Look look = look_of(0);
+    SceneState state = state_of(0);
     int undone = 0;
     assert_non_null(history);
     for (int k = 1; k <= HISTORY_STEPS + 50; k++) {
-        change(history, &look, k);
+        change(history, &state, k);
         history_close(history);
     }
-    while (history_undo(history, &look)) assert_int_equal(number_of(&look), HISTORY_STEPS + 49 - undone++);
+    while (history_undo(history, &state)) assert_int_equal(number_of(&state), HISTORY_STEPS + 49 - undone++);
     assert_int_equal(undone, HISTORY_STEPS);
-    look_free(&look);
+    scene_state_free(&state);
     history_free(history);
     free(history);
 }
@@ -248,62 +248,62 @@ static void looks_share_and_part(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
-    Look a, b;
+    SceneState a, b;
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_true(look_read(&a, scene) && look_copy(&b, &a));
+    assert_true(scene_state_read(&a, scene) && scene_state_copy(&b, &a));
     weft_scene_free(scene);
-    assert_true(look_same(&a, &b));
-    WeftMaterial m = *look_material(&a, 0);
+    assert_true(scene_state_same(&a, &b));
+    WeftMaterial m = *scene_state_material(&a, 0);
     int roughness = input_number("roughness");
     assert_true(roughness >= 0);
     assert_int_equal(input_number("nonsense"), -1);
     m.inputs[roughness].value[0] = 0.123f;
-    assert_true(look_set_material(&b, 0, &m));
-    assert_false(look_same(&a, &b));
-    assert_false(look_same_material(&a, &b, 0));
-    assert_true(look_same_material(&a, &b, 1));
-    assert_true(look_set_material(&b, 0, look_material(&a, 0)));
-    assert_true(look_same(&a, &b));
+    assert_true(scene_state_set_material(&b, 0, &m));
+    assert_false(scene_state_same(&a, &b));
+    assert_false(scene_state_same_material(&a, &b, 0));
+    assert_true(scene_state_same_material(&a, &b, 1));
+    assert_true(scene_state_set_material(&b, 0, scene_state_material(&a, 0)));
+    assert_true(scene_state_same(&a, &b));
     WeftImage own, *image;
     assert_null(nap_copy(&b, 0, NULL, &image));
-    assert_true(nap_own(NULL, look_material(&b, 0), &own));
+    assert_true(nap_own(NULL, scene_state_material(&b, 0), &own));
     Nap *nap = nap_copy(&b, 0, &own, &image);
     assert_non_null(nap);
-    assert_true(look_set_nap(&b, nap));
-    assert_false(look_same(&a, &b));
-    assert_ptr_equal(look_nap(&b, 0), image);
-    assert_null(look_nap(&b, 1));
-    for (int k = 1; k < LOOK_NAPS; k++) assert_true(look_set_nap(&b, nap_copy(&b, k, &own, &image)));
-    assert_false(look_set_nap(&b, nap_copy(&b, LOOK_NAPS, &own, &image))); /* no more */
+    assert_true(scene_state_set_nap(&b, nap));
+    assert_false(scene_state_same(&a, &b));
+    assert_ptr_equal(scene_state_nap(&b, 0), image);
+    assert_null(scene_state_nap(&b, 1));
+    for (int k = 1; k < STATE_NAPS; k++) assert_true(scene_state_set_nap(&b, nap_copy(&b, k, &own, &image)));
+    assert_false(scene_state_set_nap(&b, nap_copy(&b, STATE_NAPS, &own, &image))); /* no more */
     weft_image_free(&own);
-    look_free(&a);
-    look_free(&b);
+    scene_state_free(&a);
+    scene_state_free(&b);
 }
 
 static void a_preset_goes_with_its_look(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
-    Look a, b, read;
+    SceneState a, b, read;
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_true(look_read(&a, scene) && look_copy(&b, &a) && look_read(&read, scene));
+    assert_true(scene_state_read(&a, scene) && scene_state_copy(&b, &a) && scene_state_read(&read, scene));
     weft_scene_free(scene);
-    assert_true(look_set_preset(&b, 0, 3));
-    assert_int_equal(look_preset(&a, 0), 0);
-    assert_int_equal(look_preset(&b, 0), 3);
-    assert_true(look_same(&a, &b));
-    WeftMaterial m = *look_material(&b, 0);
+    assert_true(scene_state_set_preset(&b, 0, 3));
+    assert_int_equal(scene_state_preset(&a, 0), 0);
+    assert_int_equal(scene_state_preset(&b, 0), 3);
+    assert_true(scene_state_same(&a, &b));
+    WeftMaterial m = *scene_state_material(&b, 0);
     m.inputs[input_number("roughness")].value[0] = 0.123f;
-    assert_true(look_set_material(&b, 0, &m));
-    assert_int_equal(look_preset(&b, 0), 3);
-    assert_true(look_take_presets(&read, &b));
-    assert_int_equal(look_preset(&read, 0), 3);
+    assert_true(scene_state_set_material(&b, 0, &m));
+    assert_int_equal(scene_state_preset(&b, 0), 3);
+    assert_true(scene_state_take_presets(&read, &b));
+    assert_int_equal(scene_state_preset(&read, 0), 3);
     b.variant = 1;
-    assert_true(look_set_material(&b, 0, look_material(&a, 0)));
-    assert_false(look_same(&a, &b));
-    look_free(&a);
-    look_free(&b);
-    look_free(&read);
+    assert_true(scene_state_set_material(&b, 0, scene_state_material(&a, 0)));
+    assert_false(scene_state_same(&a, &b));
+    scene_state_free(&a);
+    scene_state_free(&b);
+    scene_state_free(&read);
 }
 
 static void a_folder_takes_the_place_of_the_one_before(void **state) {
@@ -314,8 +314,8 @@ static void a_folder_takes_the_place_of_the_one_before(void **state) {
     folders_keep(&folders, "c", -1);
     assert_int_equal(folders.count, 2);
     assert_string_equal(folders.paths[0], "c");
-    for (int k = 0; k < 2 * LOOK_FOLDERS; k++) folders_keep(&folders, "d", k);
-    assert_int_equal(folders.count, LOOK_FOLDERS);
+    for (int k = 0; k < 2 * STATE_FOLDERS; k++) folders_keep(&folders, "d", k);
+    assert_int_equal(folders.count, STATE_FOLDERS);
 }
 
 /* A map that points along +v on its left half and leans on its right one alone. */
@@ -359,7 +359,7 @@ static void the_nap_begins_with_the_materials_own_map(void **state) {
     weft_scene_free(scene);
 }
 
-/* ---- orders ---- */
+/* ---- requests ---- */
 
 void *__real_calloc(size_t count, size_t size);
 void *__wrap_calloc(size_t count, size_t size);
@@ -374,21 +374,22 @@ static void an_order_is_copied_whole_or_not_at_all(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
-    Order order = {.split = SPLIT_LINE, .at = 0.25f}, copy = {.at = 0.75f};
+    FrameRequest request = {.split = SPLIT_LINE, .at = 0.25f}, copy = {.at = 0.75f};
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_true(look_read(&order.look, scene) && look_copy(&order.other, &order.look));
+    assert_true(scene_state_read(&request.state, scene) && scene_state_copy(&request.other, &request.state));
     weft_scene_free(scene);
     for (int k = 1; k <= 2; k++) {
         until_failure = k;
-        assert_false(order_copy(&copy, &order));
-        assert_null(copy.look.materials);
+        assert_false(frame_request_copy(&copy, &request));
+        assert_null(copy.state.materials);
         assert_null(copy.other.materials);
         assert_near(copy.at, 0.75f, 0.0f);
     }
-    assert_true(order_copy(&copy, &order));
-    assert_true(look_same(&copy.look, &order.look) && look_same(&copy.other, &order.other));
-    order_free(&copy);
-    order_free(&order);
+    assert_true(frame_request_copy(&copy, &request));
+    assert_true(scene_state_same(&copy.state, &request.state) &&
+                scene_state_same(&copy.other, &request.other));
+    frame_request_free(&copy);
+    frame_request_free(&request);
 }
 
 /* ---- events ---- */
@@ -435,58 +436,58 @@ static void write_file(const char *text) {
 /* A file that is watched by itself is not told of twice. */
 static void a_file_that_is_added_to_a_folder_is_seen(void **state) {
     (void)state;
-    Watchman *man = watchman_start();
+    FileWatch *man = file_watch_start();
     assert_non_null(man);
     write_file("one");
     assert_int_equal(mkdir("maps", 0700), 0);
     assert_int_equal(rename("file", "maps/a"), 0);
-    watchman_watch(man, "maps/a", 7);
-    watchman_watch(man, "maps", 8);
-    assert_int_equal(watchman_look(man, 100.0), -1);
+    file_watch_add(man, "maps/a", 7);
+    file_watch_add(man, "maps", 8);
+    assert_int_equal(file_watch_poll(man, 100.0), -1);
     write_file("two");
     assert_int_equal(rename("file", "maps/b"), 0);
-    assert_int_equal(watchman_look(man, 101.0), -1);
+    assert_int_equal(file_watch_poll(man, 101.0), -1);
     write_file("two, and written on");
     assert_int_equal(rename("file", "maps/b"), 0);
-    assert_int_equal(watchman_look(man, 102.0), -1); /* it does not stand still */
-    assert_int_equal(watchman_look(man, 103.0), 8);
-    assert_int_equal(watchman_look(man, 104.0), -1);
+    assert_int_equal(file_watch_poll(man, 102.0), -1); /* it does not stand still */
+    assert_int_equal(file_watch_poll(man, 103.0), 8);
+    assert_int_equal(file_watch_poll(man, 104.0), -1);
     write_file("one and a half");
     assert_int_equal(rename("file", "maps/a"), 0);
-    assert_int_equal(watchman_look(man, 105.0), -1);
-    assert_int_equal(watchman_look(man, 106.0), 7);
-    assert_int_equal(watchman_look(man, 107.0), -1);
-    watchman_stop(man);
+    assert_int_equal(file_watch_poll(man, 105.0), -1);
+    assert_int_equal(file_watch_poll(man, 106.0), 7);
+    assert_int_equal(file_watch_poll(man, 107.0), -1);
+    file_watch_stop(man);
     assert_int_equal(unlink("maps/a") + unlink("maps/b") + rmdir("maps"), 0);
 }
 
 static void a_half_written_file_is_waited_for(void **state) {
     (void)state;
-    Watchman *man = watchman_start();
+    FileWatch *man = file_watch_start();
     assert_non_null(man);
     write_file("one");
-    watchman_watch(man, "file", 7);
-    watchman_watch(man, "absent", 8);
-    assert_int_equal(watchman_look(man, 100.0), -1);
+    file_watch_add(man, "file", 7);
+    file_watch_add(man, "absent", 8);
+    assert_int_equal(file_watch_poll(man, 100.0), -1);
     write_file("one and a half");
-    assert_int_equal(watchman_look(man, 100.1), -1); /* not so often */
-    assert_int_equal(watchman_look(man, 101.0), -1); /* it has just changed */
+    assert_int_equal(file_watch_poll(man, 100.1), -1); /* not so often */
+    assert_int_equal(file_watch_poll(man, 101.0), -1); /* it has just changed */
     write_file("one and a half, and more");
-    assert_int_equal(watchman_look(man, 102.0), -1); /* and again */
-    assert_int_equal(watchman_look(man, 102.26), -1);
-    assert_int_equal(watchman_look(man, 103.0), 7);  /* it stands still */
-    assert_int_equal(watchman_look(man, 104.0), -1); /* told once */
+    assert_int_equal(file_watch_poll(man, 102.0), -1); /* and again */
+    assert_int_equal(file_watch_poll(man, 102.26), -1);
+    assert_int_equal(file_watch_poll(man, 103.0), 7);  /* it stands still */
+    assert_int_equal(file_watch_poll(man, 104.0), -1); /* told once */
     assert_int_equal(unlink("file"), 0);
-    assert_int_equal(watchman_look(man, 105.0), -1);
-    assert_int_equal(watchman_look(man, 106.0), -1); /* gone is no change */
+    assert_int_equal(file_watch_poll(man, 105.0), -1);
+    assert_int_equal(file_watch_poll(man, 106.0), -1); /* gone is no change */
     write_file("and back");
-    assert_int_equal(watchman_look(man, 107.0), -1);
-    assert_int_equal(watchman_look(man, 108.0), 7);
-    watchman_forget(man);
+    assert_int_equal(file_watch_poll(man, 107.0), -1);
+    assert_int_equal(file_watch_poll(man, 108.0), 7);
+    file_watch_clear(man);
     write_file("nobody looks");
-    assert_int_equal(watchman_look(man, 109.0), -1);
-    assert_int_equal(watchman_look(man, 110.0), -1);
-    watchman_stop(man);
+    assert_int_equal(file_watch_poll(man, 109.0), -1);
+    assert_int_equal(file_watch_poll(man, 110.0), -1);
+    file_watch_stop(man);
 }
 
 static void kinds_of_files_are_told_by_name(void **state) {
@@ -554,7 +555,7 @@ static void strokes_turn_what_lies_beneath(void **state) {
     for (int k = 0; k < 4; k++) {
         WeftImage image = plain_nap();
         int x = (int)floorf(places[k][0] * SIDE), y = (int)floorf(places[k][1] * SIDE), turned = 0;
-        for (int pass = 0; pass < 20; pass++) stroke_lay(&image, places[k], 0.125f, across, 0.7f);
+        for (int pass = 0; pass < 20; pass++) brush_stroke(&image, places[k], 0.125f, across, 0.7f);
         assert_near(pointing(&image, x, y, 0), 0.0f, 0.05f);
         assert_near(pointing(&image, x, y, 1), 1.0f, 0.02f);
         for (int j = 0; j < SIDE; j++)
@@ -570,7 +571,7 @@ static void strokes_turn_what_lies_beneath(void **state) {
     }
     WeftImage image = plain_nap();
     const float back[2] = {-1.0f, 0.0f}, middle[2] = {0.5f, 0.5f};
-    for (int pass = 0; pass < 20; pass++) stroke_lay(&image, middle, 0.125f, back, 0.5f);
+    for (int pass = 0; pass < 20; pass++) brush_stroke(&image, middle, 0.125f, back, 0.5f);
     assert_near(pointing(&image, SIDE / 2, SIDE / 2, 0), -1.0f, 0.02f); /* opposite to what it was */
     weft_image_free(&image);
 }
@@ -580,14 +581,14 @@ static void strokes_of_nothing_do_nothing(void **state) {
     WeftImage image = plain_nap(), plain = plain_nap();
     const float middle[2] = {0.5f, 0.5f}, up[2] = {0.0f, 1.0f}, none[2] = {0.0f, 0.0f};
     const float nowhere[2] = {NAN, 0.5f}, away[2] = {0.5f, INFINITY}, wild[2] = {NAN, NAN};
-    stroke_lay(&image, middle, 0.125f, none, 1.0f);
-    stroke_lay(&image, middle, 0.0f, up, 1.0f);
-    stroke_lay(&image, middle, NAN, up, 1.0f);
-    stroke_lay(&image, nowhere, 0.1f, up, 1.0f);
-    stroke_lay(&image, away, 0.1f, up, 1.0f);
-    stroke_lay(&image, middle, 0.1f, wild, 1.0f);
+    brush_stroke(&image, middle, 0.125f, none, 1.0f);
+    brush_stroke(&image, middle, 0.0f, up, 1.0f);
+    brush_stroke(&image, middle, NAN, up, 1.0f);
+    brush_stroke(&image, nowhere, 0.1f, up, 1.0f);
+    brush_stroke(&image, away, 0.1f, up, 1.0f);
+    brush_stroke(&image, middle, 0.1f, wild, 1.0f);
     assert_memory_equal(image.pixels, plain.pixels, 3 * SIDE * SIDE);
-    stroke_lay(&image, middle, 1e9f, up, 1.0f); /* no more than once around */
+    brush_stroke(&image, middle, 1e9f, up, 1.0f); /* no more than once around */
     weft_image_free(&image);
     weft_image_free(&plain);
 }
@@ -635,20 +636,20 @@ static void a_map_over_a_folders_is_no_part_of_the_line(void **state) {
     assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
     m.inputs[input_number("roughness")].texture = add_own_map(scene);
     assert_int_equal(weft_scene_put_material(scene, 0, &m, NULL), WEFT_OK);
-    assert_true(look_read(&v->first, scene) && look_copy(&v->look, &v->first));
+    assert_true(scene_state_read(&v->first, scene) && scene_state_copy(&v->state, &v->first));
     for (int k = 0; k < 3; k++) {
         bool lost = false;
         if (k == 1) m.inputs[input_number("roughness")].texture = add_own_map(scene);
         if (k == 2) m.inputs[input_number("roughness")].texture = 0;
-        assert_true(look_set_material(&v->look, 0, &m));
+        assert_true(scene_state_set_material(&v->state, 0, &m));
         char *line = command_line(v, &lost);
         assert_non_null(strstr(line, " --materials maps "));
         assert_int_equal(strstr(line, " --set 0.roughness=") != NULL, k == 2);
         assert_int_equal(lost, k == 1);
         free(line);
     }
-    look_free(&v->first);
-    look_free(&v->look);
+    scene_state_free(&v->first);
+    scene_state_free(&v->state);
     weft_scene_free(scene);
     free(v);
 }
@@ -662,13 +663,13 @@ static void a_shell_reads_what_was_meant(void **state) {
     assert_non_null(v);
     v->desc = &desc;
     v->orbit = cameras[1];
-    v->order.view.width = 320, v->order.view.height = 200;
-    v->look.around = around_studio();
-    v->look.around.kind = AROUND_FILE;
-    v->first.around = v->look.around;
+    v->request.view.width = 320, v->request.view.height = 200;
+    v->state.environment = environment_state_studio();
+    v->state.environment.kind = ENVIRONMENT_FILE;
+    v->first.environment = v->state.environment;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         snprintf(v->facts.path, sizeof v->facts.path, "%s", names[k]);
-        snprintf(v->look.around.path, sizeof v->look.around.path, "%s", names[k]);
+        snprintf(v->state.environment.path, sizeof v->state.environment.path, "%s", names[k]);
         bool lost = true;
         char *line = command_line(v, &lost), shell[2048], word[512], camera[ORBIT_TEXT];
         const char *const expected[] = {

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* setpriority of one thread */
-#include "view/truth.h"
+#include "view/reference.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -11,63 +11,63 @@
 
 #include "view/clock.h"
 
-struct Truth {
+struct ReferenceView {
     Window *window;
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t change;
     /* under the lock */
-    TruthOrder order;
-    unsigned number;        /* of the order, counted up */
+    ReferenceRequest request;
+    unsigned number;        /* of the request, counted up */
     const WeftScene *scene; /* may be read while `running` */
     unsigned changed;
     bool other; /* the scene is another one */
     bool held, running, quit, waiting;
-    unsigned number_for; /* the painter's order in whose place pictures are made; 0: none */
+    unsigned number_for; /* the renderer's request in whose place pictures are made; 0: none */
     WeftImage reference; /* to compare with, newest; taken by the thread */
     bool fresh;          /* `picture` was not taken yet */
-    TruthPicture picture;
+    ReferenceFrame picture;
     WeftImage linear; /* what the picture was made of */
     /* of the thread alone */
     WeftRender *render;
-    TruthOrder done;
-    unsigned done_number;
+    ReferenceRequest done;
+    unsigned drawn_number;
     bool current; /* `render` is of the scene and of `done` */
     bool finer;   /* what stands in has all its pixels */
     double samples;
     WeftImage compared;
 };
 
-static bool is_wanted(const Truth *self) { return self->order.wanted || self->number_for; }
+static bool is_wanted(const ReferenceView *self) { return self->request.wanted || self->number_for; }
 
 static int should_stop(void *user, double fraction) {
-    Truth *self = user;
+    ReferenceView *self = user;
     pthread_mutex_lock(&self->lock);
-    bool stop = self->waiting || self->quit || self->number != self->done_number || !is_wanted(self);
+    bool stop = self->waiting || self->quit || self->number != self->drawn_number || !is_wanted(self);
     pthread_mutex_unlock(&self->lock);
     return stop;
 }
 
-static bool same_view(const TruthOrder *a, const TruthOrder *b) {
+static bool same_view(const ReferenceRequest *a, const ReferenceRequest *b) {
     WeftRenderDesc x = a->desc, y = b->desc;
     x.camera = y.camera = NULL;
     return memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 && strcmp(a->camera, b->camera) == 0;
 }
 
-static void say(Truth *self, const char *failure) {
+static void say(ReferenceView *self, const char *failure) {
     pthread_mutex_lock(&self->lock);
     snprintf(self->picture.failure, sizeof self->picture.failure, "%.255s", failure);
     self->fresh = true;
     pthread_mutex_unlock(&self->lock);
 }
 
-/* Makes the render one of this order and of the scene as it is. */
-static bool begin(Truth *self, const TruthOrder *order, const WeftScene *scene, unsigned changed,
-                  bool other) {
+/* Makes the render one of this request and of the scene as it is. */
+static bool begin(ReferenceView *self, const ReferenceRequest *request, const WeftScene *scene,
+                  unsigned changed, bool other) {
     WeftError error = {0};
-    WeftRenderDesc desc = order->desc;
+    WeftRenderDesc desc = request->desc;
     WeftResult result;
-    desc.camera = order->camera;
+    desc.camera = request->camera;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear); /* of another view, or scene */
     pthread_mutex_unlock(&self->lock);
@@ -88,28 +88,28 @@ static bool begin(Truth *self, const TruthOrder *order, const WeftScene *scene, 
     return self->current;
 }
 
-static WeftResult compare(Truth *self, const TruthOrder *order, const WeftImage *linear,
-                          TruthPicture *picture) {
+static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
+                          ReferenceFrame *picture) {
     const WeftImage *b = &self->compared;
     if (!b->pixels || b->width != linear->width || b->height != linear->height) return WEFT_INPUT;
     WeftResult result = weft_difference(b, linear, &picture->difference, NULL);
-    picture->scale = order->scale > 0.0f ? order->scale : fmaxf(picture->difference.high, 0.01f);
+    picture->scale = request->scale > 0.0f ? request->scale : fmaxf(picture->difference.high, 0.01f);
     picture->compared = result == WEFT_OK;
     return result == WEFT_OK ? weft_difference_image(b, linear, picture->scale, &picture->image, NULL)
                              : result;
 }
 
 /* Shows what there is. */
-static void publish(Truth *self, const TruthOrder *order, unsigned number_for) {
-    TruthPicture picture = {.wanted_samples = order->samples, .number = number_for};
+static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
+    ReferenceFrame picture = {.wanted_samples = request->samples, .number = number_for};
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
     WeftRenderInfo info = weft_render_info(self->render);
     picture.samples = info.samples_per_pixel;
     picture.seconds = info.render_seconds;
-    bool made = order->difference && compare(self, order, &linear, &picture) == WEFT_OK;
-    if (!made && !order->difference)
-        made = weft_image_tonemap_over(&linear, order->tonemap, order->exposure, order->behind,
+    bool made = request->difference && compare(self, request, &linear, &picture) == WEFT_OK;
+    if (!made && !request->difference)
+        made = weft_image_tonemap_over(&linear, request->tonemap, request->exposure, request->behind,
                                        &picture.image, NULL) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear);
@@ -128,49 +128,49 @@ static void publish(Truth *self, const TruthOrder *order, unsigned number_for) {
 }
 
 /* A few more samples, as many as half a second has. */
-static void refine(Truth *self, const TruthOrder *order) {
+static void refine(ReferenceView *self, const ReferenceRequest *request) {
     double start = now();
-    int left = order->samples - (int)self->samples;
+    int left = request->samples - (int)self->samples;
     int count = self->samples < 1.0 ? 1 : self->samples < 8.0 ? (int)self->samples : 8;
     if (count > left) count = left;
     while (count > 0) {
         WeftResult result = weft_render_run(self->render, count, 0.0, should_stop, self);
         self->samples = weft_render_info(self->render).samples_per_pixel;
-        left = order->samples - (int)self->samples;
+        left = request->samples - (int)self->samples;
         if (count > left) count = left;
         if (result != WEFT_OK || now() - start > 0.4) break;
     }
 }
 
-static bool has_work(const Truth *self) {
+static bool has_work(const ReferenceView *self) {
     if (!is_wanted(self) || !self->scene || self->held || self->waiting) return false;
-    if (self->picture.failure[0] && self->number == self->done_number && !self->changed) return false;
-    return self->other || self->changed || self->number != self->done_number || self->reference.pixels ||
-           (self->current && self->samples < (double)self->order.samples);
+    if (self->picture.failure[0] && self->number == self->drawn_number && !self->changed) return false;
+    return self->other || self->changed || self->number != self->drawn_number || self->reference.pixels ||
+           (self->current && self->samples < (double)self->request.samples);
 }
 
 /* While programs compile it has little of the processors: fewer pixels, until there are as many samples as
  * those stand for. */
-static void stand_in(Truth *self, TruthOrder *order, bool anew) {
+static void stand_in(ReferenceView *self, ReferenceRequest *request, bool anew) {
     enum { COARSE = 3 };
     self->finer = !anew && (self->finer || self->samples >= COARSE * COARSE);
-    order->difference = false;
+    request->difference = false;
     if (self->finer) return;
-    order->desc.width = order->desc.width > COARSE ? order->desc.width / COARSE : 1;
-    order->desc.height = order->desc.height > COARSE ? order->desc.height / COARSE : 1;
+    request->desc.width = request->desc.width > COARSE ? request->desc.width / COARSE : 1;
+    request->desc.height = request->desc.height > COARSE ? request->desc.height / COARSE : 1;
 }
 
 /* One round; the lock is held before and after, not during. */
-static void round_of_work(Truth *self) {
-    TruthOrder order = self->order;
-    unsigned number_for = order.wanted ? 0 : self->number_for;
+static void round_of_work(ReferenceView *self) {
+    ReferenceRequest request = self->request;
+    unsigned number_for = request.wanted ? 0 : self->number_for;
     const WeftScene *scene = self->scene;
     unsigned changed = self->changed;
-    bool other = self->other, redraw = self->number != self->done_number;
+    bool other = self->other, redraw = self->number != self->drawn_number;
     self->running = true;
     self->changed = 0;
     self->other = false;
-    self->done_number = self->number;
+    self->drawn_number = self->number;
     if (self->reference.pixels) {
         weft_image_free(&self->compared);
         self->compared = self->reference;
@@ -178,17 +178,17 @@ static void round_of_work(Truth *self) {
         redraw = true;
     }
     pthread_mutex_unlock(&self->lock);
-    if (number_for) stand_in(self, &order, other || changed || redraw);
-    bool begun = self->current || other || changed || !same_view(&order, &self->done) || !self->render;
-    bool anew = other || changed || !self->current || !same_view(&order, &self->done);
-    if (anew) begun = begin(self, &order, scene, changed, other);
-    self->done = order;
+    if (number_for) stand_in(self, &request, other || changed || redraw);
+    bool begun = self->current || other || changed || !same_view(&request, &self->drawn) || !self->render;
+    bool anew = other || changed || !self->current || !same_view(&request, &self->drawn);
+    if (anew) begun = begin(self, &request, scene, changed, other);
+    self->drawn = request;
     if (begun) {
-        bool more = self->samples < (double)order.samples;
+        bool more = self->samples < (double)request.samples;
         if (redraw && !anew && self->samples >= 1.0)
-            publish(self, &order, number_for); /* the same samples, shown otherwise */
-        if (more) refine(self, &order);
-        if (more && self->samples >= 1.0) publish(self, &order, number_for);
+            publish(self, &request, number_for); /* the same samples, shown otherwise */
+        if (more) refine(self, &request);
+        if (more && self->samples >= 1.0) publish(self, &request, number_for);
     }
     pthread_mutex_lock(&self->lock);
     self->running = false;
@@ -196,7 +196,7 @@ static void round_of_work(Truth *self) {
 }
 
 static void *work(void *user) {
-    Truth *self = user;
+    ReferenceView *self = user;
     setpriority(PRIO_PROCESS, (id_t)gettid(), 10); /* the window comes first; threads made here inherit it */
     pthread_mutex_lock(&self->lock);
     while (!self->quit)
@@ -208,8 +208,8 @@ static void *work(void *user) {
     return NULL;
 }
 
-Truth *truth_start(Window *window) {
-    Truth *self = calloc(1, sizeof *self);
+ReferenceView *reference_start(Window *window) {
+    ReferenceView *self = calloc(1, sizeof *self);
     if (!self) return NULL;
     self->window = window;
     pthread_mutex_init(&self->lock, NULL);
@@ -219,7 +219,7 @@ Truth *truth_start(Window *window) {
     return NULL;
 }
 
-void truth_stop(Truth *self) {
+void reference_stop(ReferenceView *self) {
     if (!self) return;
     pthread_mutex_lock(&self->lock);
     self->quit = true;
@@ -236,7 +236,7 @@ void truth_stop(Truth *self) {
     free(self);
 }
 
-void truth_hold(Truth *self) {
+void reference_pause(ReferenceView *self) {
     pthread_mutex_lock(&self->lock);
     self->waiting = true;
     while (self->running) pthread_cond_wait(&self->change, &self->lock);
@@ -244,7 +244,7 @@ void truth_hold(Truth *self) {
     pthread_mutex_unlock(&self->lock);
 }
 
-void truth_release(Truth *self, const WeftScene *scene, unsigned changed) {
+void reference_resume(ReferenceView *self, const WeftScene *scene, unsigned changed) {
     pthread_mutex_lock(&self->lock);
     self->held = self->waiting = false;
     if (scene != self->scene) self->other = true;
@@ -255,10 +255,10 @@ void truth_release(Truth *self, const WeftScene *scene, unsigned changed) {
     pthread_mutex_unlock(&self->lock);
 }
 
-void truth_order(Truth *self, const TruthOrder *order) {
+void reference_request(ReferenceView *self, const ReferenceRequest *request) {
     pthread_mutex_lock(&self->lock);
-    if (memcmp((const char *)&self->order, (const char *)order, sizeof *order) != 0) {
-        self->order = *order;
+    if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
+        self->request = *request;
         self->number++;
         self->picture.failure[0] = '\0';
         pthread_cond_broadcast(&self->change);
@@ -266,14 +266,14 @@ void truth_order(Truth *self, const TruthOrder *order) {
     pthread_mutex_unlock(&self->lock);
 }
 
-void truth_stand_in(Truth *self, unsigned number) {
+void reference_stand_in(ReferenceView *self, unsigned number) {
     pthread_mutex_lock(&self->lock);
     self->number_for = number;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);
 }
 
-void truth_await(Truth *self, unsigned number, double seconds) {
+void reference_wait(ReferenceView *self, unsigned number, double seconds) {
     struct timespec until = clock_after(seconds);
     int late = 0;
     pthread_mutex_lock(&self->lock);
@@ -282,7 +282,7 @@ void truth_await(Truth *self, unsigned number, double seconds) {
     pthread_mutex_unlock(&self->lock);
 }
 
-void truth_compare(Truth *self, WeftImage *linear) {
+void reference_set_comparison(ReferenceView *self, WeftImage *linear) {
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->reference);
     self->reference = *linear;
@@ -291,7 +291,7 @@ void truth_compare(Truth *self, WeftImage *linear) {
     pthread_mutex_unlock(&self->lock);
 }
 
-bool truth_take(Truth *self, TruthPicture *picture) {
+bool reference_take_frame(ReferenceView *self, ReferenceFrame *picture) {
     pthread_mutex_lock(&self->lock);
     bool fresh = self->fresh;
     if (fresh) {
@@ -303,14 +303,14 @@ bool truth_take(Truth *self, TruthPicture *picture) {
     return fresh;
 }
 
-bool truth_fresh(Truth *self) {
+bool reference_has_frame(ReferenceView *self) {
     pthread_mutex_lock(&self->lock);
     bool fresh = self->fresh;
     pthread_mutex_unlock(&self->lock);
     return fresh;
 }
 
-bool truth_image(Truth *self, WeftImage *out) {
+bool reference_image(ReferenceView *self, WeftImage *out) {
     pthread_mutex_lock(&self->lock);
     const WeftImage *from = &self->linear;
     bool there =
@@ -321,7 +321,7 @@ bool truth_image(Truth *self, WeftImage *out) {
     return there;
 }
 
-bool truth_resting(Truth *self) {
+bool reference_is_idle(ReferenceView *self) {
     pthread_mutex_lock(&self->lock);
     bool resting = !self->running && !has_work(self);
     pthread_mutex_unlock(&self->lock);

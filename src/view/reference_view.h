@@ -1,17 +1,17 @@
-/* truth.h - the thread that path traces what the window shows, sample upon sample
+/* reference.h - the thread that path traces what the window shows, sample upon sample
  *
- * The scene is the painter's, which holds the truth still while it changes anything. */
-#ifndef WEFT_VIEW_TRUTH_H
-#define WEFT_VIEW_TRUTH_H
+ * The scene is the renderer's, which holds the reference still while it changes anything. */
+#ifndef WEFT_VIEW_REFERENCE_VIEW_H
+#define WEFT_VIEW_REFERENCE_VIEW_H
 
 #include "view/orbit.h"
 #include "view/window.h"
 #include "weft/render.h"
 #include "weft/sheet.h"
 
-typedef struct Truth Truth;
+typedef struct ReferenceView ReferenceView;
 
-typedef struct TruthOrder {
+typedef struct ReferenceRequest {
     bool wanted;
     WeftRenderDesc desc; /* its camera is the text below */
     char camera[ORBIT_TEXT];
@@ -21,50 +21,50 @@ typedef struct TruthOrder {
     bool difference; /* from the picture that was handed over, in place of it */
     float scale;     /* of the heat map; 0: the 99 of 100 pixels */
     int samples;     /* a pixel, after which it rests */
-} TruthOrder;
+} ReferenceRequest;
 
 /* What there is to show: U8 RGBA. */
-typedef struct TruthPicture {
+typedef struct ReferenceFrame {
     WeftImage image;
-    unsigned number; /* of the painter's order in whose place it is; 0: it is wanted for itself */
+    unsigned number; /* of the renderer's request in whose place it is; 0: it is wanted for itself */
     double samples, seconds;
     int wanted_samples;
     WeftDifference difference; /* where one was asked for and `compared` */
     bool compared;
     float scale;
     char failure[256];
-} TruthPicture;
+} ReferenceFrame;
 
 /* window must outlive it, and is woken when there is something to take. NULL where memory is short. */
-Truth *truth_start(Window *window);
-void truth_stop(Truth *truth);
+ReferenceView *reference_start(Window *window);
+void reference_stop(ReferenceView *reference);
 
 /* Holds it still: when this returns nothing reads the scene. */
-void truth_hold(Truth *truth);
+void reference_pause(ReferenceView *reference);
 /* Lets it go on with a scene (NULL: none) in which `changed` has changed, WEFT_CHANGED_MATERIALS and so on;
  * of another scene all. */
-void truth_release(Truth *truth, const WeftScene *scene, unsigned changed);
+void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned changed);
 
-void truth_order(Truth *truth, const TruthOrder *order);
+void reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
-/* From now on pictures are made though none is wanted, in the place of the one that the painter cannot draw
+/* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw
  * yet, whose number they bear; coarse ones at first. 0: no more. */
-void truth_stand_in(Truth *truth, unsigned number);
+void reference_stand_in(ReferenceView *reference, unsigned number);
 /* Waits for the first picture that bears the number, so long at most. */
-void truth_await(Truth *truth, unsigned number, double seconds);
+void reference_wait(ReferenceView *reference, unsigned number, double seconds);
 
 /* The picture to compare with: taken over and zeroed. */
-void truth_compare(Truth *truth, WeftImage *linear);
+void reference_set_comparison(ReferenceView *reference, WeftImage *linear);
 
 /* The newest picture: true where it is another one; then it is the caller's to free. */
-bool truth_take(Truth *truth, TruthPicture *picture);
+bool reference_take_frame(ReferenceView *reference, ReferenceFrame *picture);
 
-bool truth_fresh(Truth *truth);
+bool reference_has_frame(ReferenceView *reference);
 
 /* The samples so far, F32 RGBA; false where there are none. */
-bool truth_image(Truth *truth, WeftImage *out);
+bool reference_image(ReferenceView *reference, WeftImage *out);
 
 /* Whether it rests: it is not wanted, or has all of its samples. */
-bool truth_resting(Truth *truth);
+bool reference_is_idle(ReferenceView *reference);
 
 #endif

@@ -1,4 +1,4 @@
-#include "view/strokes.h"
+#include "view/brush.h"
 
 #include <math.h>
 
@@ -20,7 +20,7 @@ static void turn(unsigned char *texel, const float along[2], float w) {
     texel[2] = (unsigned char)(255.0f * (was + w) + 0.5f);
 }
 
-void stroke_lay(WeftImage *nap, const float at[2], float radius, const float along[2], float strength) {
+void brush_stroke(WeftImage *nap, const float at[2], float radius, const float along[2], float strength) {
     int width = nap->width, height = nap->height;
     float n = sqrtf(along[0] * along[0] + along[1] * along[1]);
     if (!(n > 0.0f) || !isfinite(at[0]) || !isfinite(at[1]) || !(radius > 0.0f)) return;

@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "view/watchman.h"
+#include "view/file_watch.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -17,32 +17,32 @@ typedef struct File {
     double since;                  /* it is as it was seen */
 } File;
 
-struct Watchman {
+struct FileWatch {
     File files[FILES];
     int count;
     double looked;
 };
 
-Watchman *watchman_start(void) { return calloc(1, sizeof(Watchman)); }
+FileWatch *file_watch_start(void) { return calloc(1, sizeof(FileWatch)); }
 
-void watchman_forget(Watchman *self) {
+void file_watch_clear(FileWatch *self) {
     for (int k = 0; k < self->count; k++) free(self->files[k].path);
     self->count = 0;
 }
 
-void watchman_stop(Watchman *self) {
-    if (self) watchman_forget(self);
+void file_watch_stop(FileWatch *self) {
+    if (self) file_watch_clear(self);
     free(self);
 }
 
-static bool is_watched(const Watchman *self, const char *path) {
+static bool is_watched(const FileWatch *self, const char *path) {
     for (int k = 0; k < self->count; k++)
         if (strcmp(self->files[k].path, path) == 0) return true;
     return false;
 }
 
-/* Of a folder that of the files in it that are not watched by themselves, in any order. */
-static unsigned long long stamp_of(const Watchman *self, const char *path) {
+/* Of a folder that of the files in it that are not watched by themselves, in any request. */
+static unsigned long long stamp_of(const FileWatch *self, const char *path) {
     size_t length = strlen(path);
     const char *slash = length && path[length - 1] == '/' ? "" : "/";
     DIR *folder = path_kind(path) == PATH_FOLDER ? opendir(path) : NULL;
@@ -58,14 +58,14 @@ static unsigned long long stamp_of(const Watchman *self, const char *path) {
     return sum;
 }
 
-void watchman_watch(Watchman *self, const char *path, int id) {
+void file_watch_add(FileWatch *self, const char *path, int id) {
     if (self->count == FILES) return;
     unsigned long long stamp = stamp_of(self, path);
     char *copy = strdup(path);
     if (copy) self->files[self->count++] = (File){copy, id, stamp, stamp, 0.0};
 }
 
-int watchman_look(Watchman *self, double seconds) {
+int file_watch_poll(FileWatch *self, double seconds) {
     if (seconds - self->looked < 0.25) return -1;
     self->looked = seconds;
     for (int k = 0; k < self->count; k++) {

@@ -1,26 +1,26 @@
-/* watchman.h - files that somebody else writes: which of them is another one, and written to its end
+/* file_watch.h - files that somebody else writes: which of them is another one, and written to its end
  *
  * A file has changed once it is different from when it was last told of and has then stood still for a third
  * of a second: what is half written is waited for. */
-#ifndef WEFT_VIEW_WATCHMAN_H
-#define WEFT_VIEW_WATCHMAN_H
+#ifndef WEFT_VIEW_FILE_WATCH_H
+#define WEFT_VIEW_FILE_WATCH_H
 
-typedef struct Watchman Watchman;
+typedef struct FileWatch FileWatch;
 
 /* NULL where memory is short. */
-Watchman *watchman_start(void);
-void watchman_stop(Watchman *watchman); /* may be NULL */
+FileWatch *file_watch_start(void);
+void file_watch_stop(FileWatch *file_watch); /* may be NULL */
 
 /* Watches no file any more. */
-void watchman_forget(Watchman *watchman);
+void file_watch_clear(FileWatch *file_watch);
 
 /* Watches a file, which need not be there, under a number. A folder has changed where a file in it has that
  * is not watched by itself; those that are, are named before it. Too many, or a lack of memory, goes
  * unnoticed. */
-void watchman_watch(Watchman *watchman, const char *path, int id);
+void file_watch_add(FileWatch *file_watch, const char *path, int id);
 
 /* The number of a file that has changed; -1: none has. Looks at the disk at most four times a second.
  * seconds: of a steady clock. */
-int watchman_look(Watchman *watchman, double seconds);
+int file_watch_poll(FileWatch *file_watch, double seconds);
 
 #endif

@@ -15,36 +15,36 @@ void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int inpu
         return;
     }
     if (path) snprintf(task.path, sizeof task.path, "%s", path);
-    painter_task(v->painter, &task);
+    renderer_add_task(v->renderer, &task);
 }
 
-/* The look is another one, of which history knows. */
-void viewer_settle(Viewer *v) {
-    look_free(&v->before);
-    look_copy(&v->before, &v->look);
+/* The state is another one, of which history knows. */
+void viewer_accept_state(Viewer *v) {
+    scene_state_free(&v->before);
+    scene_state_copy(&v->before, &v->state);
     v->ask = true;
 }
 
 void viewer_undo(Viewer *v) {
-    bool done = history_undo(&v->history, &v->look);
-    if (done) viewer_settle(v);
+    bool done = history_undo(&v->history, &v->state);
+    if (done) viewer_accept_state(v);
     viewer_say(v, false, done ? "undone" : "there is nothing to undo");
 }
 
 void viewer_redo(Viewer *v) {
-    bool done = history_redo(&v->history, &v->look);
-    if (done) viewer_settle(v);
+    bool done = history_redo(&v->history, &v->state);
+    if (done) viewer_accept_state(v);
     viewer_say(v, false, done ? "done again" : "there is nothing to do again");
 }
 
 void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
 
 void viewer_next_material(Viewer *v, int by) {
-    const float *shares = v->facts.shares;
-    int count = v->look.material_count, k = v->material;
+    const float *coverage = v->facts.coverage;
+    int count = v->state.material_count, k = v->material;
     for (int step = 0; step < count; step++) {
         k = (k + by + count) % count;
-        if (!shares || shares[k] >= 0.0f) break;
+        if (!coverage || coverage[k] >= 0.0f) break;
     }
     if (!count) return;
     v->material = k;
@@ -52,8 +52,8 @@ void viewer_next_material(Viewer *v, int by) {
 }
 
 void viewer_make_fibre(Viewer *v) {
-    if (v->material >= v->look.material_count) return;
-    WeftMaterial m = *look_material(&v->look, v->material);
+    if (v->material >= v->state.material_count) return;
+    WeftMaterial m = *scene_state_material(&v->state, v->material);
     int lobe = choice_number("sheen_lobe"), value = 0;
     while (weft_material_choice_value(lobe, value) &&
            strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
@@ -72,19 +72,19 @@ void viewer_make_fibre(Viewer *v) {
 /* What is not edited is kept while the comparison is off. */
 void viewer_split(Viewer *v, Split split) {
     if (!v->has_scene) return;
-    if (split != SPLIT_NONE && !v->other.materials && !look_copy(&v->other, &v->look)) return;
+    if (split != SPLIT_NONE && !v->other.materials && !scene_state_copy(&v->other, &v->state)) return;
     v->split = split;
     v->ask = true;
 }
 
 void viewer_swap(Viewer *v) {
-    Look before;
-    if (v->split == SPLIT_NONE || !look_copy(&before, &v->other)) return;
-    Look kept = v->look;
-    v->look = v->other;
+    SceneState before;
+    if (v->split == SPLIT_NONE || !scene_state_copy(&before, &v->other)) return;
+    SceneState kept = v->state;
+    v->state = v->other;
     v->other = kept;
     v->side = !v->side;
-    look_free(&v->before);
+    scene_state_free(&v->before);
     v->before = before;
     History history = v->history;
     v->history = v->other_history;
@@ -104,14 +104,14 @@ static void offer_path(Viewer *v, char *path, const char *suffix) {
     if (path[0]) return;
     char stem[200];
     path_stem(v->facts.path, stem, sizeof stem);
-    snprintf(path, LOOK_PATH, "%s%s", stem, suffix);
+    snprintf(path, STATE_PATH, "%s%s", stem, suffix);
 }
 
 void viewer_shot(Viewer *v, const char *path) {
     if (!path) {
         offer_path(v, v->shot_path, "-weft.png");
         v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
-        v->shot_truth = v->mode == MODE_TRUTH;
+        v->shot_traced = v->mode == MODE_REFERENCE;
         viewer_dialog(v, "Save a picture");
         return;
     }
@@ -120,12 +120,12 @@ void viewer_shot(Viewer *v, const char *path) {
                  .width = v->shot_width,
                  .height = v->shot_height,
                  .transparent = v->shot_transparent,
-                 .truth = v->shot_truth};
+                 .reference = v->shot_traced};
     snprintf(task.path, sizeof task.path, "%s", path);
     if (!weft_image_suffix_known(path))
         viewer_say(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
     else
-        painter_task(v->painter, &task);
+        renderer_add_task(v->renderer, &task);
 }
 
 void viewer_save(Viewer *v, const char *path) {
@@ -163,25 +163,25 @@ void viewer_dialog(Viewer *v, const char *name) {
 }
 
 void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
-    if (!look_set_material(&v->look, index, material)) viewer_say(v, true, "out of memory");
+    if (!scene_state_set_material(&v->state, index, material)) viewer_say(v, true, "out of memory");
 }
 
-bool viewer_at_rest(Viewer *v) {
-    return !v->loader && !v->has_pending && painter_idle(v->painter) &&
-           (!v->has_scene || v->painted.number == v->ordered) && !v->painted.busy && !doctor_busy(v) &&
-           (v->mode != MODE_LIVE || v->painted.effort == EFFORT_SMOOTH) && !v->ask &&
-           (v->mode == MODE_LIVE || truth_resting(v->truth));
+bool viewer_is_idle(Viewer *v) {
+    return !v->loader && !v->has_pending && renderer_is_idle(v->renderer) &&
+           (!v->has_scene || v->rendered.number == v->requested) && !v->rendered.busy && !doctor_busy(v) &&
+           (v->mode != MODE_LIVE || v->rendered.effort == EFFORT_SMOOTH) && !v->ask &&
+           (v->mode == MODE_LIVE || reference_is_idle(v->reference));
 }
 
 void viewer_copy_material(Viewer *v) {
-    if (!v->look.material_count) return;
-    v->copied = *look_material(&v->look, v->material);
+    if (!v->state.material_count) return;
+    v->copied = *scene_state_material(&v->state, v->material);
     v->has_copied = true;
     viewer_say(v, false, "copied %s", v->facts.materials[v->material]);
 }
 
 void viewer_paste_material(Viewer *v) {
-    if (v->has_copied && v->look.material_count) viewer_set_material(v, v->material, &v->copied);
+    if (v->has_copied && v->state.material_count) viewer_set_material(v, v->material, &v->copied);
 }
 
 void viewer_light_by(Viewer *v, const char *path) { viewer_task(v, TASK_LIGHT, path, -1, -1); }

@@ -1,23 +1,23 @@
-/* orders.h - what the window wants to see, and what comes back */
-#ifndef WEFT_VIEW_ORDERS_H
-#define WEFT_VIEW_ORDERS_H
+/* requests.h - what the window wants to see, and what comes back */
+#ifndef WEFT_VIEW_FRAME_REQUESTS_H
+#define WEFT_VIEW_FRAME_REQUESTS_H
 
 #include "view/viewer.h"
 
 /* Sends what is wanted where it is something else than before, or can be drawn better now. */
-void orders_send(Viewer *v);
+void requests_send(Viewer *v);
 
 /* Whether the picture that is shown is right but for its finish. */
-bool orders_finer(const Viewer *v);
+bool requests_can_refine(const Viewer *v);
 
 /* Takes the newest picture; waits a little for one where one is due. */
-void orders_await(Viewer *v);
-void orders_truth(Viewer *v);
+void requests_wait_frame(Viewer *v);
+void requests_take_reference(Viewer *v);
 
 /* Where a camera of the scene stands is known once it has been drawn through. */
-void orders_camera(Viewer *v);
+void requests_read_camera(Viewer *v);
 
 /* What has become of tasks. */
-void orders_news(Viewer *v);
+void requests_take_events(Viewer *v);
 
 #endif

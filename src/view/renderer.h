@@ -1,0 +1,147 @@
+/* renderer.h - the thread that owns the scene and draws it, so that the window never waits for a shader, a
+ * table or a file
+ *
+ * The window says what it wants to see, as often as it likes: the renderer takes the latest, brings the scene
+ * to it and hands over a finished picture as a texture that both contexts share. What is done once (a file to
+ * write, a pixel to look at) is a task: tasks are done in their order and answered by events. */
+#ifndef WEFT_VIEW_RENDERER_H
+#define WEFT_VIEW_RENDERER_H
+
+#include "view/loader.h"
+#include "view/orbit.h"
+#include "view/reference.h"
+#include "view/state.h"
+#include "view/window.h"
+#include "weft/raster.h"
+
+typedef struct Renderer Renderer;
+
+/* How two states share a picture. */
+typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
+
+/* How well a picture is drawn: while the hand moves one of fewer pixels may do, where a whole one takes long;
+ * edges are smoothed last. */
+typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
+
+/* What the window wants to see. Numbers that do not change the picture have no place here. */
+typedef struct FrameRequest {
+    unsigned scene;          /* that it is of: renderer_set_scene's number */
+    int edited;              /* tasks are done to `state` (0) or to `other` (1) */
+    SceneState state, other; /* `other` on the right, where they share it; empty otherwise */
+    Split split;
+    float at;            /* SPLIT_LINE: share of the width that is left of it */
+    WeftRasterView view; /* size, background, part, ambient; its camera is the text below */
+    char camera[ORBIT_TEXT];
+    float behind[3];  /* light of the display, where the picture is transparent */
+    bool laid_behind; /* also in pictures that are saved */
+    WeftTonemap tonemap;
+    float exposure;
+    Effort effort;  /* that is asked for at the least */
+    bool reference; /* nothing is to be drawn: the path tracer does it */
+    bool compare;   /* a linear copy is to be handed to the path tracer */
+} FrameRequest;
+
+/* A copy that coverage the parts of its states; false where memory is short, and then `copy` is as it was. */
+bool frame_request_copy(FrameRequest *copy, const FrameRequest *request);
+void frame_request_free(FrameRequest *request); /* its states */
+
+typedef enum TaskKind {
+    TASK_SHOT,      /* a picture of `view`'s size to `path` */
+    TASK_SAVE,      /* the scene, or material `index`, to `path` */
+    TASK_PROBE,     /* what is at x, y of the request's picture */
+    TASK_PICK,      /* the same without the parts of its light */
+    TASK_PROFILES,  /* small pictures with material `index` under every profile */
+    TASK_ASSIGN,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
+    TASK_BIND_MAPS, /* the maps of folder `path` on material `index`, -1: the cloth */
+    TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that lights the scene from far away */
+    TASK_SCENE,     /* event alone: another scene was taken, or could not be */
+    TASK_SURVEY     /* event alone: a variant has others wear the scene's materials */
+} TaskKind;
+
+typedef struct Task {
+    TaskKind kind;
+    unsigned scene; /* that it is of; tasks of another one are dropped */
+    char path[STATE_PATH];
+    int index, input;
+    float x, y;
+    int width, height;
+    bool transparent, reference;
+    bool nap;       /* TASK_PICK: with the nap that the material has by itself */
+    unsigned stamp; /* comes back with its event */
+} Task;
+
+/* The parts of a pixel. */
+typedef struct Probe {
+    bool hit;
+    int material;
+    float position[3], normal[3], texcoord[2], distance, texel;
+    float tangent[3], bitangent[3];
+    float value[WEFT_PART_COUNT][3];
+} Probe;
+
+typedef struct RenderEvent {
+    TaskKind kind;
+    unsigned scene; /* that it is of */
+    bool failed;
+    WeftResult result;     /* TASK_SCENE */
+    char text[512];        /* a line for people */
+    char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder */
+    unsigned stamp;
+    Probe probe;
+    WeftImage image;    /* TASK_PROFILES: U8 RGB; TASK_PICK: a nap, where none was brushed; owned */
+    bool state_changed; /* and `state` is what the scene is configured as now; owned */
+    SceneState state;
+    Facts maps;      /* where they are others: the maps alone; owned */
+    float *coverage; /* TASK_SURVEY: survey.h; owned, may be NULL */
+    int index;
+} RenderEvent;
+
+/* What is told of the scene at hand. */
+typedef struct RenderedFrame {
+    unsigned texture; /* 0: nothing yet */
+    int width, height;
+    unsigned scene;      /* that it shows */
+    unsigned number;     /* of the request it shows */
+    bool focused;        /* `target` is what is in the middle of the picture */
+    Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
+    float seconds;       /* that it took */
+    float whole_seconds; /* that one of all pixels takes */
+    float eye[3], target[3], fov;
+    int programs, compiled;
+    bool busy;           /* more is to come: shaders, or what the background looks for */
+    char complaint[512]; /* shader text that does not compile */
+    char failure[512];   /* why there is no newer picture */
+    char driver[128];
+} RenderedFrame;
+
+/* window must outlive it; reference too. shader_dir may be NULL. NULL where memory or a context is short. */
+Renderer *renderer_start(Window *window, ReferenceView *reference, const char *shader_dir, int occlusion);
+void renderer_stop(Renderer *renderer);
+
+/* Takes the scene over, with the state it has; the old one is released once the new one can be drawn, and event
+ * of TASK_SCENE tell. number is the scene's own: requests and tasks of another one are dropped. Folders that it
+ * wears are watched. */
+void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *state, const Folders *folders,
+                        unsigned number);
+
+/* Copies the request; returns its number. */
+unsigned renderer_request(Renderer *renderer, const FrameRequest *request);
+void renderer_add_task(Renderer *renderer, const Task *task);
+
+/* The newest picture; its texture stays as it is until the next call. True where it is another one. */
+bool renderer_take_frame(Renderer *renderer, RenderedFrame *rendered);
+
+/* Whether a picture or event wait. */
+bool renderer_has_output(Renderer *renderer);
+
+/* The oldest event; false where there is none. Release with render_event_free. */
+bool renderer_take_event(Renderer *renderer, RenderEvent *event);
+void render_event_free(RenderEvent *event);
+
+/* Whether all that was asked for is done. */
+bool renderer_is_idle(Renderer *renderer);
+
+/* Warnings that were said since the last call, one line each; NULL: none. Release with free. */
+char *renderer_take_warnings(Renderer *renderer);
+
+#endif

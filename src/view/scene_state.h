@@ -1,0 +1,113 @@
+/* state.h - what a scene is configured and lit as, as a value: to keep, to compare and to go back to
+ *
+ * A copy coverage its parts, which never change once they are made: so a history of states is small, and that
+ * two are alike is told by pointers. Looks may be read, copied and released in any thread; one state is
+ * changed by one thread. */
+#ifndef WEFT_VIEW_SCENE_STATE_H
+#define WEFT_VIEW_SCENE_STATE_H
+
+#include <stdbool.h>
+
+#include "weft/material.h"
+#include "weft/render.h"
+
+enum {
+    STATE_LIGHTS = 64,
+    STATE_PATH = 1024,
+    STATE_NAPS = 16,
+    STATE_FOLDERS = 16,
+    STATE_LOBES = 8,
+    NAP_SIDE = 512
+};
+
+/* Folders of maps that materials wear, the latest of each; of index -1 the cloth of the scene. */
+typedef struct Folders {
+    char paths[STATE_FOLDERS][STATE_PATH];
+    int materials[STATE_FOLDERS];
+    int count;
+} Folders;
+
+/* The light from far away. */
+typedef enum EnvironmentKind { ENVIRONMENT_STUDIO = 0, ENVIRONMENT_FILE, ENVIRONMENT_COLOR } EnvironmentKind;
+typedef struct EnvironmentState {
+    EnvironmentKind kind;
+    char path[STATE_PATH]; /* of a lat-long picture or of a cubemap */
+    float color[3];
+    float rotation, strength;  /* degrees; a factor */
+    float ambient, reflection; /* factors on what lobes reflect of it: weft_scene_set_environment_parts */
+    unsigned again;            /* another number: the file has changed */
+} EnvironmentState;
+
+typedef struct StateMaterial StateMaterial; /* shared */
+
+/* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction, blue how
+ * much of its angle it leans there. Shared. */
+typedef struct Nap Nap;
+
+typedef struct SceneState {
+    StateMaterial **materials;
+    int material_count;
+    WeftLight lights[STATE_LIGHTS];
+    int light_count;
+    int variant; /* of the scene's; -1: none */
+    EnvironmentState environment;
+    Nap *naps[STATE_NAPS]; /* NULL: none */
+} SceneState;
+
+/* Takes the place of the one that the material wore. */
+void folders_keep(Folders *folders, const char *path, int material);
+
+/* The built-in studio, as it is. */
+EnvironmentState environment_state_studio(void);
+
+/* Whether both shine from the same source: the studio, one reading of a file, a colour. */
+bool environment_state_same_source(const EnvironmentState *a, const EnvironmentState *b);
+/* Shines from the source of another one; how it is turned and how strong it is stays. */
+void environment_state_take_source(EnvironmentState *environment, const EnvironmentState *from);
+
+/* Of a scene as it is; the environment apart, which a scene does not tell. False where memory is short. */
+bool scene_state_read(SceneState *state, const WeftScene *scene);
+bool scene_state_copy(SceneState *copy, const SceneState *state);
+void scene_state_free(SceneState *state);
+bool scene_state_same(const SceneState *a, const SceneState *b);
+
+const WeftMaterial *scene_state_material(const SceneState *state, int index);
+bool scene_state_set_material(SceneState *state, int index, const WeftMaterial *material);
+bool scene_state_same_material(const SceneState *a, const SceneState *b, int index);
+
+/* The preset that a material was configured in last, counted from 1; 0: none. What else is done to it leaves
+ * that as it is, and a state that differs in it alone is the same. */
+int scene_state_preset(const SceneState *state, int index);
+bool scene_state_set_preset(SceneState *state, int index, int preset);
+/* Those of another state of the same scene. */
+bool scene_state_take_presets(SceneState *state, const SceneState *from);
+
+/* The nap brushed onto a material; NULL: none. */
+const WeftImage *scene_state_nap(const SceneState *state, int material);
+/* A copy of it, or of `own` where there is none yet: to be changed and then taken over by scene_state_set_nap. NULL
+ * where there is neither, or memory is short. */
+Nap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image);
+/* The nap that a material has by its numbers and maps, before anything was brushed; maps of the second UV set
+ * are not in it. Release with weft_image_free; false where memory is short. */
+bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out);
+bool scene_state_set_nap(SceneState *state, Nap *nap);
+/* Shares the naps of another state of the same scene. */
+void scene_state_take_naps(SceneState *state, const SceneState *from);
+void nap_free(Nap *nap);
+
+/* What of naps a scene has: the number of each one's texture. */
+typedef struct BoundNaps {
+    int materials[STATE_NAPS], textures[STATE_NAPS];
+    int count;
+} BoundNaps;
+
+/* Brings materials, variant and lights of a scene that is configured as `is` to `state`; both of that scene.
+ * changed receives, beside what it holds, what changed (WEFT_CHANGED_MATERIALS ...). On failure the scene is
+ * somewhere between. */
+WeftResult scene_state_apply(const SceneState *state, const SceneState *is, BoundNaps *naps, WeftScene *scene,
+                             unsigned *changed, WeftError *error);
+/* The same of the light from far away. Where its source cannot be had the scene is as it was. */
+WeftResult environment_state_apply(const EnvironmentState *environment, const EnvironmentState *is,
+                                   WeftScene *scene, unsigned *changed, const WeftLog *log, WeftError *error);
+
+#endif
