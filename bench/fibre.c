@@ -10,8 +10,8 @@
 
 #include "base/memory.h"
 #include "fibre/slab.h"
+#include "fibre/solver_reference.h"
 #include "fibre/tilted.h"
-#include "fibre/truth.h"
 #include "shading/albedo.h"
 #include "shading/registry.h"
 
@@ -88,8 +88,8 @@ static void set(Lobe *lobe, const char *name, double value) {
     if (k >= 0) lobe_set(lobe, k, (float)value);
 }
 
-/* R by the lobe's own quadrature, where it can be had: a lobe may be thinner than the truth's directions. */
-static void refine_albedo(const Lobe *lobe, const Truth *t, TruthError *e) {
+/* R by the lobe's own quadrature, where it can be had: a lobe may be thinner than the reference's directions. */
+static void refine_albedo(const Lobe *lobe, const SolvedSlab *t, FitError *e) {
     if (t->tilt > 0.0 || t->slab.albedo < 1.0) return;
     e->albedo = e->most = 0.0;
     for (int k = 0; k < t->sides; k++) {
@@ -101,11 +101,11 @@ static void refine_albedo(const Lobe *lobe, const Truth *t, TruthError *e) {
 }
 
 /* The mean over slabs of the mean error, the largest of the rest. */
-static TruthError set_error(int id, const TruthSet *slabs, double low, double high) {
-    TruthError all = {0}, one;
+static FitError set_error(int id, const SolvedSet *slabs, double low, double high) {
+    FitError all = {0}, one;
     int count = 0;
     for (int s = 0; s < slabs->count; s++) {
-        const Truth *t = &slabs->slabs[s];
+        const SolvedSlab *t = &slabs->slabs[s];
         if (t->slab.alpha < low || t->slab.alpha > high) continue;
         Lobe lobe = lobe_default(id);
         set(&lobe, "alpha", t->slab.alpha);
@@ -114,13 +114,13 @@ static TruthError set_error(int id, const TruthSet *slabs, double low, double hi
         double *f = alloc_array((size_t)t->pairs, sizeof *f);
         for (int p = 0; p < t->pairs; p++) {
             double wi[3], wo[3];
-            truth_pair(t, p, wi, wo);
+            solved_pair(t, p, wi, wo);
             Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]),
                 o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
             LobeValue v = lobe_value(&lobe, angles_between(o, i));
-            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - truth_once(t, p);
+            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - solved_single_scatter(t, p);
         }
-        truth_error(t, f, &one);
+        solved_error(t, f, &one);
         free(f);
         refine_albedo(&lobe, t, &one);
         all.mean += one.mean;
@@ -133,8 +133,8 @@ static TruthError set_error(int id, const TruthSet *slabs, double low, double hi
     return all;
 }
 
-static void print_row(const char *id, const char *what, const TruthSet *slabs, double low, double high) {
-    TruthError e = set_error(weft_lobe_find(id), slabs, low, high);
+static void print_row(const char *id, const char *what, const SolvedSet *slabs, double low, double high) {
+    FitError e = set_error(weft_lobe_find(id), slabs, low, high);
     printf("  %-12s %-34s %6.2f %7.1f   %.1e   %.4f\n", id, what, 100.0 * e.mean, 100.0 * e.worst, e.albedo,
            e.most);
     fflush(stdout);
@@ -146,17 +146,17 @@ static void alphas_from(double low, double high, int n, double *alpha) {
 }
 static void between(double low, int n, double *alpha) { alphas_from(low, 1.0, n, alpha); }
 
-static void make(const TruthGrid *grid, TruthSet *slabs) {
-    if (truth_make(grid, 0, NULL, NULL, slabs)) return;
+static void make(const SolvedGrid *grid, SolvedSet *slabs) {
+    if (solved_set_make(grid, 0, NULL, NULL, slabs)) return;
     fputs("bench_fibre: out of memory\n", stderr);
     exit(1);
 }
 
-static void print_slabs(const char *what, const TruthGrid *grid, double low, double high) {
-    TruthSet slabs;
+static void print_slabs(const char *what, const SolvedGrid *grid, double low, double high) {
+    SolvedSet slabs;
     make(grid, &slabs);
     print_row("fibre", what, &slabs, low, high);
-    truth_free(&slabs);
+    solved_set_free(&slabs);
 }
 
 static void print_models(void) {
@@ -164,8 +164,8 @@ static void print_models(void) {
                         few[] = {0.2, 0.5, 0.9};
     static const double radians = 3.14159265358979323846 / 180.0;
     double alpha[21], tilts[] = {7.5 * radians, 22.5 * radians, 40.0 * radians};
-    TruthSet slabs;
-    TruthGrid grid = {21, 1, 0, 1, 33, 7, alpha, white, tilts, 1.0};
+    SolvedSet slabs;
+    SolvedGrid grid = {21, 1, 0, 1, 33, 7, alpha, white, tilts, 1.0};
     printf("\nmodels: error of f in %% of R, of directions with R > 1e-3; of R at any, where white\n"
            "fibres stand upright by the lobe's own quadrature; largest R\n");
     printf("  lobe         over                                 mean   worst   R         most\n");
@@ -177,7 +177,7 @@ static void print_models(void) {
         if (weft_lobe_info(weft_lobe_find(models[m]))->params[0].hard_low < 0.1f)
             print_row(models[m], "white, alpha 0.05 .. 0.19", &slabs, 0.0, 0.19);
     }
-    truth_free(&slabs);
+    solved_set_free(&slabs);
     between(0.19, 9, alpha);
     grid.alphas = 9, grid.kept = 4, grid.depth = 2.8;
     print_slabs("density .35 .. 2.8, alpha 0.19 .. 1", &grid, 0.0, 1.0);
@@ -191,11 +191,11 @@ static void print_models(void) {
     grid.kept = 4, grid.depth = 2.8;
     print_slabs("colour, density, alpha .05 .. .19", &grid, 0.0, 1.0);
     between(0.3, 6, alpha);
-    grid = (TruthGrid){6, 1, 3, 1, 9, 9, alpha, white, tilts, 1.0};
+    grid = (SolvedGrid){6, 1, 3, 1, 9, 9, alpha, white, tilts, 1.0};
     make(&grid, &slabs);
     print_row("fibre", "tilt 7.5 .. 40, alpha 0.45 .. 1", &slabs, 0.45, 1.0);
     print_row("fibre", "tilt 7.5 .. 40, alpha 0.3 .. 0.45", &slabs, 0.0, 0.45);
-    truth_free(&slabs);
+    solved_set_free(&slabs);
     grid.kept = 4, grid.depth = 2.8;
     print_slabs("tilt and density, alpha 0.45 .. 1", &grid, 0.45, 1.0);
     grid.albedos = 3, grid.albedo = few, grid.kept = 1, grid.depth = 1.0;

@@ -12,7 +12,7 @@
  * places are summed in order, so that threads change nothing. */
 typedef struct Pass {
     const FitForm *form;
-    const TruthSet *set;
+    const SolvedSet *set;
     FitEffort effort;
     const double *coefficients;
     double softness; /* errors below this part of f count by their square */
@@ -31,7 +31,7 @@ static void theta_of(const FitForm *form, int slab, const double *coefficients, 
 }
 
 /* V, what a direction counts for in the sum. */
-static double side_weight(const Truth *t, int k, double grazing) {
+static double side_weight(const SolvedSlab *t, int k, double grazing) {
     return 0.5 * (t->w[k] + grazing / t->sides);
 }
 
@@ -49,7 +49,7 @@ static void slab_pass(void *user, int item, int thread) {
     (void)thread;
     Pass *pass = user;
     const FitForm *form = pass->form;
-    const Truth *t = &pass->set->slabs[item];
+    const SolvedSlab *t = &pass->set->slabs[item];
     int n = form->movings;
     size_t pairs = (size_t)t->pairs, sides = (size_t)t->sides, slopes = pass->slopes ? (size_t)n : 0;
     size_t locals = (size_t)form->locals, wide = pass->slopes ? pairs * locals : 0;
@@ -63,15 +63,15 @@ static void slab_pass(void *user, int item, int thread) {
     theta_of(form, item, pass->coefficients, theta);
     form->value(form->user, item, t, theta, log_f, pass->slopes ? slope : NULL);
     for (int p = 0; p < t->pairs; p++) {
-        double truth = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0),
-               e = pass->softness * truth;
-        r[p] = pass->logs ? truth * (l - log(truth)) : exp(l) - truth;
+        double reference = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0),
+               e = pass->softness * reference;
+        r[p] = pass->logs ? reference * (l - log(reference)) : exp(l) - reference;
         q[p] = sqrt(r[p] * r[p] + e * e);
-        dr[t->i[p]] += truth_row_i(t, p) * r[p];
-        dr[t->j[p]] += truth_row_j(t, p) * r[p];
-        x[t->i[p]] += truth_row_i(t, p) * q[p] / fmax(t->reflected[t->i[p]], 1e-3);
-        x[t->j[p]] += truth_row_j(t, p) * q[p] / fmax(t->reflected[t->j[p]], 1e-3);
-        log_f[p] = pass->logs ? truth : exp(l); /* from now on, r by log f */
+        dr[t->i[p]] += solved_weight_i(t, p) * r[p];
+        dr[t->j[p]] += solved_weight_j(t, p) * r[p];
+        x[t->i[p]] += solved_weight_i(t, p) * q[p] / fmax(t->reflected[t->i[p]], 1e-3);
+        x[t->j[p]] += solved_weight_j(t, p) * q[p] / fmax(t->reflected[t->j[p]], 1e-3);
+        log_f[p] = pass->logs ? reference : exp(l); /* from now on, r by log f */
     }
     for (int k = 0; k < t->sides; k++) {
         double v = side_weight(t, k, pass->effort.grazing), worst = pass->effort.worst * x[k];
@@ -79,13 +79,14 @@ static void slab_pass(void *user, int item, int thread) {
         x[k] = v * (1.0 + worst) / fmax(t->reflected[k], 1e-3); /* from now on, cost by r */
     }
     for (int p = 0; p < t->pairs; p++) {
-        double w = truth_row_i(t, p) * x[t->i[p]] + truth_row_j(t, p) * x[t->j[p]], root = sqrt(w / q[p]);
+        double w = solved_weight_i(t, p) * x[t->i[p]] + solved_weight_j(t, p) * x[t->j[p]],
+               root = sqrt(w / q[p]);
         const double *from = slope + (size_t)p * locals; /* what moves is gathered at the front */
         double *s = slope + (size_t)p * slopes;
         for (size_t k = 0; k < slopes; k++) {
             s[k] = log_f[p] * from[form->moving[k]];
-            row[(size_t)t->i[p] * slopes + k] += truth_row_i(t, p) * s[k];
-            row[(size_t)t->j[p] * slopes + k] += truth_row_j(t, p) * s[k];
+            row[(size_t)t->i[p] * slopes + k] += solved_weight_i(t, p) * s[k];
+            row[(size_t)t->j[p] * slopes + k] += solved_weight_j(t, p) * s[k];
             s[k] *= root;
         }
         r[p] *= root;
@@ -161,7 +162,7 @@ static bool solve(int n, const double *h, const double *g, double damping, doubl
 
 /* Kenneth Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares", 1944, on
  * weights that make least squares of least absolute error. The softness sinks as the fit settles. */
-static bool descend(Pass *pass, int threads, TruthProgress progress, void *user, double *at, double *h,
+static bool descend(Pass *pass, int threads, SolveProgress progress, void *user, double *at, double *h,
                     double *g, double *work, double *step) {
     int n = pass->form->coefficients, rounds = pass->effort.rounds;
     double damping = 1e-2, *next = step + n;
@@ -193,7 +194,7 @@ static bool descend(Pass *pass, int threads, TruthProgress progress, void *user,
     return true;
 }
 
-bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int threads, TruthProgress progress,
+bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int threads, SolveProgress progress,
              void *user, double *coefficients) {
     size_t n = (size_t)form->coefficients, m = (size_t)form->movings, slabs = (size_t)set->count;
     double *block = alloc_array(slabs * (1 + m + m * m) + 2 * n * n + 3 * n, sizeof(double));
@@ -207,22 +208,22 @@ bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int thr
     return done;
 }
 
-static bool slab_error(const FitForm *form, const TruthSet *set, int slab, const double *coefficients,
-                       TruthError *out) {
-    const Truth *t = &set->slabs[slab];
+static bool slab_error(const FitForm *form, const SolvedSet *set, int slab, const double *coefficients,
+                       FitError *out) {
+    const SolvedSlab *t = &set->slabs[slab];
     double *f = alloc_array((size_t)t->pairs + (size_t)form->locals, sizeof(double));
     if (!f) return false;
     theta_of(form, slab, coefficients, f + t->pairs);
     form->value(form->user, slab, t, f + t->pairs, f, NULL);
     for (int p = 0; p < t->pairs; p++) f[p] = exp(fmin(f[p], 25.0));
-    bool done = truth_error(t, f, out);
+    bool done = solved_error(t, f, out);
     free(f);
     return done;
 }
 
-bool fit_error(const FitForm *form, const TruthSet *set, const double *coefficients, TruthError *all) {
-    TruthError one;
-    *all = (TruthError){0};
+bool fit_error(const FitForm *form, const SolvedSet *set, const double *coefficients, FitError *all) {
+    FitError one;
+    *all = (FitError){0};
     for (int k = 0; k < set->count; k++) {
         if (!slab_error(form, set, k, coefficients, &one)) return false;
         all->mean += one.mean / set->count;

@@ -8,7 +8,7 @@
 #ifndef WEFT_FIBRE_FIT_H
 #define WEFT_FIBRE_FIT_H
 
-#include "fibre/truth.h"
+#include "fibre/solver_reference.h"
 
 /* theta[moving[at]] depends on `coefficient` by factor `basis`. */
 typedef struct FitTerm {
@@ -23,7 +23,7 @@ typedef struct FitForm {
     void *user;
     /* log f of every pair of slab number `slab`, and where slope is not NULL its derivatives by theta,
      * slope[pair * locals + q]. Called from several threads at once. */
-    void (*value)(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+    void (*value)(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                   double *slope);
     const FitTerm *const *terms; /* for each slab, those of free coefficients */
     const int *term_counts;
@@ -40,11 +40,11 @@ typedef struct FitEffort {
 
 /* coefficients come as the start and leave as the best found. False where memory is short or progress says
  * so. */
-bool fit_run(const FitForm *form, const TruthSet *set, FitEffort effort, int threads, TruthProgress progress,
+bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int threads, SolveProgress progress,
              void *user, double *coefficients);
 
 /* The same form's error over the set: the mean of the slabs' means, the largest of the rest. False where
  * memory is short. */
-bool fit_error(const FitForm *form, const TruthSet *set, const double *coefficients, TruthError *all);
+bool fit_error(const FitForm *form, const SolvedSet *set, const double *coefficients, FitError *all);
 
 #endif

@@ -86,9 +86,9 @@ typedef struct Side {
     double upright[FEATURES], nap[NAPS];
 } Side;
 
-static void features(const Truth *truth, int k, Side *side) {
-    double mu = truth->mu[k], u = u_of(mu, t_of(truth->slab.alpha)), d = truth->nu[k] - mu,
-           s = tilt_of(truth->tilt);
+static void features(const SolvedSlab *reference, int k, Side *side) {
+    double mu = reference->mu[k], u = u_of(mu, t_of(reference->slab.alpha)), d = reference->nu[k] - mu,
+           s = tilt_of(reference->tilt);
     double *f = side->upright, *n = side->nap, g = 0.03 / (mu + 0.03);
     f[0] = 1.0;
     f[1] = u;
@@ -123,10 +123,10 @@ static void features(const Truth *truth, int k, Side *side) {
 
 /* The logarithms that the exponents p multiply; the last four vanish where fibres stand upright. */
 enum { LOGS = 7 };
-static void logarithms(const Truth *truth, int pair, double *l) {
-    double a = truth->mu[truth->i[pair]], b = truth->mu[truth->j[pair]];
-    double x = truth->nu[truth->i[pair]], y = truth->nu[truth->j[pair]],
-           s = truth->slab.alpha * truth->slab.alpha;
+static void logarithms(const SolvedSlab *reference, int pair, double *l) {
+    double a = reference->mu[reference->i[pair]], b = reference->mu[reference->j[pair]];
+    double x = reference->nu[reference->i[pair]], y = reference->nu[reference->j[pair]],
+           s = reference->slab.alpha * reference->slab.alpha;
     double ridge = 0.3 * s + 0.01, narrow = 0.3 * s * s + 1e-3, m = (a + b) * (a + b), n = (x + y) * (x + y);
     l[0] = log(a + b + 0.04);
     l[1] = log(a * a - a * b + b * b + ridge * ridge);
@@ -182,14 +182,14 @@ typedef struct Sides {
     double *part[PARTS];
 } Sides;
 
-static bool sides_make(const Truth *truth, const double *theta, Part first, Part last, Sides *out) {
-    size_t n = (size_t)truth->sides;
+static bool sides_make(const SolvedSlab *reference, const double *theta, Part first, Part last, Sides *out) {
+    size_t n = (size_t)reference->sides;
     out->side = alloc_array(n, sizeof(Side));
     out->part[0] = alloc_array(n * PARTS, sizeof(double));
     if (!out->side || !out->part[0]) return false;
     for (int part = 1; part < PARTS; part++) out->part[part] = out->part[0] + n * (size_t)part;
-    for (int k = 0; k < truth->sides; k++) {
-        features(truth, k, &out->side[k]);
+    for (int k = 0; k < reference->sides; k++) {
+        features(reference, k, &out->side[k]);
         for (int part = (int)first; part <= (int)last; part++)
             out->part[part][k] = part_value(&out->side[k], (Part)part, theta);
     }
@@ -200,7 +200,7 @@ static void sides_free(Sides *sides) {
     free(sides->part[0]);
 }
 
-static void scatter(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+static void scatter(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                     double *slope) {
     (void)user;
     (void)slab;
@@ -209,12 +209,13 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
     for (int k = 0; k < SCATTER_GROUPS; k++)
         for (int q = 0; groups[k].part == PART_P && q < groups[k].count; q++, exponents++)
             at[exponents] = first_local(k) + q, which[exponents] = groups[k].first + q;
-    if (sides_make(truth, theta, PART_A, PART_K, &s))
-        for (int p = 0; p < truth->pairs; p++) {
-            int i = truth->i[p], j = truth->j[p];
+    if (sides_make(reference, theta, PART_A, PART_K, &s))
+        for (int p = 0; p < reference->pairs; p++) {
+            int i = reference->i[p], j = reference->j[p];
             double l[LOGS], h = s.part[PART_H][i], g = s.part[PART_G][i], k = s.part[PART_K][i];
-            double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j], x = truth->x[p];
-            logarithms(truth, p, l);
+            double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j],
+                   x = reference->x[p];
+            logarithms(reference, p, l);
             double sum = s.part[PART_A][i] + s.part[PART_A][j] + h * h2 - g * g2 - k * k2 * x;
             for (int b = 0; b < exponents; b++) sum -= l[which[b]] * theta[at[b]];
             log_f[p] = sum;
@@ -233,26 +234,26 @@ static void scatter(void *user, int slab, const Truth *truth, const double *thet
 /* The law of shading/tint.h, with its bounds: q is 0.999 at the most, and light that met two flakes or more
  * keeps no more than w^2. */
 static const double q_most = 6.9; /* log(0.999 / 0.001) */
-static void tint(void *user, int slab, const Truth *truth, const double *theta, double *log_f,
+static void tint(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                  double *slope) {
     (void)user;
     (void)slab;
     Sides s;
     int n = locals_of(true);
-    double w = truth->slab.albedo;
-    if (sides_make(truth, theta, PART_Q, PART_C, &s)) {
+    double w = reference->slab.albedo;
+    if (sides_make(reference, theta, PART_Q, PART_C, &s)) {
         double *r = s.part[PART_A], *r_slope = s.part[PART_H]; /* these parts are idle here */
-        for (int k = 0; k < truth->sides; k++) {
+        for (int k = 0; k < reference->sides; k++) {
             double q = 1.0 / (1.0 + exp(-fmin(fmax(s.part[PART_Q][k], -30.0), q_most)));
             r[k] = log1p(-q) - log1p(-w * q);
             r_slope[k] = -q * (1.0 - w) / (1.0 - w * q);
         }
-        for (int p = 0; p < truth->pairs; p++) {
-            int i = truth->i[p], j = truth->j[p];
-            double v = s.part[PART_V][i], u = s.part[PART_U][i], c = s.part[PART_C][i], x = truth->x[p];
+        for (int p = 0; p < reference->pairs; p++) {
+            int i = reference->i[p], j = reference->j[p];
+            double v = s.part[PART_V][i], u = s.part[PART_U][i], c = s.part[PART_C][i], x = reference->x[p];
             double v2 = s.part[PART_V][j], u2 = s.part[PART_U][j], c2 = s.part[PART_C][j];
             double more = r[i] + r[j] + (1.0 - w) * (v * v2 - u * u2 - c * c2 * x);
-            log_f[p] = log(fmax(w * w * truth->white[p], 1e-14)) + fmin(more, 0.0);
+            log_f[p] = log(fmax(w * w * reference->white[p], 1e-14)) + fmin(more, 0.0);
             if (!slope) continue;
             double *row = slope + (size_t)p * (size_t)n;
             if (more > 0.0) {
@@ -296,8 +297,8 @@ int fibre_model_count(FibreStage stage) {
     return n;
 }
 
-static double basis_of(const Coefficient *k, const Truth *truth) {
-    double t = t_of(truth->slab.alpha), l = l_of(truth->slab.depth), s = tilt_of(truth->tilt);
+static double basis_of(const Coefficient *k, const SolvedSlab *reference) {
+    double t = t_of(reference->slab.alpha), l = l_of(reference->slab.depth), s = tilt_of(reference->tilt);
     bool is_thin = groups[k->group].kind == THIN;
     double thin = thin_of(t), x = is_thin ? thin : t + thin;
     double chebyshev = cos(k->a * acos(fmin(fmax(x, -1.0), 1.0)));
@@ -315,7 +316,7 @@ typedef struct Staged {
     Arena arena;
 } Staged;
 
-static bool staged_make(FibreStage stage, const TruthSet *set, const Coefficient *list, int n,
+static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficient *list, int n,
                         const double *values, Staged *out) {
     size_t slabs = (size_t)set->count;
     bool color = stage >= FIBRE_COLOR;
@@ -395,11 +396,11 @@ static void alphas_fill(double low, int n, double *alpha) {
     for (int k = 0; k < n; k++) alpha[k] = exp(log(low) * (1.0 - k / (n - 1.0)));
 }
 
-static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, void *user, TruthSet *out) {
+static bool stage_solved(FibreStage stage, int threads, SolveProgress progress, void *user, SolvedSet *out) {
     static const double white[] = {1.0}, colors[] = {0.05, 0.2, 0.4, 0.6, 0.8, 0.92, 0.98, 1.0};
     static const double radians = 3.14159265358979323846 / 180.0;
     double alpha[36], tilts[] = {9 * radians, 18 * radians, 27 * radians, 36 * radians, 45 * radians};
-    TruthGrid grid = {0, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
+    SolvedGrid grid = {0, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
     switch (stage) {
     case FIBRE_WHITE:
         alphas_fill(alpha_thin, 16, alpha);
@@ -429,15 +430,15 @@ static bool stage_truth(FibreStage stage, int threads, TruthProgress progress, v
         break;
     case FIBRE_STAGES: break;
     }
-    return truth_make(&grid, threads, progress, user, out);
+    return solved_set_make(&grid, threads, progress, user, out);
 }
 
 static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int rounds, int threads,
-                      TruthProgress progress, void *user, FibreModelFit *model) {
-    TruthSet set;
+                      SolveProgress progress, void *user, FibreModelFit *model) {
+    SolvedSet set;
     Staged staged = {0};
     double *found = NULL;
-    if (!stage_truth(stage, threads, progress, user, &set)) return false;
+    if (!stage_solved(stage, threads, progress, user, &set)) return false;
     bool done = staged_make(stage, &set, list, n, model->coefficients, &staged);
     if (done) found = alloc_array((size_t)staged.form.coefficients, sizeof *found);
     done = done && found;
@@ -453,11 +454,11 @@ static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int roun
     }
     free(found);
     arena_free(&staged.arena);
-    truth_free(&set);
+    solved_set_free(&set);
     return done;
 }
 
-bool fibre_model_fit(FibreStage last, int rounds, int threads, TruthProgress progress, void *user,
+bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user,
                      FibreModelFit *out) {
     int n = coefficients_list(NULL);
     Coefficient *list = alloc_array((size_t)n, sizeof *list);

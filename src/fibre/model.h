@@ -30,11 +30,11 @@ typedef enum FibreStage {
 typedef struct FibreModelFit {
     int count;
     double *coefficients;
-    TruthError errors[FIBRE_STAGES]; /* over what each was fitted to: mean of means, largest of the rest */
+    FitError errors[FIBRE_STAGES]; /* over what each was fitted to: mean of means, largest of the rest */
 } FibreModelFit;
 
-/* Makes the truth and fits stage by stage; minutes. False where memory is short or progress says so. */
-bool fibre_model_fit(FibreStage last, int rounds, int threads, TruthProgress progress, void *user,
+/* Makes the reference and fits stage by stage; minutes. False where memory is short or progress says so. */
+bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user,
                      FibreModelFit *out);
 void fibre_model_free(FibreModelFit *model);
 

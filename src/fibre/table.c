@@ -44,7 +44,8 @@ static void corners(const FibreTableDesc *desc, double x, double y, int node[COR
 }
 
 /* theta is the four functions, in exponents of 2, at every side of a slab. */
-static void value(void *user, int slab, const Truth *t, const double *theta, double *log_f, double *slope) {
+static void value(void *user, int slab, const SolvedSlab *t, const double *theta, double *log_f,
+                  double *slope) {
     static const double ln2 = 0.693147180559945309;
     const int n = t->sides;
     const double *a = theta, *h = a + n, *g = h + n, *k = g + n, power = power_of(t->slab.alpha);
@@ -85,9 +86,9 @@ static void start(const FibreTableDesc *desc, double *coefficients) {
 }
 
 /* Which nodes the sides of each slab lie between: term[slab][side][part][corner]. */
-static void place(const TruthSet *set, const FibreTableDesc *desc, FitTerm *term) {
+static void place(const SolvedSet *set, const FibreTableDesc *desc, FitTerm *term) {
     for (int slab = 0; slab < set->count; slab++) {
-        const Truth *t = &set->slabs[slab];
+        const SolvedSlab *t = &set->slabs[slab];
         double y = log(t->slab.alpha / desc->low) / log(desc->high / desc->low) * (desc->rows - 1);
         for (int side = 0; side < t->sides; side++) {
             double weight[CORNERS], x = column_of(t->mu[side]) * (desc->columns - 1);
@@ -100,7 +101,7 @@ static void place(const TruthSet *set, const FibreTableDesc *desc, FitTerm *term
     }
 }
 
-static bool fit(const FibreTableDesc *desc, const TruthSet *set, float *texels, TruthError *error) {
+static bool fit(const FibreTableDesc *desc, const SolvedSet *set, float *texels, FitError *error) {
     enum { LOCALS = PARTS * RINGS };
     size_t slabs = (size_t)set->count, per_slab = LOCALS * CORNERS;
     int count = PARTS * desc->rows * desc->columns, moving[LOCALS];
@@ -131,18 +132,18 @@ static bool fit(const FibreTableDesc *desc, const TruthSet *set, float *texels, 
     return done;
 }
 
-bool fibre_table_fit(const FibreTableDesc *desc, float *texels, TruthError *error) {
+bool fibre_table_fit(const FibreTableDesc *desc, float *texels, FitError *error) {
     static const double white[] = {1.0};
     int count = 2 * desc->rows - 1;
     double *alpha = alloc_array((size_t)count, sizeof *alpha);
     if (!alpha) return false;
     for (int k = 0; k < count; k++) alpha[k] = alpha_at(desc, (double)k / (count - 1));
-    TruthGrid grid = {count, 1, 0, 1, RINGS, SPOKES, alpha, white, NULL, 1.0};
-    TruthSet set;
-    bool done = truth_make(&grid, desc->threads, desc->progress, desc->user, &set);
+    SolvedGrid grid = {count, 1, 0, 1, RINGS, SPOKES, alpha, white, NULL, 1.0};
+    SolvedSet set;
+    bool done = solved_set_make(&grid, desc->threads, desc->progress, desc->user, &set);
     if (done) {
         done = fit(desc, &set, texels, error);
-        truth_free(&set);
+        solved_set_free(&set);
     }
     free(alpha);
     return done;

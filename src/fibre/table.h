@@ -14,13 +14,13 @@ typedef struct FibreTableDesc {
     double low, high;  /* alpha in the first and the last row */
     int rounds;        /* of the search */
     int threads;       /* 0: all */
-    TruthProgress progress;
+    SolveProgress progress;
     void *user;
 } FibreTableDesc;
 
 /* texels[rows][columns][4] becomes A, h, g, k, each a half float; error, how far the table is off where it
  * was fitted: the mean of the means, the largest of the rest. False where memory is short or progress says
  * so. */
-bool fibre_table_fit(const FibreTableDesc *desc, float *texels, TruthError *error);
+bool fibre_table_fit(const FibreTableDesc *desc, float *texels, FitError *error);
 
 #endif

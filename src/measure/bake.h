@@ -10,7 +10,7 @@
 /* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
  * leaves *out zeroed. */
 typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
-BakeMaker bake_albedo, bake_dfg, bake_truth, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table;
+BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table;
 
 /* K(id, maker, lobe, formed, width, height, help): the columns of a WeftBakeKind. */
 #define BAKE_KINDS(K)                                                                                        \
@@ -21,7 +21,7 @@ BakeMaker bake_albedo, bake_dfg, bake_truth, bake_ltc, bake_ltc_amplitude, bake_
       "their amplitudes of both colours, and each fit's error")                                              \
     K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
     K("fibre-table", bake_fibre_table, 0, 0, 16, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
-    K("fibre-truth", bake_truth, 1, 1, 32, 32,                                                               \
+    K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                          \
       "R and T of the solved slab of fibres; -p density of LOBE fibre")
 
 /* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and

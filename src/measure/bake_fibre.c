@@ -11,7 +11,7 @@
 enum { SIDE_MOST = 64, ROUNDS = 60 };
 static const double alpha_low = 0.19; /* of the lobe */
 
-/* Truths, then rounds: a phase ends where its count is full. */
+/* SolvedSets, then rounds: a phase ends where its count is full. */
 typedef struct Counter {
     const WeftBakeDesc *desc;
     int phases;
@@ -30,7 +30,7 @@ WeftResult bake_fibre_table(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftIm
     Counter counter = {desc, 0, false};
     const FibreTableDesc table = {desc->width, desc->height,  alpha_low, 1.0,
                                   ROUNDS,      desc->threads, count,     &counter};
-    TruthError off;
+    FitError off;
     if (desc->width < 2 || desc->height < 2 || desc->width > SIDE_MOST || desc->height > SIDE_MOST)
         return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; a fibre-table has 2 to %d nodes a side",
                     desc->width, desc->height, SIDE_MOST);

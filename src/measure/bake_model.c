@@ -5,10 +5,10 @@
 #include "fibre/model.h"
 #include "weft/bake.h"
 
-/* Truths and rounds of all stages, by about what they cost. */
+/* SolvedSets and rounds of all stages, by about what they cost. */
 typedef struct Counter {
     const WeftFibreModelDesc *desc;
-    int phases; /* truth and fit of each stage: a phase ends where its count is full */
+    int phases; /* reference and fit of each stage: a phase ends where its count is full */
     bool stopped;
 } Counter;
 

@@ -12,7 +12,7 @@
 
 #include "base/random.h"
 #include "fibre/matrix.h"
-#include "fibre/truth.h"
+#include "fibre/solver_reference.h"
 #include "fibre/walk.h"
 #include "shading/albedo.h"
 #include "shading/registry.h"
@@ -24,12 +24,12 @@ static void set(Lobe *lobe, const char *name, double value) {
 static Dir dir_of(const double w[3]) { return dir((float)w[0], (float)w[1], (float)w[2]); }
 
 /* The mean over slabs of the mean error, the largest of the rest, of the lobe as it is compiled. */
-static TruthError error_of(const TruthGrid *grid) {
-    TruthSet set_;
-    TruthError all = {0}, one;
-    assert_true(truth_make(grid, 0, NULL, NULL, &set_));
+static FitError error_of(const SolvedGrid *grid) {
+    SolvedSet set_;
+    FitError all = {0}, one;
+    assert_true(solved_set_make(grid, 0, NULL, NULL, &set_));
     for (int s = 0; s < set_.count; s++) {
-        const Truth *t = &set_.slabs[s];
+        const SolvedSlab *t = &set_.slabs[s];
         Lobe lobe = lobe_default(LOBE_FIBRE);
         set(&lobe, "alpha", t->slab.alpha);
         set(&lobe, "density", t->slab.depth);
@@ -38,22 +38,22 @@ static TruthError error_of(const TruthGrid *grid) {
         assert_non_null(f);
         for (int p = 0; p < t->pairs; p++) {
             double wi[3], wo[3];
-            truth_pair(t, p, wi, wo);
+            solved_pair(t, p, wi, wo);
             LobeValue v = lobe_value(&lobe, angles_between(dir_of(wo), dir_of(wi)));
-            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - truth_once(t, p);
+            f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - solved_single_scatter(t, p);
         }
-        assert_true(truth_error(t, f, &one));
+        assert_true(solved_error(t, f, &one));
         free(f);
         all.mean += one.mean / set_.count;
         all.worst = fmax(all.worst, one.worst);
         all.albedo = fmax(all.albedo, one.albedo);
         all.most = fmax(all.most, one.most);
     }
-    truth_free(&set_);
+    solved_set_free(&set_);
     return all;
 }
 
-static void expect(const char *what, TruthError e, double mean, double worst, double albedo) {
+static void expect(const char *what, FitError e, double mean, double worst, double albedo) {
     printf("%s: %.2f %% in the mean, %.1f %% at worst, R %.1e\n", what, 100.0 * e.mean, 100.0 * e.worst,
            e.albedo);
     assert_true(e.mean <= mean && e.worst <= worst && e.albedo <= albedo && e.most <= 1.0);
@@ -66,8 +66,8 @@ static const double white = 1.0, degree = 3.14159265358979 / 180.0;
 static void white_fibres_are_the_slab(void **state) {
     (void)state;
     const double alpha[] = {0.23, 0.41, 0.83}, low[] = {0.06, 0.085, 0.12, 0.165};
-    expect("white", error_of(&(TruthGrid){3, 1, 0, 1, 21, 5, alpha, &white, NULL, 1.0}), 0.004, 0.03, 2e-3);
-    expect("white, low alpha", error_of(&(TruthGrid){4, 1, 0, 1, 21, 5, low, &white, NULL, 1.0}), 0.03, 0.15,
+    expect("white", error_of(&(SolvedGrid){3, 1, 0, 1, 21, 5, alpha, &white, NULL, 1.0}), 0.004, 0.03, 2e-3);
+    expect("white, low alpha", error_of(&(SolvedGrid){4, 1, 0, 1, 21, 5, low, &white, NULL, 1.0}), 0.03, 0.15,
            1e-2);
 }
 
@@ -75,14 +75,15 @@ static void density_is_the_slabs(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.3, 0.7};
-    expect("density", error_of(&(TruthGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08, 1e-2);
+    expect("density", error_of(&(SolvedGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08,
+           1e-2);
 }
 
 static void colour_saturates(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.35, 0.8}, albedo[] = {0.3, 0.75, 1.0};
-    expect("colour", error_of(&(TruthGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.022, 0.16, 2e-2);
+    expect("colour", error_of(&(SolvedGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.022, 0.16, 2e-2);
 }
 
 /* Coloured fibres sharper than what the stage of colour is fitted to. */
@@ -90,7 +91,7 @@ static void thin_colour_saturates(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.09, 0.15}, albedo[] = {0.3, 0.8, 1.0};
-    expect("colour, low alpha", error_of(&(TruthGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.07,
+    expect("colour, low alpha", error_of(&(SolvedGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.07,
            0.25, 2e-2);
 }
 
@@ -137,7 +138,7 @@ static void nap_leans(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.5, 0.8}, tilt[] = {12.0 * degree, 33.0 * degree};
-    expect("nap", error_of(&(TruthGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.12,
+    expect("nap", error_of(&(SolvedGrid){2, 1, 2, 1, 7, 7, alpha, &white, tilt, 1.0}), 0.02, 0.12,
            6e-2); /* R: the lobe's hold against the nap takes some */
 }
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fibre/truth.h"
+#include "fibre/solver_reference.h"
 #include "shading/albedo.h"
 #include "shading/lobe_tables.h"
 #include "shading/registry.h"
@@ -26,31 +26,31 @@ static void the_lobe_is_the_solved_slab(void **state) {
     if (getenv("WEFT_TEST_SHORT")) skip();
     enum { ALPHAS = 4 };
     static const double alpha[ALPHAS] = {0.231, 0.41, 0.63, 0.9}, white[] = {1.0};
-    TruthGrid grid = {ALPHAS, 1, 0, 1, 24, 5, alpha, white, NULL, 1.0};
-    TruthSet set;
+    SolvedGrid grid = {ALPHAS, 1, 0, 1, 24, 5, alpha, white, NULL, 1.0};
+    SolvedSet set;
     double mean = 0.0;
-    assert_true(truth_make(&grid, 0, NULL, NULL, &set));
+    assert_true(solved_set_make(&grid, 0, NULL, NULL, &set));
     for (int s = 0; s < set.count; s++) {
-        const Truth *t = &set.slabs[s];
+        const SolvedSlab *t = &set.slabs[s];
         Lobe lobe = lobe_at_alpha(LOBE_FIBRE_TABLE, t->slab.alpha);
         double *f = calloc((size_t)t->pairs, sizeof *f);
-        TruthError error;
+        FitError error;
         assert_non_null(f);
         for (int p = 0; p < t->pairs; p++) {
             double wi[3], wo[3];
-            truth_pair(t, p, wi, wo);
+            solved_pair(t, p, wi, wo);
             Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]),
                 o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
-            f[p] = (double)lobe_eval(&lobe, angles_between(o, i)) - truth_once(t, p);
+            f[p] = (double)lobe_eval(&lobe, angles_between(o, i)) - solved_single_scatter(t, p);
         }
-        assert_true(truth_error(t, f, &error));
+        assert_true(solved_error(t, f, &error));
         free(f);
         mean += error.mean / ALPHAS;
         if (!(error.worst < 0.02 && error.albedo < 5e-3 && error.most < 1.0))
             fail_msg("alpha %g: worst %g, R %g", t->slab.alpha, error.worst, error.albedo);
     }
     if (!(mean < 0.005)) fail_msg("mean %g", mean);
-    truth_free(&set);
+    solved_set_free(&set);
 }
 
 static WeftImage baked(const char *kind, const WeftLobe *lobe, int width, int height, int threads) {

@@ -163,10 +163,10 @@ static void the_shading_text_is_the_same_medium(void **state) {
         set_direction(wo, 2.0 * u[4] - 1.0, 7.0 * u[5]);
         Dir i = to_dir(wi), o = to_dir(wo), t = to_dir(m.axis), h = dir(i.x + o.x, i.y + o.y, i.z + o.z);
         float s = (float)m.s, sigma = flake_sigma(s, dir_dot(i, t));
-        double truth = walk_phase(&m, wi, wo), q = (double)dir_dot(h, h);
+        double reference = walk_phase(&m, wi, wo), q = (double)dir_dot(h, h);
         double found = (double)(0.25f * flake_d(s, dir_dot(h, h), dir_dot(i, t) + dir_dot(o, t)) / sigma);
         /* a ridge of width s magnifies what rounding does to nu, and so does a short half vector */
-        double error = fabs(found / truth - 1.0), sigma2 = (double)(sigma * sigma);
+        double error = fabs(found / reference - 1.0), sigma2 = (double)(sigma * sigma);
         double rounding = 1e-6 * (1.0 / (m.s * (sqrt)(q)) + 1.0 / sigma2);
         worst = fmax(worst, error / rounding);
         assert_true(error < rounding);
@@ -193,8 +193,9 @@ static void the_shading_text_has_no_bad_ends(void **state) {
         assert_true(isfinite(d.x + d.y + d.z));
     }
     for (double x = 1e-8; x < 80.0; x *= 1.1) {
-        double truth = -expm1(-x) / x, found = (double)flake_seen((float)x, 1.0f, 1.0f) / (double)(float)x;
-        assert_true(fabs(found / truth - 1.0) < 6e-7);
+        double reference = -expm1(-x) / x,
+               found = (double)flake_seen((float)x, 1.0f, 1.0f) / (double)(float)x;
+        assert_true(fabs(found / reference - 1.0) < 6e-7);
     }
 }
 

@@ -65,14 +65,14 @@ static inline double judge_limit(void) {
 }
 
 /* Whether two numbers are `error` standard deviations apart that chance explains. */
-static inline void judge(Judge *judge, const char *what, double found, double truth, double error) {
-    double z = (found - truth) / error;
+static inline void judge(Judge *judge, const char *what, double found, double reference, double error) {
+    double z = (found - reference) / error;
     if (judge->limit <= 0.0) judge->limit = judge_limit();
     judge->squares += z * z;
     if (fabs(z) > judge->worst) judge->worst = fabs(z);
     if (++judge->made > JUDGEMENTS) fail_msg("raise JUDGEMENTS");
     if (!(fabs(z) < judge->limit))
-        fail_msg("%s: %.6f, not %.6f: %.2f standard errors, the limit is %.2f", what, found, truth, z,
+        fail_msg("%s: %.6f, not %.6f: %.2f standard errors, the limit is %.2f", what, found, reference, z,
                  judge->limit);
 }
 

@@ -1,4 +1,4 @@
-#include "fibre/truth.h"
+#include "fibre/solver_reference.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,10 +13,10 @@ static const double pi = 3.14159265358979323846;
 enum { MODES = 5 };
 
 typedef struct Work {
-    const TruthGrid *grid;
-    TruthSet *set;
+    const SolvedGrid *grid;
+    SolvedSet *set;
     int runs; /* of the solver: one for each alpha, albedo and tilt */
-    TruthProgress progress;
+    SolveProgress progress;
     void *user;
     int done;
     bool failed;
@@ -30,9 +30,9 @@ typedef struct Layout {
     double *share, *turn;
 } Layout;
 
-static int runs_of(const TruthGrid *g) { return g->alphas * g->albedos * (g->tilts ? g->tilts : 1); }
+static int runs_of(const SolvedGrid *g) { return g->alphas * g->albedos * (g->tilts ? g->tilts : 1); }
 
-static bool upright(const Work *work, const Layout *at, const Slab *slab, Truth *slabs) {
+static bool upright(const Work *work, const Layout *at, const Slab *slab, SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *r = alloc_array((size_t)kept * (cells + (size_t)n), sizeof(double));
@@ -55,7 +55,7 @@ static bool upright(const Work *work, const Layout *at, const Slab *slab, Truth 
     return done;
 }
 
-static bool leaning(const Work *work, const Layout *at, const Slab *slab, double tilt, Truth *slabs) {
+static bool leaning(const Work *work, const Layout *at, const Slab *slab, double tilt, SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *same = alloc_array((size_t)kept * (2 * cells + (size_t)n), sizeof(double));
@@ -90,9 +90,9 @@ static void run(void *user, int item, int thread) {
     (void)thread;
     Job *job = user;
     Work *work = job->work;
-    const TruthGrid *g = work->grid;
+    const SolvedGrid *g = work->grid;
     if (work->failed) return;
-    Truth *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
+    SolvedSlab *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
     Slab slab = slabs[g->kept - 1].slab;
     bool done =
         g->tilts ? leaning(work, job->at, &slab, slabs->tilt, slabs) : upright(work, job->at, &slab, slabs);
@@ -102,7 +102,7 @@ static void run(void *user, int item, int thread) {
 }
 
 /* Directions and pairs, in memory that the set owns. */
-static bool layout_make(const TruthGrid *g, TruthSet *set, Layout *at, double **rest) {
+static bool layout_make(const SolvedGrid *g, SolvedSet *set, Layout *at, double **rest) {
     bool lean = g->tilts > 0;
     int sides = lean ? g->rings * g->spokes : g->rings, turns = lean ? 2 : g->spokes;
     int pairs = sides * (sides + 1) / 2 * turns;
@@ -111,7 +111,7 @@ static bool layout_make(const TruthGrid *g, TruthSet *set, Layout *at, double **
                   slabs * (size_t)(pairs + sides);
     set->block = alloc_array(size, sizeof(double));
     set->numbers = alloc_array(2 * (size_t)pairs, sizeof(int));
-    set->slabs = alloc_array(slabs, sizeof(Truth));
+    set->slabs = alloc_array(slabs, sizeof(SolvedSlab));
     if (!set->block || !set->numbers || !set->slabs) return false;
     double *mu = set->block, *w = mu + sides, *phi = w + sides, *x = phi + sides, *v = x + sides;
     *at =
@@ -137,7 +137,7 @@ static bool layout_make(const TruthGrid *g, TruthSet *set, Layout *at, double **
 }
 
 /* Each slab's own place in the set, and what it is. */
-static void slabs_fill(const TruthGrid *g, TruthSet *set, const Layout *at, double *rest) {
+static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const Layout *at, double *rest) {
     int tilts = g->tilts ? g->tilts : 1, n = 0;
     for (int q = 0; q < tilts; q++) {
         double tilt = g->tilts ? g->tilt[q] : 0.0, *nu = rest, *x = nu + at->sides;
@@ -155,9 +155,9 @@ static void slabs_fill(const TruthGrid *g, TruthSet *set, const Layout *at, doub
             for (int b = 0; b < g->albedos; b++)
                 for (int k = 0; k < g->kept; k++, n++) {
                     Slab slab = {g->alpha[a], g->albedo[b], ldexp(g->depth, k + 1 - g->kept)};
-                    set->slabs[n] = (Truth){slab,      tilt, at->sides, at->pairs,       at->mu,   at->phi,
-                                            at->w,     nu,   at->i,     at->j,           at->turn, x,
-                                            at->share, rest, NULL,      rest + at->pairs};
+                    set->slabs[n] = (SolvedSlab){
+                        slab,  tilt,  at->sides, at->pairs, at->mu,    at->phi, at->w, nu,
+                        at->i, at->j, at->turn,  x,         at->share, rest,    NULL,  rest + at->pairs};
                     rest += at->pairs + at->sides;
                 }
     }
@@ -167,8 +167,9 @@ static void slabs_fill(const TruthGrid *g, TruthSet *set, const Layout *at, doub
     }
 }
 
-bool truth_make(const TruthGrid *grid, int threads, TruthProgress progress, void *user, TruthSet *out) {
-    *out = (TruthSet){.count = runs_of(grid) * grid->kept};
+bool solved_set_make(const SolvedGrid *grid, int threads, SolveProgress progress, void *user,
+                     SolvedSet *out) {
+    *out = (SolvedSet){.count = runs_of(grid) * grid->kept};
     Layout at;
     double *rest;
     Work work = {grid, out, runs_of(grid), progress, user, 0, false};
@@ -177,42 +178,45 @@ bool truth_make(const TruthGrid *grid, int threads, TruthProgress progress, void
         parallel_for(threads, work.runs, run, &(Job){&work, &at});
         if (!work.failed) return true;
     }
-    truth_free(out);
+    solved_set_free(out);
     return false;
 }
 
-void truth_free(TruthSet *set) {
+void solved_set_free(SolvedSet *set) {
     free(set->block);
     free(set->numbers);
     free(set->slabs);
-    *set = (TruthSet){0};
+    *set = (SolvedSet){0};
 }
 
-void truth_pair(const Truth *truth, int pair, double wi[3], double wo[3]) {
-    int i = truth->i[pair], j = truth->j[pair];
-    double ri = sqrt(1.0 - truth->mu[i] * truth->mu[i]), ro = sqrt(1.0 - truth->mu[j] * truth->mu[j]);
-    double phi = truth->phi[j] + truth->turn[pair];
-    wi[0] = ri * cos(truth->phi[i]), wi[1] = ri * sin(truth->phi[i]), wi[2] = truth->mu[i];
-    wo[0] = ro * cos(phi), wo[1] = ro * sin(phi), wo[2] = truth->mu[j];
+void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[3]) {
+    int i = reference->i[pair], j = reference->j[pair];
+    double ri = sqrt(1.0 - reference->mu[i] * reference->mu[i]),
+           ro = sqrt(1.0 - reference->mu[j] * reference->mu[j]);
+    double phi = reference->phi[j] + reference->turn[pair];
+    wi[0] = ri * cos(reference->phi[i]), wi[1] = ri * sin(reference->phi[i]), wi[2] = reference->mu[i];
+    wo[0] = ro * cos(phi), wo[1] = ro * sin(phi), wo[2] = reference->mu[j];
 }
 
-double truth_row_i(const Truth *t, int p) { return 2.0 * pi * t->share[p] * t->w[t->j[p]] * t->mu[t->j[p]]; }
-double truth_row_j(const Truth *t, int p) {
+double solved_weight_i(const SolvedSlab *t, int p) {
+    return 2.0 * pi * t->share[p] * t->w[t->j[p]] * t->mu[t->j[p]];
+}
+double solved_weight_j(const SolvedSlab *t, int p) {
     return t->i[p] == t->j[p] ? 0.0 : 2.0 * pi * t->share[p] * t->w[t->i[p]] * t->mu[t->i[p]];
 }
 
-bool truth_error(const Truth *t, const double *f, TruthError *out) {
+bool solved_error(const SolvedSlab *t, const double *f, FitError *out) {
     size_t sides = (size_t)t->sides;
     double *error = alloc_array(2 * sides, sizeof(double)), *dr = error + sides, all = 0.0;
     if (!error) return false;
     for (int p = 0; p < t->pairs; p++) {
         double d = f[p] - t->f[p];
-        dr[t->i[p]] += truth_row_i(t, p) * d;
-        dr[t->j[p]] += truth_row_j(t, p) * d;
-        error[t->i[p]] += truth_row_i(t, p) * fabs(d);
-        error[t->j[p]] += truth_row_j(t, p) * fabs(d);
+        dr[t->i[p]] += solved_weight_i(t, p) * d;
+        dr[t->j[p]] += solved_weight_j(t, p) * d;
+        error[t->i[p]] += solved_weight_i(t, p) * fabs(d);
+        error[t->j[p]] += solved_weight_j(t, p) * fabs(d);
     }
-    *out = (TruthError){0.0, 0.0, 0.0, 0.0};
+    *out = (FitError){0.0, 0.0, 0.0, 0.0};
     for (size_t k = 0; k < sides; k++) {
         double r = t->reflected[k];
         out->albedo = fmax(out->albedo, fabs(dr[k]));
@@ -227,7 +231,7 @@ bool truth_error(const Truth *t, const double *f, TruthError *out) {
     return true;
 }
 
-double truth_once(const Truth *t, int p) {
+double solved_single_scatter(const SolvedSlab *t, int p) {
     Heading i = {t->mu[t->i[p]], t->phi[t->i[p]]}, o = {t->mu[t->j[p]], t->phi[t->j[p]] + t->turn[p]};
     return tilted_single(&t->slab, t->tilt, i, o);
 }

@@ -1,7 +1,7 @@
-/* truth.h - the solver's answers as a fit sees them: light scattered more than once, between pairs of
+/* solver_reference.h - the solver's answers as a fit sees them: light scattered more than once, between pairs of
  * directions */
-#ifndef WEFT_FIBRE_TRUTH_H
-#define WEFT_FIBRE_TRUTH_H
+#ifndef WEFT_FIBRE_SOLVER_REFERENCE_H
+#define WEFT_FIBRE_SOLVER_REFERENCE_H
 
 #include <stdbool.h>
 
@@ -9,7 +9,7 @@
 
 /* One slab. Directions, "sides" of a pair, are numbered; w is what one counts for in an average over the
  * hemisphere by dmu dphi / (2 pi), so that  R_i = 2 pi sum over pairs of f w_j mu_j share. */
-typedef struct Truth {
+typedef struct SolvedSlab {
     Slab slab;
     double tilt; /* radians, towards azimuth 0 */
     int sides, pairs;
@@ -22,48 +22,48 @@ typedef struct Truth {
     double *f;           /* [pairs]: scattered more than once, 1/sr */
     const double *white; /* [pairs]: the same of the last albedo in the grid */
     double *reflected;   /* [sides]: R, light scattered once included */
-} Truth;
+} SolvedSlab;
 
 /* Slabs over the same directions. */
-typedef struct TruthSet {
+typedef struct SolvedSet {
     int count;
-    Truth *slabs;
+    SolvedSlab *slabs;
     double *block; /* all that they point to */
     int *numbers;
-} TruthSet;
+} SolvedSet;
 
 /* What is asked for: every combination of alphas, depths (the last divided by 2^(kept - 1) .. 1), albedos,
  * and, where tilts is not 0, tilts; `rings` cosines by a Gauss rule in sqrt(mu), and `spokes` azimuths where
  * fibres lean, or angles between azimuths where they do not. */
-typedef struct TruthGrid {
+typedef struct SolvedGrid {
     int alphas, albedos, tilts, kept, rings, spokes;
     const double *alpha, *albedo, *tilt;
     double depth;
-} TruthGrid;
+} SolvedGrid;
 
 /* Called as slabs are done; false stops the work. */
-typedef bool (*TruthProgress)(void *user, int done, int all);
+typedef bool (*SolveProgress)(void *user, int done, int all);
 
 /* False where memory is short or progress says so; the set is then empty. threads: 0 for all processors. */
-bool truth_make(const TruthGrid *grid, int threads, TruthProgress progress, void *user, TruthSet *out);
-void truth_free(TruthSet *set);
+bool solved_set_make(const SolvedGrid *grid, int threads, SolveProgress progress, void *user, SolvedSet *out);
+void solved_set_free(SolvedSet *set);
 
 /* The two directions of a pair, unit vectors. */
-void truth_pair(const Truth *truth, int pair, double wi[3], double wo[3]);
+void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[3]);
 
 /* f of the same pair, scattered once: exact, 1/sr. */
-double truth_once(const Truth *truth, int pair);
+double solved_single_scatter(const SolvedSlab *reference, int pair);
 
 /* How far f[pairs], scattered more than once, is off: integral of |f - f_true| mu over R for the directions
  * with R > 1e-3, its mean by dmu and its largest; the largest error of R in any direction, and the largest R
  * with this f. False where memory is short. */
-typedef struct TruthError {
+typedef struct FitError {
     double mean, worst, albedo, most;
-} TruthError;
-bool truth_error(const Truth *truth, const double *f, TruthError *out);
+} FitError;
+bool solved_error(const SolvedSlab *reference, const double *f, FitError *out);
 
 /* What a pair adds to the integral of one direction's f mu, per f. */
-double truth_row_i(const Truth *truth, int pair);
-double truth_row_j(const Truth *truth, int pair);
+double solved_weight_i(const SolvedSlab *reference, int pair);
+double solved_weight_j(const SolvedSlab *reference, int pair);
 
 #endif

@@ -1,4 +1,4 @@
-/* bake_truth.c - kind "fibre-truth": what the solved slab of fibres reflects (fibre/slab.h), without noise
+/* bake_solved.c - kind "fibre-truth": what the solved slab of fibres reflects (fibre/slab.h), without noise
  *
  * R over cos_o and alpha, and T, what goes through. Density is that of the lobe, where one is given. */
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "fibre/slab.h"
 #include "measure/bake.h"
 
-typedef struct Truths {
+typedef struct SolvedSets {
     const WeftBakeDesc *desc;
     WeftImage *out;
     double density;
@@ -20,13 +20,13 @@ typedef struct Truths {
     double *found;                 /* [alphas][2][mus] */
     bool short_of_memory, stopped; /* set from any thread, never cleared */
     int done;
-} Truths;
+} SolvedSets;
 
 static void raise(bool *flag) { __atomic_store_n(flag, true, __ATOMIC_RELAXED); }
 static bool raised(const bool *flag) { return __atomic_load_n(flag, __ATOMIC_RELAXED); }
 
 static void solve(void *user, int item, int thread) {
-    Truths *t = user;
+    SolvedSets *t = user;
     if (raised(&t->short_of_memory) || raised(&t->stopped)) return;
     double *up = t->found + (size_t)item * 2 * (size_t)t->mus;
     SlabEffort effort = slab_effort(t->alpha[item]);
@@ -39,7 +39,7 @@ static void solve(void *user, int item, int thread) {
         raise(&t->stopped);
 }
 
-WeftResult bake_truth(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
+WeftResult bake_solved(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     int w = desc->width, h = desc->height, mus = desc->form.transposed ? h : w,
         alphas = desc->form.transposed ? w : h;
     Lobe lobe = lobe_default(LOBE_FIBRE);
@@ -60,14 +60,14 @@ WeftResult bake_truth(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *o
         if (k < alphas) alpha[k] = fmin(fmax((double)value, 0.03), 1.0);
         info->beyond += k < alphas && value < 0.03f ? mus : 0;
     }
-    Truths t = {.desc = desc,
-                .out = out,
-                .density = (double)lobe.params[1],
-                .mu = mu,
-                .alpha = alpha,
-                .mus = mus,
-                .alphas = alphas,
-                .found = alpha + alphas};
+    SolvedSets t = {.desc = desc,
+                    .out = out,
+                    .density = (double)lobe.params[1],
+                    .mu = mu,
+                    .alpha = alpha,
+                    .mus = mus,
+                    .alphas = alphas,
+                    .found = alpha + alphas};
     parallel_for(desc->threads, alphas, solve, &t);
     WeftResult result = t.short_of_memory ? fail(error, WEFT_MESSAGE_MEMORY, "fibre-truth", NULL)
                         : t.stopped       ? WEFT_INTERRUPTED
