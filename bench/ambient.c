@@ -16,7 +16,7 @@
 
 #include "base/random.h"
 #include "base/thread.h"
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 #include "scene/scene.h"
 #include "shading/albedo.h"
 #include "shading/ambient_table.h"

@@ -15,7 +15,7 @@
 #include "base/file.h"
 #include "shading/terms.h"
 #include "text/dispatch.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 
 /* The cycles are those of the busiest unit: so many multiplications beside the lines in question make sure

@@ -6,11 +6,11 @@
 #include "audit_sheet.h"
 #include "bake.h"
 #include "interrupt.h"
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "report.h"
+#include "two_columns.h"
 
 typedef struct Audit {
     const Options *options;

@@ -7,18 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
 #include "command.h"
 #include "given_lobe.h"
 #include "interrupt.h"
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "names.h"
 #include "output.h"
 #include "report.h"
 #include "table_file.h"
+#include "two_columns.h"
 #include "verbs.h"
+#include "view/steady_clock.h"
 
 bool bake_common(const Options *options, BakeCommon *common) {
     WeftError error;
@@ -143,7 +143,7 @@ static int bake_read(const Options *options, Bake *bake) {
 
 static int table_make(Bake *bake) {
     WeftError error;
-    const double started = clock_seconds(), texels = (double)bake->desc.width * bake->desc.height;
+    const double started = now(), texels = (double)bake->desc.width * bake->desc.height;
     Progress progress = progress_start_count(bake->common.quiet, "texels", texels);
     bake->desc.progress = bake_progress;
     bake->desc.user = &progress;
@@ -151,7 +151,7 @@ static int table_make(Bake *bake) {
     bake->desc.log = &log;
     WeftResult result = weft_bake(&bake->desc, &bake->info, &bake->table, &error);
     progress_finish(&progress);
-    bake->seconds = clock_seconds() - started;
+    bake->seconds = now() - started;
     if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted; nothing was written");
     return result == WEFT_OK ? 0 : report_error(&error);
 }

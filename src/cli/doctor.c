@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "interrupt.h"
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "progress.h"
 #include "report.h"
+#include "two_columns.h"
 #include "verbs.h"
 #include "weft/weft.h"
 

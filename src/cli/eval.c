@@ -9,7 +9,7 @@
 
 #include "decimal.h"
 #include "given_lobe.h"
-#include "json.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "report.h"
 #include "verbs.h"

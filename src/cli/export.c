@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "command.h"
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "model.h"
 #include "output.h"
 #include "report.h"
 #include "table_file.h"
+#include "two_columns.h"
 #include "verbs.h"
 
 typedef struct Export {

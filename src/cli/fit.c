@@ -6,11 +6,11 @@
 
 #include "fit_sheet.h"
 #include "interrupt.h"
-#include "json.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "model.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "progress.h"
 #include "report.h"
 #include "verbs.h"

@@ -2,7 +2,7 @@
 #ifndef WEFT_CLI_JOB_H
 #define WEFT_CLI_JOB_H
 
-#include "json.h"
+#include "json_writer.h"
 #include "request.h"
 
 /* What was said along the way, each line once. */

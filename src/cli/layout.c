@@ -1,4 +1,4 @@
-#include "layout.h"
+#include "two_columns.h"
 
 #include <string.h>
 

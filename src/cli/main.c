@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "layout.h"
 #include "lobes.h"
 #include "man.h"
 #include "names.h"
 #include "report.h"
+#include "two_columns.h"
 #include "uncaught.h"
 #include "verbs.h"
 #include "weft/version.h"

@@ -1,16 +1,16 @@
 /* match.c - `weft match`: the parameters of one lobe, profile or material that come closest to another */
-#include "match.h"
+#include "match_verb.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "report.h"
+#include "two_columns.h"
 #include "verbs.h"
 
 /* The parts that materials have, in the order of WeftPart. */
@@ -73,7 +73,7 @@ static int material_rows(const WeftMaterial *copied, const WeftMaterial *matched
 
 static int rows_of(const Match *match, Row rows[ROWS_MOST]) {
     return match->to.kind == MODEL_LOBE ? lobe_rows(&match->copy.lobe, &match->to.lobe, rows)
-                                          : material_rows(&match->copy.material, &match->to.material, rows);
+                                        : material_rows(&match->copy.material, &match->to.material, rows);
 }
 
 /* The errors of the parts that `from` has; negative where it has none. */

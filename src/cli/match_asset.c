@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "interrupt.h"
-#include "json.h"
-#include "match.h"
+#include "json_writer.h"
+#include "match_verb.h"
 #include "names.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "progress.h"
 #include "report.h"
 

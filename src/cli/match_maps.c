@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "interrupt.h"
-#include "json.h"
-#include "match.h"
+#include "json_writer.h"
+#include "match_verb.h"
 #include "progress.h"
 #include "report.h"
 

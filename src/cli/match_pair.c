@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "match.h"
+#include "match_verb.h"
 #include "report.h"
 
 bool match_has_parts(const Match *match) {

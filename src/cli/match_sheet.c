@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "match.h"
+#include "match_verb.h"
 #include "report.h"
 
 enum { SIZE = 300, PICTURES = 3 };

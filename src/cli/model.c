@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "names.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "report.h"
 
 /* The kinds of names that are taken, in the order in which they are tried. */

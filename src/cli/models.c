@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalogue_page.h"
 #include "chart_sheet.h"
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "lobes.h"
 #include "names.h"
-#include "page.h"
 #include "report.h"
+#include "two_columns.h"
 #include "verbs.h"
 #include "weft/weft.h"
 

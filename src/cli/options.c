@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "layout.h"
 #include "names.h"
 #include "report.h"
+#include "two_columns.h"
 
 typedef struct Given {
     const Option *option;

@@ -1,4 +1,4 @@
-#include "page.h"
+#include "catalogue_page.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef WEFT_CLI_PASSPORTS_H
 #define WEFT_CLI_PASSPORTS_H
 
-#include "json.h"
+#include "json_writer.h"
 #include "weft/measure.h"
 
 /* On standard output. */

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "layout.h"
 #include "lobes.h"
 #include "model.h"
 #include "names.h"
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "plot_numbers.h"
 #include "report.h"
+#include "two_columns.h"
 #include "verbs.h"
 
 typedef struct Plot {

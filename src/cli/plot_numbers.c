@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "json.h"
+#include "json_writer.h"
 
 static void axis_json(Json *json, const char *key, const WeftPlotAxis *axis) {
     if (!axis->label[0]) return;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "output.h"
-#include "path.h"
+#include "path_suffix.h"
 #include "report.h"
 #include "weft/material.h"
 #include "weft/save.h"

@@ -2,10 +2,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "json.h"
-#include "layout.h"
+#include "json_writer.h"
 #include "output.h"
 #include "report.h"
+#include "two_columns.h"
 #include "verbs.h"
 #include "weft/weft.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/fail.h"
 #include "text/dispatch.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 
 const char *draft_lobe_record(int lobe) { return lobe_names(lobe)->record; }

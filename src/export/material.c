@@ -9,7 +9,7 @@
 #include "scene/material_numbers.h"
 #include "shading/choice.h"
 #include "text/composition.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 
 typedef struct Rule {

@@ -1,4 +1,4 @@
-#include "fibre/model.h"
+#include "fibre/fitted_model.h"
 
 #include <math.h>
 #include <stdlib.h>

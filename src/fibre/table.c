@@ -1,4 +1,4 @@
-#include "fibre/table.h"
+#include "fibre/fitted_table.h"
 
 #include <math.h>
 #include <stdlib.h>

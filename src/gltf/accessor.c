@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "gltf/buffer.h"
+#include "gltf/buffer_views.h"
 #include "gltf/field.h"
 
 static size_t component_size(Component component) {

@@ -1,10 +1,10 @@
-#include "gltf/buffer.h"
+#include "gltf/buffer_views.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "gltf/asset_file.h"
 #include "gltf/field.h"
-#include "gltf/file.h"
 #include "gltf/meshopt.h"
 #include "gltf/uri.h"
 

@@ -1,5 +1,5 @@
 /* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.10 (cameras). */
-#include "gltf/camera.h"
+#include "gltf/gltf_camera.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "gltf/file.h"
+#include "gltf/asset_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -6,16 +6,16 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "gltf/accessor.h"
-#include "gltf/buffer.h"
-#include "gltf/camera.h"
+#include "gltf/buffer_views.h"
 #include "gltf/container.h"
 #include "gltf/field.h"
+#include "gltf/gltf_camera.h"
+#include "gltf/gltf_material.h"
+#include "gltf/gltf_texture.h"
 #include "gltf/light.h"
-#include "gltf/material.h"
 #include "gltf/mesh.h"
 #include "gltf/node.h"
 #include "gltf/pose.h"
-#include "gltf/texture.h"
 
 static void version_check(Asset *asset) {
     Field root = field_root(asset), info = field_member(&root, "asset"),

@@ -1,7 +1,7 @@
 /* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.9 (materials), and the texts of
  * KHR_materials_anisotropy, _clearcoat, _emissive_strength, _ior, _sheen, _specular, _unlit and
  * KHR_texture_transform in its extension registry. */
-#include "gltf/material.h"
+#include "gltf/gltf_material.h"
 
 #include <float.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf/material.h"
+#include "gltf/gltf_material.h"
 #include "gltf/saving.h"
 #include "scene/material_numbers.h"
 #include "scene/shade.h"

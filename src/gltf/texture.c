@@ -1,4 +1,4 @@
-#include "gltf/texture.h"
+#include "gltf/gltf_texture.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -8,10 +8,10 @@
 
 #include "base/fail.h"
 #include "base/thread.h"
-#include "gltf/buffer.h"
+#include "gltf/asset_file.h"
+#include "gltf/buffer_views.h"
 #include "gltf/extent.h"
 #include "gltf/field.h"
-#include "gltf/file.h"
 #include "gltf/uri.h"
 
 /* The image a texture names: its plain source. A container that cannot be read here is only an offer. */

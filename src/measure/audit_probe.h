@@ -4,7 +4,7 @@
 #ifndef WEFT_MEASURE_AUDIT_PROBE_H
 #define WEFT_MEASURE_AUDIT_PROBE_H
 
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 enum { PROBE_SIDE = 8, PROBE_TEXELS = PROBE_SIDE * PROBE_SIDE };
 

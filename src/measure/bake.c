@@ -1,5 +1,5 @@
 /* bake.c - the table of kinds, and what is checked and looped over for all of them */
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 #include "base/fail.h"
 

@@ -5,7 +5,7 @@
  * Of a lobe of two colours, f0 and f90, the same for the two weights that they have. */
 #include <stdio.h>
 
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 WeftResult bake_albedo(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     Lobe lobe;

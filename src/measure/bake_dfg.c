@@ -7,7 +7,7 @@
  * `total` has B and A + B, from which E = mix(B, A + B, f0) where f90 is 1: Filament's way. */
 #include <stdio.h>
 
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 WeftResult bake_dfg(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     const Lobe ggx = lobe_default(LOBE_GGX);

@@ -1,12 +1,12 @@
-/* bake_fibre.c - kind "fibre-table": the numbers of the lobe fibre-table (fibre/table.h)
+/* bake_fibre.c - kind "fibre-table": the numbers of the lobe fibre-table (fibre/fitted_table.h)
  *
  * Columns run from the horizon to normal incidence, rows are uniform in the logarithm of alpha over the range
  * of the lobe. */
 #include <stdio.h>
 
 #include "base/fail.h"
-#include "fibre/table.h"
-#include "measure/bake.h"
+#include "fibre/fitted_table.h"
+#include "measure/bake_texels.h"
 
 enum { SIDE_MOST = 64, ROUNDS = 60 };
 static const double alpha_low = 0.19; /* of the lobe */

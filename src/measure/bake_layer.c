@@ -5,7 +5,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/thread.h"
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 #include "measure/exceeds.h"
 
 typedef struct Texels {

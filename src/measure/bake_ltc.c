@@ -4,7 +4,7 @@
  * The table has axes of its own, columns uniform in the root of cos_o and rows in that of the parameter. */
 #include <stdio.h>
 
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 #include "weft/ltc.h"
 
 /* Channels `channels[0 .. count - 1]` of ltc.h; level: r is 0. */

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
-#include "fibre/model.h"
+#include "fibre/fitted_model.h"
 #include "weft/bake.h"
 
 /* SolvedSets and rounds of all stages, by about what they cost. */

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "fibre/slab.h"
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 typedef struct SolvedSets {
     const WeftBakeDesc *desc;

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "gltf/buffer.h"
+#include "gltf/buffer_views.h"
 #include "gltf/bundle.h"
 #include "measure/doctor.h"
 

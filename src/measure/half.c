@@ -1,7 +1,7 @@
 /* half.c - the shading texts compiled for half floats. -Wpedantic, -Wdouble-promotion and the like are off
  * for this file (CMakeLists.txt): _Float16 is no C11, integer rows of parameter tables become halves, and
  * that floors such as 1e-30 vanish is what is looked for. */
-#include "measure/half.h"
+#include "measure/half_precision.h"
 
 #include "weft/lobe.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "base/thread.h"
-#include "measure/half.h"
+#include "measure/half_precision.h"
 #include "measure/sweep.h"
 #include "shading/lobe_tables.h"
 

@@ -6,8 +6,8 @@
 #ifndef WEFT_MEASURE_LOBE_SEARCH_H
 #define WEFT_MEASURE_LOBE_SEARCH_H
 
+#include "measure/progress_loop.h"
 #include "measure/samples.h"
-#include "measure/watch.h"
 
 typedef struct LobeSearch {
     const Samples *samples;

@@ -2,7 +2,7 @@
 #ifndef WEFT_MEASURE_MATCH_H
 #define WEFT_MEASURE_MATCH_H
 
-#include "measure/watch.h"
+#include "measure/progress_loop.h"
 #include "weft/match.h"
 
 /* The same, which tells item_progress (may be NULL) how far it is, and ends early where that says so:

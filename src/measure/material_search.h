@@ -2,8 +2,8 @@
 #ifndef WEFT_MEASURE_MATERIAL_SEARCH_H
 #define WEFT_MEASURE_MATERIAL_SEARCH_H
 
+#include "measure/progress_loop.h"
 #include "measure/samples.h"
-#include "measure/watch.h"
 
 /* As weft_match_material, from where material is; found->matched is the error of what it leaves in material.
  * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that it

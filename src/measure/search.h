@@ -6,7 +6,7 @@
 #ifndef WEFT_MEASURE_SEARCH_H
 #define WEFT_MEASURE_SEARCH_H
 
-#include "measure/watch.h"
+#include "measure/progress_loop.h"
 
 enum { SEARCH_MOST = 16 };
 

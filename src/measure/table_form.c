@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "base/fail.h"
-#include "measure/bake.h"
+#include "measure/bake_texels.h"
 
 /* Who reads a table so. Of a table over cos_o and roughness alone, Unreal, the glTF viewer and HDRP's cloth
  * agree. Sources: glTF-Sample-Renderer, source/Renderer/shaders/ibl.glsl; Filament, libs/ibl/src/

@@ -1,4 +1,4 @@
-#include "measure/watch.h"
+#include "measure/progress_loop.h"
 
 #include <errno.h>
 #include <math.h>

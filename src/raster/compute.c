@@ -8,8 +8,8 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "raster/check.h"
+#include "raster/gl_tables.h"
 #include "raster/program.h"
-#include "raster/tables.h"
 
 /* Samples lie in rows of a texture; what does not fit takes another round. */
 enum { WIDTH = 1024, HEIGHT = 256, TARGETS = 4, PASSES_MAX = COMPUTE_OUTPUTS_MAX / TARGETS };

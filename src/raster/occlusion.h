@@ -2,7 +2,7 @@
 #ifndef WEFT_RASTER_OCCLUSION_H
 #define WEFT_RASTER_OCCLUSION_H
 
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 
 typedef struct Occlusion Occlusion;
 

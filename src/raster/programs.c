@@ -9,8 +9,8 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/thread.h"
+#include "raster/gl_tables.h"
 #include "raster/program.h"
-#include "raster/tables.h"
 #include "weft/render.h"
 
 typedef struct Sampler {

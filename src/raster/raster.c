@@ -11,7 +11,7 @@
 #include "raster/check.h"
 #include "raster/context.h"
 #include "raster/display.h"
-#include "raster/environment.h"
+#include "raster/gl_environment.h"
 #include "raster/ground.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
@@ -20,9 +20,9 @@
 #include "raster/picture.h"
 #include "raster/programs.h"
 #include "raster/queue.h"
+#include "raster/shader_watch.h"
 #include "raster/shadow.h"
 #include "raster/target.h"
-#include "raster/watch.h"
 #include "weft/raster.h"
 
 enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };

@@ -3,13 +3,13 @@
 
 #include "raster/shader.h"
 
-#include "raster/environment.h"
+#include "raster/gl_environment.h"
 #include "raster/part.h"
 
 #include "scene/shade.h"
 #include "shading/material_stack.h"
 #include "text/composition.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 #include "weft/lobe.h"
 

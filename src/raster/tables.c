@@ -1,4 +1,4 @@
-#include "raster/tables.h"
+#include "raster/gl_tables.h"
 
 #include <epoxy/gl.h>
 

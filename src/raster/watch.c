@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "raster/watch.h"
+#include "raster/shader_watch.h"
 
 #include <dirent.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 #include "scene/backdrop.h"
 
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 
 enum { WIDTH = 128, FROM = 64 };
 static const float kappa = 30.0f;

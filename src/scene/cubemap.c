@@ -10,7 +10,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 
 enum { FACES = 6, NAME_SIZE = 1024 };
 

@@ -21,7 +21,7 @@
  *
  * ambient_residual takes kappa 0 for the weight of irradiance. Directions are unit, in the shading frame
  * (angles.h). So L = residual + lights, and radiance and irradiance are of L. In GLSL a source is a Frame, and
- * whoever draws provides these functions in this file's place (raster/environment.h). */
+ * whoever draws provides these functions in this file's place (raster/gl_environment.h). */
 #ifndef WEFT_SHADING_AMBIENT_SOURCE_H
 #define WEFT_SHADING_AMBIENT_SOURCE_H
 

@@ -11,8 +11,8 @@
  * The numbers are those of tables/fibre_model.h. The middle base has its ridge where both directions are
  * equally steep: at low alpha light keeps nearly the angle that it has to the fibre, a walk of small steps
  * whose law is sqrt(mu_o mu_i) / (mu_o^3 + mu_i^3). */
-#ifndef WEFT_FIBRE_MODEL_H
-#define WEFT_FIBRE_MODEL_H
+#ifndef WEFT_FIBRE_FITTED_MODEL_H
+#define WEFT_FIBRE_FITTED_MODEL_H
 
 #include "shading/angles.h"
 #include "shading/tables/fibre_model.h"

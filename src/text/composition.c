@@ -4,7 +4,7 @@
 #include "text/composition.h"
 
 #include "shading/engine_tables.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 #include "weft/lobe.h"
 

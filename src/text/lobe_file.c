@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "shading/outside.h"
 #include "text/catalogue.h"
-#include "text/plugin.h"
+#include "text/plugin_compile.h"
 #include "text/text.h"
 
 /* All that a lobe keeps, in one piece. */

@@ -5,7 +5,7 @@
 
 #include "shading/registry.h"
 #include "text/dispatch.h"
-#include "text/number.h"
+#include "text/number_text.h"
 
 /* Its record from an array of parameters, and the array with its defaults. */
 static void put_params(const OutsideLobe *lobe, Buffer *out) {

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "text/plugin.h"
+#include "text/plugin_compile.h"
 
 #include "base/cache.h"
 #include "base/fail.h"

@@ -6,7 +6,7 @@
 #include "shading/albedo.h"
 #include "shading/engine_tables.h"
 #include "shading/lobe_tables.h"
-#include "text/number.h"
+#include "text/number_text.h"
 
 /* Lines that fill `t` with what e is, the table being a layer of its own of so many rows. */
 static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {

@@ -11,7 +11,7 @@
 #define WEFT_TRACE_CATCHER_H
 
 #include "scene/floor.h"
-#include "trace/path.h"
+#include "trace/path_radiance.h"
 
 /* Sums over the samples of a pixel that meet the floor. */
 typedef struct Caught {

@@ -1,4 +1,4 @@
-#include "trace/path.h"
+#include "trace/path_radiance.h"
 
 #include "scene/shade.h"
 #include "shading/frame.h"

@@ -12,7 +12,7 @@
 #include "scene/sheen_tables.h"
 #include "shading/frame.h"
 #include "trace/catcher.h"
-#include "trace/path.h"
+#include "trace/path_radiance.h"
 
 enum {
     TILE = 16,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "view/browser.h"
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 

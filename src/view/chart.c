@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/ui.h"
 #include "weft/chart.h"
 #include "weft/reflection.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/viewer.h"
 
 typedef struct Line {

@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "view/clock.h"
+#include "view/steady_clock.h"
 
 enum { COARSE_MOST = 8 };
 

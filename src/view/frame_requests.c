@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/clock.h"
 #include "view/opening.h"
+#include "view/steady_clock.h"
 
 static void add_warnings(Viewer *v, const char *lines) {
     size_t used = strlen(v->warnings);

@@ -1,4 +1,4 @@
-#include "view/inputs.h"
+#include "view/input_names.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 
 #include "view/chart.h"
 #include "view/help.h"
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/viewer.h"
 
 static const float degrees = 57.29577951f;

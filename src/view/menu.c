@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 

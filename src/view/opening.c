@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "view/examine.h"
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/survey.h"
 

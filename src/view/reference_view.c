@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "view/clock.h"
+#include "view/steady_clock.h"
 
 struct ReferenceView {
     Window *window;

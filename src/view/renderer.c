@@ -7,8 +7,8 @@
 
 #include <epoxy/gl.h>
 
-#include "view/clock.h"
 #include "view/renderer_state.h"
+#include "view/steady_clock.h"
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
     Renderer *self = user;

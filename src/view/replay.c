@@ -8,7 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "view/clock.h"
+#include "view/steady_clock.h"
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 

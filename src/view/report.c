@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "view/report.h"
+#include "view/state_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>

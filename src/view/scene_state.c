@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/inputs.h"
+#include "view/input_names.h"
 
 struct StateMaterial {
     atomic_int users;

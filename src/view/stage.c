@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "view/brush.h"
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/viewer.h"
 
 enum { LEFT, RIGHT, MIDDLE };

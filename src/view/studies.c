@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "weft/sheet.h"
 
 enum { WIDTH = 300, COLUMNS = 4 };

@@ -11,13 +11,13 @@
 #include <epoxy/gl.h>
 
 #include "view/browser.h"
-#include "view/clock.h"
 #include "view/examine.h"
 #include "view/file_watch.h"
 #include "view/opening.h"
 #include "view/replay.h"
-#include "view/report.h"
 #include "view/requests.h"
+#include "view/state_report.h"
+#include "view/steady_clock.h"
 
 void viewer_say(Viewer *v, bool grave, const char *format, ...) {
     va_list list;

@@ -5,7 +5,7 @@
 #include <meshoptimizer.h>
 
 #include "gltf/accessor.h"
-#include "gltf/buffer.h"
+#include "gltf/buffer_views.h"
 #include "gltf/container.h"
 
 /* The first accessor of { 'buffers': [bytes], REST }, decoded: floats (in *values, NULL after a failure), its

@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "measure/half.h"
 #include "measure/half_floor.h"
+#include "measure/half_precision.h"
 #include "measure/sweep.h"
 #include "weft/lobe.h"
 

@@ -14,9 +14,9 @@
 #include <epoxy/gl.h>
 
 #include "raster/context.h"
-#include "raster/environment.h"
+#include "raster/gl_environment.h"
+#include "raster/gl_tables.h"
 #include "raster/program.h"
-#include "raster/tables.h"
 #include "shading/ambient_table.h"
 #include "shading/material_stack.h"
 #include "text/dispatch.h"

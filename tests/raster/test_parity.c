@@ -15,7 +15,7 @@
 #include "shading/engine_tables.h"
 #include "shading/lobe_tables.h"
 #include "text/dispatch.h"
-#include "text/number.h"
+#include "text/number_text.h"
 #include "text/tables.h"
 
 enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS = 2, ANSWERS = 4 * OUTPUTS };

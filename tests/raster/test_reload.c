@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "raster/gl.h"
-#include "raster/watch.h"
+#include "raster/shader_watch.h"
 #include "weft/weft.h"
 
 static char base[] = "/tmp/weft-test-reload-XXXXXX";

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "scene/ambient.h"
 #include "scene/cubemap.h"
+#include "scene/env_split.h"
 
 enum { SIDE = 32 };
 

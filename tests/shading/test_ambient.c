@@ -3,7 +3,7 @@
  * says; layers and coats leave what they should; lights and residual are all of an environment */
 #include "cases.h"
 
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 #include "shading/ambient_table.h"
 
 /* An environment that is even, with a light or two. */

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "view/brush.h"
-#include "view/inputs.h"
+#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 

@@ -1,6 +1,6 @@
-/* number.h - a float as GLSL writes it */
-#ifndef WEFT_TEXT_NUMBER_H
-#define WEFT_TEXT_NUMBER_H
+/* number_text.h - a float as GLSL writes it */
+#ifndef WEFT_TEXT_NUMBER_TEXT_H
+#define WEFT_TEXT_NUMBER_TEXT_H
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-/* clock.h - steady time, and waiting by it */
-#ifndef WEFT_VIEW_CLOCK_H
-#define WEFT_VIEW_CLOCK_H
+/* steady_clock.h - steady time, and waiting by it */
+#ifndef WEFT_VIEW_STEADY_CLOCK_H
+#define WEFT_VIEW_STEADY_CLOCK_H
 
 #include <pthread.h>
 #include <time.h>

@@ -1,6 +1,6 @@
-/* page.h - what the catalogue's own files say of an id: the comment that each begins with */
-#ifndef WEFT_CLI_PAGE_H
-#define WEFT_CLI_PAGE_H
+/* catalogue_page.h - what the catalogue's own files say of an id: the comment that each begins with */
+#ifndef WEFT_CLI_CATALOGUE_PAGE_H
+#define WEFT_CLI_CATALOGUE_PAGE_H
 
 #include "names.h"
 

@@ -1,6 +1,6 @@
-/* plugin.h - a plugin (shading/plugin.h) made of a lobe's file by the machine's C compiler */
-#ifndef WEFT_TEXT_PLUGIN_H
-#define WEFT_TEXT_PLUGIN_H
+/* plugin_compile.h - a plugin (shading/plugin.h) made of a lobe's file by the machine's C compiler */
+#ifndef WEFT_TEXT_PLUGIN_COMPILE_H
+#define WEFT_TEXT_PLUGIN_COMPILE_H
 
 #include "shading/plugin.h"
 #include "shading/registry.h"

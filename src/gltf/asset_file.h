@@ -1,8 +1,8 @@
-/* file.h - the files beside an asset: each is read once, however often and by whatever names it is referred
+/* asset_file.h - the files beside an asset: each is read once, however often and by whatever names it is referred
  * to
  */
-#ifndef WEFT_GLTF_FILE_H
-#define WEFT_GLTF_FILE_H
+#ifndef WEFT_GLTF_ASSET_FILE_H
+#define WEFT_GLTF_ASSET_FILE_H
 
 #include "gltf/field.h"
 

@@ -1,6 +1,6 @@
-/* match.h - one match of `weft match`: what was typed, where the search begins, and what it found */
-#ifndef WEFT_CLI_MATCH_H
-#define WEFT_CLI_MATCH_H
+/* match_verb.h - one match of `weft match`: what was typed, where the search begins, and what it found */
+#ifndef WEFT_CLI_MATCH_VERB_H
+#define WEFT_CLI_MATCH_VERB_H
 
 #include "model.h"
 #include "options.h"

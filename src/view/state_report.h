@@ -1,6 +1,6 @@
-/* report.h - what the window shows, as lines of JSON for a program that drives it */
-#ifndef WEFT_VIEW_REPORT_H
-#define WEFT_VIEW_REPORT_H
+/* state_report.h - what the window shows, as lines of JSON for a program that drives it */
+#ifndef WEFT_VIEW_STATE_REPORT_H
+#define WEFT_VIEW_STATE_REPORT_H
 
 #include "view/viewer.h"
 

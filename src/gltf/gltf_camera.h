@@ -1,6 +1,6 @@
-/* camera.h - cameras of glTF nodes */
-#ifndef WEFT_GLTF_CAMERA_H
-#define WEFT_GLTF_CAMERA_H
+/* gltf_camera.h - cameras of glTF nodes */
+#ifndef WEFT_GLTF_GLTF_CAMERA_H
+#define WEFT_GLTF_GLTF_CAMERA_H
 
 #include "gltf/asset.h"
 

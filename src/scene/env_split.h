@@ -1,10 +1,10 @@
-/* ambient.h - an environment taken apart for real-time light: lights for what is bright, and an even residual
+/* env_split.h - an environment taken apart for real-time light: lights for what is bright, and an even residual
  *
  * Of a texel of luminance Y the part min(1, AMBIENT_CLIP mean(Y) / Y) is the residual's; what is above goes to
  * the lights, by k-means over directions: each stands where the light of its texels has its mean. Directions
  * are those of the image, before Environment.rotation; colours do without Environment.strength. */
-#ifndef WEFT_SCENE_AMBIENT_H
-#define WEFT_SCENE_AMBIENT_H
+#ifndef WEFT_SCENE_ENV_SPLIT_H
+#define WEFT_SCENE_ENV_SPLIT_H
 
 #include "scene/scene.h"
 

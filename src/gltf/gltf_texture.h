@@ -1,6 +1,6 @@
-/* texture.h - textures, their samplers and images */
-#ifndef WEFT_GLTF_TEXTURE_H
-#define WEFT_GLTF_TEXTURE_H
+/* gltf_texture.h - textures, their samplers and images */
+#ifndef WEFT_GLTF_GLTF_TEXTURE_H
+#define WEFT_GLTF_GLTF_TEXTURE_H
 
 #include "gltf/asset.h"
 

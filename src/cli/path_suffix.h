@@ -1,6 +1,6 @@
-/* path.h - names of files */
-#ifndef WEFT_CLI_PATH_H
-#define WEFT_CLI_PATH_H
+/* path_suffix.h - names of files */
+#ifndef WEFT_CLI_PATH_SUFFIX_H
+#define WEFT_CLI_PATH_SUFFIX_H
 
 #include <stdbool.h>
 #include <string.h>

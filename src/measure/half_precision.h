@@ -1,6 +1,6 @@
-/* half.h - lobes evaluated in half precision */
-#ifndef WEFT_MEASURE_HALF_H
-#define WEFT_MEASURE_HALF_H
+/* half_precision.h - lobes evaluated in half precision */
+#ifndef WEFT_MEASURE_HALF_PRECISION_H
+#define WEFT_MEASURE_HALF_PRECISION_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* layout.h - text for people: entries in two columns, wrapped at 80 */
-#ifndef WEFT_CLI_LAYOUT_H
-#define WEFT_CLI_LAYOUT_H
+/* two_columns.h - text for people: entries in two columns, wrapped at 80 */
+#ifndef WEFT_CLI_TWO_COLUMNS_H
+#define WEFT_CLI_TWO_COLUMNS_H
 
 #include <stdio.h>
 

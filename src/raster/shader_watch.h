@@ -1,9 +1,9 @@
-/* watch.h - whether shader text in a folder has changed since the last look
+/* shader_watch.h - whether shader text in a folder has changed since the last look
  *
  * DOES NOT: notice a file that changed twice within one tick of the file system's clock, between which it was
  * looked at, and kept its size. */
-#ifndef WEFT_RASTER_WATCH_H
-#define WEFT_RASTER_WATCH_H
+#ifndef WEFT_RASTER_SHADER_WATCH_H
+#define WEFT_RASTER_SHADER_WATCH_H
 
 #include "base/memory.h"
 

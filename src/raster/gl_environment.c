@@ -1,4 +1,4 @@
-#include "raster/environment.h"
+#include "raster/gl_environment.h"
 
 #include <math.h>
 #include <stdlib.h>

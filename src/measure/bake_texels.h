@@ -1,8 +1,8 @@
-/* bake.h - what the kinds of baked tables share: one file a kind, and the loop over texels
+/* bake_texels.h - what the kinds of baked tables share: one file a kind, and the loop over texels
  *
  * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
-#ifndef WEFT_MEASURE_BAKE_H
-#define WEFT_MEASURE_BAKE_H
+#ifndef WEFT_MEASURE_BAKE_TEXELS_H
+#define WEFT_MEASURE_BAKE_TEXELS_H
 
 #include "shading/albedo.h"
 #include "weft/bake.h"
@@ -21,7 +21,7 @@ BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake
       "their amplitudes of both colours, and each fit's error")                                              \
     K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
     K("fibre-table", bake_fibre_table, 0, 0, 16, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
-    K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                          \
+    K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                              \
       "R and T of the solved slab of fibres; -p density of LOBE fibre")
 
 /* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and

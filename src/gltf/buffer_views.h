@@ -1,6 +1,6 @@
-/* buffer.h - buffers and the views into them */
-#ifndef WEFT_GLTF_BUFFER_H
-#define WEFT_GLTF_BUFFER_H
+/* buffer_views.h - buffers and the views into them */
+#ifndef WEFT_GLTF_BUFFER_VIEWS_H
+#define WEFT_GLTF_BUFFER_VIEWS_H
 
 #include "gltf/asset.h"
 

@@ -1,6 +1,6 @@
-/* path.h - the light along one camera ray */
-#ifndef WEFT_TRACE_PATH_H
-#define WEFT_TRACE_PATH_H
+/* path_radiance.h - the light along one camera ray */
+#ifndef WEFT_TRACE_PATH_RADIANCE_H
+#define WEFT_TRACE_PATH_RADIANCE_H
 
 #include "scene/material.h"
 #include "shading/kind.h"

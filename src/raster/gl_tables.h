@@ -1,6 +1,6 @@
-/* tables.h - the tables of a text as one array texture */
-#ifndef WEFT_RASTER_TABLES_H
-#define WEFT_RASTER_TABLES_H
+/* gl_tables.h - the tables of a text as one array texture */
+#ifndef WEFT_RASTER_GL_TABLES_H
+#define WEFT_RASTER_GL_TABLES_H
 
 #include "text/text.h"
 

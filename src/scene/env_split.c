@@ -1,4 +1,4 @@
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 
 #include <stdlib.h>
 #include <string.h>

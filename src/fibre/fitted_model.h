@@ -1,4 +1,4 @@
-/* model.h - the closed forms of light scattered more than once that shading/fibre_model.h evaluates, and
+/* fitted_model.h - the closed forms of light scattered more than once that shading/fibre_model.h evaluates, and
  * their fit
  *
  *   M = exp(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - nu_o nu_i) - sum_b p_b L_b(o, i))       [1/sr]
@@ -9,8 +9,8 @@
  * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
  * are found in stages, each on top of the last and without touching it: white of
  * alpha 0.19 and up, white of thinner fibres, density, nap, colour, colour of thinner fibres. */
-#ifndef WEFT_FIBRE_MODEL_H
-#define WEFT_FIBRE_MODEL_H
+#ifndef WEFT_FIBRE_FITTED_MODEL_H
+#define WEFT_FIBRE_FITTED_MODEL_H
 
 #include <stdio.h>
 

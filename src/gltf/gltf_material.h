@@ -1,6 +1,6 @@
-/* material.h - glTF materials into the scene's table of inputs */
-#ifndef WEFT_GLTF_MATERIAL_H
-#define WEFT_GLTF_MATERIAL_H
+/* gltf_material.h - glTF materials into the scene's table of inputs */
+#ifndef WEFT_GLTF_GLTF_MATERIAL_H
+#define WEFT_GLTF_GLTF_MATERIAL_H
 
 #include "gltf/asset.h"
 

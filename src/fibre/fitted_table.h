@@ -1,10 +1,10 @@
-/* table.h - the functions A, h, g and k of shading/lobes/fibre_table.h at the nodes of a small table
+/* fitted_table.h - the functions A, h, g and k of shading/lobes/fibre_table.h at the nodes of a small table
  *
  * Of white fibres that stand upright, of density 1. Columns are uniform in the root of mu + 0.001,
  * rows in the logarithm of alpha; between nodes all four are mixed linearly, and the fit is of what is mixed.
  * It starts from shading/fibre_model.h, which is to be baked first. */
-#ifndef WEFT_FIBRE_TABLE_H
-#define WEFT_FIBRE_TABLE_H
+#ifndef WEFT_FIBRE_FITTED_TABLE_H
+#define WEFT_FIBRE_FITTED_TABLE_H
 
 #include "fibre/fit.h"
 

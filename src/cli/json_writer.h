@@ -1,9 +1,9 @@
-/* json.h - writing one JSON value to a stream
+/* json_writer.h - writing one JSON value to a stream
  *
  * Keys are NULL inside arrays and at the top. Texts may hold any bytes: what is not UTF-8 becomes U+FFFD.
  * Numbers that JSON cannot say become null. */
-#ifndef WEFT_CLI_JSON_H
-#define WEFT_CLI_JSON_H
+#ifndef WEFT_CLI_JSON_WRITER_H
+#define WEFT_CLI_JSON_WRITER_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/* watch.h - a long parallel loop whose caller is told how far it is, and can stop it */
-#ifndef WEFT_MEASURE_WATCH_H
-#define WEFT_MEASURE_WATCH_H
+/* progress_loop.h - a long parallel loop whose caller is told how far it is, and can stop it */
+#ifndef WEFT_MEASURE_PROGRESS_LOOP_H
+#define WEFT_MEASURE_PROGRESS_LOOP_H
 
 #include <stdatomic.h>
 #include <stdbool.h>

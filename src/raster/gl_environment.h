@@ -1,4 +1,4 @@
-/* environment.h - the environment of a scene in the driver's memory, filtered for shading/ambient.h
+/* gl_environment.h - the environment of a scene in the driver's memory, filtered for shading/ambient.h
  *
  *   environment_text(&text);                          before it includes shading/ambient.h
  *   environment_program(program, cube, block);        once a program: its unit and its block's binding
@@ -6,10 +6,10 @@
  *   environment_bind(env, cube, block);               once a frame
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_ENVIRONMENT_H
-#define WEFT_RASTER_ENVIRONMENT_H
+#ifndef WEFT_RASTER_GL_ENVIRONMENT_H
+#define WEFT_RASTER_GL_ENVIRONMENT_H
 
-#include "scene/ambient.h"
+#include "scene/env_split.h"
 #include "text/text.h"
 
 enum { ENVIRONMENT_LEVELS = 7, ENVIRONMENT_SIDE = 256 };
