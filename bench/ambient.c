@@ -115,10 +115,10 @@ static void prepare_draws(Map *map) {
 }
 
 /* What ambient.h asks for, in a pixel's frame. */
-typedef struct Look {
+typedef struct PixelView {
     const Map *map;
     const Pixel *pixel;
-} Look;
+} PixelView;
 
 enum { LOOKS = 128 };
 
@@ -142,12 +142,12 @@ static Rgb look_about(const WeftImage *image, Vec3 z, float kappa) {
     return rgb_scale(sum, 1.0f / LOOKS);
 }
 static Rgb look_radiance(const void *user, Dir w, float kappa) {
-    const Look *look = user;
+    const PixelView *look = user;
     const WeftImage *image = kappa < 40.0f ? &look->map->small : &look->map->environment.image;
     return look_about(image, to_world(look->pixel, w), kappa);
 }
 static Rgb look_irradiance(const void *user, Dir w) {
-    const Look *look = user;
+    const PixelView *look = user;
     float p[AMBIENT_TERMS], c[3] = {0.0f, 0.0f, 0.0f};
     ambient_polynomials(to_world(look->pixel, w), p);
     for (int k = 0; k < AMBIENT_TERMS; k++)
@@ -155,13 +155,13 @@ static Rgb look_irradiance(const void *user, Dir w) {
     return rgb(max(c[0], 0.0f), max(c[1], 0.0f), max(c[2], 0.0f));
 }
 static Rgb look_rest(const void *user, Dir w, float kappa) {
-    const Look *look = user;
+    const PixelView *look = user;
     float c[3];
     ambient_rest_about(&look->map->parts, to_world(look->pixel, w), kappa, c);
     return rgb(c[0], c[1], c[2]);
 }
 static AmbientLight look_light(const void *user, int k) {
-    const Look *look = user;
+    const PixelView *look = user;
     const EnvLight *light = &look->map->parts.env_lights[k];
     return (AmbientLight){to_local(look->pixel, light->direction),
                           rgb(light->color[0], light->color[1], light->color[2])};
@@ -323,7 +323,7 @@ static void measure(void *user, int item, int thread) {
             if (x.pdf > 0.0f) draws[count++] = (Draw2){i, x.f_cos.g, x.pdf};
         }
         for (int k = 0; k < map_count; k++) {
-            Look look = {&maps[k], p};
+            PixelView look = {&maps[k], p};
             AmbientSourceCalls calls = {look_radiance,
                                         look_irradiance,
                                         look_rest,

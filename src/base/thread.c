@@ -16,22 +16,22 @@ int thread_count(void) {
     return count < 1 ? 1 : count > WEFT_THREADS_MAX ? WEFT_THREADS_MAX : count;
 }
 
-typedef struct Loop {
+typedef struct ThreadLoop {
     void (*body)(void *, int, int);
     void *user;
     atomic_int next;
     int items;
-} Loop;
+} ThreadLoop;
 
 typedef struct Worker {
-    Loop *loop;
+    ThreadLoop *loop;
     int thread;
     pthread_t handle;
 } Worker;
 
 static void *work(void *argument) {
     Worker *worker = argument;
-    Loop *loop = worker->loop;
+    ThreadLoop *loop = worker->loop;
     for (int item; (item = atomic_fetch_add(&loop->next, 1)) < loop->items;)
         loop->body(loop->user, item, worker->thread);
     return NULL;
@@ -41,7 +41,7 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
     if (threads <= 0) threads = thread_count();
     if (threads > WEFT_THREADS_MAX) threads = WEFT_THREADS_MAX;
     if (threads > items) threads = items;
-    Loop loop = {.body = body, .user = user, .items = items};
+    ThreadLoop loop = {.body = body, .user = user, .items = items};
     Worker workers[WEFT_THREADS_MAX];
     int started = 0; /* a thread that cannot start is no loss: the others take its items */
     for (int t = 1; t < threads; t++) {

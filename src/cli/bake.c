@@ -48,7 +48,7 @@ int bake_progress(void *progress, double fraction) {
 }
 
 /* What a command line asks for. */
-typedef struct Bake {
+typedef struct BakeVerb {
     const Options *options;
     const WeftBakeKind *kind;
     BakeCommon common;
@@ -57,7 +57,7 @@ typedef struct Bake {
     WeftBakeInfo info;
     WeftImage table;
     double seconds;
-} Bake;
+} BakeVerb;
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
     (void)message;
@@ -110,7 +110,7 @@ static bool none_given(const Options *options, const char *const *names, const c
     return true;
 }
 
-static int bake_read(const Options *options, Bake *bake) {
+static int bake_read(const Options *options, BakeVerb *bake) {
     static const char *const others[] = {"--lobe", "--channel", "--max", "--rounds", NULL};
     static const char *const form[] = {"--axes", NULL}; /* where a kind has axes of its own */
     const WeftBakeKind *kind = kind_of_table(options->operands[0]);
@@ -141,7 +141,7 @@ static int bake_read(const Options *options, Bake *bake) {
     return result;
 }
 
-static int table_make(Bake *bake) {
+static int table_make(BakeVerb *bake) {
     WeftError error;
     const double started = now(), texels = (double)bake->desc.width * bake->desc.height;
     Progress progress = progress_start_count(bake->common.quiet, "texels", texels);
@@ -156,7 +156,7 @@ static int table_make(Bake *bake) {
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-static void warnings(const Bake *bake) {
+static void warnings(const BakeVerb *bake) {
     const WeftBakeInfo *info = &bake->info;
     if (bake->common.quiet) return;
     if (info->unmet)
@@ -166,7 +166,7 @@ static void warnings(const Bake *bake) {
         report(0, "warning: %lld texels are beyond the range of a parameter, and hold its end", info->beyond);
 }
 
-static int files_write(const Bake *bake) {
+static int files_write(const BakeVerb *bake) {
     char elements[WEFT_TABLE_FORM_TEXT], about[384];
     char *command = command_text(bake->options);
     int cursor = 0, result = command ? 0 : report(WEFT_RESOURCES, "out of memory");
@@ -188,7 +188,7 @@ static int files_write(const Bake *bake) {
     return result;
 }
 
-static void json_write(const Bake *bake) {
+static void json_write(const BakeVerb *bake) {
     const WeftBakeInfo *info = &bake->info;
     char elements[WEFT_TABLE_FORM_TEXT];
     int cursor = 0;
@@ -214,7 +214,7 @@ static void json_write(const Bake *bake) {
 }
 
 static int table_run(const Options *options) {
-    Bake bake = {0};
+    BakeVerb bake = {0};
     int cursor = 0, result = bake_read(options, &bake);
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
         result = output_probe(path); /* before minutes of quadrature */

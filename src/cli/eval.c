@@ -18,12 +18,12 @@
 enum { LINE_MOST = 4095, CHUNK = 1 << 18, BATCH = 1024 };
 
 /* Lines that wait for their answers. A line of --albedo has its cosine in o[2]. */
-typedef struct Batch {
+typedef struct EvalBatch {
     size_t n;
     float o[3][BATCH], i[3][BATCH];
     float f[3][BATCH], pdf[BATCH];
     char text[BATCH * 4 * DECIMAL_SIZE];
-} Batch;
+} EvalBatch;
 
 /* Exactly count finite numbers separated by blanks and tabs, with at most one comma among them. */
 static bool line_numbers(const char *text, int count, double *numbers) {
@@ -47,27 +47,27 @@ static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
 }
 
 /* What is done with lines: numbers taken in, then all answered. */
-typedef struct Task {
-    const char *form;                                  /* of a line */
-    int count;                                         /* numbers in it */
-    bool (*take)(Batch *batch, const double *numbers); /* false: not what they should be */
-    void (*answer)(Batch *batch, const WeftLobe *lobe, bool json);
-} Task;
+typedef struct EvalTask {
+    const char *form;                                      /* of a line */
+    int count;                                             /* numbers in it */
+    bool (*take)(EvalBatch *batch, const double *numbers); /* false: not what they should be */
+    void (*answer)(EvalBatch *batch, const WeftLobe *lobe, bool json);
+} EvalTask;
 
-static bool take_angles(Batch *batch, const double *numbers) {
+static bool take_angles(EvalBatch *batch, const double *numbers) {
     direction(numbers[0], numbers[1], batch->o, batch->n);
     direction(numbers[2], numbers[3], batch->i, batch->n);
     batch->n++;
     return true;
 }
 
-static bool take_cosine(Batch *batch, const double *numbers) {
+static bool take_cosine(EvalBatch *batch, const double *numbers) {
     if (!(numbers[0] > 0.0 && numbers[0] <= 1.0)) return false;
     batch->o[2][batch->n++] = (float)numbers[0];
     return true;
 }
 
-static void answer_eval(Batch *batch, const WeftLobe *lobe, bool as_json) {
+static void answer_eval(EvalBatch *batch, const WeftLobe *lobe, bool as_json) {
     WeftDirections wo = {batch->o[0], batch->o[1], batch->o[2]}, wi = {batch->i[0], batch->i[1], batch->i[2]};
     WeftColors colors = {batch->f[0], batch->f[1], batch->f[2]};
     weft_eval_n(lobe, batch->n, wo, wi, colors, NULL);
@@ -93,7 +93,7 @@ static void answer_eval(Batch *batch, const WeftLobe *lobe, bool as_json) {
     fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
 }
 
-static void answer_albedo(Batch *batch, const WeftLobe *lobe, bool as_json) {
+static void answer_albedo(EvalBatch *batch, const WeftLobe *lobe, bool as_json) {
     weft_albedo_n(lobe, batch->n, batch->o[2], (WeftColors){batch->f[0], batch->f[1], batch->f[2]}, NULL);
     char *text = batch->text;
     for (size_t k = 0; k < batch->n; k++) {
@@ -114,20 +114,21 @@ static void answer_albedo(Batch *batch, const WeftLobe *lobe, bool as_json) {
     fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
 }
 
-static const Task task_eval = {"theta_o phi_o theta_i phi_i", 4, take_angles, answer_eval};
-static const Task task_albedo = {"a cosine in (0, 1]", 1, take_cosine, answer_albedo};
+static const EvalTask task_eval = {"theta_o phi_o theta_i phi_i", 4, take_angles, answer_eval};
+static const EvalTask task_albedo = {"a cosine in (0, 1]", 1, take_cosine, answer_albedo};
 
 /* A file as it is read. */
-typedef struct Lines {
+typedef struct NumberLines {
     const char *name;
     int file;
     long long count; /* of lines so far */
     size_t held;     /* bytes in chunk */
     char chunk[CHUNK + 1];
-} Lines;
+} NumberLines;
 
 /* One line, a zero at its end. */
-static int take_line(const Lines *lines, const char *line, size_t length, Batch *batch, const Task *task) {
+static int take_line(const NumberLines *lines, const char *line, size_t length, EvalBatch *batch,
+                     const EvalTask *task) {
     double numbers[4];
     bool marked = lines->count == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0; /* U+FEFF, from a spreadsheet */
     if (length > LINE_MOST || strlen(line) != length)
@@ -142,7 +143,8 @@ static int take_line(const Lines *lines, const char *line, size_t length, Batch 
 
 /* The whole lines of the chunk, answered whenever the batch is full and at the end. What is left of the chunk
  * goes to its front. */
-static int take_chunk(Lines *lines, Batch *batch, const Task *task, const WeftLobe *lobe, bool json) {
+static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
+                      bool json) {
     int result = 0;
     char *line = lines->chunk, *last = lines->chunk + lines->held, *end;
     while (result == 0 && !ferror(stdout) && (end = memchr(line, '\n', (size_t)(last - line)))) {
@@ -162,7 +164,8 @@ static int take_chunk(Lines *lines, Batch *batch, const Task *task, const WeftLo
 }
 
 /* Answers what has arrived before it waits for more. */
-static int eval_lines(Lines *lines, Batch *batch, const Task *task, const WeftLobe *lobe, bool json) {
+static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
+                      bool json) {
     int result = 0;
     ssize_t got = 1;
     while (result == 0 && got > 0 && !ferror(stdout)) { /* a failed output is for main to report */
@@ -194,8 +197,8 @@ static int eval_run(const Options *options) {
     if (file < 0)
         return report(WEFT_INPUT, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_OPEN),
                       strerror(errno));
-    Lines *lines = calloc(1, sizeof *lines);
-    Batch *batch = calloc(1, sizeof *batch);
+    NumberLines *lines = calloc(1, sizeof *lines);
+    EvalBatch *batch = calloc(1, sizeof *batch);
     if (lines && batch) {
         lines->name = piped ? "standard input" : path;
         lines->file = file;

@@ -201,21 +201,21 @@ static int pair_run(Match *match) {
 }
 
 /* What a run is for, how many operands that has, and which options go with it. */
-typedef struct Mode {
+typedef struct MatchMode {
     const char *option; /* that asks for it; NULL: none does */
     int operands;
     const char *needs;
     const char *with[5]; /* beside --json and --metric */
-} Mode;
+} MatchMode;
 
-static const Mode modes[] = {{"--table", 0, "takes no names", {NULL}},
-                             {"--maps", 0, "takes no names", {NULL}},
-                             {"--to", 1, "needs one asset, a .gltf or .glb", {"--from", "-o", NULL}},
-                             {"--workflow", 1, "needs one asset, a .gltf or .glb", {"-o", NULL}},
-                             {NULL, 2, "match needs two names, FROM and TO", {"--hold", "-o", NULL}}};
+static const MatchMode modes[] = {{"--table", 0, "takes no names", {NULL}},
+                                  {"--maps", 0, "takes no names", {NULL}},
+                                  {"--to", 1, "needs one asset, a .gltf or .glb", {"--from", "-o", NULL}},
+                                  {"--workflow", 1, "needs one asset, a .gltf or .glb", {"-o", NULL}},
+                                  {NULL, 2, "match needs two names, FROM and TO", {"--hold", "-o", NULL}}};
 enum { MODES = sizeof modes / sizeof *modes };
 
-static bool goes_with(const Mode *mode, const char *option) {
+static bool goes_with(const MatchMode *mode, const char *option) {
     bool good = mode->option && strcmp(mode->option, option) == 0;
     for (int k = 0; mode->with[k]; k++) good |= strcmp(mode->with[k], option) == 0;
     return good;

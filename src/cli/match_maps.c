@@ -26,10 +26,10 @@ typedef struct Maps {
 } Maps;
 
 /* p' = a p^b, colour' = c colour p^d: straight lines between logarithms, by least squares. */
-typedef struct Formula {
+typedef struct MapFormula {
     double a, b, c, d;
     double matched, worst; /* mean error of the matches; the most that the formula adds to one */
-} Formula;
+} MapFormula;
 
 /* A sheen of one colour whose first parameter is a width. */
 static int is_sheen(int lobe) {
@@ -80,9 +80,9 @@ static void power_law(const double *x, const double *y, double *a, double *b) {
     *a = exp((sy - *b * sx) / n);
 }
 
-static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric, Formula *out) {
+static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric, MapFormula *out) {
     double x[SWEEP], y[SWEEP], z[SWEEP];
-    *out = (Formula){.worst = 0.0};
+    *out = (MapFormula){.worst = 0.0};
     for (int k = 0; k < SWEEP; k++) {
         const WeftMatchJob *job = job_of(maps, from, to, k);
         x[k] = (double)maps->source[from][k].params[0];
@@ -110,7 +110,7 @@ static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric,
     return 0;
 }
 
-static void text_write(const Maps *maps, int from, int to, const Formula *f) {
+static void text_write(const Maps *maps, int from, int to, const MapFormula *f) {
     const WeftLobeInfo *a = weft_lobe_info(maps->lobes[from]), *b = weft_lobe_info(maps->lobes[to]);
     printf("%-27s %-27s %7.4f  ", a->id, b->id, f->matched);
     if (f->worst <= good_enough) {
@@ -124,7 +124,7 @@ static void text_write(const Maps *maps, int from, int to, const Formula *f) {
     printf("\n");
 }
 
-static void json_write(Json *json, const Maps *maps, int from, int to, const Formula *f) {
+static void json_write(Json *json, const Maps *maps, int from, int to, const MapFormula *f) {
     json_open(json, NULL, '{');
     json_text(json, "from", weft_lobe_info(maps->lobes[from])->id);
     json_text(json, "to", weft_lobe_info(maps->lobes[to])->id);
@@ -160,7 +160,7 @@ static int write_all(const Maps *maps, WeftBrdfMetric metric, bool as_json) {
         printf("%-27s %-27s %7s  %s\n", "from", "to", weft_brdf_metric_name(metric),
                "formula, and what it adds at worst; or FROM:TO");
     for (int j = 0; j < maps->count * maps->count && result == 0; j++) {
-        Formula formula;
+        MapFormula formula;
         int from = j / maps->count, to = j % maps->count;
         if (from == to) continue;
         result = formula_of(maps, from, to, metric, &formula);

@@ -12,13 +12,13 @@
 
 enum { PROFILES_MOST = 32 };
 
-typedef struct Table {
+typedef struct MatchTable {
     int count;
     Model from[PROFILES_MOST];
     WeftMatchJob *jobs; /* [from][to] */
-} Table;
+} MatchTable;
 
-static int prepare(Table *table) {
+static int prepare(MatchTable *table) {
     char typed[64];
     int result = 0;
     for (; result == 0 && weft_profile_id(table->count) && table->count < PROFILES_MOST; table->count++) {
@@ -41,7 +41,8 @@ static int prepare(Table *table) {
 }
 
 /* What changed, in the order of the inputs. */
-static void changes_text(const Table *table, int from, const WeftMatchJob *job, char *text, size_t size) {
+static void changes_text(const MatchTable *table, int from, const WeftMatchJob *job, char *text,
+                         size_t size) {
     const WeftMaterial *was = &table->from[from].material;
     WeftInputInfo info;
     size_t used = 0;
@@ -54,7 +55,7 @@ static void changes_text(const Table *table, int from, const WeftMatchJob *job, 
     }
 }
 
-static void text_write(const Table *table, WeftBrdfMetric metric) {
+static void text_write(const MatchTable *table, WeftBrdfMetric metric) {
     char text[300];
     printf("%-14s %-14s %7s %7s  %s\n", "from", "to", "copied", "matched", weft_brdf_metric_name(metric));
     for (int k = 0; k < table->count * table->count; k++) {
@@ -67,7 +68,7 @@ static void text_write(const Table *table, WeftBrdfMetric metric) {
     }
 }
 
-static void json_write(const Table *table, WeftBrdfMetric metric) {
+static void json_write(const MatchTable *table, WeftBrdfMetric metric) {
     Json json = {.stream = stdout};
     WeftInputInfo info;
     json_open(&json, NULL, '{');
@@ -92,7 +93,7 @@ static void json_write(const Table *table, WeftBrdfMetric metric) {
     json_close(&json, '}');
 }
 
-static int match_all(Table *table, WeftBrdfMetric metric) {
+static int match_all(MatchTable *table, WeftBrdfMetric metric) {
     WeftError error;
     int count = table->count * table->count;
     Progress progress = progress_start_count(false, "matches", count);
@@ -104,7 +105,7 @@ static int match_all(Table *table, WeftBrdfMetric metric) {
 }
 
 int match_table(const Options *options, WeftBrdfMetric metric) {
-    Table table = {.count = 0};
+    MatchTable table = {.count = 0};
     int result = prepare(&table);
     if (result == 0) result = match_all(&table, metric);
     if (result == 0 && option_given(options, "--json"))

@@ -15,21 +15,23 @@ static void escaped(FILE *f, const char *text) {
 }
 
 /* A plot: x runs over [0, 1], y over [0, top]. */
-typedef struct Plot {
+typedef struct PassportPlot {
     FILE *stream;
     double top;
     int curves, of; /* drawn so far, and to be drawn: colours run from violet to yellow-green */
-} Plot;
+} PassportPlot;
 
 enum { LEFT = 46, TOP = 26, WIDE = 330, HIGH = 200, KEY = 150 };
 
 static double plot_x(double x) { return LEFT + WIDE * x; }
-static double plot_y(const Plot *plot, double y) { return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0)); }
+static double plot_y(const PassportPlot *plot, double y) {
+    return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0));
+}
 
 /* What is above 1 is shaded; what is no number runs along the top. */
-static Plot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
+static PassportPlot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
     double steps[] = {1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0};
-    Plot plot = {.stream = f, .top = most < 1e6 ? most : 1e6, .of = of};
+    PassportPlot plot = {.stream = f, .top = most < 1e6 ? most : 1e6, .of = of};
     for (int k = 7; k >= 0; k--)
         if (steps[k] > most) plot.top = steps[k];
     fprintf(f, "<svg viewBox=\"0 0 %d %d\" width=\"%d\" role=\"img\"><title>%s</title>\n", LEFT + WIDE + KEY,
@@ -50,7 +52,7 @@ static Plot plot_open(FILE *f, const char *title, const char *x_name, double mos
 }
 
 /* One curve and its line of the key. */
-static void plot_curve(Plot *plot, const float *x, const float *y, int count, const char *name) {
+static void plot_curve(PassportPlot *plot, const float *x, const float *y, int count, const char *name) {
     int hue = 280 - 220 * plot->curves / (plot->of > 1 ? plot->of - 1 : 1), key = TOP + 8 + 15 * plot->curves;
     fprintf(plot->stream, "<polyline class=\"curve\" stroke=\"hsl(%d,70%%,42%%)\" points=\"", hue);
     for (int k = 0; k < count; k++)
@@ -63,7 +65,7 @@ static void plot_curve(Plot *plot, const float *x, const float *y, int count, co
     plot->curves++;
 }
 
-static void plot_close(Plot *plot) { fprintf(plot->stream, "</svg>\n"); }
+static void plot_close(PassportPlot *plot) { fprintf(plot->stream, "</svg>\n"); }
 
 static void row_name(const WeftPassport *p, int row, char *name, size_t size) {
     if (*p->parameter)
@@ -74,7 +76,7 @@ static void row_name(const WeftPassport *p, int row, char *name, size_t size) {
 
 static void draw_albedo(FILE *f, const WeftPassport *p, const char *title,
                         const float cells[][WEFT_PASSPORT_COSINES]) {
-    Plot plot = plot_open(f, title, "cos_o", (double)p->albedo_most, p->rows);
+    PassportPlot plot = plot_open(f, title, "cos_o", (double)p->albedo_most, p->rows);
     for (int row = 0; row < p->rows; row++) {
         char name[96];
         row_name(p, row, name, sizeof name);
@@ -91,7 +93,7 @@ static void draw_furnace(FILE *f, const WeftPassport *p) {
         for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) most = fmaxf(most, p->furnace[layer][middle][v]);
     snprintf(title, sizeof title, "White furnace over white Lambert, roughness %g",
              (double)p->sheens[middle]);
-    Plot plot = plot_open(f, title, "cos_o", (double)most, p->layers);
+    PassportPlot plot = plot_open(f, title, "cos_o", (double)most, p->layers);
     for (int layer = 0; layer < p->layers; layer++)
         plot_curve(&plot, p->views, p->furnace[layer][middle], WEFT_PASSPORT_VIEWS, weft_layer_id(layer));
     plot_close(&plot);
@@ -108,7 +110,7 @@ static void draw_variance(FILE *f, const WeftPassport *p) {
         most = fmaxf(most, fmaxf(own[v], by_cosine[v]));
     }
     snprintf(title, sizeof title, "Deviation of f cos / pdf, %s", name);
-    Plot plot = plot_open(f, title, "cos_o", (double)most, 2);
+    PassportPlot plot = plot_open(f, title, "cos_o", (double)most, 2);
     plot_curve(&plot, p->views, own, WEFT_PASSPORT_VIEWS, "its own sampling");
     plot_curve(&plot, p->views, by_cosine, WEFT_PASSPORT_VIEWS, "the cosine's");
     plot_close(&plot);

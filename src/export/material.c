@@ -19,7 +19,7 @@ typedef struct Rule {
 #define RULE(id, index, base, conserves, help) {id, #base},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
-typedef struct Model {
+typedef struct ExportModel {
     Material material;
     Surface surface;
     Choices choices;
@@ -28,7 +28,7 @@ typedef struct Model {
     bool one_layer, chosen; /* its rule is the same for all surfaces; a choice is made beside its profile */
     CompositionSlots slots;
     AlbedoTable *table; /* of its sheen, NULL: none is asked for */
-} Model;
+} ExportModel;
 
 /* The ids of a list as a choice has them. */
 static WeftResult find_profile(const char *id, Material *out, WeftError *error) {
@@ -46,7 +46,7 @@ static WeftResult find_profile(const char *id, Material *out, WeftError *error) 
 static bool is_walk(int lobe) { return lobe >= 0 && weft_lobe_info(lobe)->traits & WEFT_LOBE_REFERENCE; }
 
 /* Inputs of a material that are nothing and stay so; of a profile all may be something. */
-static void find_zeros(const Draft *draft, Model *model) {
+static void find_zeros(const Draft *draft, ExportModel *model) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input *input = &model->material.inputs[k];
         bool number = input_infos[k].kind == INPUT_SCALAR || input_infos[k].kind == INPUT_COLOR;
@@ -58,7 +58,7 @@ static void find_zeros(const Draft *draft, Model *model) {
 }
 
 /* What all surfaces have in common: facts for the conditions of the text. */
-static void find_facts(Draft *draft, Model *model) {
+static void find_facts(Draft *draft, ExportModel *model) {
     const Choices *c = &model->choices;
     Stack m[3];
     for (int x = 0; x < 3; x++) {
@@ -95,7 +95,7 @@ static void find_facts(Draft *draft, Model *model) {
     SURFACE_CHOICES(CHOICE_MADE)
 }
 
-static WeftResult find_model(Draft *draft, Model *model, WeftError *error) {
+static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error) {
     const WeftExportDesc *desc = draft->desc;
     WeftResult result = WEFT_OK;
     if (desc->profile) result = find_profile(desc->profile, &model->material, error);
@@ -114,13 +114,13 @@ static WeftResult find_model(Draft *draft, Model *model, WeftError *error) {
 }
 
 /* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
-static bool needs_e(const Model *model) {
+static bool needs_e(const ExportModel *model) {
     const Stack *m = &model->stack;
     return model->slots.slots[2].count &&
            (!model->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
 }
 
-static bool needs_table(const Model *model) {
+static bool needs_table(const ExportModel *model) {
     return needs_e(model) && (model->stack.albedo == ALBEDO_TABLE || model->stack.albedo == ALBEDO_KHRONOS);
 }
 
@@ -164,7 +164,7 @@ static void put_value(Text *text, const Surface *s, int k) {
     SURFACE_INPUTS(VALUE)
 }
 
-static void put_surface(Draft *draft, const Model *model) {
+static void put_surface(Draft *draft, const ExportModel *model) {
     text_line(&draft->text,
               "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
               "{\n    Surface s;",
@@ -175,7 +175,7 @@ static void put_surface(Draft *draft, const Model *model) {
     draft_root(draft, "%s_surface", draft->id[0]);
 }
 
-static void put_shade(Draft *draft, const Model *model) {
+static void put_shade(Draft *draft, const ExportModel *model) {
     Text *text = &draft->text;
     bool coat = model->slots.slots[3].count > 0;
     text_line(text,
@@ -209,7 +209,7 @@ static void put_shade(Draft *draft, const Model *model) {
     draft_root(draft, "%s_shade", draft->id[0]);
 }
 
-static void put_text(Draft *draft, Model *model) {
+static void put_text(Draft *draft, ExportModel *model) {
     Text *text = &draft->text;
     TableRef e = {.kind = TABLE_NONE};
     if (model->table) e = albedo_table_ref(model->table);
@@ -225,7 +225,7 @@ static void put_text(Draft *draft, Model *model) {
 }
 
 WeftResult draft_material(Draft *draft, WeftError *error) {
-    Model model = {0};
+    ExportModel model = {0};
     WeftResult result = find_model(draft, &model, error);
     if (result != WEFT_OK) return result;
     if (needs_table(&model)) {

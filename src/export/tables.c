@@ -24,9 +24,9 @@ static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
 }
 
 /* What a texel of 16 bits, 0 to 1, is multiplied by, and what is added: powers of two, or 1 and 0. */
-typedef struct Range {
+typedef struct TableRange {
     float scale, offset;
-} Range;
+} TableRange;
 
 static float power_above(float x) {
     float power = 1.0f;
@@ -34,16 +34,16 @@ static float power_above(float x) {
     return power;
 }
 
-static Range table_range(const Draft *draft, int k) {
+static TableRange table_range(const Draft *draft, int k) {
     const TextTable *t = &draft->tables->all[k];
     float low = 0.0f, high = 0.0f;
-    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft, k)) return (Range){1.0f, 0.0f};
+    if (draft->desc->lut != WEFT_EXPORT_LUT_PNG16 || in_text(draft, k)) return (TableRange){1.0f, 0.0f};
     for (int n = 0; n < t->rows * t->columns; n++) {
         low = fminf(low, t->texels[n]);
         high = fmaxf(high, t->texels[n]);
     }
     float offset = low < 0.0f ? -power_above(-low) : 0.0f;
-    return (Range){power_above(high - offset), offset};
+    return (TableRange){power_above(high - offset), offset};
 }
 
 static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
@@ -115,7 +115,7 @@ static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
     const char *f = target == WEFT_EXPORT_C ? "f" : "";
     bool wgsl = target == WEFT_EXPORT_WGSL, beside = !in_text(draft, k);
     char line[32];
-    Range range = table_range(draft, k);
+    TableRange range = table_range(draft, k);
     snprintf(line, sizeof line, "    if (t == %d) %s", k, wgsl ? "{ " : "");
     buffer_put_text(out, last ? "    " : line);
     buffer_put_text(out, "return ");
@@ -172,7 +172,7 @@ WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) 
         WeftExportTable *table = &out->tables[out->table_count];
         char name[SPELL_NAME];
         snprintf(table->name, sizeof table->name, "%.95s", table_name(draft, k, name));
-        const Range range = table_range(draft, k);
+        const TableRange range = table_range(draft, k);
         table->scale = range.scale;
         table->offset = range.offset;
         WeftResult result =

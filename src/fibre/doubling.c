@@ -9,22 +9,22 @@
 /* Inside, a kernel has sqrt(c) of the nodes multiplied into its rows and columns, 1 for passengers: then the
  * product over the quadrature, A diag(c) B, is a plain one over the first `nodes` columns of A and rows of B.
  * All matrices are symmetric or stored by columns. */
-typedef struct Layers {
+typedef struct SlabLayers {
     int nodes, total;
     double *r, *t;  /* diffuse parts of one layer */
     double *direct; /* e^(-lambda h): what goes through untouched */
     double *rr, *d, *u;
-} Layers;
+} SlabLayers;
 
 /* C = A B + keep C over the quadrature. */
-static bool product(const Layers *m, const double *a, const double *b, double keep, double *c) {
+static bool product(const SlabLayers *m, const double *a, const double *b, double keep, double *c) {
     return matrix_product(m->total, m->total, m->nodes, 1.0, (Matrix){a, 1, m->total},
                           (Matrix){b, 1, m->total}, keep, c, m->total);
 }
 
 /* Exact single scattering of a layer of depth h:
  *   r = K (1 - e^{-(li + lj) h}) / (li + lj),   t = K (e^{-li h} - e^{-lj h}) / (lj - li). */
-static void thin_layer(const Layers *m, const Doubling *slab, const double *root, double h) {
+static void thin_layer(const SlabLayers *m, const Doubling *slab, const double *root, double h) {
     int n = m->total;
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) {
@@ -40,7 +40,7 @@ static void thin_layer(const Layers *m, const Doubling *slab, const double *root
 /* Two equal layers, one on the other:
  *   d = (1 - r r)^-1 (t + r r e)   light that goes down between them, u = r e + r d what comes up,
  *   r <- r + e u + t u,   t <- e d + t e + t d,   e <- e^2. */
-static bool join(Layers *m) {
+static bool join(SlabLayers *m) {
     int n = m->total;
     if (!product(m, m->r, m->r, 0.0, m->rr)) return false;
     for (int j = 0; j < n; j++)
@@ -74,7 +74,7 @@ static bool join(Layers *m) {
     return true;
 }
 
-static void keep(const Layers *m, const double *root, int level, const Layered *out) {
+static void keep(const SlabLayers *m, const double *root, int level, const Layered *out) {
     size_t n = (size_t)m->total, nodes = (size_t)m->nodes, guests = n - nodes;
     for (size_t i = 0; i < guests; i++) {
         const double *r = m->r + (nodes + i) * n, *t = m->t + (nodes + i) * n;
@@ -98,7 +98,7 @@ bool doubling_run(const Doubling *slab, double *r, double *t, const Layered *out
     double *block = alloc_array(3 * n * n + 2 * n, sizeof(double));
     if (!block) return false;
     double *root = block + 3 * n * n;
-    Layers m = {slab->nodes, slab->total, r, t, root + n, block, block + n * n, block + 2 * n * n};
+    SlabLayers m = {slab->nodes, slab->total, r, t, root + n, block, block + n * n, block + 2 * n * n};
     for (size_t i = 0; i < n; i++) root[i] = i < (size_t)slab->nodes ? sqrt(slab->c[i]) : 1.0;
     thin_layer(&m, slab, root, ldexp(slab->depth, -slab->halvings));
     bool done = true;

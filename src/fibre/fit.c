@@ -10,7 +10,7 @@
 
 /* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
  * places are summed in order, so that threads change nothing. */
-typedef struct Pass {
+typedef struct FitPass {
     const FitForm *form;
     const SolvedSet *set;
     FitEffort effort;
@@ -20,7 +20,7 @@ typedef struct Pass {
     bool slopes;
     double *cost, *gradient, *curvature; /* [slab], [slab][locals], [slab][locals^2] */
     bool failed;
-} Pass;
+} FitPass;
 
 static void theta_of(const FitForm *form, int slab, const double *coefficients, double *theta) {
     memcpy(theta, form->fixed[slab], (size_t)form->locals * sizeof *theta);
@@ -47,7 +47,7 @@ static bool add_rows(int rows, int n, const double *slope, const double *residua
  * sqrt(r^2 + e^2) / R: the direction's error. */
 static void slab_pass(void *user, int item, int thread) {
     (void)thread;
-    Pass *pass = user;
+    FitPass *pass = user;
     const FitForm *form = pass->form;
     const SolvedSlab *t = &pass->set->slabs[item];
     int n = form->movings;
@@ -111,7 +111,7 @@ static void slab_pass(void *user, int item, int thread) {
     free(block);
 }
 
-static double pass_run(Pass *pass, int threads) {
+static double pass_run(FitPass *pass, int threads) {
     double cost = 0.0;
     for (int k = 0; k < pass->form->coefficients; k++)
         cost += 0.5 * pass->effort.size * pass->coefficients[k] * pass->coefficients[k];
@@ -121,7 +121,7 @@ static double pass_run(Pass *pass, int threads) {
 }
 
 /* From theta to coefficients: H = sum B^T H_slab B, g = sum B^T g_slab, and what their size counts. */
-static void assemble(const Pass *pass, double *h, double *g) {
+static void assemble(const FitPass *pass, double *h, double *g) {
     const FitForm *form = pass->form;
     size_t n = (size_t)form->coefficients, m = (size_t)form->movings;
     memset(h, 0, n * n * sizeof *h);
@@ -162,7 +162,7 @@ static bool solve(int n, const double *h, const double *g, double damping, doubl
 
 /* Kenneth Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares", 1944, on
  * weights that make least squares of least absolute error. The softness sinks as the fit settles. */
-static bool descend(Pass *pass, int threads, SolveProgress progress, void *user, double *at, double *h,
+static bool descend(FitPass *pass, int threads, SolveProgress progress, void *user, double *at, double *h,
                     double *g, double *work, double *step) {
     int n = pass->form->coefficients, rounds = pass->effort.rounds;
     double damping = 1e-2, *next = step + n;
@@ -199,7 +199,7 @@ bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int th
     size_t n = (size_t)form->coefficients, m = (size_t)form->movings, slabs = (size_t)set->count;
     double *block = alloc_array(slabs * (1 + m + m * m) + 2 * n * n + 3 * n, sizeof(double));
     if (!block) return false;
-    Pass pass = {.form = form, .set = set, .effort = effort, .cost = block};
+    FitPass pass = {.form = form, .set = set, .effort = effort, .cost = block};
     pass.gradient = pass.cost + slabs;
     pass.curvature = pass.gradient + slabs * m;
     double *h = pass.curvature + slabs * m * m, *work = h + n * n, *g = work + n * n;

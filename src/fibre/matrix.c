@@ -10,12 +10,12 @@
  * time. Panels are copied together first, so that the loop reads straight on. Kazushige Goto, Robert van de
  * Geijn, "Anatomy of High-Performance Matrix Multiplication", ACM TOMS 34(3), 2008. */
 enum { TALL = 8, WIDE = 6, LANES = 4, BLOCK = 48 };
-typedef double Lanes __attribute__((vector_size(LANES * sizeof(double))));
+typedef double MatrixLanes __attribute__((vector_size(LANES * sizeof(double))));
 
 static void tile(int k, const double *restrict a, const double *restrict b, double sums[WIDE][TALL]) {
-    Lanes sum[WIDE][2] = {0};
+    MatrixLanes sum[WIDE][2] = {0};
     for (int p = 0; p < k; p++, a += TALL, b += WIDE) {
-        Lanes low, high;
+        MatrixLanes low, high;
         memcpy(&low, a, sizeof low);
         memcpy(&high, a + LANES, sizeof high);
         for (int j = 0; j < WIDE; j++) {

@@ -7,26 +7,37 @@
 #include "base/memory.h"
 
 /* A local number: a feature's factor in one of the parts, or an exponent p. */
-typedef enum Part { PART_A, PART_H, PART_G, PART_K, PART_P, PART_Q, PART_V, PART_U, PART_C, PARTS } Part;
+typedef enum ModelPart {
+    PART_A,
+    PART_H,
+    PART_G,
+    PART_K,
+    PART_P,
+    PART_Q,
+    PART_V,
+    PART_U,
+    PART_C,
+    PARTS
+} ModelPart;
 
 /* Numbers of one part and kind of feature, which depend on the material by polynomials: `degree[b][c]` is how
  * many powers of t go with the power b of the tilt's measure and the power c of l. */
 enum { POWERS = 3 };
-typedef enum Kind {
+typedef enum StageKind {
     UPRIGHT,
     THIN, /* multiplied by what vanishes from alpha_thin up, so that common cloth need not pay for fine fibres
            */
     NAP   /* features that vanish where fibres stand upright */
-} Kind;
-typedef struct Group {
-    Part part;
-    Kind kind;
+} StageKind;
+typedef struct CoefficientGroup {
+    ModelPart part;
+    StageKind kind;
     int first; /* of PART_P: which of the logarithms the first number multiplies */
     int count;
     int degree[POWERS][POWERS];
-} Group;
+} CoefficientGroup;
 
-static const Group groups[] = {
+static const CoefficientGroup groups[] = {
     {PART_A, UPRIGHT, 0, 9, {{8, 6, 4}}},
     {PART_H, UPRIGHT, 0, 5, {{6, 5, 3}}},
     {PART_G, UPRIGHT, 0, 7, {{6, 5, 3}}},
@@ -59,7 +70,7 @@ enum {
     LOCALS_MAX = 128
 };
 
-static FibreStage stage_of(const Group *g, int c) {
+static FibreStage stage_of(const CoefficientGroup *g, int c) {
     if (g->part >= PART_Q) return g->kind == THIN ? FIBRE_THIN_COLOR : FIBRE_COLOR;
     if (g->kind == NAP) return FIBRE_NAP;
     if (c) return FIBRE_DENSITY;
@@ -155,7 +166,7 @@ static const double *features_of(const Side *side, int group) {
 }
 
 /* The sums of features that make the parts of one direction. */
-static double part_value(const Side *side, Part part, const double *theta) {
+static double part_value(const Side *side, ModelPart part, const double *theta) {
     double sum = 0.0;
     for (int k = 0; k < GROUPS; k++) {
         if (groups[k].part != part) continue;
@@ -166,8 +177,8 @@ static double part_value(const Side *side, Part part, const double *theta) {
 }
 
 /* The derivatives by a part's numbers of sign (value_i value_j): sign (f_i value_j + f_j value_i). */
-static void part_slope(Part part, double sign, const Side *i, const Side *j, double value_i, double value_j,
-                       double *slope) {
+static void part_slope(ModelPart part, double sign, const Side *i, const Side *j, double value_i,
+                       double value_j, double *slope) {
     for (int k = 0; k < GROUPS; k++) {
         if (groups[k].part != part) continue;
         const double *fi = features_of(i, k), *fj = features_of(j, k);
@@ -182,7 +193,8 @@ typedef struct Sides {
     double *part[PARTS];
 } Sides;
 
-static bool sides_make(const SolvedSlab *reference, const double *theta, Part first, Part last, Sides *out) {
+static bool sides_make(const SolvedSlab *reference, const double *theta, ModelPart first, ModelPart last,
+                       Sides *out) {
     size_t n = (size_t)reference->sides;
     out->side = alloc_array(n, sizeof(Side));
     out->part[0] = alloc_array(n * PARTS, sizeof(double));
@@ -191,7 +203,7 @@ static bool sides_make(const SolvedSlab *reference, const double *theta, Part fi
     for (int k = 0; k < reference->sides; k++) {
         features(reference, k, &out->side[k]);
         for (int part = (int)first; part <= (int)last; part++)
-            out->part[part][k] = part_value(&out->side[k], (Part)part, theta);
+            out->part[part][k] = part_value(&out->side[k], (ModelPart)part, theta);
     }
     return true;
 }
@@ -331,7 +343,7 @@ static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficien
     int free_count = fibre_model_count(stage), movings = 0, place[LOCALS_MAX];
     for (int k = 0; k < locals; k++) place[k] = -1;
     for (int c = 0; c < n; c++) {
-        const Group *g = &groups[list[c].group];
+        const CoefficientGroup *g = &groups[list[c].group];
         int local = first_local(list[c].group) + list[c].number;
         if (stage_of(g, list[c].c) != stage || place[local] >= 0) continue;
         place[local] = movings;
@@ -344,7 +356,7 @@ static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficien
         int column = 0;
         for (int c = 0; c < n; c++) {
             const Coefficient *at = &list[c];
-            const Group *g = &groups[at->group];
+            const CoefficientGroup *g = &groups[at->group];
             if ((g->part >= PART_Q) != color) continue;
             int local = first_local(at->group) + at->number;
             double basis = basis_of(at, &set->slabs[k]);
@@ -483,14 +495,14 @@ static const char *const part_letters[PARTS] = {"a", "h", "g", "k", "p", "q", "v
 
 /* The name of a group's number; those of thin fibres begin with a t, those of nap with an n. */
 static void name_of(int group, int number, char name[16]) {
-    const Group *g = &groups[group];
+    const CoefficientGroup *g = &groups[group];
     static const char *const kinds[] = {"", "t", "n"};
     snprintf(name, 16, "%s%s%d", kinds[g->kind], part_letters[g->part], number);
 }
 
 /* exp and log of the form become exp2 and log2: exponents are scaled by log2 e, and factors of products by
  * its root. The p, which multiply logarithms, stay, and q belongs to a logistic of its own. */
-static double scale_of(Part part) {
+static double scale_of(ModelPart part) {
     const double log2_e = 1.44269504088896340736;
     if (part == PART_P) return 1.0;
     return part == PART_A || part == PART_Q ? log2_e : sqrt(log2_e);
@@ -576,7 +588,7 @@ static void write_number(FILE *file, const FibreModelFit *model, int group, int 
 }
 
 /* What the powers first .. last of l give to the numbers of one kind. */
-static void write_kind(FILE *file, const FibreModelFit *model, Kind kind, int first, int last) {
+static void write_kind(FILE *file, const FibreModelFit *model, StageKind kind, int first, int last) {
     char name[16];
     for (int g = 0; g < GROUPS; g++)
         for (int q = 0; groups[g].kind == kind && q < groups[g].count; q++) {

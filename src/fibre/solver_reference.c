@@ -12,7 +12,7 @@
 static const double pi = 3.14159265358979323846;
 enum { MODES = 5 };
 
-typedef struct Work {
+typedef struct SolveWork {
     const SolvedGrid *grid;
     SolvedSet *set;
     int runs; /* of the solver: one for each alpha, albedo and tilt */
@@ -20,19 +20,19 @@ typedef struct Work {
     void *user;
     int done;
     bool failed;
-} Work;
+} SolveWork;
 
 /* The sides of all slabs of one tilt, and all pairs. */
-typedef struct Layout {
+typedef struct SlabLayout {
     int sides, pairs;
     double *mu, *w, *phi;
     int *i, *j;
     double *share, *turn;
-} Layout;
+} SlabLayout;
 
 static int runs_of(const SolvedGrid *g) { return g->alphas * g->albedos * (g->tilts ? g->tilts : 1); }
 
-static bool upright(const Work *work, const Layout *at, const Slab *slab, SolvedSlab *slabs) {
+static bool upright(const SolveWork *work, const SlabLayout *at, const Slab *slab, SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *r = alloc_array((size_t)kept * (cells + (size_t)n), sizeof(double));
@@ -55,7 +55,8 @@ static bool upright(const Work *work, const Layout *at, const Slab *slab, Solved
     return done;
 }
 
-static bool leaning(const Work *work, const Layout *at, const Slab *slab, double tilt, SolvedSlab *slabs) {
+static bool leaning(const SolveWork *work, const SlabLayout *at, const Slab *slab, double tilt,
+                    SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *same = alloc_array((size_t)kept * (2 * cells + (size_t)n), sizeof(double));
@@ -81,15 +82,15 @@ static bool leaning(const Work *work, const Layout *at, const Slab *slab, double
     return done;
 }
 
-typedef struct Job {
-    Work *work;
-    const Layout *at;
-} Job;
+typedef struct SlabJob {
+    SolveWork *work;
+    const SlabLayout *at;
+} SlabJob;
 
 static void run(void *user, int item, int thread) {
     (void)thread;
-    Job *job = user;
-    Work *work = job->work;
+    SlabJob *job = user;
+    SolveWork *work = job->work;
     const SolvedGrid *g = work->grid;
     if (work->failed) return;
     SolvedSlab *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
@@ -102,7 +103,7 @@ static void run(void *user, int item, int thread) {
 }
 
 /* Directions and pairs, in memory that the set owns. */
-static bool layout_make(const SolvedGrid *g, SolvedSet *set, Layout *at, double **rest) {
+static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, double **rest) {
     bool lean = g->tilts > 0;
     int sides = lean ? g->rings * g->spokes : g->rings, turns = lean ? 2 : g->spokes;
     int pairs = sides * (sides + 1) / 2 * turns;
@@ -114,8 +115,8 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, Layout *at, double 
     set->slabs = alloc_array(slabs, sizeof(SolvedSlab));
     if (!set->block || !set->numbers || !set->slabs) return false;
     double *mu = set->block, *w = mu + sides, *phi = w + sides, *x = phi + sides, *v = x + sides;
-    *at =
-        (Layout){sides, pairs, mu, w, phi, set->numbers, set->numbers + pairs, v + sides, v + sides + pairs};
+    *at = (SlabLayout){
+        sides, pairs, mu, w, phi, set->numbers, set->numbers + pairs, v + sides, v + sides + pairs};
     *rest = v + sides + 2 * (size_t)pairs;
     gauss_legendre(g->rings, x, v);
     for (int k = 0; k < sides; k++) {
@@ -137,7 +138,7 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, Layout *at, double 
 }
 
 /* Each slab's own place in the set, and what it is. */
-static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const Layout *at, double *rest) {
+static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const SlabLayout *at, double *rest) {
     int tilts = g->tilts ? g->tilts : 1, n = 0;
     for (int q = 0; q < tilts; q++) {
         double tilt = g->tilts ? g->tilt[q] : 0.0, *nu = rest, *x = nu + at->sides;
@@ -170,12 +171,12 @@ static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const Layout *at, do
 bool solved_set_make(const SolvedGrid *grid, int threads, SolveProgress progress, void *user,
                      SolvedSet *out) {
     *out = (SolvedSet){.count = runs_of(grid) * grid->kept};
-    Layout at;
+    SlabLayout at;
     double *rest;
-    Work work = {grid, out, runs_of(grid), progress, user, 0, false};
+    SolveWork work = {grid, out, runs_of(grid), progress, user, 0, false};
     if (layout_make(grid, out, &at, &rest)) {
         slabs_fill(grid, out, &at, rest);
-        parallel_for(threads, work.runs, run, &(Job){&work, &at});
+        parallel_for(threads, work.runs, run, &(SlabJob){&work, &at});
         if (!work.failed) return true;
     }
     solved_set_free(out);

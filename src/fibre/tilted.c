@@ -9,13 +9,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-typedef struct Vec {
+typedef struct TiltedVec {
     double x, y, z, nu; /* nu: cosine to the fibre */
-} Vec;
+} TiltedVec;
 
-static Vec vec(double tilt, double mu, double phi) {
+static TiltedVec vec(double tilt, double mu, double phi) {
     double r = sqrt(1.0 - mu * mu);
-    Vec v = {r * cos(phi), r * sin(phi), mu, 0.0};
+    TiltedVec v = {r * cos(phi), r * sin(phi), mu, 0.0};
     v.nu = v.x * sin(tilt) + v.z * cos(tilt);
     return v;
 }
@@ -24,7 +24,7 @@ static double extinction(double s, double nu) { return sqrt(1.0 - (1.0 - s * s) 
 
 /* D(a + b) / 4 with the half vector not normalised; 0 for opposite directions, where its limit depends on the
  * way there. sign = -1: b is the antipode's name. */
-static double flakes(double s, Vec a, Vec b, double sign) {
+static double flakes(double s, TiltedVec a, TiltedVec b, double sign) {
     double x = a.x + sign * b.x, y = a.y + sign * b.y, z = a.z + sign * b.z, m = a.nu + sign * b.nu;
     double q = x * x + y * y + z * z;
     if (q < 1e-14) return 0.0;
@@ -34,14 +34,14 @@ static double flakes(double s, Vec a, Vec b, double sign) {
 
 double tilted_single(const Slab *slab, double tilt, Heading i, Heading o) {
     double s = slab->alpha * slab->alpha;
-    Vec a = vec(tilt, i.mu, i.phi), b = vec(tilt, o.mu, o.phi);
+    TiltedVec a = vec(tilt, i.mu, i.phi), b = vec(tilt, o.mu, o.phi);
     double sum = extinction(s, a.nu) * b.z + extinction(s, b.nu) * a.z;
     return slab->albedo * flakes(s, a, b, 1.0) * -expm1(-slab->depth * sum / (a.z * b.z)) / sum;
 }
 
 typedef struct Directions {
     int nodes, total;
-    Vec *v, *mirrored;
+    TiltedVec *v, *mirrored;
     double *c, *lambda;
 } Directions;
 
@@ -83,7 +83,7 @@ static bool parity(const Directions *d, const Slab *slab, int halvings, int kept
     size_t n = (size_t)d->total;
     for (int j = 0; j < d->total; j++)
         for (int i = 0; i <= j; i++) {
-            Vec a = d->v[i], b = d->v[j], m = d->mirrored[j];
+            TiltedVec a = d->v[i], b = d->v[j], m = d->mirrored[j];
             double scale = slab->albedo / (a.z * b.z);
             double up = scale * (flakes(s, a, b, 1.0) + sign * flakes(s, a, m, 1.0));
             double down = scale * (flakes(s, a, b, -1.0) + sign * flakes(s, a, m, -1.0));
@@ -103,7 +103,7 @@ bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int co
     int nodes = effort.rings * effort.spokes, total = nodes + count;
     size_t n = (size_t)total, pairs = (size_t)kept * (size_t)count * (size_t)count;
     double *block = alloc_array(2 * n * n + 2 * n + 2 * (size_t)effort.rings, sizeof(double));
-    Vec *v = alloc_array(2 * n, sizeof(Vec));
+    TiltedVec *v = alloc_array(2 * n, sizeof(TiltedVec));
     bool done = block && v;
     if (done) {
         double *r = block, *t = r + n * n, *c = t + n * n, *x = c + 2 * n;

@@ -65,17 +65,17 @@ void walk_turn(const WalkMedium *m, Walker *walker) {
 
 /* ---- many walks ---------------------------------------------------------------------------------------- */
 
-typedef struct Run {
+typedef struct WalkRun {
     const WalkDesc *desc;
     WalkMedium medium;
     double *sigma; /* of each wi */
     double *sums;  /* of f: a row of directions for each batch */
     WalkCount counts[WALK_BATCHES];
     long long length; /* of a batch */
-} Run;
+} WalkRun;
 
 /* What a flake sends straight to each wi. */
-static void connect(const Run *run, const Walker *walker, double *sums) {
+static void connect(const WalkRun *run, const Walker *walker, double *sums) {
     const double back[3] = {-walker->d[0], -walker->d[1], -walker->d[2]};
     for (int k = 0; k < run->desc->directions; k++) {
         const double *wi = run->desc->wi + 3 * (size_t)k;
@@ -84,7 +84,7 @@ static void connect(const Run *run, const Walker *walker, double *sums) {
     }
 }
 
-static void one_walk(const Run *run, uint64_t number, WalkCount *count, double *sums) {
+static void one_walk(const WalkRun *run, uint64_t number, WalkCount *count, double *sums) {
     const WalkDesc *desc = run->desc;
     Walker walker = walk_start(desc->wo, desc->seed, number);
     long long met = 0;
@@ -106,7 +106,7 @@ static void one_walk(const Run *run, uint64_t number, WalkCount *count, double *
 
 static void one_batch(void *user, int batch, int thread) {
     (void)thread;
-    Run *run = user;
+    WalkRun *run = user;
     double *sums = run->sums + (size_t)batch * (size_t)run->desc->directions;
     for (long long k = 0; k < run->length; k++)
         one_walk(run, (uint64_t)(batch * run->length + k), &run->counts[batch], sums);
@@ -126,7 +126,7 @@ static WalkCount count_sum(const WalkCount *counts) {
 }
 
 /* The mean of the batches, and how far they scatter. */
-static WalkEstimate batch_mean(const Run *run, int k) {
+static WalkEstimate batch_mean(const WalkRun *run, int k) {
     double sum = 0.0, squares = 0.0, length = (double)run->length;
     size_t stride = (size_t)run->desc->directions;
     for (size_t b = 0; b < WALK_BATCHES; b++) sum += run->sums[b * stride + (size_t)k] / length;
@@ -139,13 +139,13 @@ static WalkEstimate batch_mean(const Run *run, int k) {
 }
 
 bool walk_run(const WalkDesc *desc, WalkCount *count, WalkEstimate *f) {
-    Run *run = calloc(1, sizeof *run);
+    WalkRun *run = calloc(1, sizeof *run);
     size_t directions = (size_t)desc->directions;
     double *sigma = alloc_array(directions, sizeof *sigma);
     double *sums = alloc_array(directions, WALK_BATCHES * sizeof *sums);
     bool held = run && sigma && sums;
     if (held) {
-        *run = (Run){.desc = desc, .medium = walk_medium(desc), .sigma = sigma, .sums = sums};
+        *run = (WalkRun){.desc = desc, .medium = walk_medium(desc), .sigma = sigma, .sums = sums};
         run->length = (desc->walks + WALK_BATCHES - 1) / WALK_BATCHES;
         for (size_t k = 0; k < directions; k++) sigma[k] = walk_sigma(&run->medium, desc->wi + 3 * k);
         parallel_for(desc->threads, WALK_BATCHES, one_batch, run);

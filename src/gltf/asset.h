@@ -41,11 +41,11 @@ typedef struct FileTable {
     size_t count, bytes; /* how many; how much of them was read */
 } FileTable;
 
-typedef struct Buffer {
+typedef struct AssetBuffer {
     Span span;
     AssetFile *file;      /* where its bytes lie, or NULL */
     unsigned char *owned; /* what to free when the read ends, or NULL */
-} Buffer;
+} AssetBuffer;
 
 /* EXT_meshopt_compression of a buffer view. */
 typedef struct Compression {
@@ -55,12 +55,12 @@ typedef struct Compression {
     enum { FILTER_NONE, FILTER_OCTAHEDRAL, FILTER_QUATERNION, FILTER_EXPONENTIAL } filter;
 } Compression;
 
-typedef struct View {
+typedef struct BufferView {
     Span span;                /* decoded on first use where compressed */
     size_t stride;            /* 0: packed */
     Compression *compression; /* NULL: none */
     int image;                /* of the scene, + 1; 0: none */
-} View;
+} BufferView;
 
 typedef enum Component {
     COMPONENT_I8 = 5120,
@@ -152,8 +152,8 @@ typedef struct Asset {
     size_t input_bytes, limit, spent;
     size_t triangles;
 
-    Buffer *buffers;
-    View *views;
+    AssetBuffer *buffers;
+    BufferView *views;
     Accessor *accessors;
     TextureSource *textures;
     MeshSource *meshes;

@@ -15,21 +15,21 @@ enum { TRIANGLES_MAX = 100000000 };
 static const double UNIT_SLACK = 5e-7;
 
 /* One primitive under one node. */
-typedef struct Bake {
+typedef struct MeshBake {
     Asset *asset;
     Arena scratch;
     const Node *node;
     const Primitive *primitive;
     Mesh *mesh;
     Pose pose;
-} Bake;
+} MeshBake;
 
-static void bake_fail(const Bake *bake, WeftMessage message, const char *what) {
+static void bake_fail(const MeshBake *bake, WeftMessage message, const char *what) {
     asset_fail(bake->asset, message, "meshes[%d].primitives[%d]: %s", bake->node->mesh,
                (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
 }
 
-static void bake_warn(const Bake *bake, const char *what) {
+static void bake_warn(const MeshBake *bake, const char *what) {
     warn(bake->asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, bake->asset->name,
          "meshes[%d].primitives[%d]: %s", bake->node->mesh,
          (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
@@ -55,7 +55,7 @@ static bool has_area(const float *position, const uint32_t corner[3]) {
 }
 
 /* The mesh's triangles, without those that have no area, front faces counter-clockwise. */
-static void bake_triangles(Bake *bake) {
+static void bake_triangles(MeshBake *bake) {
     Asset *asset = bake->asset;
     Mesh *mesh = bake->mesh;
     const Primitive *p = bake->primitive;
@@ -84,7 +84,7 @@ static void bake_triangles(Bake *bake) {
 }
 
 /* Positions in the world; all must be finite and within reach. */
-static void bake_positions(Bake *bake) {
+static void bake_positions(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     mesh->position = accessor_floats(bake->asset, &bake->scratch, bake->primitive->position);
     if (!mesh->position) return;
@@ -116,7 +116,7 @@ static bool store_unit(const double v[3], float out[3]) {
 }
 
 /* Gives the vertices whose normal is zero that of the faces around them. */
-static void repair_normals(Bake *bake) {
+static void repair_normals(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     double(*sum)[3] = asset_array(bake->asset, &bake->scratch, mesh->vertex_count, sizeof *sum);
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count && sum; i++) {
@@ -137,7 +137,7 @@ static void repair_normals(Bake *bake) {
     }
 }
 
-static void bake_normals(Bake *bake) {
+static void bake_normals(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     if (bake->primitive->normal < 0) return;
     mesh->normal = accessor_floats(bake->asset, &bake->scratch, bake->primitive->normal);
@@ -159,7 +159,7 @@ static void bake_normals(Bake *bake) {
 }
 
 /* The file's tangents, made to stand across the normals. */
-static void bake_tangents(Bake *bake) {
+static void bake_tangents(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     if (bake->primitive->tangent < 0 || !mesh->normal) return;
     mesh->tangent = accessor_floats(bake->asset, &bake->scratch, bake->primitive->tangent);
@@ -185,7 +185,7 @@ static void bake_tangents(Bake *bake) {
     }
 }
 
-static void bake_texcoords(Bake *bake) {
+static void bake_texcoords(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     for (int set = 0; set < 2; set++) {
         if (bake->primitive->texcoord[set] < 0) continue;
@@ -201,7 +201,7 @@ static void bake_texcoords(Bake *bake) {
     }
 }
 
-static void bake_colors(Bake *bake) {
+static void bake_colors(MeshBake *bake) {
     Asset *asset = bake->asset;
     Mesh *mesh = bake->mesh;
     if (bake->primitive->color < 0) return;
@@ -215,7 +215,7 @@ static void bake_colors(Bake *bake) {
     }
 }
 
-static void complete_tangents(Bake *bake) {
+static void complete_tangents(MeshBake *bake) {
     const WeftScene *scene = bake->asset->scene;
     Mesh *mesh = bake->mesh;
     const Input *input = tangents_input(&scene->materials[mesh->material]);
@@ -235,7 +235,7 @@ static void mark_materials(Asset *asset, const Mesh *mesh) {
 
 /* Moves the vertices that triangles use, in their order, from scratch to the scene. Primitives of a file
  * often share one large array of which each uses a part. */
-static void compact(Bake *bake) {
+static void compact(MeshBake *bake) {
     Asset *asset = bake->asset;
     Mesh *mesh = bake->mesh;
     size_t corner_count = (size_t)3 * mesh->triangle_count;
@@ -254,7 +254,7 @@ static void compact(Bake *bake) {
 }
 
 /* Whether the mesh has anything to show. */
-static bool bake_primitive(Bake *bake) {
+static bool bake_primitive(MeshBake *bake) {
     Asset *asset = bake->asset;
     const Primitive *p = bake->primitive;
     const MeshSource *source = &asset->meshes[bake->node->mesh];
@@ -265,8 +265,8 @@ static bool bake_primitive(Bake *bake) {
                    .own_material = p->material,
                    .variant_material = p->variant_material};
     bake->pose = pose_prepare(asset, &bake->scratch, bake->node, p);
-    static void (*const steps[])(Bake *) = {bake_positions, bake_triangles, bake_normals,
-                                            bake_tangents,  bake_texcoords, bake_colors};
+    static void (*const steps[])(MeshBake *) = {bake_positions, bake_triangles, bake_normals,
+                                                bake_tangents,  bake_texcoords, bake_colors};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && asset->result == WEFT_OK; i++) steps[i](bake);
     if (asset->result != WEFT_OK || !mesh->triangle_count) return false;
     compact(bake);
@@ -300,10 +300,10 @@ void meshes_bake(Asset *asset) {
         const Node *node = &asset->nodes[i];
         size_t primitives = node->shown && node->mesh >= 0 ? asset->meshes[node->mesh].primitive_count : 0;
         for (size_t p = 0; p < primitives && asset->result == WEFT_OK; p++) {
-            Bake bake = {.asset = asset,
-                         .node = node,
-                         .primitive = &asset->meshes[node->mesh].primitives[p],
-                         .mesh = &scene->meshes[scene->mesh_count]};
+            MeshBake bake = {.asset = asset,
+                             .node = node,
+                             .primitive = &asset->meshes[node->mesh].primitives[p],
+                             .mesh = &scene->meshes[scene->mesh_count]};
             if (bake.primitive->mode < 4 || bake.primitive->position < 0) continue;
             if (bake_primitive(&bake)) scene->mesh_count++;
             arena_free(&bake.scratch);

@@ -21,14 +21,14 @@ static size_t decoding_limit(size_t input) {
     return limit > ample ? limit : ample;
 }
 
-static void span_fill(const Field *field, Buffer *buffer, Span bytes) {
+static void span_fill(const Field *field, AssetBuffer *buffer, Span bytes) {
     buffer->span.data = bytes.data;
     if (bytes.data && bytes.size < buffer->span.size)
         field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", bytes.size,
                    buffer->span.size);
 }
 
-static void buffer_read(const Field *field, Buffer *buffer, bool first) {
+static void buffer_read(const Field *field, AssetBuffer *buffer, bool first) {
     Asset *asset = field->asset;
     Field length = field_member(field, "byteLength"), uri_field = field_member(field, "uri");
     const char *uri = field_text(&uri_field, NULL);
@@ -56,7 +56,7 @@ void buffers_read(Asset *asset) {
     }
     for (size_t i = 0; i < asset->buffer_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i);
-        Buffer *buffer = &asset->buffers[i];
+        AssetBuffer *buffer = &asset->buffers[i];
         if (buffer->file) span_fill(&field, buffer, file_bytes(&asset->buffer_files, asset, buffer->file));
         asset_progress(asset, 0.05, 0.25, i + 1, asset->buffer_count);
     }
@@ -97,7 +97,7 @@ static int choice(const Field *field, const char *absent, const char *const *nam
     return 0;
 }
 
-static void compression_read(const Field *field, View *view) {
+static void compression_read(const Field *field, BufferView *view) {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
     Asset *asset = field->asset;
@@ -132,7 +132,7 @@ void views_read(Asset *asset) {
     for (size_t i = 0; i < asset->view_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i), stride = field_member(&field, "byteStride");
         Field meshopt = field_extension(&field, "EXT_meshopt_compression");
-        View *view = &asset->views[i];
+        BufferView *view = &asset->views[i];
         view->span = section(&field);
         view->stride = field_size(&stride, 0, 4, 252);
         if (meshopt.json && asset->result == WEFT_OK) compression_read(&meshopt, view);
@@ -140,7 +140,7 @@ void views_read(Asset *asset) {
 }
 
 Span view_bytes(Asset *asset, int index) {
-    View *view = &asset->views[index];
+    BufferView *view = &asset->views[index];
     if (!view->span.data && view->compression && asset->result == WEFT_OK) {
         unsigned char *decoded = asset_array(asset, &asset->arena, view->span.size, 1);
         if (decoded && !meshopt_decode(view->compression, decoded))

@@ -10,30 +10,30 @@
 #include "base/json.h"
 
 /* Text that is read through once, and what is written meanwhile. */
-typedef struct Patch {
+typedef struct JsonPatch {
     const char *at, *end;
     FILE *out;
     bool failed;
-} Patch;
+} JsonPatch;
 
-static void put(Patch *patch, const char *from, const char *to) {
+static void put(JsonPatch *patch, const char *from, const char *to) {
     if (to > from) fwrite(from, 1, (size_t)(to - from), patch->out);
 }
 
-static const char *skip_blank(const Patch *patch, const char *at) {
+static const char *skip_blank(const JsonPatch *patch, const char *at) {
     while (at < patch->end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r')) at++;
     return at;
 }
 
 /* Behind the string that begins at `at`. */
-static const char *skip_string(const Patch *patch, const char *at) {
+static const char *skip_string(const JsonPatch *patch, const char *at) {
     for (at++; at < patch->end && *at != '"'; at++)
         if (*at == '\\') at++;
     return at < patch->end ? at + 1 : patch->end;
 }
 
 /* Behind the value that begins at `at`. */
-static const char *skip_value(const Patch *patch, const char *at) {
+static const char *skip_value(const JsonPatch *patch, const char *at) {
     int depth = 0;
     while (at < patch->end) {
         char c = *at;
@@ -55,7 +55,7 @@ static const char *skip_value(const Patch *patch, const char *at) {
 }
 
 /* A value as text of its own, in the fewest digits that read back as the same numbers. */
-static void put_value(Patch *patch, const json_t *value) {
+static void put_value(JsonPatch *patch, const json_t *value) {
     for (size_t digits = 6; digits <= 17; digits++) {
         const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits);
         char *text = json_dumps(value, flags);
@@ -69,7 +69,7 @@ static void put_value(Patch *patch, const json_t *value) {
     }
 }
 
-static void put_key(Patch *patch, const char *key) {
+static void put_key(JsonPatch *patch, const char *key) {
     json_t *text = json_string(key);
     if (text)
         put_value(patch, text);
@@ -79,12 +79,12 @@ static void put_key(Patch *patch, const char *key) {
 }
 
 /* How the parts of an object or array are set: the blanks before its first part, and behind its last. */
-typedef struct Setting {
+typedef struct JsonSetting {
     const char *open, *first, *last, *close;
-} Setting;
+} JsonSetting;
 
 /* The number of parts of the object or array at `at`, and its setting. */
-static size_t survey(const Patch *patch, const char *at, bool object, Setting *setting) {
+static size_t survey(const JsonPatch *patch, const char *at, bool object, JsonSetting *setting) {
     size_t count = 0;
     setting->open = at + 1;
     at = setting->first = setting->last = skip_blank(patch, at + 1);
@@ -102,16 +102,16 @@ static size_t survey(const Patch *patch, const char *at, bool object, Setting *s
     return count;
 }
 
-static void put_changed(Patch *patch, json_t *was, json_t *now);
+static void put_changed(JsonPatch *patch, json_t *was, json_t *now);
 
 /* What stands before a part that is new and not the first. */
-static void put_gap(Patch *patch, const Setting *setting) {
+static void put_gap(JsonPatch *patch, const JsonSetting *setting) {
     fputc(',', patch->out);
     put(patch, setting->open, setting->first);
 }
 
 /* A key's value from the text of its string. */
-static json_t *key_read(Patch *patch, const char *from, const char *to) {
+static json_t *key_read(JsonPatch *patch, const char *from, const char *to) {
     bool starved;
     json_t *key = json_parse(from, (size_t)(to - from), JSON_DECODE_ANY, NULL, &starved);
     if (!key) patch->failed = true;
@@ -120,7 +120,7 @@ static json_t *key_read(Patch *patch, const char *from, const char *to) {
 
 /* The member at patch->at: copied or changed, with what stands before it from `gap` on; or, where it is gone,
  * left out. Whether it was written. */
-static bool put_member(Patch *patch, const char *gap, json_t *was, json_t *now) {
+static bool put_member(JsonPatch *patch, const char *gap, json_t *was, json_t *now) {
     const char *start = patch->at, *key_end = skip_string(patch, start);
     const char *value = skip_blank(patch, skip_blank(patch, key_end) + 1);
     json_t *key = key_read(patch, start, key_end);
@@ -138,12 +138,12 @@ static bool put_member(Patch *patch, const char *gap, json_t *was, json_t *now) 
 }
 
 /* Past the comma to the next part, if there is one. */
-static void step(Patch *patch, const Setting *setting) {
+static void step(JsonPatch *patch, const JsonSetting *setting) {
     patch->at = skip_blank(patch, patch->at);
     if (patch->at < setting->close) patch->at = skip_blank(patch, patch->at + 1);
 }
 
-static void put_object(Patch *patch, const Setting *setting, json_t *was, json_t *now) {
+static void put_object(JsonPatch *patch, const JsonSetting *setting, json_t *was, json_t *now) {
     size_t written = 0;
     const char *gap = NULL, *key;
     json_t *value;
@@ -166,7 +166,7 @@ static void put_object(Patch *patch, const Setting *setting, json_t *was, json_t
     patch->at = setting->close + 1;
 }
 
-static void put_array(Patch *patch, const Setting *setting, json_t *was, json_t *now) {
+static void put_array(JsonPatch *patch, const JsonSetting *setting, json_t *was, json_t *now) {
     size_t count = json_array_size(was), left = json_array_size(now);
     const char *gap = setting->first;
     fputc('[', patch->out);
@@ -191,9 +191,9 @@ static void put_array(Patch *patch, const Setting *setting, json_t *was, json_t 
 }
 
 /* The value at patch->at, which is `was`, as `now`. */
-static void put_changed(Patch *patch, json_t *was, json_t *now) {
+static void put_changed(JsonPatch *patch, json_t *was, json_t *now) {
     const char *start = patch->at;
-    Setting setting;
+    JsonSetting setting;
     bool objects = json_is_object(was) && json_is_object(now),
          arrays = json_is_array(was) && json_is_array(now);
     if (json_equal(was, now)) {
@@ -210,7 +210,7 @@ static void put_changed(Patch *patch, json_t *was, json_t *now) {
 
 char *patch_text(const char *text, size_t length, json_t *was, json_t *now, size_t *size) {
     char *made = NULL;
-    Patch patch = {.at = text, .end = text + length, .out = open_memstream(&made, size)};
+    JsonPatch patch = {.at = text, .end = text + length, .out = open_memstream(&made, size)};
     if (!patch.out) return NULL;
     patch.at = skip_blank(&patch, text);
     put(&patch, text, patch.at);

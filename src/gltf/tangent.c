@@ -6,9 +6,9 @@
 #include "base/random.h"
 #include "gltf/gather.h"
 
-typedef struct Vec2 {
+typedef struct GltfVec2 {
     float u, v;
-} Vec2;
+} GltfVec2;
 
 static Vec3 vec3_at(const float *values, size_t i) { return vec3_load(values + 3 * i); }
 
@@ -47,18 +47,18 @@ static void flatten(Asset *asset, Mesh *mesh) {
     }
 }
 
-static Vec2 *coordinates(Asset *asset, Arena *scratch, const Mesh *mesh, const Input *input) {
+static GltfVec2 *coordinates(Asset *asset, Arena *scratch, const Mesh *mesh, const Input *input) {
     const float *from = mesh->texcoord[input->texcoord], *m = input->transform;
-    Vec2 *out = asset_array(asset, scratch, mesh->vertex_count, sizeof *out);
+    GltfVec2 *out = asset_array(asset, scratch, mesh->vertex_count, sizeof *out);
     for (size_t i = 0; i < mesh->vertex_count && out; i++) {
         float u = from[2 * i], v = from[2 * i + 1];
-        out[i] = (Vec2){m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
+        out[i] = (GltfVec2){m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
     }
     return out;
 }
 
 /* The bits of what a vertex is for the smoothing: position, normal, coordinates. */
-static void vertex_key(const Mesh *mesh, const Vec2 *uv, size_t i, uint32_t key[8]) {
+static void vertex_key(const Mesh *mesh, const GltfVec2 *uv, size_t i, uint32_t key[8]) {
     memcpy(key, mesh->position + 3 * i, 12);
     memcpy(key + 3, mesh->normal + 3 * i, 12);
     memcpy(key + 6, &uv[i], 8);
@@ -68,7 +68,7 @@ static void vertex_key(const Mesh *mesh, const Vec2 *uv, size_t i, uint32_t key[
  * table over at most half-full slots. Its longest run is some 100 slots for as many vertices as there can be
  * (Donald Knuth, "The Art of Computer Programming" 3, section 6.4, 1998); a file made to have more than
  * PROBES_MAX loses smoothing there, not time. */
-static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2 *uv) {
+static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const GltfVec2 *uv) {
     enum { PROBES_MAX = 256 };
     size_t slots = 16;
     while (slots < (size_t)2 * mesh->vertex_count) slots *= 2;
@@ -94,25 +94,25 @@ static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Vec2
 
 /* Which way the map lies on a triangle: 0 as seen from the front, 1 mirrored, -1 on a line or point. Images
  * run down, so that upright means that (u, -v) turns as the corners do. */
-static int orientation(const Vec2 uv[3]) {
+static int orientation(const GltfVec2 uv[3]) {
     double area = (double)(uv[1].u - uv[0].u) * (double)(uv[2].v - uv[0].v) -
                   (double)(uv[2].u - uv[0].u) * (double)(uv[1].v - uv[0].v);
     return area < 0.0 ? 0 : area > 0.0 ? 1 : -1;
 }
 
 /* The direction of growing u on a triangle. */
-static Vec3 direction_of_u(const Vec3 p[3], const Vec2 uv[3], int side) {
+static Vec3 direction_of_u(const Vec3 p[3], const GltfVec2 uv[3], int side) {
     Vec3 e1 = vec3_sub(p[1], p[0]), e2 = vec3_sub(p[2], p[0]);
     float v1 = uv[1].v - uv[0].v, v2 = uv[2].v - uv[0].v, sign = side ? 1.0f : -1.0f;
     return unit(vec3_sub(vec3_scale(e1, sign * v2), vec3_scale(e2, sign * v1)));
 }
 
 /* Adds each triangle's direction to its corners' sums, which are apart for upright and mirrored ones. */
-static void accumulate(const Mesh *mesh, const Vec2 *uv, const uint32_t *leader, Vec3 *sums[2]) {
+static void accumulate(const Mesh *mesh, const GltfVec2 *uv, const uint32_t *leader, Vec3 *sums[2]) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         const uint32_t *corner = mesh->index + 3 * t;
         Vec3 p[3];
-        Vec2 c[3];
+        GltfVec2 c[3];
         for (int k = 0; k < 3; k++) {
             p[k] = vec3_at(mesh->position, corner[k]);
             c[k] = uv[corner[k]];
@@ -133,7 +133,7 @@ static void accumulate(const Mesh *mesh, const Vec2 *uv, const uint32_t *leader,
 
 /* Splits the vertices that meet both orientations: source gets, behind the old vertices, where each new one
  * comes from, and side every vertex's orientation. The number of vertices then. */
-static size_t split(Mesh *mesh, const Vec2 *uv, uint32_t *source, int8_t *side, uint32_t *twin) {
+static size_t split(Mesh *mesh, const GltfVec2 *uv, uint32_t *source, int8_t *side, uint32_t *twin) {
     size_t count = mesh->vertex_count;
     for (size_t i = 0; i < count; i++) {
         source[i] = (uint32_t)i;
@@ -141,7 +141,7 @@ static size_t split(Mesh *mesh, const Vec2 *uv, uint32_t *source, int8_t *side, 
     }
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         uint32_t *corner = mesh->index + 3 * t;
-        const Vec2 c[3] = {uv[corner[0]], uv[corner[1]], uv[corner[2]]};
+        const GltfVec2 c[3] = {uv[corner[0]], uv[corner[1]], uv[corner[2]]};
         int turn = orientation(c);
         for (int k = 0; k < 3 && turn >= 0; k++) {
             uint32_t v = corner[k];
@@ -160,7 +160,7 @@ static size_t split(Mesh *mesh, const Vec2 *uv, uint32_t *source, int8_t *side, 
 
 static void smooth(Asset *asset, Arena *scratch, Mesh *mesh, const Input *input) {
     size_t old = mesh->vertex_count;
-    Vec2 *uv = coordinates(asset, scratch, mesh, input);
+    GltfVec2 *uv = coordinates(asset, scratch, mesh, input);
     uint32_t *leader = uv ? weld(asset, scratch, mesh, uv) : NULL;
     Vec3 *sums[2] = {asset_array(asset, scratch, old, sizeof(Vec3)),
                      asset_array(asset, scratch, old, sizeof(Vec3))};

@@ -78,18 +78,18 @@ static void sampler_read(Asset *asset, int index, Texture *texture) {
 }
 
 /* One image to decode, and what came of it. */
-typedef struct Job {
+typedef struct DecodeJob {
     Span bytes;
     unsigned char *owned;
     const char *name;  /* subject of messages */
     const char *path;  /* NULL: no file of its own */
     WeftResult result; /* first of finding its bytes, then of decoding them */
     WeftError error;
-} Job;
+} DecodeJob;
 
 typedef struct Jobs {
     Asset *asset;
-    Job *items;               /* for each image of the scene */
+    DecodeJob *items;         /* for each image of the scene */
     int *order;               /* of the images: the longest file first, so that it is not the last to end */
     pthread_mutex_t log_lock; /* a log is never called by two threads at once */
     atomic_size_t decoded;    /* bytes of files */
@@ -109,7 +109,7 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
 static void decode(void *user, int turn, int thread) {
     Jobs *jobs = user;
     int item = jobs->order[turn];
-    Job *job = &jobs->items[item];
+    DecodeJob *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
     if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
     job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
@@ -152,7 +152,7 @@ static void images_decode(Jobs *jobs) {
     order_find(jobs);
     if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
-        const Job *job = &jobs->items[i];
+        const DecodeJob *job = &jobs->items[i];
         if (asset->examined && job->result == WEFT_INPUT) {
             if (asset->log && asset->log->fn)
                 asset->log->fn(asset->log->user, job->error.message, job->error.text);
@@ -172,7 +172,7 @@ static const char *image_name(Asset *asset, int index) {
 }
 
 /* Who examines an asset is told of an image whose bytes are not to be had, and of all else in the asset. */
-static void image_excuse(Asset *asset, Job *job) {
+static void image_excuse(Asset *asset, DecodeJob *job) {
     if (!asset->examined || asset->result != WEFT_INPUT) return;
     job->result = asset->result;
     if (asset->error) job->error = *asset->error;
@@ -187,7 +187,7 @@ static int image_resolve(Jobs *jobs, int index) {
           uri_field = field_member(&field, "uri");
     const char *uri = field_text(&uri_field, NULL);
     int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
-    Job job = {.name = image_name(asset, index)};
+    DecodeJob job = {.name = image_name(asset, index)};
     if (uri && uri_is_data(uri)) {
         job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
     } else if (uri) {

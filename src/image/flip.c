@@ -46,9 +46,9 @@ static const double xyz_of_rgb[3][3] = {
 
 static const double pi = 3.14159265358979323846;
 
-typedef struct Matrix {
+typedef struct ColorMatrix {
     float m[3][3];
-} Matrix;
+} ColorMatrix;
 
 /* Filters: what the eye resolves of y, of x - y and (two terms) of y - z; a Gaussian and its derivatives. */
 enum { SIGHT_Y, SIGHT_X, SIGHT_Z, SIGHT_Z_TOO, SMOOTH, SLOPE, CURVE, FILTERS };
@@ -59,8 +59,8 @@ enum { DOWN = 0, ALONG = FILTERS, SEEN = ALONG + 4, SEEN_LINES = 5, LINES = SEEN
 typedef struct Flip {
     const Pair *pair;
     Kernel filters[FILTERS];
-    Matrix to_xyz, to_rgb; /* x, y, z over white */
-    float most;            /* c_max */
+    ColorMatrix to_xyz, to_rgb; /* x, y, z over white */
+    float most;                 /* c_max */
     float *opponent[2][3];
     float *lines;        /* of all threads: rows of width pixels with room on either side */
     size_t room, stride; /* of a line */
@@ -136,7 +136,7 @@ typedef struct Triple {
     float x, y, z;
 } Triple;
 
-static inline Triple times(const Matrix *a, Triple v) {
+static inline Triple times(const ColorMatrix *a, Triple v) {
     return (Triple){a->m[0][0] * v.x + a->m[0][1] * v.y + a->m[0][2] * v.z,
                     a->m[1][0] * v.x + a->m[1][1] * v.y + a->m[1][2] * v.z,
                     a->m[2][0] * v.x + a->m[2][1] * v.y + a->m[2][2] * v.z};
@@ -151,7 +151,7 @@ static inline float lab_root(float t) {
 }
 
 /* L*, a_h, b_h of linear RGB in [0, 1]. */
-static inline Triple hunt_lab(const Matrix *to_xyz, Triple rgb) {
+static inline Triple hunt_lab(const ColorMatrix *to_xyz, Triple rgb) {
     const Triple v = times(to_xyz, rgb);
     const float x = lab_root(v.x), y = lab_root(v.y), z = lab_root(v.z), lightness = 116.0f * y - 16.0f;
     return (Triple){lightness, 5.0f * (x - y) * lightness, 2.0f * (y - z) * lightness};
@@ -181,7 +181,7 @@ static inline float shown(Curve k, float gain, float white, float radiance) {
 static void opponent_row(void *user, int y, int thread) {
     const Flip *flip = user;
     (void)thread;
-    const Matrix to_xyz = flip->to_xyz;
+    const ColorMatrix to_xyz = flip->to_xyz;
     const Curve curve = flip->bright ? aces : same;
     const float gain = flip->gain, white = flip->white;
     const int width = flip->pair->width;
@@ -234,7 +234,7 @@ typedef struct Seen {
 } Seen;
 
 static void seen_row(const Flip *flip, float *const *planes, int y, float *const *lines, const Seen *seen) {
-    const Matrix to_xyz = flip->to_xyz, to_rgb = flip->to_rgb;
+    const ColorMatrix to_xyz = flip->to_xyz, to_rgb = flip->to_rgb;
     const int width = flip->pair->width;
     float *const *down = lines + DOWN;
     float *w0 = lines[ALONG], *w1 = lines[ALONG + 1], *w2 = lines[ALONG + 2], *w3 = lines[ALONG + 3];

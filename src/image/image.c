@@ -74,7 +74,7 @@ void image_repair(const ImageSource *source, WeftImage *image) {
              "%zu of %zu values were not finite; 0 now", bad, count);
 }
 
-typedef WeftResult (*Reader)(const ImageSource *source, WeftImage *out, WeftError *error);
+typedef WeftResult (*ImageReader)(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* A format by the bytes at a place of a file. Those without a reader are refused by name, whatever the suffix
  * says. */
@@ -82,7 +82,7 @@ typedef struct Format {
     const char *name;
     size_t at, size;
     const char *signature;
-    Reader read;
+    ImageReader read;
     const char *media_type; /* of what glTF and its extensions take */
 } Format;
 
@@ -150,21 +150,21 @@ WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log,
 }
 
 /* One line a format that can be written. */
-typedef struct Writer {
+typedef struct ImageWriter {
     const char *suffix;
     int linear; /* F32 is what it takes; else U8 or U16 */
     WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
                         WeftError *error);
-} Writer;
+} ImageWriter;
 
-static const Writer writers[] = {
+static const ImageWriter writers[] = {
     {".png", 0, image_write_png},
     {".exr", 1, image_write_exr},
     {".hdr", 1, image_write_hdr},
     {".npy", 1, image_write_npy},
 };
 
-static const Writer *writer_find(const char *path) {
+static const ImageWriter *writer_find(const char *path) {
     size_t length = strlen(path);
     for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
         size_t suffix = strlen(writers[i].suffix);
@@ -176,7 +176,7 @@ static const Writer *writer_find(const char *path) {
 int weft_image_suffix_known(const char *path) { return writer_find(path) != NULL; }
 
 int weft_image_suffix_linear(const char *path) {
-    const Writer *writer = writer_find(path);
+    const ImageWriter *writer = writer_find(path);
     return writer && writer->linear;
 }
 
@@ -186,7 +186,7 @@ WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError 
 
 WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
                                WeftError *error) {
-    const Writer *writer = writer_find(path);
+    const ImageWriter *writer = writer_find(path);
     if (!writer) return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, NULL);
     if (!image->pixels) return fail(error, WEFT_MESSAGE_DESC, path, "an image without pixels");
     if (writer->linear != (image->type == WEFT_PIXEL_F32))

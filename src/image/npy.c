@@ -24,23 +24,23 @@ typedef struct Npy {
 } Npy;
 
 /* The header's text, a dictionary as Python writes it. */
-typedef struct Text {
+typedef struct NpyText {
     const char *at, *end;
-} Text;
+} NpyText;
 
-static void skip_blanks(Text *text) {
+static void skip_blanks(NpyText *text) {
     while (text->at < text->end && isspace((unsigned char)*text->at)) text->at++;
 }
 
 /* Whether `mark` comes next; takes it. */
-static bool take(Text *text, char mark) {
+static bool take(NpyText *text, char mark) {
     skip_blanks(text);
     if (text->at == text->end || *text->at != mark) return false;
     text->at++;
     return true;
 }
 
-static bool take_word(Text *text, const char *word) {
+static bool take_word(NpyText *text, const char *word) {
     size_t length = strlen(word);
     skip_blanks(text);
     if ((size_t)(text->end - text->at) < length || strncmp(text->at, word, length) != 0) return false;
@@ -51,7 +51,7 @@ static bool take_word(Text *text, const char *word) {
 enum { WORD = 32 };
 
 /* 'word' or "word", of less than WORD characters. */
-static bool take_quoted(Text *text, char word[WORD]) {
+static bool take_quoted(NpyText *text, char word[WORD]) {
     const char quote = take(text, '\'') ? '\'' : take(text, '"') ? '"' : '\0';
     size_t length = 0;
     if (!quote) return false;
@@ -64,7 +64,7 @@ static bool take_quoted(Text *text, char word[WORD]) {
 }
 
 /* A whole number; one that is too large for anything is still too large. Python 2 puts an L behind it. */
-static bool take_side(Text *text, int64_t *side) {
+static bool take_side(NpyText *text, int64_t *side) {
     const int64_t enough = INT64_C(1) << 40;
     skip_blanks(text);
     const char *first = text->at;
@@ -77,14 +77,14 @@ static bool take_side(Text *text, int64_t *side) {
 
 /* Whether one more item of a list comes: behind a comma but for the first; the last may have one too. Takes
  * `close` where there is none; *broken where neither comes. */
-static bool take_next(Text *text, bool first, char close, bool *broken) {
+static bool take_next(NpyText *text, bool first, char close, bool *broken) {
     const bool closed = take(text, close);
     *broken = !closed && !first && !take(text, ',');
     return !closed && !*broken && (first || !take(text, close));
 }
 
 /* (4, 5) or (4,). More sides than SIDES_MAX are counted and not kept. */
-static bool take_shape(Text *text, Npy *npy) {
+static bool take_shape(NpyText *text, Npy *npy) {
     bool broken = !take(text, '(');
     for (npy->sides = 0; !broken && take_next(text, npy->sides == 0, ')', &broken); npy->sides++) {
         int64_t side;
@@ -108,7 +108,7 @@ static const char *type_of(const char *word, Npy *npy) {
 typedef enum Wrong { FINE, DAMAGED, UNSUPPORTED } Wrong;
 
 /* Reads the dictionary; *words say what is wrong. */
-static Wrong header_read(Text text, Npy *npy, const char **words) {
+static Wrong header_read(NpyText text, Npy *npy, const char **words) {
     char key[WORD], type[WORD] = "";
     *words = "its header is not a dictionary of descr, fortran_order and shape";
     npy->sides = -1;
@@ -139,7 +139,7 @@ static Wrong header_read(Text text, Npy *npy, const char **words) {
 }
 
 /* Finds the header's text and what follows it. */
-static bool header_find(const ImageSource *source, Text *text, Npy *npy) {
+static bool header_find(const ImageSource *source, NpyText *text, Npy *npy) {
     const unsigned char *at = source->data + SIGNATURE + 2;
     if (source->size < SIGNATURE + 2) return false;
     const size_t digits = at[-2] == 1 ? 2 : 4, before = SIGNATURE + 2 + digits;
@@ -191,7 +191,7 @@ static void values_read(const Npy *npy, WeftImage *image) {
 }
 
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error) {
-    Text text = {0};
+    NpyText text = {0};
     Npy npy = {0};
     const char *words;
     if (!header_find(source, &text, &npy))

@@ -11,23 +11,23 @@
 /* An explanation must leave less than this share of the error. */
 static const double explained = 0.25;
 
-typedef struct Work {
+typedef struct AuditWork {
     const WeftAuditDesc *desc;
     double most, tolerance;
     int width, height;
     int step;      /* texels that a cell of the map is wide */
     float *values; /* of the channel, times scale */
     Lobe lobe;
-    Probe probe;
-    Reading reading; /* what the table is judged by */
+    TableProbe probe;
+    ProbeReading reading; /* what the table is judged by */
     BakePlane plane;
     WeftImage *errors;            /* error, table, E; E below 0 while a texel is not judged */
     double met[WEFT_THREADS_MAX]; /* the largest estimate of the quadrature's error, by thread */
-} Work;
+} AuditWork;
 
 /* ---- reading ---- */
 
-static WeftResult check(const WeftAuditDesc *desc, Work *work, WeftError *error) {
+static WeftResult check(const WeftAuditDesc *desc, AuditWork *work, WeftError *error) {
     const WeftImage *image = desc->image;
     if (!image || !image->pixels || desc->channel < 0 || desc->channel >= image->channels)
         return fail(error, WEFT_MESSAGE_DESC, "table", "it has %d channels, and no channel %d",
@@ -42,7 +42,7 @@ static WeftResult check(const WeftAuditDesc *desc, Work *work, WeftError *error)
     return WEFT_OK;
 }
 
-static WeftResult values_take(Work *work, WeftError *error) {
+static WeftResult values_take(AuditWork *work, WeftError *error) {
     const WeftImage *image = work->desc->image;
     const size_t count = (size_t)image->width * (size_t)image->height;
     WeftImage floats;
@@ -60,7 +60,7 @@ static WeftResult values_take(Work *work, WeftError *error) {
 
 /* ---- the map ---- */
 
-static float *map_at(const Work *work, int x, int y) {
+static float *map_at(const AuditWork *work, int x, int y) {
     return (float *)work->errors->pixels + 3 * ((size_t)y * (size_t)work->width + (size_t)x);
 }
 
@@ -68,14 +68,14 @@ enum { CELL = 32, NODES = (CELL + 1) * (CELL + 1), EXACT_TEXELS = 128 * 128 };
 
 /* A square of a large table, its last column and row those where its neighbours begin. */
 typedef struct Cell {
-    Work *work;
+    AuditWork *work;
     int thread, x, y; /* of its first texel */
     float e[NODES];   /* below 0 where a texel is not judged */
     bool known[NODES];
 } Cell;
 
 static float cell_exact(Cell *cell, int i, int j) {
-    Work *work = cell->work;
+    AuditWork *work = cell->work;
     const int n = j * (CELL + 1) + i;
     if (cell->known[n]) return cell->e[n];
     const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
@@ -86,11 +86,11 @@ static float cell_exact(Cell *cell, int i, int j) {
 }
 
 /* Columns i[0] .. i[1] and rows j[0] .. j[1] of a cell, between whose corners E is taken as bilinear. */
-typedef struct Patch {
+typedef struct TexelPatch {
     int i[2], j[2];
-} Patch;
+} TexelPatch;
 
-static float patch_at(const Cell *cell, const Patch *p, int i, int j) {
+static float patch_at(const Cell *cell, const TexelPatch *p, int i, int j) {
     const float u = p->i[1] > p->i[0] ? (float)(i - p->i[0]) / (float)(p->i[1] - p->i[0]) : 0.0f,
                 v = p->j[1] > p->j[0] ? (float)(j - p->j[0]) / (float)(p->j[1] - p->j[0]) : 0.0f;
     const float *low = cell->e + p->j[0] * (CELL + 1), *high = cell->e + p->j[1] * (CELL + 1);
@@ -99,7 +99,7 @@ static float patch_at(const Cell *cell, const Patch *p, int i, int j) {
 
 /* Fills a patch: as it is where E, in its middle and in the middles of its sides, is what lies between the
  * corners; else quarter by quarter, down to the texel. A patch of which nothing is judged is left at that. */
-static void patch_fill(Cell *cell, Patch p) {
+static void patch_fill(Cell *cell, TexelPatch p) {
     const int mid_i = (p.i[0] + p.i[1]) / 2, mid_j = (p.j[0] + p.j[1]) / 2;
     const int columns[3] = {p.i[0], mid_i, p.i[1]}, rows[3] = {p.j[0], mid_j, p.j[1]};
     const float allowed = (float)(2.0 * cell->work->tolerance);
@@ -121,11 +121,11 @@ static void patch_fill(Cell *cell, Patch p) {
         return;
     }
     for (int quarter = 0; quarter < 4; quarter++)
-        patch_fill(cell, (Patch){{columns[quarter & 1], columns[(quarter & 1) + 1]},
-                                 {rows[quarter >> 1], rows[(quarter >> 1) + 1]}});
+        patch_fill(cell, (TexelPatch){{columns[quarter & 1], columns[(quarter & 1) + 1]},
+                                      {rows[quarter >> 1], rows[(quarter >> 1) + 1]}});
 }
 
-static void map_put(Work *work, int x, int y, float e) {
+static void map_put(AuditWork *work, int x, int y, float e) {
     const float value = work->values[(size_t)y * (size_t)work->width + (size_t)x];
     float *to = map_at(work, x, y);
     const bool judged = e >= 0.0f;
@@ -136,7 +136,7 @@ static void map_put(Work *work, int x, int y, float e) {
 
 /* Texels of a small table are measured one by one; of a large one E is measured where it bends. */
 static void map_cell(void *user, int column, int row, int thread) {
-    Work *work = user;
+    AuditWork *work = user;
     const int step = work->step, x = column * step, y = row * step;
     Cell cell = {.work = work, .thread = thread, .x = x, .y = y};
     const int wide = x + step < work->width ? step : work->width - 1 - x,
@@ -144,13 +144,13 @@ static void map_cell(void *user, int column, int row, int thread) {
     if (step == 1)
         cell_exact(&cell, 0, 0);
     else
-        patch_fill(&cell, (Patch){{0, wide}, {0, high}});
+        patch_fill(&cell, (TexelPatch){{0, wide}, {0, high}});
     for (int j = 0; j < step && y + j < work->height; j++)
         for (int i = 0; i < step && x + i < work->width; i++)
             map_put(work, x + i, y + j, cell.e[j * (CELL + 1) + i]);
 }
 
-static void measure(const Work *work, WeftAudit *out) {
+static void measure(const AuditWork *work, WeftAudit *out) {
     double sum = 0.0, squares = 0.0, products = 0.0, sizes = 0.0;
     long long beyond = 0;
     out->largest = -1.0;
@@ -197,7 +197,7 @@ static void find(WeftAudit *out, WeftTableFault fault) {
 
 static char *last_text(WeftAudit *out) { return out->found[out->faults - 1].text; }
 
-static double mean_value(const Work *work) {
+static double mean_value(const AuditWork *work) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     double sum = 0.0;
     for (size_t n = 0; n < count; n++) sum += (double)work->values[n];
@@ -205,7 +205,7 @@ static double mean_value(const Work *work) {
 }
 
 /* The table is one value. */
-static bool find_constant(const Work *work, WeftAudit *out) {
+static bool find_constant(const AuditWork *work, WeftAudit *out) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float low = work->values[0], high = low;
     for (size_t n = 1; n < count; n++) {
@@ -219,19 +219,19 @@ static bool find_constant(const Work *work, WeftAudit *out) {
 }
 
 /* The form of an engine that fits best; where none fits, the commonest unless another is much nearer. */
-static Reading guess_form(const Work *work, double enough) {
-    Reading common = work->reading;
+static ProbeReading guess_form(const AuditWork *work, double enough) {
+    ProbeReading common = work->reading;
     probe_read(&work->probe, &common);
     if (common.distance <= 1e-5) return common;
-    const Reading best = probe_best_form(&work->probe, &common, true, false);
+    const ProbeReading best = probe_best_form(&work->probe, &common, true, false);
     return best.distance <= enough || best.distance < 0.5 * common.distance ? best : common;
 }
 
 /* Decides how the table is read: as said, or as it fits best. */
-static void choose_form(Work *work, WeftAudit *out) {
+static void choose_form(AuditWork *work, WeftAudit *out) {
     const double enough = 1e-3 + work->probe.step;
     const bool said = work->desc->form;
-    Reading *reading = &work->reading;
+    ProbeReading *reading = &work->reading;
     if (said) {
         reading->form = *work->desc->form;
         probe_read(&work->probe, reading);
@@ -240,7 +240,7 @@ static void choose_form(Work *work, WeftAudit *out) {
     }
     out->fits = reading->distance <= enough;
     if (out->fits) return;
-    Reading best = probe_best_form(&work->probe, reading, false, false);
+    ProbeReading best = probe_best_form(&work->probe, reading, false, false);
     if (!said && best.distance >= explained * reading->distance) /* a factor may hide the axes */
         best = probe_best_form(&work->probe, reading, true, true);
     if (best.distance >= explained * reading->distance) return;
@@ -256,14 +256,14 @@ static void choose_form(Work *work, WeftAudit *out) {
 
 /* Takes the lobe and the axes to which the table is nearest, be it encoded or not; find_cause then says
  * which. */
-static void choose_lobe(Work *work) {
-    const Reading best = probe_any(&work->probe, work->desc->form);
+static void choose_lobe(AuditWork *work) {
+    const ProbeReading best = probe_any(&work->probe, work->desc->form);
     work->lobe = best.lobe;
-    work->reading = (Reading){.lobe = best.lobe, .form = best.form, .factor = 1.0};
+    work->reading = (ProbeReading){.lobe = best.lobe, .form = best.form, .factor = 1.0};
 }
 
 /* Values cut off at the largest that the table has: all but few of those that are wrong. */
-static bool find_clipped(const Work *work, WeftAudit *out) {
+static bool find_clipped(const AuditWork *work, WeftAudit *out) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float top = work->values[0], highest = 0.0f;
     size_t wrong = 0, cut = 0;
@@ -282,12 +282,12 @@ static bool find_clipped(const Work *work, WeftAudit *out) {
 }
 
 /* Tries one reading after another, for one that explains most of the error. */
-static void find_cause(Work *work, WeftAudit *out) {
-    const Reading *reading = &work->reading;
+static void find_cause(AuditWork *work, WeftAudit *out) {
+    const ProbeReading *reading = &work->reading;
     const double enough = explained * reading->distance;
     if (find_clipped(work, out) || !(reading->distance > 2e-4 + work->probe.step)) return;
     for (int late = 1; late >= -1; late -= 2) {
-        Reading other = *reading;
+        ProbeReading other = *reading;
         other.late = late;
         probe_read(&work->probe, &other);
         if (other.distance >= enough) continue;
@@ -295,7 +295,7 @@ static void find_cause(Work *work, WeftAudit *out) {
         words_late(last_text(out), reading, &other);
         return;
     }
-    Reading decoded = *reading;
+    ProbeReading decoded = *reading;
     decoded.decoded = true;
     probe_read(&work->probe, &decoded);
     if (decoded.distance < enough) {
@@ -303,14 +303,14 @@ static void find_cause(Work *work, WeftAudit *out) {
         words_encoded(last_text(out), reading, &decoded);
         return;
     }
-    const Reading scaled = probe_scaled(&work->probe, reading);
+    const ProbeReading scaled = probe_scaled(&work->probe, reading);
     if (scaled.distance < enough) {
         find(out, WEFT_TABLE_SCALED);
         words_scaled(last_text(out), reading, &scaled);
         return;
     }
     if (!work->desc->lobe) return; /* all others are further away */
-    const Reading other = probe_best_lobe(&work->probe, reading, !work->desc->form);
+    const ProbeReading other = probe_best_lobe(&work->probe, reading, !work->desc->form);
     if (other.distance >= enough || other.distance > 0.1 * mean_value(work)) return;
     find(out, WEFT_TABLE_OTHER_LOBE);
     out->other = other.lobe.id;
@@ -324,7 +324,7 @@ static int compare_floats(const void *a, const void *b) {
 
 /* table / E at a tenth, half and nine tenths of the texels where E is not small. False where memory is short.
  */
-static bool ratios_find(const Work *work, double ratios[3]) {
+static bool ratios_find(const AuditWork *work, double ratios[3]) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float *all = alloc_array(count, sizeof *all);
     if (!all) return false;
@@ -340,7 +340,7 @@ static bool ratios_find(const Work *work, double ratios[3]) {
 }
 
 /* What the errors themselves look like, where nothing else explains them. */
-static bool find_kind(const Work *work, WeftAudit *out) {
+static bool find_kind(const AuditWork *work, WeftAudit *out) {
     const double few = 0.02, both = 0.3;
     double ratios[3];
     if (out->largest <= work->most) return true;
@@ -361,7 +361,7 @@ static bool find_kind(const Work *work, WeftAudit *out) {
     return true;
 }
 
-static WeftResult map_make(Work *work, WeftError *error) {
+static WeftResult map_make(AuditWork *work, WeftError *error) {
     const WeftAuditDesc *desc = work->desc;
     WeftResult result = weft_image_create(work->width, work->height, 3, WEFT_PIXEL_F32, work->errors, error);
     if (result != WEFT_OK) return result;
@@ -378,11 +378,11 @@ static WeftResult map_make(Work *work, WeftError *error) {
     return result;
 }
 
-static WeftResult audit(Work *work, WeftAudit *out, WeftError *error) {
+static WeftResult audit(AuditWork *work, WeftAudit *out, WeftError *error) {
     out->step = work->probe.step;
     probe_take(&work->probe, work->values, work->width, work->height);
     if (work->desc->lobe)
-        work->reading = (Reading){.lobe = work->lobe, .factor = 1.0};
+        work->reading = (ProbeReading){.lobe = work->lobe, .factor = 1.0};
     else
         choose_lobe(work);
     out->lobe = work->lobe.id;
@@ -422,7 +422,7 @@ static void map_finish(WeftImage *errors) {
 WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors, WeftError *error) {
     WeftImage own = {0};
     WeftAuditDesc full = *desc;
-    Work work = {.desc = &full, .errors = errors ? errors : &own};
+    AuditWork work = {.desc = &full, .errors = errors ? errors : &own};
     *out = (WeftAudit){.other = -1};
     *work.errors = (WeftImage){0};
     WeftResult result = check(desc, &work, error);

@@ -9,7 +9,7 @@ static int spread(int k, int count, int size) {
     return count > 1 ? (int)((double)k * (size - 1) / (count - 1) + 0.5) : 0;
 }
 
-void probe_take(Probe *probe, const float *values, int width, int height) {
+void probe_take(TableProbe *probe, const float *values, int width, int height) {
     probe->width = width;
     probe->height = height;
     probe->columns = width < PROBE_SIDE ? width : PROBE_SIDE;
@@ -24,7 +24,7 @@ void probe_take(Probe *probe, const float *values, int width, int height) {
 
 /* E at the probed texels of a form, which has no flips: those only change places. */
 typedef struct Albedos {
-    const Probe *probe;
+    const TableProbe *probe;
     BakePlane plane;
     BakeTexel at[PROBE_TEXELS];
 } Albedos;
@@ -37,7 +37,8 @@ static void albedo_find(void *user, int item, int thread) {
 }
 
 /* Uses form and late of the reading; its form must outlive the result. */
-static void albedos_find(const Probe *probe, const Reading *reading, WeftTableForm *form, Albedos *e) {
+static void albedos_find(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form,
+                         Albedos *e) {
     *form = reading->form;
     form->flip_x = form->flip_y = 0;
     e->probe = probe;
@@ -51,7 +52,7 @@ static void albedos_find(const Probe *probe, const Reading *reading, WeftTableFo
 }
 
 /* Where the E of probed texel n is, under the flips of a form. */
-static int flipped(const Probe *probe, const WeftTableForm *form, int n) {
+static int flipped(const TableProbe *probe, const WeftTableForm *form, int n) {
     const int i = n % probe->columns, j = n / probe->columns;
     return (form->flip_y ? probe->rows - 1 - j : j) * probe->columns +
            (form->flip_x ? probe->columns - 1 - i : i);
@@ -59,11 +60,11 @@ static int flipped(const Probe *probe, const WeftTableForm *form, int n) {
 
 static bool judged(const BakeTexel *texel) { return !texel->beyond && texel->cos_o > 0.0f; }
 
-static double value_read(const Reading *reading, float value) {
+static double value_read(const ProbeReading *reading, float value) {
     return reading->factor * (double)(reading->decoded ? srgb_decode(value) : value);
 }
 
-static double distance(const Probe *probe, const Albedos *e, const Reading *reading) {
+static double distance(const TableProbe *probe, const Albedos *e, const ProbeReading *reading) {
     double sum = 0.0;
     int count = 0;
     for (int n = 0; n < probe->columns * probe->rows; n++) {
@@ -76,7 +77,7 @@ static double distance(const Probe *probe, const Albedos *e, const Reading *read
 }
 
 /* Where the mean square of factor value - E has its minimum. */
-static double factor_find(const Probe *probe, const Albedos *e, const Reading *reading) {
+static double factor_find(const TableProbe *probe, const Albedos *e, const ProbeReading *reading) {
     double across = 0.0, along = 0.0;
     for (int n = 0; n < probe->columns * probe->rows; n++) {
         const BakeTexel *texel = &e->at[flipped(probe, &reading->form, n)];
@@ -88,11 +89,11 @@ static double factor_find(const Probe *probe, const Albedos *e, const Reading *r
 }
 
 /* The nearest part, with the best factor where `scaled`. */
-static void part_find(const Probe *probe, const Albedos *e, Reading *reading, bool scaled) {
+static void part_find(const TableProbe *probe, const Albedos *e, ProbeReading *reading, bool scaled) {
     const bool two = weft_lobe_info(reading->lobe.id)->traits & TRAIT_TWO_COLORS;
-    Reading best = *reading;
+    ProbeReading best = *reading;
     for (int part = 0; part < (two ? WEFT_TABLE_PARTS : 1); part++) {
-        Reading now = *reading;
+        ProbeReading now = *reading;
         now.part = (WeftTablePart)part;
         if (scaled) now.factor = factor_find(probe, e, &now);
         now.distance = distance(probe, e, &now);
@@ -101,17 +102,17 @@ static void part_find(const Probe *probe, const Albedos *e, Reading *reading, bo
     *reading = best;
 }
 
-void probe_read(const Probe *probe, Reading *reading) {
+void probe_read(const TableProbe *probe, ProbeReading *reading) {
     Albedos e;
     WeftTableForm form;
     albedos_find(probe, reading, &form, &e);
     part_find(probe, &e, reading, false);
 }
 
-Reading probe_scaled(const Probe *probe, const Reading *reading) {
+ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading) {
     Albedos e;
     WeftTableForm form;
-    Reading scaled = *reading;
+    ProbeReading scaled = *reading;
     albedos_find(probe, reading, &form, &e);
     part_find(probe, &e, &scaled, true);
     return scaled;
@@ -128,15 +129,16 @@ static bool is_base(WeftTableForm form) {
 }
 
 /* What is nearer by less than this is not nearer. */
-static double nothing(const Probe *probe) { return 1e-5 + 0.02 * probe->step; }
+static double nothing(const TableProbe *probe) { return 1e-5 + 0.02 * probe->step; }
 
-Reading probe_best_form(const Probe *probe, const Reading *reading, bool engines, bool scaled) {
-    Reading best = *reading;
+ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines,
+                             bool scaled) {
+    ProbeReading best = *reading;
     best.distance = HUGE_VAL;
     for (int base = 0; base < 16 && best.distance > nothing(probe); base++) {
         Albedos e;
         WeftTableForm form;
-        Reading now = *reading;
+        ProbeReading now = *reading;
         now.form = (WeftTableForm){
             .transposed = base & 1, .alpha = base >> 1 & 1, .edges = base >> 2 & 1, .root = base >> 3 & 1};
         if (engines && !is_base(now.form)) continue;
@@ -152,17 +154,17 @@ Reading probe_best_form(const Probe *probe, const Reading *reading, bool engines
     return best;
 }
 
-Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms) {
-    Reading best = *reading;
+ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms) {
+    ProbeReading best = *reading;
     best.distance = HUGE_VAL;
     for (int id = 0; id < weft_lobe_count() && best.distance > nothing(probe); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (id == reading->lobe.id || info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
-        Reading now = *reading;
+        ProbeReading now = *reading;
         now.lobe = lobe_default(id);
         probe_read(probe, &now);
         if (forms) {
-            const Reading other = probe_best_form(probe, &now, true, false);
+            const ProbeReading other = probe_best_form(probe, &now, true, false);
             if (other.distance < now.distance) now = other;
         }
         if (now.distance < best.distance) best = now;
@@ -171,28 +173,29 @@ Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms) 
 }
 
 /* Tries both ways to take the numbers, in the flips that are asked for: both of each where `flips`. */
-static void try_forms(const Probe *probe, const Albedos *e, Reading now, bool flips, Reading best[2]) {
+static void try_forms(const TableProbe *probe, const Albedos *e, ProbeReading now, bool flips,
+                      ProbeReading best[2]) {
     const WeftTableForm form = now.form;
     for (int way = 0; way < (flips ? 8 : 2); way++) {
         now.form = form;
         now.decoded = way & 1;
         if (flips) now.form.flip_x = way >> 1 & 1, now.form.flip_y = way >> 2;
         part_find(probe, e, &now, false);
-        Reading *nearest = &best[now.decoded];
+        ProbeReading *nearest = &best[now.decoded];
         if (now.distance < 0.95 * nearest->distance - nothing(probe)) *nearest = now;
     }
 }
 
-Reading probe_any(const Probe *probe, const WeftTableForm *form) {
+ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
     const double explained = 0.25; /* as in audit.c: less is no explanation */
-    Reading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
+    ProbeReading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
         for (int base = 0; base < (form ? 1 : 16); base++) {
             Albedos e;
             WeftTableForm bare;
-            Reading now = {.lobe = lobe_default(id), .factor = 1.0};
+            ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0};
             if (form)
                 now.form = *form;
             else
@@ -208,9 +211,9 @@ Reading probe_any(const Probe *probe, const WeftTableForm *form) {
 }
 
 bool probe_flat(const Lobe *lobe, int threads) {
-    Probe probe = {.threads = threads};
+    TableProbe probe = {.threads = threads};
     const float none[64] = {0};
-    const Reading reading = {.lobe = *lobe, .factor = 1.0};
+    const ProbeReading reading = {.lobe = *lobe, .factor = 1.0};
     Albedos e;
     WeftTableForm form;
     probe_take(&probe, none, 8, 8);

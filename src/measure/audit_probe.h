@@ -10,19 +10,19 @@ enum { PROBE_SIDE = 8, PROBE_TEXELS = PROBE_SIDE * PROBE_SIDE };
 
 /* Texels of some columns and rows, the outermost among them, the same ones from either end: PROBE_SIDE is
  * even. */
-typedef struct Probe {
+typedef struct TableProbe {
     int width, height; /* of the table */
     int columns, rows, x[PROBE_SIDE], y[PROBE_SIDE];
     float table[PROBE_TEXELS];
     double step; /* between two values that the table's type can hold */
     int threads;
-} Probe;
+} TableProbe;
 
 /* values: of the table's one channel, width * height. */
-void probe_take(Probe *probe, const float *values, int width, int height);
+void probe_take(TableProbe *probe, const float *values, int width, int height);
 
 /* A way to read a table. */
-typedef struct Reading {
+typedef struct ProbeReading {
     WeftTableForm form;
     WeftTablePart part;
     Lobe lobe;
@@ -30,25 +30,25 @@ typedef struct Reading {
     bool decoded;    /* from sRGB */
     double factor;   /* multiplies the values */
     double distance; /* mean |value - E|; infinite where no texel can be judged */
-} Reading;
+} ProbeReading;
 
 /* Finds part and distance of a reading whose other members are given. */
-void probe_read(const Probe *probe, Reading *reading);
+void probe_read(const TableProbe *probe, ProbeReading *reading);
 
 /* The nearest reading of those in other forms, which engines use or which there are; where `scaled`, each
  * with the factor that brings it nearest. */
-Reading probe_best_form(const Probe *probe, const Reading *reading, bool engines, bool scaled);
+ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines, bool scaled);
 
 /* The nearest reading with another lobe of one parameter, or none, in the same form; where `forms`, in any
  * form that engines use. */
-Reading probe_best_lobe(const Probe *probe, const Reading *reading, bool forms);
+ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms);
 
 /* The nearest reading of all lobes of one parameter, or none, in a form (NULL: in all that there are),
  * decoded or not. */
-Reading probe_any(const Probe *probe, const WeftTableForm *form);
+ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
 
 /* The reading with the factor that brings its values nearest to E, in least squares. */
-Reading probe_scaled(const Probe *probe, const Reading *reading);
+ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading);
 
 /* Whether E of the lobe is the same in all views and for all parameters, to 1e-3. */
 bool probe_flat(const Lobe *lobe, int threads);

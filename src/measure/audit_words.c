@@ -34,7 +34,7 @@ static void differ(char *text, int *count, bool differs, const char *words) {
     add(text, "%s%s", (*count)++ ? " and " : "", words);
 }
 
-void words_form(char *text, const Reading *said, const Reading *found, double enough) {
+void words_form(char *text, const ProbeReading *said, const ProbeReading *found, double enough) {
     const WeftTableForm *a = &said->form, *b = &found->form;
     char elements[WEFT_TABLE_FORM_TEXT];
     int count = 0;
@@ -54,7 +54,7 @@ void words_form(char *text, const Reading *said, const Reading *found, double en
         said->distance);
 }
 
-void words_late(char *text, const Reading *said, const Reading *found) {
+void words_late(char *text, const ProbeReading *said, const ProbeReading *found) {
     add(text,
         "it is right, but shifted: each texel holds what belongs to the %s (mean error %.2g there, %.2g "
         "here)",
@@ -62,13 +62,13 @@ void words_late(char *text, const Reading *said, const Reading *found) {
         said->distance);
 }
 
-void words_encoded(char *text, const Reading *said, const Reading *found) {
+void words_encoded(char *text, const ProbeReading *said, const ProbeReading *found) {
     add(text,
         "it is right, but sRGB-encoded as if it were a picture (mean error %.2g decoded, %.2g as it is)",
         found->distance, said->distance);
 }
 
-void words_scaled(char *text, const Reading *said, const Reading *found) {
+void words_scaled(char *text, const ProbeReading *said, const ProbeReading *found) {
     const double pi = 3.14159265358979;
     const struct {
         double factor;
@@ -81,7 +81,7 @@ void words_scaled(char *text, const Reading *said, const Reading *found) {
     add(text, " (mean error %.2g so, %.2g as it is)", found->distance, said->distance);
 }
 
-void words_lobe(char *text, const Reading *said, const Reading *found) {
+void words_lobe(char *text, const ProbeReading *said, const ProbeReading *found) {
     char elements[WEFT_TABLE_FORM_TEXT];
     add(text, "it is much nearer to the E of %s (mean error %.2g) than to that of %s (%.2g)",
         weft_lobe_info(found->lobe.id)->id, found->distance, weft_lobe_info(said->lobe.id)->id,

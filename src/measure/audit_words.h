@@ -11,15 +11,15 @@
 void words_constant(char *text, double value, size_t count);
 
 /* `enough`: a mean error that counts as none. */
-void words_form(char *text, const Reading *said, const Reading *found, double enough);
+void words_form(char *text, const ProbeReading *said, const ProbeReading *found, double enough);
 
-void words_late(char *text, const Reading *said, const Reading *found);
-void words_encoded(char *text, const Reading *said, const Reading *found);
+void words_late(char *text, const ProbeReading *said, const ProbeReading *found);
+void words_encoded(char *text, const ProbeReading *said, const ProbeReading *found);
 /* It ends at `top` where E goes on to `highest`, in so many texels. */
 void words_clipped(char *text, double top, double highest, size_t texels);
 
-void words_scaled(char *text, const Reading *said, const Reading *found);
-void words_lobe(char *text, const Reading *said, const Reading *found);
+void words_scaled(char *text, const ProbeReading *said, const ProbeReading *found);
+void words_lobe(char *text, const ProbeReading *said, const ProbeReading *found);
 
 /* ratios: table / E at a tenth, half and nine tenths of the texels. */
 void words_biased(char *text, const WeftAudit *audit, const double ratios[3]);

@@ -74,16 +74,16 @@ typedef struct Met {
     long long unmet, beyond;
 } Met;
 
-typedef struct Fill {
+typedef struct LayerFill {
     const WeftBakeDesc *desc;
     const BakeLayer *layers;
     int count;
     WeftImage *out;
     Met met[WEFT_THREADS_MAX];
-} Fill;
+} LayerFill;
 
 static void fill_texel(void *user, int x, int y, int thread) {
-    Fill *fill = user;
+    LayerFill *fill = user;
     Met *met = &fill->met[thread];
     const WeftImage *out = fill->out;
     float *to = (float *)out->pixels + ((size_t)y * (size_t)out->width + (size_t)x) * (size_t)out->channels;
@@ -110,12 +110,12 @@ WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int co
     for (int k = 0; k < count; k++) channels += layers[k].channels;
     WeftResult result = weft_image_create(desc->width, desc->height, channels, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
-    Fill *fill = alloc_array(1, sizeof *fill);
+    LayerFill *fill = alloc_array(1, sizeof *fill);
     if (!fill) {
         weft_image_free(out);
         return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
     }
-    *fill = (Fill){.desc = desc, .layers = layers, .count = count, .out = out};
+    *fill = (LayerFill){.desc = desc, .layers = layers, .count = count, .out = out};
     result =
         bake_texels(desc->width, desc->height, desc->threads, desc->progress, desc->user, fill_texel, fill);
     for (int k = 0; k < WEFT_THREADS_MAX; k++) {

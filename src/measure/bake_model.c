@@ -6,14 +6,14 @@
 #include "weft/bake.h"
 
 /* SolvedSets and rounds of all stages, by about what they cost. */
-typedef struct Counter {
+typedef struct FitCounter {
     const WeftFibreModelDesc *desc;
     int phases; /* reference and fit of each stage: a phase ends where its count is full */
     bool stopped;
-} Counter;
+} FitCounter;
 
 static bool count(void *user, int done, int all) {
-    Counter *counter = user;
+    FitCounter *counter = user;
     const double total = 2.0 * FIBRE_STAGES;
     double fraction = (counter->phases + (double)done / all) / total;
     if (done == all) counter->phases++;
@@ -24,7 +24,7 @@ static bool count(void *user, int done, int all) {
 WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
                                  WeftError *error) {
     FibreModelFit model;
-    Counter counter = {desc, 0, false};
+    FitCounter counter = {desc, 0, false};
     size_t size;
     *text = NULL;
     if (desc->rounds < 0 || desc->rounds > 1000 || desc->threads < 0)

@@ -42,7 +42,7 @@ Lobe bsdf_lobe(const Bsdf *bsdf, int setting) {
     return lobe;
 }
 
-static void lobe_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+static void lobe_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
     view->lobe = bsdf_lobe(bsdf, setting);
@@ -60,7 +60,7 @@ static void ours_fill(Ours *ours, Dir o) {
     for (int k = 0; k < BLOCK; k++) ours->x[k] = o.x, ours->y[k] = o.y, ours->z[k] = o.z;
 }
 
-static void lobe_f(const View *view, Dirs i, float *f) {
+static void lobe_f(const BsdfView *view, Dirs i, float *f) {
     Ours o;
     float share[BLOCK], same[2][BLOCK], w = view->bsdf->albedo;
     ours_fill(&o, view->o);
@@ -79,7 +79,7 @@ static void lobe_f(const View *view, Dirs i, float *f) {
     }
 }
 
-static void lobe_density(const View *view, Dirs i, float *pdf) {
+static void lobe_density(const BsdfView *view, Dirs i, float *pdf) {
     Ours o;
     ours_fill(&o, view->o);
     for (size_t at = 0; at < i.n; at += BLOCK)
@@ -87,7 +87,9 @@ static void lobe_density(const View *view, Dirs i, float *pdf) {
                    i.z + at, pdf + at);
 }
 
-static Dir lobe_draw(const View *view, float u, float v) { return lobe_sample(&view->lobe, view->o, u, v); }
+static Dir lobe_draw(const BsdfView *view, float u, float v) {
+    return lobe_sample(&view->lobe, view->o, u, v);
+}
 
 static int nearest_row(const Bsdf *bsdf, float value) {
     int best = 0;
@@ -163,25 +165,25 @@ static Surface extreme_velvet(int k) {
     return s;
 }
 
-static void whole_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+static void whole_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
     seen_make(&view->whole, &bsdf->surfaces[setting], &bsdf->choices,
               albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]), o);
 }
 
-static void whole_f(const View *view, Dirs i, float *f) {
+static void whole_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) {
         StackValue value = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0);
         f[k] = i.z[k] > 0.0f ? rgb_max3(value.f_cos) / i.z[k] : rgb_max3(value.f_cos);
     }
 }
 
-static void whole_pdf(const View *view, Dirs i, float *pdf) {
+static void whole_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
 
-static Dir whole_sample(const View *view, float u, float v) { return seen_sample(&view->whole, u, v); }
+static Dir whole_sample(const BsdfView *view, float u, float v) { return seen_sample(&view->whole, u, v); }
 
 /* A sheen's lobe and the parameter with which E is asked for. */
 typedef struct Sheen {
@@ -202,21 +204,21 @@ static Sheen sheen_of(const Bsdf *bsdf, int setting) {
     return (Sheen){stack.sheen.lobe, stack.albedo_coord};
 }
 
-typedef struct Fill {
+typedef struct TableFill {
     Bsdf *bsdf;
     Sheen sheens[WEFT_PASSPORT_ROWS + BSDF_EXTREMES]; /* of table k */
-} Fill;
+} TableFill;
 
 static void fill_table(void *user, int k, int thread) {
     (void)thread;
-    const Fill *fill = user;
+    const TableFill *fill = user;
     albedo_table_fill(&fill->bsdf->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at, fill->sheens[k].at,
                       1);
 }
 
 /* One table for all settings of the same sheen. False when memory is short. */
 static bool fill_tables(Bsdf *bsdf, int threads) {
-    Fill fill = {.bsdf = bsdf};
+    TableFill fill = {.bsdf = bsdf};
     int count = 0;
     for (int k = 0; k < bsdf->settings; k++) {
         Sheen sheen = sheen_of(bsdf, k);

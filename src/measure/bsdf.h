@@ -11,13 +11,13 @@
 typedef struct Bsdf Bsdf;
 
 /* A BSDF at one setting, seen from one direction. */
-typedef struct View {
+typedef struct BsdfView {
     const Bsdf *bsdf;
     Dir o;
     Lobe lobe; /* of a lobe */
     float second;
     SeenStack whole; /* of a material */
-} View;
+} BsdfView;
 
 /* Many directions: structures of arrays. */
 typedef struct Dirs {
@@ -41,10 +41,10 @@ struct Bsdf {
     AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
     int table_of[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
 
-    void (*look)(const Bsdf *bsdf, int setting, Dir o, View *view); /* o.z > 0 */
-    void (*f)(const View *view, Dirs i, float *f);                  /* 0 below the horizon */
-    void (*pdf)(const View *view, Dirs i, float *pdf);
-    Dir (*sample)(const View *view, float u, float v);
+    void (*look)(const Bsdf *bsdf, int setting, Dir o, BsdfView *view); /* o.z > 0 */
+    void (*f)(const BsdfView *view, Dirs i, float *f);                  /* 0 below the horizon */
+    void (*pdf)(const BsdfView *view, Dirs i, float *pdf);
+    Dir (*sample)(const BsdfView *view, float u, float v);
 };
 
 /* The lobe as it is given: rows run over its parameter 0. */

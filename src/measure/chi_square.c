@@ -40,7 +40,7 @@ double chi_square_bins(Bin *bins, int count) {
 /* Bins along a side of the grid; the last of all counts "no sample". */
 enum { BINS = 20, ALL_BINS = BINS * BINS + 1 };
 
-static double expect(const View *view, const Grid *grid, Bin *bins) {
+static double expect(const BsdfView *view, const Grid *grid, Bin *bins) {
     Ring ring;
     float pdf[GRID_MAX];
     double all = 0.0;
@@ -58,7 +58,7 @@ static double expect(const View *view, const Grid *grid, Bin *bins) {
 }
 
 /* A block of samples' pdf at once. */
-static void count_block(const View *view, const Grid *grid, Dirs dirs, Bin *bins, ChiSquare *out) {
+static void count_block(const BsdfView *view, const Grid *grid, Dirs dirs, Bin *bins, ChiSquare *out) {
     float pdf[GRID_MAX];
     view->bsdf->pdf(view, dirs, pdf);
     for (size_t k = 0; k < dirs.n; k++) {
@@ -67,7 +67,7 @@ static void count_block(const View *view, const Grid *grid, Dirs dirs, Bin *bins
     }
 }
 
-bool chi_square_measure(const View *view, int count, int cells, uint32_t seed, ChiSquare *out) {
+bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out) {
     Grid grid;
     Ring block;
     Bin *bins = alloc_array(ALL_BINS, sizeof *bins);

@@ -12,7 +12,7 @@ typedef struct ChiSquare {
 
 /* Draws `count` samples; the pdf is integrated over `cells` by `cells` (at most 20) points in each of 20 by
  * 20 bins. False when memory is short. */
-bool chi_square_measure(const View *view, int count, int cells, uint32_t seed, ChiSquare *out);
+bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out);
 
 /* Upper tail of the distribution. */
 double chi_square_tail(double statistic, int freedom);

@@ -206,7 +206,7 @@ WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error) {
 
 /* The fit. */
 
-typedef struct Work {
+typedef struct FitWork {
     const WeftFitDesc *desc;
     Samples samples;
     WeftLobe base, lambert, ggx;
@@ -215,10 +215,10 @@ typedef struct Work {
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
     WeftResult results[WEFT_FITTED_MOST + 1];
     bool isotropic;
-    Watch watch;
-} Work;
+    LoopWatch watch;
+} FitWork;
 
-static bool samples_make(Work *work, const WeftData *data, WeftBrdfMetric metric) {
+static bool samples_make(FitWork *work, const WeftData *data, WeftBrdfMetric metric) {
     Samples *s = &work->samples;
     if (!samples_create(s, data->count, metric)) return false;
     for (int k = 0; k < data->count; k++) {
@@ -298,7 +298,7 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
 }
 
 /* Of an item of work: the last is the baseline. */
-static WeftResult fit_item(Work *work, int item, ItemProgress *item_progress) {
+static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
     WeftFitted *fitted = &work->fitted[item];
     LobeSearch search = {.samples = &work->samples,
                          .base = &work->base,
@@ -320,14 +320,14 @@ static WeftResult fit_item(Work *work, int item, ItemProgress *item_progress) {
 
 static void fit_one(void *user, int item, int thread) {
     (void)thread;
-    Work *work = user;
+    FitWork *work = user;
     ItemProgress item_progress = {.watch = &work->watch};
     work->results[item] =
         progress_report(&item_progress, 0.0) ? fit_item(work, item, &item_progress) : WEFT_INTERRUPTED;
     progress_report(&item_progress, 1.0);
 }
 
-static WeftResult base_alone(Work *work, double *error) {
+static WeftResult base_alone(FitWork *work, double *error) {
     const LobeSearch search = {.samples = &work->samples, .base = &work->base, .hold = WEFT_HOLD_COLOR};
     LobeFound found = {.lobe = work->lambert};
     memset(found.lobe.f0, 0, sizeof found.lobe.f0);
@@ -341,7 +341,7 @@ static int by_error(const void *a, const void *b) {
     return (x->error > y->error) - (x->error < y->error);
 }
 
-static WeftResult candidates(Work *work, WeftError *error) {
+static WeftResult candidates(FitWork *work, WeftError *error) {
     const WeftFitDesc *desc = work->desc;
     WeftResult result = weft_lobe_create(desc->base ? desc->base : "lambert", &work->base, error);
     if (result == WEFT_OK) result = weft_lobe_create("lambert", &work->lambert, error);
@@ -364,7 +364,7 @@ static WeftResult candidates(Work *work, WeftError *error) {
 
 static int params_of(const WeftLobe *lobe) { return weft_lobe_info(lobe->lobe)->param_count; }
 
-static WeftResult work_run(Work *work, WeftFit *out, WeftError *error) {
+static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
     /* those that take longest first */
     for (int k = 0; k < work->count; k++)
         for (int j = k; j > 0 && params_of(&work->lobes[j]) > params_of(&work->lobes[j - 1]); j--) {
@@ -390,7 +390,7 @@ WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out,
     memset(out, 0, sizeof *out);
     if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
         return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
-    Work *work = alloc_array(1, sizeof *work);
+    FitWork *work = alloc_array(1, sizeof *work);
     if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
     work->desc = desc;
     work->isotropic = data->isotropic;

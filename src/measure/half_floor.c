@@ -92,16 +92,16 @@ static void find_losses(const Lobe *lobe, float *zero, float *off) {
     *off = (float)offs / PAIRS;
 }
 
-typedef struct Rows {
+typedef struct FloorRows {
     const Bsdf *bsdf;
     WeftPassport *out;
     long long bad[WEFT_PASSPORT_ROWS];
     WeftPlace place[WEFT_PASSPORT_ROWS];
-} Rows;
+} FloorRows;
 
 static void measure_row(void *user, int row, int thread) {
     (void)thread;
-    Rows *rows = user;
+    FloorRows *rows = user;
     Lobe lobe = bsdf_lobe(rows->bsdf, row);
     WeftPlace ignored = {0};
     rows->bad[row] = bad_pairs(&lobe, 0.0, &ignored);
@@ -135,7 +135,7 @@ void half_floor_measure(const Bsdf *bsdf, WeftPassport *out, int threads) {
                          !outside_lobe(bsdf->lobe.id); /* which are compiled as they are */
     if (!out->half_measured) return;
     if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
-    Rows rows = {.bsdf = bsdf, .out = out};
+    FloorRows rows = {.bsdf = bsdf, .out = out};
     parallel_for(threads, bsdf->rows, measure_row, &rows);
     out->half_count = (long long)bsdf->rows * SWEEP_DIRS * (SWEEP_DIRS + 16);
     for (int k = bsdf->rows - 1; k >= 0; k--) {

@@ -11,7 +11,7 @@
 enum { TINTS = 6 }; /* albedos of a tinted lobe that a point of the grid tries */
 static const float tints[TINTS] = {0.1f, 0.3f, 0.5f, 0.7f, 0.85f, 0.97f};
 
-typedef struct Walker {
+typedef struct LobeWalker {
     const LobeSearch *search;
     WeftLobe start;
     bool tinted, second; /* its colour is no factor; it has two that are */
@@ -20,9 +20,9 @@ typedef struct Walker {
     float *column[TINTS];
     float *base, *fixed[3], *work, *block;
     double weights[3][BLEND_MOST]; /* of the latest evaluation: [channel], base, f0, f90 */
-} Walker;
+} LobeWalker;
 
-static const WeftLobeInfo *info_of(const Walker *self) { return weft_lobe_info(self->start.lobe); }
+static const WeftLobeInfo *info_of(const LobeWalker *self) { return weft_lobe_info(self->start.lobe); }
 
 /* x of a lobe in three channels. */
 static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, float *g, float *b) {
@@ -34,7 +34,7 @@ static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, flo
 }
 
 /* What a colour adds where it is held; where it is free it is a column of the blend. */
-static void add_color(const Walker *self, Blend *blend, int part, int count) {
+static void add_color(const LobeWalker *self, Blend *blend, int part, int count) {
     bool held = (self->search->hold & (part ? WEFT_HOLD_COLOR_2 : WEFT_HOLD_COLOR)) != 0;
     const float *color = part ? self->start.f90 : self->start.f0, *column = self->column[part];
     for (int c = 0; c < 3; c++) {
@@ -44,7 +44,7 @@ static void add_color(const Walker *self, Blend *blend, int part, int count) {
     if (!held) blend->columns++;
 }
 
-static Blend blend_of(const Walker *self, int count) {
+static Blend blend_of(const LobeWalker *self, int count) {
     Blend blend = {.work = self->work};
     if (self->search->base) {
         for (int c = 0; c < 3; c++) blend.column[0][c] = self->base;
@@ -59,7 +59,7 @@ static Blend blend_of(const Walker *self, int count) {
     return blend;
 }
 
-static WeftLobe lobe_at(const Walker *self, const double *x) {
+static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
     WeftLobe lobe = self->start;
     for (int k = 0; k < self->frees; k++) lobe.params[self->free[k]] = (float)x[k];
     if (self->tinted && !(self->search->hold & WEFT_HOLD_COLOR))
@@ -69,7 +69,7 @@ static WeftLobe lobe_at(const Walker *self, const double *x) {
 }
 
 /* Of each channel, the best of some tints: into x. */
-static double try_tints(Walker *self, double *x) {
+static double try_tints(LobeWalker *self, double *x) {
     const Samples *s = self->search->samples;
     WeftLobe lobe = lobe_at(self, x);
     double sum = 0.0, weights[BLEND_MOST];
@@ -92,7 +92,7 @@ static double try_tints(Walker *self, double *x) {
 }
 
 /* x without colour, and what f0 and f90 add: f is a sum of the three. */
-static void ask_parts(const Walker *self, WeftLobe lobe, int count) {
+static void ask_parts(const LobeWalker *self, WeftLobe lobe, int count) {
     for (int c = 0; c < 3; c++) lobe.f0[c] = c == 0, lobe.f90[c] = c == 1;
     ask(self->search->samples, &lobe, count, self->column[0], self->column[1], self->column[2]);
     for (int part = 0; part < 2; part++)
@@ -101,7 +101,7 @@ static void ask_parts(const Walker *self, WeftLobe lobe, int count) {
 }
 
 static double error_at(void *user, double *x, SearchCare care) {
-    Walker *self = user;
+    LobeWalker *self = user;
     const Samples *s = self->search->samples;
     int count = care == SEARCH_FULL ? s->count : s->first;
     /* of a million samples one evaluation takes seconds: it ends halfway */
@@ -151,7 +151,7 @@ static bool turns(const Samples *s, const WeftLobe *lobe) {
 }
 
 /* Parameters that would make what is isotropic something that is not, when only isotropic will do. */
-static unsigned hold_turning(const Walker *self) {
+static unsigned hold_turning(const LobeWalker *self) {
     const WeftLobeInfo *info = info_of(self);
     unsigned hold = self->search->hold;
     if (!self->search->isotropic || turns(self->search->samples, &self->start)) return hold;
@@ -166,7 +166,7 @@ static unsigned hold_turning(const Walker *self) {
 
 /* Whether a parameter changes f anywhere: at some settings of the others that are free, chosen once and for
  * all. */
-static bool has_influence(const Walker *self, int param, unsigned hold) {
+static bool has_influence(const LobeWalker *self, int param, unsigned hold) {
     enum { SETTINGS = 3 };
     const WeftLobeInfo *info = info_of(self);
     float x[LOOKS], y[LOOKS];
@@ -185,7 +185,7 @@ static bool has_influence(const Walker *self, int param, unsigned hold) {
 }
 
 /* Whether f is a sum of what f0 and f90 are factors of, and whether f90 is one. */
-static void look_at_colors(Walker *self) {
+static void look_at_colors(LobeWalker *self) {
     const Samples *s = self->search->samples;
     int count = s->count < LOOKS ? s->count : LOOKS;
     float f[2][3][LOOKS];
@@ -206,7 +206,7 @@ static SearchAxis axis_of(double low, double high, double start) {
     return (SearchAxis){fmin(low, start), fmax(high, start)};
 }
 
-static Search make_search(Walker *self, double *x) {
+static Search make_search(LobeWalker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
     const WeftLobeInfo *info = info_of(self);
     Search search = {.error = error_at,
@@ -234,9 +234,9 @@ static Search make_search(Walker *self, double *x) {
     return search;
 }
 
-static bool walker_make(Walker *self, const LobeSearch *search, const WeftLobe *start) {
+static bool walker_make(LobeWalker *self, const LobeSearch *search, const WeftLobe *start) {
     size_t n = (size_t)search->samples->count;
-    *self = (Walker){.search = search, .start = *start};
+    *self = (LobeWalker){.search = search, .start = *start};
     look_at_colors(self);
     self->block = alloc_array((TINTS + 7) * n, sizeof(float));
     if (!self->block) return false;
@@ -252,7 +252,7 @@ static bool walker_make(Walker *self, const LobeSearch *search, const WeftLobe *
 }
 
 /* What the last evaluation found for colours. */
-static void colors_of(const Walker *self, LobeFound *out) {
+static void colors_of(const LobeWalker *self, LobeFound *out) {
     const LobeSearch *search = self->search;
     for (int c = 0; c < 3; c++) {
         const double *weights = self->weights[c < search->samples->channels ? c : 0];
@@ -265,7 +265,7 @@ static void colors_of(const Walker *self, LobeFound *out) {
 }
 
 WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
-    Walker self;
+    LobeWalker self;
     double x[SEARCH_MOST] = {0.0};
     if (!walker_make(&self, search, &out->lobe)) return WEFT_RESOURCES;
     const Search walk = make_search(&self, x);
@@ -281,7 +281,7 @@ WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out) {
 
 WeftResult lobe_search_glance(const LobeSearch *search, LobeFound *out) {
     enum { POINTS = 8 }; /* an axis */
-    Walker self;
+    LobeWalker self;
     double x[SEARCH_MOST] = {0.0};
     if (!walker_make(&self, search, &out->lobe)) return WEFT_RESOURCES;
     const Search walk = make_search(&self, x);

@@ -111,15 +111,15 @@ enum { TILT, Q, ACROSS, LEAN, STEPS };
 static const double low[STEPS] = {-1e9, 0.0, -16.0, 0.0}, high[STEPS] = {1e9, 1e3, 6.0, 20.0};
 enum { EVALUATIONS_MOST = 400, ROUNDS_MOST = 4 };
 
-typedef struct Search {
+typedef struct LtcSearch {
     const LtcTarget *target;
     int norm;
     double unit[STEPS], step[STEPS];
-} Search;
+} LtcSearch;
 
 static bool is_normal(const LtcTarget *target) { return !(target->o.x > 1e-3f); }
 
-static LtcEntries entries_at(const Search *search, const double *step) {
+static LtcEntries entries_at(const LtcSearch *search, const double *step) {
     double s = (double)search->target->o.x, cos_o = (double)search->target->o.z, across = (exp)(step[ACROSS]);
     if (is_normal(search->target))
         return (LtcEntries){(float)across, 1.0f, 0.0f, search->target->level ? 0.0f : (float)across};
@@ -130,18 +130,18 @@ static LtcEntries entries_at(const Search *search, const double *step) {
 }
 
 /* From a peak at phi with these widths. A unit is a width, or what changes one. */
-static Search search_from(const LtcTarget *target, int norm, double phi, double along, double across,
-                          double lean) {
+static LtcSearch search_from(const LtcTarget *target, int norm, double phi, double along, double across,
+                             double lean) {
     double s = (double)target->o.x, c2 = (double)target->o.z * (double)target->o.z;
     double m11 = fmax(across * (cos)(phi) / along, c2), tilt = fmin(along, 1.0), q = m11 / fmax(s * s, 1e-6);
-    Search search = {target, norm, {tilt, q, 1.0, 1.0}, {phi / tilt, (m11 - c2) / m11, log(across)}};
+    LtcSearch search = {target, norm, {tilt, q, 1.0, 1.0}, {phi / tilt, (m11 - c2) / m11, log(across)}};
     search.step[LEAN] = target->level ? 0.0 : lean;
     for (int k = 0; k < STEPS; k++) search.step[k] = fmin(fmax(search.step[k], low[k]), high[k]);
     return search;
 }
 
 /* Where these entries stand. */
-static Search search_at(const LtcTarget *target, int norm, LtcEntries at) {
+static LtcSearch search_at(const LtcTarget *target, int norm, LtcEntries at) {
     Ltc m = ltc_of(at.z, at.q, at.b, at.r, target->o.z);
     double m11 = (double)m.m11, phi = atan((double)at.b * (double)target->o.x / m11);
     double across = (cos)(phi) * (double)m.det / m11;
@@ -165,12 +165,12 @@ LtcEntries ltc_guess(const LtcTarget *target) {
         along += w * fmin(fabs(z * (double)target->x[k] - x * (double)target->z[k]) / up, 4.0);
         across += w * fmin(fabs((double)target->y[k]) / up, 4.0);
     }
-    Search search = search_from(target, 1, -atan2(x, z), fmax(along, 1e-4), fmax(across, 1e-4), 1.0);
+    LtcSearch search = search_from(target, 1, -atan2(x, z), fmax(along, 1e-4), fmax(across, 1e-4), 1.0);
     return entries_at(&search, search.step);
 }
 
 static double error_at(unsigned n, const double *step, double *gradient, void *user) {
-    const Search *search = user;
+    const LtcSearch *search = user;
     double all[STEPS];
     for (int k = 0; k < STEPS; k++) all[k] = n == 1 ? step[0] : k < (int)n ? step[k] : 0.0;
     return ltc_error(search->target, entries_at(search, all), search->norm);
@@ -179,7 +179,7 @@ static double error_at(unsigned n, const double *step, double *gradient, void *u
 /* Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", PhD thesis, University of
  * Texas at Austin, 1990: the simplex search on subspaces, as Steven G. Johnson wrote it for NLopt. It draws
  * no random numbers. */
-static void descend(Search *search) {
+static void descend(LtcSearch *search) {
     int first = is_normal(search->target) ? ACROSS : 0;
     unsigned n = first ? 1 : search->target->level ? LEAN : STEPS;
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
@@ -197,15 +197,15 @@ static void descend(Search *search) {
     nlopt_destroy(method);
 }
 
-static double error_of(const Search *search) {
+static double error_of(const LtcSearch *search) {
     return ltc_error(search->target, entries_at(search, search->step), search->norm);
 }
 
 LtcEntries ltc_fit(const LtcTarget *target, const LtcEntries *starts, int count, int norm) {
-    Search best = search_at(target, norm, starts[0]);
+    LtcSearch best = search_at(target, norm, starts[0]);
     double least = error_of(&best);
     for (int k = 1; k < count; k++) {
-        Search search = search_at(target, norm, starts[k]);
+        LtcSearch search = search_at(target, norm, starts[k]);
         double error = error_of(&search);
         if (error < least) best = search, least = error;
     }

@@ -146,7 +146,7 @@ WeftResult weft_match_material(const WeftReflection *from, WeftBrdfMetric metric
 typedef struct Batch {
     WeftMatchJob *jobs;
     WeftBrdfMetric metric;
-    Watch watch;
+    LoopWatch watch;
     WeftError *errors;
 } Batch;
 

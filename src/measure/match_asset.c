@@ -62,19 +62,19 @@ typedef struct Mean {
 } Mean;
 
 /* One material of the asset. */
-typedef struct Job {
+typedef struct MatchJob {
     double means[FACTORS][3]; /* what the textures of its factors are on average; 1 without one */
     int search;               /* of its average; -1: it has no sheen */
-} Job;
+} MatchJob;
 
 /* One search, for all materials whose averages are the same numbers. */
-typedef struct Search {
+typedef struct AverageSearch {
     MaterialKey key;      /* of the average */
     WeftMaterial average; /* then the match */
     WeftMatch found;
     WeftResult result;
     WeftError error;
-} Search;
+} AverageSearch;
 
 typedef struct AssetSearch {
     WeftScene *scene;
@@ -82,10 +82,10 @@ typedef struct AssetSearch {
     WeftBrdfMetric metric;
     WeftProgress progress; /* NULL: nobody */
     void *user;
-    Watch watch;
-    Mean (*means)[2][4]; /* of a texture, as numbers and as a colour, by channel */
-    Job *jobs;           /* of `count` materials */
-    Search *searches;    /* at most as many */
+    LoopWatch watch;
+    Mean (*means)[2][4];     /* of a texture, as numbers and as a colour, by channel */
+    MatchJob *jobs;          /* of `count` materials */
+    AverageSearch *searches; /* at most as many */
     WeftAssetMatch *matches;
     int count, search_count;
 } AssetSearch;
@@ -207,7 +207,7 @@ static int search_for(AssetSearch *self, const WeftMaterial *average) {
 static WeftResult plan(AssetSearch *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->count && result == WEFT_OK; k++) {
-        Job *job = &self->jobs[k];
+        MatchJob *job = &self->jobs[k];
         WeftAssetMatch *match = &self->matches[k];
         snprintf(match->name, sizeof match->name, "%s", weft_scene_material_name(self->scene, k));
         job->search = -1;
@@ -226,7 +226,7 @@ static WeftResult plan(AssetSearch *self, WeftError *error) {
 static void search_run(void *user, int item, int thread) {
     (void)thread;
     AssetSearch *self = user;
-    Search *search = &self->searches[item];
+    AverageSearch *search = &self->searches[item];
     ItemProgress item_progress = {.watch = &self->watch};
     WeftReflection *original = NULL;
     search->result = WEFT_INTERRUPTED;
@@ -246,7 +246,7 @@ static WeftResult search_all(AssetSearch *self, WeftError *error) {
     if (!watch_loop(&self->watch, 0, self->search_count, search_run, self, self->progress, self->user))
         return WEFT_INTERRUPTED;
     for (int k = 0; k < self->search_count; k++) {
-        const Search *search = &self->searches[k];
+        const AverageSearch *search = &self->searches[k];
         if (search->result != WEFT_OK && error) *error = search->error;
         if (search->result != WEFT_OK) return search->result;
     }
@@ -257,9 +257,9 @@ static WeftResult search_all(AssetSearch *self, WeftError *error) {
 static void hand_out(AssetSearch *self) {
     for (int k = 0; k < self->count; k++) {
         WeftAssetMatch *match = &self->matches[k];
-        Job *job = &self->jobs[k];
+        MatchJob *job = &self->jobs[k];
         if (job->search < 0) continue;
-        const Search *search = &self->searches[job->search];
+        const AverageSearch *search = &self->searches[job->search];
         WeftMaterial found = search->average;
         match->found = search->found;
         match->clipped = to_factors(&found, job->means);

@@ -26,7 +26,7 @@ typedef struct Axis {
     int channel; /* -1: all */
 } Axis;
 
-typedef struct Walker {
+typedef struct MaterialWalker {
     const Samples *samples;
     WeftMaterial material;
     WeftReflection *reflection;
@@ -34,7 +34,7 @@ typedef struct Walker {
     Axis axis[SEARCH_MOST];
     int axes;
     float *x[3], *part[PARTS][3], *rest[3], *work, *block;
-} Walker;
+} MaterialWalker;
 
 static bool reads(const WeftMaterial *material, InputId input) {
     return weft_material_reads(material, (int)input) != 0;
@@ -62,7 +62,7 @@ static bool is_color(InputId input) {
 
 static bool is_grey(const float *v) { return !(v[0] < v[1] || v[0] > v[1] || v[1] < v[2] || v[1] > v[2]); }
 
-static void material_at(const Walker *self, const double *x, WeftMaterial *material) {
+static void material_at(const MaterialWalker *self, const double *x, WeftMaterial *material) {
     *material = self->material;
     for (int k = 0; k < self->axes; k++) {
         float *value = material->inputs[self->axis[k].input].value;
@@ -73,7 +73,7 @@ static void material_at(const Walker *self, const double *x, WeftMaterial *mater
     }
 }
 
-static double distance_at(Walker *self, const double *x, int count) {
+static double distance_at(MaterialWalker *self, const double *x, int count) {
     WeftMaterial material;
     material_at(self, x, &material);
     reflection_change(self->reflection, &material, self->table);
@@ -85,7 +85,7 @@ static double distance_at(Walker *self, const double *x, int count) {
 
 /* Scales the colours of base and sheen as if what each reflects were in proportion to them: nearly right,
  * and right where a sheen takes nothing from what is below it. */
-static void scale_colors(Walker *self, double *x) {
+static void scale_colors(MaterialWalker *self, double *x) {
     static const int parts[PARTS] = {WEFT_PART_DIFFUSE, WEFT_PART_SHEEN};
     static const InputId colors[PARTS] = {INPUT_base_color, INPUT_sheen_color};
     const Samples *s = self->samples;
@@ -110,7 +110,7 @@ static void scale_colors(Walker *self, double *x) {
 
 static double error_at(void *user, double *x, SearchCare care) {
     enum { ROUNDS = 2 };
-    Walker *self = user;
+    MaterialWalker *self = user;
     const Samples *s = self->samples;
     double error = distance_at(self, x, care == SEARCH_FULL ? s->count : s->first);
     for (int round = 0; care == SEARCH_GLANCE && round < ROUNDS; round++) {
@@ -128,7 +128,7 @@ static double error_at(void *user, double *x, SearchCare care) {
     return error;
 }
 
-static Search make_search(Walker *self, const int *held, double *x) {
+static Search make_search(MaterialWalker *self, const int *held, double *x) {
     static const int grids[] = {0, 8, 16, 32, 48, 64};
     Search search = {.error = error_at, .user = self, .descents = 1, .most = 600};
     bool grey = self->samples->channels == 1;
@@ -154,10 +154,10 @@ static Search make_search(Walker *self, const int *held, double *x) {
     return search;
 }
 
-static WeftResult walker_make(Walker *self, const Samples *samples, const WeftMaterial *material,
+static WeftResult walker_make(MaterialWalker *self, const Samples *samples, const WeftMaterial *material,
                               WeftError *error) {
     size_t n = (size_t)samples->count;
-    *self = (Walker){.samples = samples, .material = *material};
+    *self = (MaterialWalker){.samples = samples, .material = *material};
     self->block = alloc_array(15 * n, sizeof(float));
     self->table = alloc_array(1, sizeof *self->table);
     if (!self->block || !self->table) return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
@@ -169,7 +169,7 @@ static WeftResult walker_make(Walker *self, const Samples *samples, const WeftMa
 }
 
 /* The error of a material with E as it is. */
-static WeftResult exact_distance(Walker *self, const WeftMaterial *material, double *apart,
+static WeftResult exact_distance(MaterialWalker *self, const WeftMaterial *material, double *apart,
                                  WeftError *error) {
     const Samples *s = self->samples;
     WeftReflection *exact;
@@ -183,7 +183,7 @@ static WeftResult exact_distance(Walker *self, const WeftMaterial *material, dou
 
 WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
                                WeftMaterial *material, WeftMatch *found, WeftError *error) {
-    Walker self;
+    MaterialWalker self;
     double x[SEARCH_MOST] = {0.0};
     WeftResult result = walker_make(&self, samples, material, error);
     if (result == WEFT_OK) {

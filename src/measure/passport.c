@@ -27,7 +27,7 @@ enum { CELLS = 200, WHOLE_CELLS = 100, FURNACE_CELLS = 100 };
 
 /* What the parallel loops share. Each writes to its own places; extremes are found afterwards, in order, so
  * that threads cannot change them. */
-typedef struct Work {
+typedef struct PassportWork {
     const Bsdf *bsdf;
     const WeftPassportDesc *desc;
     WeftPassport *out;
@@ -40,17 +40,17 @@ typedef struct Work {
     bool drawn[WEFT_PASSPORT_ROWS];
     AlbedoTable sheens[WEFT_PASSPORT_SHEENS];
     Sweep sweeps[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
-} Work;
+} PassportWork;
 
 /* Directional albedo. */
 
 static void measure_albedo(void *user, int item, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     int row = item / WEFT_PASSPORT_COSINES, c = item % WEFT_PASSPORT_COSINES;
     Dir o = grid_direction((double)cosines[c], 0.0);
     if (work->bsdf->whole) {
-        View view;
+        BsdfView view;
         work->bsdf->look(work->bsdf, row, o, &view);
         work->out->albedo[row][c] = (float)weight_albedo(&view, WHOLE_CELLS);
         return;
@@ -67,7 +67,7 @@ static void measure_albedo(void *user, int item, int thread) {
     work->out->albedo[row][c] = e.f0 + e.f90 * lobe_second(&lobe, 1.0f, 1.0f);
 }
 
-static void find_albedo(Work *work) {
+static void find_albedo(PassportWork *work) {
     WeftPassport *out = work->out;
     memcpy(out->cosines, cosines, sizeof cosines);
     parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_COSINES, measure_albedo, work);
@@ -86,7 +86,7 @@ static void find_albedo(Work *work) {
 
 static void measure_reciprocity(void *user, int row, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     int pairs = (work->bsdf->whole ? 4000 : 20000) / (work->desc->quick ? 4 : 1);
     Reciprocity *worst = &work->reciprocity[row];
     *worst = reciprocity_measure(work->bsdf, row, pairs);
@@ -95,7 +95,7 @@ static void measure_reciprocity(void *user, int row, int thread) {
     if (exceeds_or_nan((double)colored.error, (double)worst->error)) *worst = colored;
 }
 
-static void find_reciprocity(Work *work) {
+static void find_reciprocity(PassportWork *work) {
     parallel_for(work->desc->threads, work->out->rows, measure_reciprocity, work);
     for (int row = 0; row < work->out->rows; row++) {
         const Reciprocity *r = &work->reciprocity[row];
@@ -109,7 +109,7 @@ static void find_reciprocity(Work *work) {
 
 static void fill_sheen(void *user, int k, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     Lobe lobe = work->bsdf->lobe, rough = lobe_rough(lobe.id, sheens[k]);
     lobe.params[0] = rough.params[0];
     albedo_table_fill(&work->sheens[k], &lobe, lobe.params[0], lobe.params[0], 1);
@@ -117,7 +117,7 @@ static void fill_sheen(void *user, int k, int thread) {
 
 static void measure_furnace(void *user, int item, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
     int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
     Dir o = grid_direction((double)views[view], 0.0);
@@ -131,7 +131,7 @@ static void measure_furnace(void *user, int item, int thread) {
 #define LAYER_PROMISE(id, index, base, conserves, help) [index] = conserves,
 static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
-static void find_furnace(Work *work) {
+static void find_furnace(PassportWork *work) {
     if (work->bsdf->whole) return;
     memcpy(work->out->sheens, sheens, sizeof sheens);
     int layers = 0;
@@ -154,10 +154,10 @@ static void find_furnace(Work *work) {
 
 static void measure_sampling(void *user, int item, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     const Bsdf *bsdf = work->bsdf;
     int row = item / WEFT_PASSPORT_VIEWS, v = item % WEFT_PASSPORT_VIEWS;
-    View view;
+    BsdfView view;
     bsdf->look(bsdf, row, grid_direction((double)views[v], 0.4 + v), &view);
     Weight weight = weight_measure(&view, bsdf->whole ? WHOLE_CELLS : CELLS);
     work->out->variance[row][v] = (float)weight.own;
@@ -179,7 +179,7 @@ static double row_ratio(const WeftPassport *out, int row) {
     return (own + 1e-3) / (by_cosine + 1e-3);
 }
 
-static void find_sampling(Work *work) {
+static void find_sampling(PassportWork *work) {
     const Bsdf *bsdf = work->bsdf;
     WeftPassport *out = work->out;
     memcpy(out->views, views, sizeof views);
@@ -221,7 +221,7 @@ static void find_sampling(Work *work) {
 
 static void measure_sweep(void *user, int setting, int thread) {
     (void)thread;
-    Work *work = user;
+    PassportWork *work = user;
     Sweep *sweep = &work->sweeps[setting];
     *sweep = sweep_setting(work->bsdf, setting);
     if (!work->colored) return;
@@ -232,7 +232,7 @@ static void measure_sweep(void *user, int setting, int thread) {
     sweep->below += colored.below;
 }
 
-static void find_sweep(Work *work) {
+static void find_sweep(PassportWork *work) {
     WeftPassport *out = work->out;
     parallel_for(work->desc->threads, work->bsdf->settings, measure_sweep, work);
     for (int k = 0; k < work->bsdf->settings; k++) {
@@ -244,7 +244,7 @@ static void find_sweep(Work *work) {
 }
 
 /* The BSDF again, of what keeps half of the light. False when memory is short. */
-static bool color_tinted(Work *work) {
+static bool color_tinted(PassportWork *work) {
     const Bsdf *bsdf = work->bsdf;
     if (bsdf->whole || !(weft_lobe_info(bsdf->lobe.id)->traits & TRAIT_TINTED)) return true;
     work->colored = malloc(sizeof *work->colored);
@@ -255,7 +255,7 @@ static bool color_tinted(Work *work) {
 }
 
 bool passport_measure(const Bsdf *bsdf, const WeftPassportDesc *desc, WeftPassport *out) {
-    Work *work = calloc(1, sizeof *work);
+    PassportWork *work = calloc(1, sizeof *work);
     if (!work) return false;
     work->bsdf = bsdf;
     work->desc = desc;

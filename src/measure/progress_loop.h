@@ -7,14 +7,14 @@
 
 #include "weft/scene.h"
 
-typedef struct Watch {
+typedef struct LoopWatch {
     atomic_bool stopped; /* items that have not begun do nothing, and those that have end soon */
     atomic_llong done;   /* of each item so many millionths */
-} Watch;
+} LoopWatch;
 
 /* How far one item is. */
 typedef struct ItemProgress {
-    Watch *watch; /* NULL: nobody watches */
+    LoopWatch *watch; /* NULL: nobody watches */
     long long told;
 } ItemProgress;
 
@@ -24,7 +24,7 @@ bool progress_report(ItemProgress *item_progress, double fraction);
 
 /* parallel_for, while the caller's thread asks progress (may be NULL), twenty times a second. Without a
  * second thread it is asked between items. False where it was stopped. */
-bool watch_loop(Watch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
+bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
                 void *user, WeftProgress progress, void *progress_user);
 
 #endif

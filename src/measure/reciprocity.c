@@ -7,7 +7,7 @@
 static const double turn = 6.28318530717959;
 
 static float ask_f(const Bsdf *bsdf, int setting, Dir o, Dir i) {
-    View view;
+    BsdfView view;
     float f;
     bsdf->look(bsdf, setting, o, &view);
     bsdf->f(&view, (Dirs){1, &i.x, &i.y, &i.z}, &f);

@@ -11,18 +11,18 @@
 enum { GRID_MOST = 1024, DESCENTS_MOST = 8 };
 
 /* A place in the unit cube, and the error there. */
-typedef struct Place {
+typedef struct SearchPlace {
     double at[SEARCH_MOST], error;
-} Place;
+} SearchPlace;
 
-typedef struct Walk {
+typedef struct SearchDescent {
     const Search *search;
     SearchCare care;
-    Place best;
+    SearchPlace best;
     long long evaluations;
     nlopt_opt method; /* of the descent that is under way */
     bool stopped;
-} Walk;
+} SearchDescent;
 
 static bool by_logarithm(const SearchAxis *axis) { return axis->low > 0.0 && axis->high >= 10.0 * axis->low; }
 
@@ -54,7 +54,7 @@ static double evaluations_most(const Search *search) {
 }
 
 /* 1e30 for everything once it should end. */
-static double error_at(Walk *walk, const double *at, SearchCare care, double *x) {
+static double error_at(SearchDescent *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
     walk->stopped =
         walk->stopped || !progress_report(walk->search->item_progress,
@@ -67,7 +67,7 @@ static double error_at(Walk *walk, const double *at, SearchCare care, double *x)
 
 static double objective(unsigned n, const double *at, double *gradient, void *user) {
     (void)gradient;
-    Walk *walk = user;
+    SearchDescent *walk = user;
     double x[SEARCH_MOST], error = error_at(walk, at, walk->care, x);
     if (error < walk->best.error) {
         walk->best.error = error;
@@ -79,7 +79,7 @@ static double objective(unsigned n, const double *at, double *gradient, void *us
 
 /* Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", PhD thesis, University of
  * Texas at Austin, 1990, as Steven G. Johnson wrote it for NLopt: no random numbers. */
-static void descend_once(Walk *walk, const double *from, double step) {
+static void descend_once(SearchDescent *walk, const double *from, double step) {
     unsigned n = (unsigned)walk->search->axes;
     double at[SEARCH_MOST], least;
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
@@ -99,7 +99,7 @@ static void descend_once(Walk *walk, const double *from, double step) {
 }
 
 /* A simplex that has shrunk along a valley is opened again, where it stands. */
-static Place descend(Walk *walk, const Place *from, SearchCare care) {
+static SearchPlace descend(SearchDescent *walk, const SearchPlace *from, SearchCare care) {
     double step = care == SEARCH_FULL ? 0.03 : 0.1;
     int rounds = care == SEARCH_FULL ? 6 : 1;
     walk->care = care;
@@ -107,7 +107,7 @@ static Place descend(Walk *walk, const Place *from, SearchCare care) {
     walk->best.error = 1e30;
     for (int round = 0; round < rounds && !walk->stopped; round++, step = fmax(0.5 * step, 0.01)) {
         double before = walk->best.error;
-        Place start = walk->best;
+        SearchPlace start = walk->best;
         descend_once(walk, start.at, step);
         if (!(walk->best.error < 0.999 * before && walk->best.error > 1e-7)) break;
     }
@@ -116,14 +116,14 @@ static Place descend(Walk *walk, const Place *from, SearchCare care) {
 
 static const int primes[SEARCH_MOST] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
 
-static double distance(const Place *a, const Place *b, int axes) {
+static double distance(const SearchPlace *a, const SearchPlace *b, int axes) {
     double most = 0.0;
     for (int k = 0; k < axes; k++) most = fmax(most, fabs(a->at[k] - b->at[k]));
     return most;
 }
 
 /* Keeps a point among the best, of which none is near another. */
-static void keep(Place *best, int *count, int room, int axes, const Place *place) {
+static void keep(SearchPlace *best, int *count, int room, int axes, const SearchPlace *place) {
     for (int k = 0; k < *count; k++) {
         if (distance(&best[k], place, axes) >= 0.1) continue;
         if (place->error < best[k].error) best[k] = *place;
@@ -139,9 +139,9 @@ static void keep(Place *best, int *count, int room, int axes, const Place *place
 }
 
 /* The best of the rough descents. */
-static Place roughly(Walk *walk, const Place *start) {
+static SearchPlace roughly(SearchDescent *walk, const SearchPlace *start) {
     const Search *search = walk->search;
-    Place starts[DESCENTS_MOST], place;
+    SearchPlace starts[DESCENTS_MOST], place;
     int count = 0, room = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
     int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
     for (int k = 0; k < grid && room > 0 && !walk->stopped; k++) {
@@ -151,7 +151,7 @@ static Place roughly(Walk *walk, const Place *start) {
         places_of(search, x, place.at);
         keep(starts, &count, room, search->axes, &place);
     }
-    Place best = descend(walk, start, SEARCH_ROUGH);
+    SearchPlace best = descend(walk, start, SEARCH_ROUGH);
     for (int k = 0; k < count && best.error > 1e-7 && !walk->stopped; k++) {
         place = descend(walk, &starts[k], SEARCH_ROUGH);
         if (place.error < best.error) best = place;
@@ -160,14 +160,14 @@ static Place roughly(Walk *walk, const Place *start) {
 }
 
 double search_run(const Search *search, double *x, long long *evaluations) {
-    Walk walk = {.search = search};
-    Place start = {.error = 0.0}, best;
+    SearchDescent walk = {.search = search};
+    SearchPlace start = {.error = 0.0}, best;
     double y[SEARCH_MOST];
     places_of(search, x, start.at);
     start.error = error_at(&walk, start.at, SEARCH_FULL, y);
     best = start;
     if (search->axes > 0 && start.error > 1e-7) {
-        Place rough = roughly(&walk, &start);
+        SearchPlace rough = roughly(&walk, &start);
         best = descend(&walk, &rough, SEARCH_FULL);
     }
     bool better = best.error < start.error;
@@ -177,7 +177,7 @@ double search_run(const Search *search, double *x, long long *evaluations) {
 }
 
 double search_glance(const Search *search, int points, long long *evaluations) {
-    Walk walk = {.search = search};
+    SearchDescent walk = {.search = search};
     double least = 1e30, at[SEARCH_MOST], x[SEARCH_MOST];
     for (int k = 0; k < points && !walk.stopped; k++) {
         for (int a = 0; a < search->axes; a++) at[a] = halton(k + 1, primes[a]);

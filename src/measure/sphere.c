@@ -9,12 +9,12 @@
 /* Edges are smooth by so many rays a pixel, squared. */
 enum { LIGHTS = 3, RAYS = 2 };
 
-typedef struct Lamp {
+typedef struct SphereLight {
     double direction[3], irradiance;
-} Lamp;
+} SphereLight;
 
 /* x right, y up, z towards the viewer. */
-static const Lamp lamps[LIGHTS] = {
+static const SphereLight lamps[LIGHTS] = {
     {{0.424264, 0.565685, 0.707107}, 2.0}, {{-0.692820, 0.519615, -0.5}, 2.0}, {{0.0, 0.0, 1.0}, 0.6}};
 
 typedef struct Sphere {

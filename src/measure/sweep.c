@@ -62,7 +62,7 @@ Sweep sweep_setting(const Bsdf *bsdf, int setting) {
     Partners partners;
     float f[SWEEP_PARTNERS], pdf[SWEEP_PARTNERS];
     for (int k = 0; k < SWEEP_DIRS; k++) {
-        View view;
+        BsdfView view;
         Dir o = sweep_dir(k);
         bsdf->look(bsdf, setting, o, &view);
         sweep_partners(o, k, true, &partners);

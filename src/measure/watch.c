@@ -21,8 +21,8 @@ bool progress_report(ItemProgress *item_progress, double fraction) {
 }
 
 /* The loop, on threads of its own. */
-typedef struct Run {
-    Watch *watch;
+typedef struct LoopRun {
+    LoopWatch *watch;
     int threads, items;
     void (*body)(void *, int, int);
     void *user;
@@ -31,15 +31,15 @@ typedef struct Run {
     pthread_mutex_t lock;
     pthread_cond_t ended;
     bool over;
-} Run;
+} LoopRun;
 
-static void ask(Run *run) {
+static void ask(LoopRun *run) {
     double fraction = (double)atomic_load(&run->watch->done) / ((double)WHOLE * run->items);
     if (run->progress(run->progress_user, fmin(fraction, 1.0)) != 0) atomic_store(&run->watch->stopped, true);
 }
 
 static void *run_loop(void *argument) {
-    Run *run = argument;
+    LoopRun *run = argument;
     parallel_for(run->threads, run->items, run->body, run->user);
     pthread_mutex_lock(&run->lock);
     run->over = true;
@@ -48,7 +48,7 @@ static void *run_loop(void *argument) {
     return NULL;
 }
 
-static bool wait_for_end(Run *run) {
+static bool wait_for_end(LoopRun *run) {
     struct timespec until;
     clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_nsec += pause_ns;
@@ -62,7 +62,7 @@ static bool wait_for_end(Run *run) {
     return over;
 }
 
-static void watched(Run *run) {
+static void watched(LoopRun *run) {
     pthread_t thread;
     pthread_condattr_t clock;
     pthread_condattr_init(&clock);
@@ -83,15 +83,15 @@ static void watched(Run *run) {
     pthread_condattr_destroy(&clock);
 }
 
-bool watch_loop(Watch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
+bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
                 void *user, WeftProgress progress, void *progress_user) {
-    Run run = {.watch = watch,
-               .threads = threads,
-               .items = items,
-               .body = body,
-               .user = user,
-               .progress = progress,
-               .progress_user = progress_user};
+    LoopRun run = {.watch = watch,
+                   .threads = threads,
+                   .items = items,
+                   .body = body,
+                   .user = user,
+                   .progress = progress,
+                   .progress_user = progress_user};
     atomic_store(&watch->stopped, false);
     atomic_store(&watch->done, 0);
     if (progress)

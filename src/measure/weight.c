@@ -1,6 +1,6 @@
 #include "measure/weight.h"
 
-double weight_albedo(const View *view, int cells) {
+double weight_albedo(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;
     float f[GRID_MAX];
@@ -20,7 +20,7 @@ double weight_albedo(const View *view, int cells) {
  *
  * where 1 - P are the samples that find nothing. Written so that it is 0, not a difference, where w is
  * constant. */
-Weight weight_measure(const View *view, int cells) {
+Weight weight_measure(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;
     float f[GRID_MAX], pdf[GRID_MAX];

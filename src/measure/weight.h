@@ -10,8 +10,8 @@ typedef struct Weight {
     double missed;         /* of E, from directions whose pdf is 0: no sample will find it */
 } Weight;
 
-double weight_albedo(const View *view, int cells);
+double weight_albedo(const BsdfView *view, int cells);
 
-Weight weight_measure(const View *view, int cells);
+Weight weight_measure(const BsdfView *view, int cells);
 
 #endif

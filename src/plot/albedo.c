@@ -10,13 +10,13 @@ static const float angles[ANGLES] = {0.0f,  5.0f,  10.0f, 15.0f, 20.0f, 25.0f, 3
                                      40.0f, 45.0f, 50.0f, 55.0f, 60.0f, 65.0f, 70.0f, 74.0f,
                                      78.0f, 81.0f, 84.0f, 86.0f, 87.5f, 88.5f, 89.3f, 89.8f};
 
-typedef struct Row {
+typedef struct AlbedoRow {
     const Making *making;
     const WeftPlotModel *model;
     float view; /* over roughness */
     const float *x;
     float *y;
-} Row;
+} AlbedoRow;
 
 static float albedo_of(const Making *making, const WeftReflection *reflection, float degrees) {
     float w[3], e[3];
@@ -28,13 +28,13 @@ static float albedo_of(const Making *making, const WeftReflection *reflection, f
 
 static void over_angle(void *user, int k, int thread) {
     (void)thread;
-    const Row *row = user;
+    const AlbedoRow *row = user;
     row->y[k] = albedo_of(row->making, row->model->reflection, row->x[k]);
 }
 
 static void over_roughness(void *user, int k, int thread) {
     (void)thread;
-    const Row *row = user;
+    const AlbedoRow *row = user;
     Rough rough;
     row->y[k] = NAN;
     if (rough_make(row->model, row->x[k], &rough))
@@ -47,7 +47,7 @@ static bool angle_series(Making *making, WeftPlotPanel *panel, int model) {
     const int step = making->desc->quick ? QUICK : 1, count = ANGLES / step;
     if (!making_series(making, panel, model, count, &x, &y)) return false;
     for (int k = 0; k < count; k++) x[k] = angles[(k + 1) * step - 1];
-    Row row = {.making = making, .model = &making->desc->models[model], .x = x, .y = y};
+    AlbedoRow row = {.making = making, .model = &making->desc->models[model], .x = x, .y = y};
     parallel_for(0, count, over_angle, &row);
     return true;
 }
@@ -62,7 +62,7 @@ static bool rough_series(Making *making, WeftPlotPanel *panel, int model, float 
     const int count = making->desc->quick ? ROUGHS / 4 : ROUGHS;
     if (!making_series(making, panel, model, count, &x, &y)) return false;
     for (int k = 0; k < count; k++) x[k] = (float)(k + 1) / (float)count;
-    Row row = {.making = making, .model = &making->desc->models[model], .view = view, .x = x, .y = y};
+    AlbedoRow row = {.making = making, .model = &making->desc->models[model], .view = view, .x = x, .y = y};
     parallel_for(0, count, over_roughness, &row);
     return true;
 }

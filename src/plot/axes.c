@@ -138,7 +138,7 @@ static double widest(const Page *page, const Tick *ticks, int count) {
     return most;
 }
 
-static void draw_x(const Page *page, const WeftPlotPanel *panel, Box in, const Tick *ticks, int count) {
+static void draw_x(const Page *page, const WeftPlotPanel *panel, PageBox in, const Tick *ticks, int count) {
     const double type = page->type, bottom = in.y + in.height;
     Scale scale = scale_of(&panel->x, in.x, in.x + in.width);
     for (int k = 0; k < count; k++) {
@@ -153,7 +153,7 @@ static void draw_x(const Page *page, const WeftPlotPanel *panel, Box in, const T
     place_text(page->cairo, ink_dark, in.x + 0.5 * in.width, bottom + 2.75 * type, 0.5, label);
 }
 
-static void draw_y(const Page *page, const WeftPlotPanel *panel, Box in, double left, const Tick *ticks,
+static void draw_y(const Page *page, const WeftPlotPanel *panel, PageBox in, double left, const Tick *ticks,
                    int count) {
     const double type = page->type;
     Scale scale = scale_of(&panel->y, in.y + in.height, in.y);
@@ -173,14 +173,14 @@ static void draw_y(const Page *page, const WeftPlotPanel *panel, Box in, double 
     cairo_restore(page->cairo);
 }
 
-Box axes_draw(const Page *page, const WeftPlotPanel *panel, Box box) {
+PageBox axes_draw(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type;
     Tick x[TICKS_MAX], y[TICKS_MAX];
     set_font(page->cairo, 0.9 * type, false);
     Scale up = scale_of(&panel->y, box.y + box.height - 3.2 * type, box.y + 0.5 * type);
     int rows = ticks_make(&up, axis_in_degrees(&panel->y), 2.4 * type, y);
     double left = widest(page, y, rows) + 2.2 * type;
-    Box in = {box.x + left, box.y + 0.5 * type, box.width - left - 1.2 * type, box.height - 3.7 * type};
+    PageBox in = {box.x + left, box.y + 0.5 * type, box.width - left - 1.2 * type, box.height - 3.7 * type};
     Scale across = scale_of(&panel->x, in.x, in.x + in.width);
     int columns = ticks_make(&across, axis_in_degrees(&panel->x), 3.6 * type, x);
     draw_x(page, panel, in, x, columns);

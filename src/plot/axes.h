@@ -34,6 +34,6 @@ void axis_text(const WeftPlotAxis *axis, char text[96]);
 bool axis_in_degrees(const WeftPlotAxis *axis);
 
 /* What frame, ticks, labels and grid lines leave of a box for the values; draws them. */
-Box axes_draw(const Page *page, const WeftPlotPanel *panel, Box box);
+PageBox axes_draw(const Page *page, const WeftPlotPanel *panel, PageBox box);
 
 #endif

@@ -24,8 +24,8 @@ static void trace(const Page *page, const WeftPlotSeries *series, const Scale *x
 }
 
 /* A triangle at the top of the frame over what is beyond it, with the largest value. */
-static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series, Box in,
-                        int row) {
+static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
+                        PageBox in, int row) {
     const double type = page->type;
     int top = -1;
     for (int k = 0; k < series->count; k++)
@@ -57,7 +57,7 @@ static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
     return true;
 }
 
-static void draw_marks(const Page *page, const WeftPlotPanel *panel, Box in) {
+static void draw_marks(const Page *page, const WeftPlotPanel *panel, PageBox in) {
     Scale across = scale_of(&panel->x, in.x, in.x + in.width);
     set_font(page->cairo, 0.75 * page->type, false);
     for (int k = 0; k < panel->mark_count; k++) {
@@ -67,9 +67,9 @@ static void draw_marks(const Page *page, const WeftPlotPanel *panel, Box in) {
     }
 }
 
-WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, Box box) {
+WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double head = panel->mark_count ? 0.5 * page->type : 0.0;
-    Box in = axes_draw(page, panel, (Box){box.x, box.y + head, box.width, box.height - head});
+    PageBox in = axes_draw(page, panel, (PageBox){box.x, box.y + head, box.width, box.height - head});
     Scale x = scale_of(&panel->x, in.x, in.x + in.width), y = scale_of(&panel->y, in.y + in.height, in.y);
     draw_marks(page, panel, in);
     if (panel->y.high > 1.0f && panel->y.low < 1.0f && panel->y.unit[0] == '\0') /* what E must not pass */

@@ -15,14 +15,14 @@ enum { ANGLES = 14, CELLS = 80, WALKS = 40000, QUICK = 3 }; /* QUICK: every thir
 static const float angles[ANGLES] = {0.0f,  15.0f, 30.0f, 40.0f, 50.0f, 60.0f, 67.0f,
                                      73.0f, 78.0f, 82.0f, 85.0f, 87.0f, 88.5f, 89.5f};
 
-typedef struct Work {
+typedef struct FurnaceWork {
     Lobe lobe;
     float roughness;
     const AlbedoTable *table;
     float *y[LAYER_COUNT];
     const float *x;
     int cells, walks;
-} Work;
+} FurnaceWork;
 
 static int count_of(const Making *making) { return making->desc->quick ? ANGLES / QUICK : ANGLES; }
 
@@ -45,7 +45,7 @@ static float roughness_of(const Lobe *lobe) {
 
 static void measure(void *user, int item, int thread) {
     (void)thread;
-    const Work *work = user;
+    const FurnaceWork *work = user;
     int layer = item % LAYER_COUNT, k = item / LAYER_COUNT;
     Dir o = grid_direction((cos)((double)work->x[k] * 0.017453292519943295), 0.0);
     work->y[layer][k] =
@@ -55,8 +55,8 @@ static void measure(void *user, int item, int thread) {
 
 static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given, int first_entry) {
     const int count = count_of(making);
-    Work work = {.cells = making->desc->quick ? CELLS / 2 : CELLS,
-                 .walks = making->desc->quick ? WALKS / 4 : WALKS};
+    FurnaceWork work = {.cells = making->desc->quick ? CELLS / 2 : CELLS,
+                        .walks = making->desc->quick ? WALKS / 4 : WALKS};
     AlbedoTable *table = malloc(sizeof *table);
     bool held = table && making_series_room(making, panel, LAYER_COUNT);
     work.lobe = lobe_default(given->lobe);

@@ -49,7 +49,7 @@ static WeftResult color_pixels(const WeftPlotPanel *panel, bool upward, WeftImag
     return result;
 }
 
-static void draw_bar(const Page *page, const WeftPlotPanel *panel, Box bar) {
+static void draw_bar(const Page *page, const WeftPlotPanel *panel, PageBox bar) {
     const double type = page->type;
     Scale scale = scale_of(&panel->z, bar.y + bar.height, bar.y);
     Tick ticks[TICKS_MAX];
@@ -88,9 +88,9 @@ static void draw_bar(const Page *page, const WeftPlotPanel *panel, Box bar) {
     cairo_restore(page->cairo);
 }
 
-WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, Box box) {
+WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type, right = panel->colored ? 0.0 : 6.2 * type;
-    Box in = axes_draw(page, panel, (Box){box.x, box.y, box.width - right, box.height});
+    PageBox in = axes_draw(page, panel, (PageBox){box.x, box.y, box.width - right, box.height});
     WeftImage image;
     WeftResult result = panel->colored ? color_pixels(panel, true, &image, page->error)
                                        : weft_image_create(panel->columns, panel->rows, 3, WEFT_PIXEL_U8,
@@ -100,7 +100,7 @@ WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, Box box) {
     result = place_image(page, &image, in, false);
     weft_image_free(&image);
     if (!panel->colored)
-        draw_bar(page, panel, (Box){in.x + in.width + 0.8 * type, in.y, 1.1 * type, in.height});
+        draw_bar(page, panel, (PageBox){in.x + in.width + 0.8 * type, in.y, 1.1 * type, in.height});
     cairo_rectangle(page->cairo, in.x, in.y, in.width, in.height);
     cairo_set_source_rgb(page->cairo, ink_dark[0], ink_dark[1], ink_dark[2]);
     cairo_set_line_width(page->cairo, 0.08 * type);
@@ -108,11 +108,11 @@ WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, Box box) {
     return result;
 }
 
-WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, Box box) {
+WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type, labels = panel->cell_count ? 1.6 * type : 0.0;
     double scale = fmin(box.width / panel->columns, (box.height - labels) / panel->rows);
-    Box in = {round(box.x + 0.3 * type), round(box.y), floor(scale * panel->columns - 0.3 * type),
-              floor(scale * panel->rows)};
+    PageBox in = {round(box.x + 0.3 * type), round(box.y), floor(scale * panel->columns - 0.3 * type),
+                  floor(scale * panel->rows)};
     WeftImage image;
     WeftResult result = color_pixels(panel, false, &image, page->error);
     if (result != WEFT_OK) return result;

@@ -43,7 +43,7 @@ void rule(const Page *page, const double color[3], double width, double x0, doub
     cairo_stroke(page->cairo);
 }
 
-WeftResult place_image(const Page *page, const WeftImage *image, Box box, bool smooth) {
+WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bool smooth) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, image->width, image->height);
     if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
         cairo_surface_destroy(surface);
@@ -177,9 +177,9 @@ static void figures_text(const WeftPlotPanel *panel, char *text, size_t size) {
     }
 }
 
-static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, Box box) {
-    static WeftResult (*const draw[])(const Page *, const WeftPlotPanel *,
-                                      Box) = {draw_curves, draw_rose, draw_map, draw_surface, draw_picture};
+static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, PageBox box) {
+    static WeftResult (*const draw[])(const Page *, const WeftPlotPanel *, PageBox) = {
+        draw_curves, draw_rose, draw_map, draw_surface, draw_picture};
     const double type = page->type, room = box.width - type;
     char figures[320];
     figures_text(panel, figures, sizeof figures);
@@ -191,7 +191,8 @@ static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, Box b
         write_text(page->cairo, ink_dim, box.x + 0.5 * type, box.y + 2.3 * type, room, figures);
         head += 1.3 * type;
     }
-    Box inner = {box.x + 0.3 * type, box.y + head, box.width - 0.6 * type, box.height - head - 0.4 * type};
+    PageBox inner = {box.x + 0.3 * type, box.y + head, box.width - 0.6 * type,
+                     box.height - head - 0.4 * type};
     if (inner.width < 4.0 * type || inner.height < 4.0 * type) return WEFT_OK;
     cairo_save(page->cairo);
     WeftResult result = draw[panel->form](page, panel, inner);
@@ -217,7 +218,7 @@ WeftResult page_draw(const Page *page) {
     for (int k = 0; k < data->count && result == WEFT_OK; k++) {
         const int row = k / data->columns, column = k % data->columns;
         result = draw_panel(page, &data->panels[k],
-                            (Box){type + width * column, top + height * row, width, height});
+                            (PageBox){type + width * column, top + height * row, width, height});
     }
     if (has_legend(data)) draw_legend(page, bottom);
     set_font(page->cairo, 0.75 * type, false);

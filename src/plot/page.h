@@ -10,9 +10,9 @@
 #include "plot/type.h"
 #include "weft/plot.h"
 
-typedef struct Box {
+typedef struct PageBox {
     double x, y, width, height;
-} Box;
+} PageBox;
 
 typedef struct Page {
     const WeftPlotData *data;
@@ -30,11 +30,11 @@ double page_type(const WeftPlotData *data, int width, int height);
 WeftResult page_draw(const Page *page);
 
 /* One panel each, inside its box. */
-WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, Box box);
-WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, Box box);
-WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, Box box);
-WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, Box box);
-WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, Box box);
+WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, PageBox box);
+WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, PageBox box);
+WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, PageBox box);
+WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, PageBox box);
+WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, PageBox box);
 
 /* Inks: text and frames, what explains, and grid lines. */
 extern const double ink_dark[3], ink_dim[3], ink_grid[3];
@@ -47,7 +47,7 @@ const double *entry_color(int entry);
 void rule(const Page *page, const double color[3], double width, double x0, double y0, double x1, double y1);
 
 /* Rows from the top, an U8 RGB picture over a box; smooth: between its pixels. */
-WeftResult place_image(const Page *page, const WeftImage *image, Box box, bool smooth);
+WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bool smooth);
 
 /* The sheet's dark grey where a map has no value or a picture nothing to show. */
 extern const double ink_none[3];

@@ -18,12 +18,12 @@ struct WeftPlotMemory {
     Arena arena;
 };
 
-typedef struct Kind {
+typedef struct FigureKind {
     const char *name, *help, *title;
     WeftResult (*make)(Making *making);
-} Kind;
+} FigureKind;
 
-static const Kind kinds[WEFT_PLOT_KINDS] = {
+static const FigureKind kinds[WEFT_PLOT_KINDS] = {
     [WEFT_PLOT_POLAR] = {"polar", "f as a length over the angle of wi, in the plane of wo and across it",
                          "Polar plot", kind_polar},
     [WEFT_PLOT_LOBE3D] = {"lobe3d", "f as a length over all wi: a surface", "The lobe in space", kind_lobe3d},

@@ -137,7 +137,7 @@ static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
     cairo_fill(page->cairo);
 }
 
-WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, Box box) {
+WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type;
     Rose rose = {.x = box.x + 0.5 * box.width, .y = box.y + box.height - 3.2 * type};
     rose.radius = fmax(fmin(0.5 * box.width - 3.0 * type, rose.y - box.y - 1.6 * type), type);

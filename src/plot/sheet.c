@@ -16,7 +16,7 @@ static const double background[3] = {0.086, 0.090, 0.098}, bright[3] = {0.92, 0.
                     dim[3] = {0.58, 0.60, 0.63};
 
 /* Places in pixels; everything follows from the size of the type. */
-typedef struct Layout {
+typedef struct SheetLayout {
     int columns, rows;
     double type;                    /* size of titles */
     int column_width, image_height; /* of the largest panel */
@@ -25,9 +25,9 @@ typedef struct Layout {
     bool stacked; /* notes stand below titles: side by side they would not fit */
     bool wrapped; /* a title takes two lines */
     int width, height;
-} Layout;
+} SheetLayout;
 
-static double note_size(const Layout *layout) { return 0.82 * layout->type; }
+static double note_size(const SheetLayout *layout) { return 0.82 * layout->type; }
 
 /* Cuts a title that is wider than room at a blank; the second line, NULL where there is none. line becomes
  * what is to be drawn first. */
@@ -43,7 +43,7 @@ static const char *wrap(cairo_t *cairo, double room, const char *title, char lin
     return NULL;
 }
 
-static bool titles_wrap(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+static bool titles_wrap(cairo_t *cairo, const SheetLayout *layout, const WeftSheetDesc *desc) {
     char line[TEXT_SIZE];
     bool any = false;
     set_font(cairo, layout->type, true);
@@ -52,7 +52,7 @@ static bool titles_wrap(cairo_t *cairo, const Layout *layout, const WeftSheetDes
     return any;
 }
 
-static bool notes_fit(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+static bool notes_fit(cairo_t *cairo, const SheetLayout *layout, const WeftSheetDesc *desc) {
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
         if (!panel->title || !panel->note) continue;
@@ -68,9 +68,10 @@ static bool is_map(const WeftPanel *panel) {
     return panel->image && (panel->none < panel->most || panel->none > panel->most);
 }
 
-static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
+static SheetLayout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     enum { NARROWEST = 240 };
-    Layout layout = {.columns = desc->columns, .rows = (desc->count + desc->columns - 1) / desc->columns};
+    SheetLayout layout = {.columns = desc->columns,
+                          .rows = (desc->count + desc->columns - 1) / desc->columns};
     bool labels = false, maps = false;
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
@@ -99,7 +100,8 @@ static Layout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     return layout;
 }
 
-static void draw_label(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
+static void draw_label(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
+                       double y) {
     double baseline = y + 1.35 * layout->type, room = layout->column_width;
     if (panel->title) {
         char line[TEXT_SIZE];
@@ -127,7 +129,8 @@ static void draw_bar(cairo_t *cairo, double left, double top, double width, doub
 }
 
 /* The colours of a map below its label. */
-static void draw_legend(cairo_t *cairo, const Layout *layout, const WeftPanel *panel, double x, double y) {
+static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
+                        double y) {
     double width = layout->column_width, height = 0.7 * layout->type;
     draw_bar(cairo, x, y + 0.5 * layout->type, width, height, 0.0f);
     for (int k = 0; k < 3; k++) {
@@ -145,7 +148,7 @@ static void draw_legend(cairo_t *cairo, const Layout *layout, const WeftPanel *p
 }
 
 /* A bar in the middle of a panel, with words and numbers at its ends. */
-static void draw_scale(cairo_t *cairo, const Layout *layout, float scale, double x, double y) {
+static void draw_scale(cairo_t *cairo, const SheetLayout *layout, float scale, double x, double y) {
     double width = 0.7 * layout->column_width, height = 0.9 * layout->type;
     double left = x + 0.5 * (layout->column_width - width), top = y + 0.5 * (layout->image_height - height);
     draw_bar(cairo, left, top, width, height, -1.0f);
@@ -182,13 +185,13 @@ static void copy_image(const WeftImage *image, unsigned char *pixels, int stride
 }
 
 /* Where panel k begins. */
-static void panel_place(const Layout *layout, int k, int *x, int *y) {
+static void panel_place(const SheetLayout *layout, int k, int *x, int *y) {
     *x = layout->margin + k % layout->columns * (layout->column_width + layout->gap);
     *y = layout->margin + layout->caption +
          k / layout->columns * (layout->image_height + layout->label + layout->gap);
 }
 
-static void draw(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc) {
+static void draw(cairo_t *cairo, const SheetLayout *layout, const WeftSheetDesc *desc) {
     cairo_set_source_rgb(cairo, background[0], background[1], background[2]);
     cairo_paint(cairo);
     if (desc->caption) {
@@ -207,7 +210,7 @@ static void draw(cairo_t *cairo, const Layout *layout, const WeftSheetDesc *desc
     }
 }
 
-static WeftResult from_surface(cairo_surface_t *surface, const Layout *layout, const WeftSheetDesc *desc,
+static WeftResult from_surface(cairo_surface_t *surface, const SheetLayout *layout, const WeftSheetDesc *desc,
                                WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(layout->width, layout->height, 3, WEFT_PIXEL_U8, out, error);
     if (result != WEFT_OK) return result;
@@ -250,7 +253,7 @@ WeftResult weft_sheet_compose(const WeftSheetDesc *desc, WeftImage *out, WeftErr
     if (result != WEFT_OK) return result;
     cairo_surface_t *probe = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1);
     cairo_t *ruler = cairo_create(probe);
-    Layout layout = layout_of(desc, ruler);
+    SheetLayout layout = layout_of(desc, ruler);
     cairo_destroy(ruler);
     cairo_surface_destroy(probe);
     if (layout.width > SIDE_MAX || layout.height > SIDE_MAX)

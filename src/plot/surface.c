@@ -16,31 +16,31 @@ enum { SAMPLES = 3, SIDE_MOST = 3000 };
 /* Parallel projection, the viewer 35 degrees to the side of the plane of wo and 28 above the ground. */
 static const double turn = 0.61, rise = 0.49;
 
-typedef struct Point {
+typedef struct SurfacePoint {
     double x, y, depth; /* on the page; depth grows away from the viewer */
-} Point;
+} SurfacePoint;
 
-typedef struct Stage {
+typedef struct PlotStage {
     double x, y, radius; /* of the ground's circle, which stands for the largest value */
     Scale scale;         /* from values to lengths on the page */
-    Box box;
+    PageBox box;
     int width, height; /* of the buffers */
     double fine;       /* their pixels per page's */
     float *depth, (*color)[4];
-} Stage;
+} PlotStage;
 
-static Point project(const Stage *stage, const double p[3]) {
+static SurfacePoint project(const PlotStage *stage, const double p[3]) {
     double along = p[0] * cos(turn) + p[1] * sin(turn), across = p[1] * cos(turn) - p[0] * sin(turn);
-    return (Point){stage->x + across, stage->y - p[2] * cos(rise) + along * sin(rise),
-                   -(along * cos(rise) + p[2] * sin(rise))};
+    return (SurfacePoint){stage->x + across, stage->y - p[2] * cos(rise) + along * sin(rise),
+                          -(along * cos(rise) + p[2] * sin(rise))};
 }
 
-static double length_of(const Stage *stage, float value) {
+static double length_of(const PlotStage *stage, float value) {
     return fmin(fmax(scale_place(&stage->scale, (double)value), 0.0), stage->radius);
 }
 
 /* A node of the grid in the stage's space. */
-static void node(const Stage *stage, const WeftPlotPanel *panel, int row, int column, double p[3]) {
+static void node(const PlotStage *stage, const WeftPlotPanel *panel, int row, int column, double p[3]) {
     float value = panel->values[row * panel->columns + column];
     double theta = 1.5707963267948966 * row / (panel->rows - 1);
     double phi = 6.283185307179586 * column / (panel->columns - 1);
@@ -62,19 +62,20 @@ static double shade(const double n[3]) {
     return 0.45 + 0.55 * fabs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]);
 }
 
-static double edge(Point a, Point b, double x, double y) {
+static double edge(SurfacePoint a, SurfacePoint b, double x, double y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
 /* A corner of a triangle: where it is in its cell is for the mesh. */
-typedef struct Corner {
-    Point at;
+typedef struct PlotCorner {
+    SurfacePoint at;
     double across, along;
-} Corner;
+} PlotCorner;
 
-static void fill(const Stage *stage, const Corner corner[3], const float color[3], const bool mesh[2]) {
+static void fill(const PlotStage *stage, const PlotCorner corner[3], const float color[3],
+                 const bool mesh[2]) {
     const double thin = 0.35; /* of a cell */
-    Point a = corner[0].at, b = corner[1].at, c = corner[2].at;
+    SurfacePoint a = corner[0].at, b = corner[1].at, c = corner[2].at;
     double area = edge(a, b, c.x, c.y);
     if (fabs(area) < 1e-9) return;
     int left = (int)floor(fmax(fmin(a.x, fmin(b.x, c.x)), 0.0));
@@ -99,8 +100,8 @@ static void fill(const Stage *stage, const Corner corner[3], const float color[3
 }
 
 /* A place on the page in the buffers. */
-static Point fine_point(const Stage *stage, const double p[3]) {
-    Point point = project(stage, p);
+static SurfacePoint fine_point(const PlotStage *stage, const double p[3]) {
+    SurfacePoint point = project(stage, p);
     point.x = (point.x - stage->box.x) * stage->fine;
     point.y = (point.y - stage->box.y) * stage->fine;
     return point;
@@ -112,13 +113,13 @@ static bool on_mesh(int k, int nodes, int degrees) {
     return step > 0 && k % step == 0;
 }
 
-static void fill_cell(const Stage *stage, const WeftPlotPanel *panel, int row, int column) {
+static void fill_cell(const PlotStage *stage, const WeftPlotPanel *panel, int row, int column) {
     double p[4][3], n[3];
-    Corner at[4];
+    PlotCorner at[4];
     for (int k = 0; k < 4; k++) {
         const int along = k / 2, across = k % 2;
         node(stage, panel, row + along, column + across, p[k]);
-        at[k] = (Corner){fine_point(stage, p[k]), across, along};
+        at[k] = (PlotCorner){fine_point(stage, p[k]), across, along};
     }
     normal_of(p[0], p[1], p[3], n);
     if (!(fabs(n[0]) + fabs(n[1]) + fabs(n[2]) > 0.5)) normal_of(p[0], p[3], p[2], n);
@@ -127,21 +128,21 @@ static void fill_cell(const Stage *stage, const WeftPlotPanel *panel, int row, i
     float color[3];
     /* lifted towards white, so that black too has shades */
     for (int k = 0; k < 3; k++) color[k] = (float)((0.22 + 0.78 * base[k]) * shade(n));
-    fill(stage, (Corner[3]){at[0], at[1], at[3]}, color, mesh);
-    fill(stage, (Corner[3]){at[0], at[3], at[2]}, color, mesh);
+    fill(stage, (PlotCorner[3]){at[0], at[1], at[3]}, color, mesh);
+    fill(stage, (PlotCorner[3]){at[0], at[3], at[2]}, color, mesh);
 }
 
-static void circle(const Page *page, const Stage *stage, double radius) {
+static void circle(const Page *page, const PlotStage *stage, double radius) {
     cairo_new_path(page->cairo);
     for (int k = 0; k <= 90; k++) {
         double phi = 6.283185307179586 * k / 90, p[3] = {radius * cos(phi), radius * sin(phi), 0.0};
-        Point at = project(stage, p);
+        SurfacePoint at = project(stage, p);
         cairo_line_to(page->cairo, at.x, at.y);
     }
     cairo_close_path(page->cairo);
 }
 
-static void draw_ground(const Page *page, const WeftPlotPanel *panel, const Stage *stage) {
+static void draw_ground(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     const double type = page->type;
     Tick ticks[TICKS_MAX];
     int count = ticks_make(&stage->scale, false, 2.8 * type, ticks);
@@ -151,7 +152,7 @@ static void draw_ground(const Page *page, const WeftPlotPanel *panel, const Stag
     for (int degrees = 0; degrees < 360; degrees += 30) {
         double phi = degrees * 0.017453292519943295;
         double p[3] = {stage->radius * cos(phi), stage->radius * sin(phi), 0.0}, o[3] = {0.0};
-        Point at = project(stage, p), center = project(stage, o);
+        SurfacePoint at = project(stage, p), center = project(stage, o);
         rule(page, ink_grid, 0.06, center.x, center.y, at.x, at.y);
     }
     for (int k = 0; k < count; k++) {
@@ -168,7 +169,7 @@ static void draw_ground(const Page *page, const WeftPlotPanel *panel, const Stag
 }
 
 /* Values and azimuths at the rim, outside what the surface can cover. */
-static void draw_labels(const Page *page, const WeftPlotPanel *panel, const Stage *stage) {
+static void draw_labels(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     const double type = page->type;
     Tick ticks[TICKS_MAX];
     int count = ticks_make(&stage->scale, false, 2.8 * type, ticks);
@@ -192,17 +193,17 @@ static void draw_labels(const Page *page, const WeftPlotPanel *panel, const Stag
 }
 
 /* The arrow towards the viewer, where nothing is before it. */
-static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const Stage *stage) {
+static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     enum { PARTS = 400 };
     const double type = page->type, angle = (double)panel->view * 0.017453292519943295;
     const double reach = 1.06 * stage->radius;
-    Point tip = {0.0, 0.0, 0.0}, before = {0.0, 0.0, 0.0};
+    SurfacePoint tip = {0.0, 0.0, 0.0}, before = {0.0, 0.0, 0.0};
     cairo_set_source_rgb(page->cairo, ink_dark[0], ink_dark[1], ink_dark[2]);
     cairo_set_line_width(page->cairo, 0.13 * type);
     for (int k = 0; k < PARTS; k++) {
         double p[3] = {reach * k / PARTS * sin(angle), 0.0, reach * k / PARTS * cos(angle)};
         double q[3] = {p[0] * (k + 1.2) / fmax(k, 1), 0.0, p[2] * (k + 1.2) / fmax(k, 1)};
-        Point at = project(stage, p), fine = fine_point(stage, p), next = project(stage, q);
+        SurfacePoint at = project(stage, p), fine = fine_point(stage, p), next = project(stage, q);
         int x = (int)fine.x, y = (int)fine.y;
         bool inside = x >= 0 && y >= 0 && x < stage->width && y < stage->height;
         before = at;
@@ -226,7 +227,7 @@ static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const Stage
 }
 
 /* The fine buffer over the page, averaged to its own resolution, with what it does not cover left clear. */
-static WeftResult lay_over(const Page *page, const Stage *stage) {
+static WeftResult lay_over(const Page *page, const PlotStage *stage) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, stage->width, stage->height);
     if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
         cairo_surface_destroy(surface);
@@ -256,7 +257,7 @@ static WeftResult lay_over(const Page *page, const Stage *stage) {
 
 /* How far above the middle of the ground the surface and the arrow reach, in radii. */
 static double reach_up(const WeftPlotPanel *panel) {
-    Stage unit = {.radius = 1.0, .scale = scale_of(&panel->z, 0.0, 1.0)};
+    PlotStage unit = {.radius = 1.0, .scale = scale_of(&panel->z, 0.0, 1.0)};
     double angle = (double)panel->view * 0.017453292519943295;
     const double tip[3] = {1.06 * sin(angle), 0.0, 1.06 * cos(angle)};
     double most = fmax(sin(rise), -project(&unit, tip).y);
@@ -270,9 +271,9 @@ static double reach_up(const WeftPlotPanel *panel) {
 }
 
 /* As large as width and height allow, in the middle. */
-static Stage stage_of(const Page *page, const WeftPlotPanel *panel, Box box) {
+static PlotStage stage_of(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type, room = box.height - 5.0 * type, up = reach_up(panel);
-    Stage stage = {.box = box};
+    PlotStage stage = {.box = box};
     stage.radius = fmax(fmin(0.5 * box.width - 2.0 * type, room / (up + sin(rise))), type);
     stage.x = box.x + 0.5 * box.width;
     stage.y = box.y + 2.0 * type + 0.5 * (room - stage.radius * (up + sin(rise))) + stage.radius * up;
@@ -283,8 +284,8 @@ static Stage stage_of(const Page *page, const WeftPlotPanel *panel, Box box) {
     return stage;
 }
 
-WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, Box box) {
-    Stage stage = stage_of(page, panel, box);
+WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, PageBox box) {
+    PlotStage stage = stage_of(page, panel, box);
     const size_t count = (size_t)stage.width * (size_t)stage.height;
     stage.depth = alloc_array(count, sizeof *stage.depth);
     stage.color = alloc_array(count, sizeof *stage.color);

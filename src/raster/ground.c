@@ -18,11 +18,11 @@ typedef struct SkyLights {
     float w[RAYS], whole;
 } SkyLights;
 
-typedef struct Look {
+typedef struct GroundRow {
     const Ground *ground;
     const SkyLights *lights;
     float *texels;
-} Look;
+} GroundRow;
 
 static bool find_sky_lights(SkyLights *lights, const WeftScene *scene) {
     Arena arena = {0};
@@ -42,7 +42,7 @@ static bool find_sky_lights(SkyLights *lights, const WeftScene *scene) {
     return made;
 }
 
-static float reached(const Look *look, Vec3 point) {
+static float reached(const GroundRow *look, Vec3 point) {
     float sum = 0.0f;
     for (int k = 0; k < RAYS; k++) {
         Ray ray = {point, look->lights->wi[k], 0.0f, INFINITY, (uint32_t)k, false};
@@ -53,7 +53,7 @@ static float reached(const Look *look, Vec3 point) {
 }
 
 static void look_along_row(void *user, int row, int thread) {
-    const Look *look = user;
+    const GroundRow *look = user;
     const Floor *floor = &look->ground->floor;
     for (int column = 0; column < SIDE; column++) {
         float x = 2.0f * ((float)column + 0.5f) / SIDE - 1.0f, y = 2.0f * ((float)row + 0.5f) / SIDE - 1.0f;
@@ -103,7 +103,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
     self->rotation = e->rotation;
     self->strength = e->strength;
     self->light = lights.whole;
-    parallel_for(threads, SIDE, look_along_row, &(Look){self, &lights, texels});
+    parallel_for(threads, SIDE, look_along_row, &(GroundRow){self, &lights, texels});
     upload(self, texels);
     free(texels);
     result = gl_check(error, "a floor");

@@ -1,11 +1,11 @@
 #include "raster/part.h"
 
 /* The slot of a stack that a part of the light is; or what a property is in glsl/forward.glsl. */
-typedef struct Part {
+typedef struct PartView {
     const char *name, *slot, *property;
-} Part;
+} PartView;
 
-static const Part parts[WEFT_PART_COUNT] = {
+static const PartView parts[WEFT_PART_COUNT] = {
     [WEFT_PART_ALL] = {"all", NULL, NULL},
     [WEFT_PART_DIFFUSE] = {"diffuse", "SHOWS_DIFFUSE", NULL},
     [WEFT_PART_SPECULAR] = {"specular", "SHOWS_SPECULAR", NULL},

@@ -13,15 +13,16 @@
 #include "raster/program.h"
 #include "weft/render.h"
 
-typedef struct Sampler {
+typedef struct TextureSampler {
     const char *name;
     int unit;
-} Sampler;
+} TextureSampler;
 
-static const Sampler samplers[] = {{"weft_tables", UNIT_TABLES},   {"environment_cube", UNIT_ENVIRONMENT},
-                                   {"shadow_map", UNIT_SHADOW},    {"shadow_depth", UNIT_SHADOW_DEPTH},
-                                   {"floor_sky", UNIT_FLOOR},      {"floor_mirror", UNIT_FLOOR + 1},
-                                   {"floor_depth", UNIT_FLOOR + 2}};
+static const TextureSampler samplers[] = {
+    {"weft_tables", UNIT_TABLES},   {"environment_cube", UNIT_ENVIRONMENT},
+    {"shadow_map", UNIT_SHADOW},    {"shadow_depth", UNIT_SHADOW_DEPTH},
+    {"floor_sky", UNIT_FLOOR},      {"floor_mirror", UNIT_FLOOR + 1},
+    {"floor_depth", UNIT_FLOOR + 2}};
 
 /* Leaves the program in use: the one that was may be the one it replaces, and be gone. */
 static void set_units(Program *self) {
@@ -81,33 +82,33 @@ static void drop(Program *self) {
 }
 
 /* One to compile. */
-typedef struct Job {
+typedef struct CompileJob {
     Program *program;
     Text vertex, fragment;
     WeftError error;
     GLuint made;
-} Job;
+} CompileJob;
 
-typedef struct Batch {
-    Job *jobs;
+typedef struct CompileBatch {
+    CompileJob *jobs;
     int count, threads;
     GlContext *contexts[WEFT_THREADS_MAX]; /* a thread */
-} Batch;
+} CompileBatch;
 
-static void write_text(Programs *programs, Job *job) {
+static void write_text(Programs *programs, CompileJob *job) {
     shader_vertex_text(&job->program->key, &programs->desc, &job->vertex);
     shader_text(&job->program->key, &programs->desc, &programs->fits, &job->fragment);
     if (text_end(&job->vertex, &job->error) == WEFT_OK) text_end(&job->fragment, &job->error);
 }
 
-static void compile(Job *job) {
+static void compile(CompileJob *job) {
     if (job->error.result == WEFT_OK)
         job->made = program_create("material shader", (ShaderSource){job->vertex.bytes, &job->vertex},
                                    (ShaderSource){job->fragment.bytes, &job->fragment}, &job->error);
 }
 
 static void compile_in_thread(void *user, int item, int thread) {
-    const Batch *batch = user;
+    const CompileBatch *batch = user;
     GlContext *context = batch->contexts[thread];
     GlOuter outer;
     if (!context_enter(context, &outer)) return;
@@ -118,7 +119,7 @@ static void compile_in_thread(void *user, int item, int thread) {
 }
 
 /* What was there before stays where compiling failed. */
-static void take(Programs *programs, Job *job) {
+static void take(Programs *programs, CompileJob *job) {
     Program *self = job->program;
     const Text *text = &job->fragment;
     GLuint tables = 0;
@@ -169,7 +170,7 @@ static GlContext *share_context(const GlContext *context) {
 }
 
 /* As many contexts as there are threads to use. */
-static void share_contexts(Batch *batch, const GlContext *context, int threads) {
+static void share_contexts(CompileBatch *batch, const GlContext *context, int threads) {
     if (threads <= 0) threads = thread_count();
     if (threads > batch->count) threads = batch->count;
     while (batch->threads < threads && (batch->contexts[batch->threads] = share_context(context)))
@@ -177,15 +178,15 @@ static void share_contexts(Batch *batch, const GlContext *context, int threads) 
 }
 
 static void compile_all(void *user) {
-    Batch *batch = user;
+    CompileBatch *batch = user;
     parallel_for(batch->threads, batch->count, compile_in_thread, batch);
 }
 
 /* Drivers compile and link in the thread that asks, for as long as all else takes together; so several ask.
  * None of them is the caller's: a thread has its part of the heap for itself, so that the little that a
  * compiler keeps of much does not lie strewn among all else, where it would hold whole pages. */
-static void build(Programs *programs, const GlContext *context, Job *jobs, int count) {
-    Batch batch = {.jobs = jobs, .count = count};
+static void build(Programs *programs, const GlContext *context, CompileJob *jobs, int count) {
+    CompileBatch batch = {.jobs = jobs, .count = count};
     for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
     share_contexts(&batch, context, programs->fits.threads);
     if (batch.threads) run_in_thread(compile_all, &batch);
@@ -257,7 +258,7 @@ bool programs_build(Programs *programs, const GlContext *context) {
     programs->tick++;
     if (!programs->wanted) return true;
     forget(programs);
-    Job *jobs = alloc_array((size_t)programs->wanted, sizeof *jobs);
+    CompileJob *jobs = alloc_array((size_t)programs->wanted, sizeof *jobs);
     if (!jobs) return false;
     for (Program *p = programs->first; p; p = p->next) {
         if (p->wanted) jobs[count++].program = p;

@@ -56,7 +56,7 @@ struct WeftRaster {
     Queue queue;
     Camera camera; /* of the last picture */
     double compile_seconds;
-    Watch watch; /* of the shader_dir */
+    FolderWatch watch; /* of the shader_dir */
 };
 
 static double now(void) {

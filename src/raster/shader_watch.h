@@ -8,20 +8,20 @@
 #include "base/memory.h"
 
 /* What the last look saw. Zero-initialise: nothing; release with watch_free. */
-typedef struct Watch {
+typedef struct FolderWatch {
     Arena arena;
     struct WatchedFile *files; /* sorted by path */
     int count;
-} Watch;
+} FolderWatch;
 
 /* Looks at the files .h and .glsl in the folder and in those below it, down to WATCH_DEPTH and as many as
  * WATCH_FILES, but not where a name starts with a dot. Returns how many were made, changed or removed since
  * the last look; 0 where memory is short, and then this look counts for nothing. A folder that is not there
  * is empty. */
-int watch_look(Watch *watch, const char *folder);
+int watch_look(FolderWatch *watch, const char *folder);
 
 enum { WATCH_DEPTH = 8, WATCH_FILES = 1024 };
 
-void watch_free(Watch *watch);
+void watch_free(FolderWatch *watch);
 
 #endif

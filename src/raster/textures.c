@@ -172,10 +172,10 @@ typedef struct Layer {
     void *texels;
 } Layer;
 
-typedef struct Layers {
+typedef struct ArrayLayers {
     const Plan *plan;
     Layer items[WEFT_THREADS_MAX];
-} Layers;
+} ArrayLayers;
 
 static size_t texel_size(const TextureGroup *group) {
     return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4;
@@ -190,7 +190,7 @@ static size_t level_at(const TextureGroup *group, int level) {
 }
 
 static void make_layer(void *user, int item, int thread) {
-    const Layers *layers = user;
+    const ArrayLayers *layers = user;
     const Layer *layer = &layers->items[item];
     const TextureGroup *group = &layers->plan->groups[layers->plan->places[layer->place].group];
     unsigned char *to = layer->texels;
@@ -226,7 +226,7 @@ static bool is_wanted(const GlTextures *self, const Plan *plan, int place, bool 
 static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, int threads, WeftError *error) {
     const WeftScene *scene = plan->scene;
     const int places = 2 * self->texture_count;
-    Layers layers = {.plan = plan};
+    ArrayLayers layers = {.plan = plan};
     WeftResult result = WEFT_OK;
     if (threads <= 0) threads = thread_count();
     for (int k = 0; k < places && result == WEFT_OK;) {

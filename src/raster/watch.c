@@ -16,19 +16,19 @@ typedef struct WatchedFile {
 } WatchedFile;
 
 /* A look being taken. */
-typedef struct Look {
-    Watch seen;
+typedef struct FolderScan {
+    FolderWatch seen;
     int entries; /* of all folders so far */
     bool failed;
-} Look;
+} FolderScan;
 
 static bool is_text(const char *name) {
     const char *dot = strrchr(name, '.');
     return dot && (strcmp(dot, ".h") == 0 || strcmp(dot, ".glsl") == 0);
 }
 
-static void add(Look *look, const char *path, const struct stat *status) {
-    Watch *seen = &look->seen;
+static void add(FolderScan *look, const char *path, const struct stat *status) {
+    FolderWatch *seen = &look->seen;
     if (seen->count == WATCH_FILES) return;
     const char *copy = arena_text(&seen->arena, path);
     look->failed |= !copy;
@@ -37,7 +37,7 @@ static void add(Look *look, const char *path, const struct stat *status) {
 }
 
 /* Links to folders are followed, so what bounds a circle of them is the depth and the number of entries. */
-static void look_into(Look *look, const char *folder, int depth) {
+static void look_into(FolderScan *look, const char *folder, int depth) {
     char path[1024];
     struct stat status;
     DIR *stream = opendir(folder);
@@ -64,7 +64,7 @@ static bool is_same(const WatchedFile *a, const WatchedFile *b) {
 }
 
 /* How many files are in one of both only, or differ: both are sorted. */
-static int count_changes(const Watch *a, const Watch *b) {
+static int count_changes(const FolderWatch *a, const FolderWatch *b) {
     int changes = 0;
     for (int i = 0, j = 0; i < a->count || j < b->count;) {
         int order = i == a->count ? 1 : j == b->count ? -1 : by_path(&a->files[i], &b->files[j]);
@@ -75,8 +75,8 @@ static int count_changes(const Watch *a, const Watch *b) {
     return changes;
 }
 
-int watch_look(Watch *watch, const char *folder) {
-    Look look = {0};
+int watch_look(FolderWatch *watch, const char *folder) {
+    FolderScan look = {0};
     look.seen.files = arena_array(&look.seen.arena, WATCH_FILES, sizeof *look.seen.files);
     if (!look.seen.files) return 0;
     look_into(&look, folder, 0);
@@ -91,7 +91,7 @@ int watch_look(Watch *watch, const char *folder) {
     return changes;
 }
 
-void watch_free(Watch *watch) {
+void watch_free(FolderWatch *watch) {
     arena_free(&watch->arena);
-    *watch = (Watch){0};
+    *watch = (FolderWatch){0};
 }

@@ -199,14 +199,14 @@ static void drop_punctual(WeftScene *scene, int k) {
 /* Both. */
 
 /* Where the light of a place is: one of the two is -1. */
-typedef struct Found {
+typedef struct FoundLight {
     int polygon, punctual;
-} Found;
+} FoundLight;
 
-static Found find(const WeftScene *scene, int place) {
-    Found found = {-1, place};
+static FoundLight find(const WeftScene *scene, int place) {
+    FoundLight found = {-1, place};
     for (int k = 0; k < scene->polygon_light_count; k++) {
-        if (scene->polygon_lights[k].place == place) return (Found){k, -1};
+        if (scene->polygon_lights[k].place == place) return (FoundLight){k, -1};
         found.punctual -= scene->polygon_lights[k].place < place;
     }
     return found;
@@ -249,7 +249,7 @@ WeftResult weft_scene_light(const WeftScene *scene, int index, WeftLight *out, W
     *out = (WeftLight){0};
     WeftResult result = check_place(scene, index, error);
     if (result != WEFT_OK) return result;
-    Found found = find(scene, index);
+    FoundLight found = find(scene, index);
     *out = found.polygon >= 0 ? scene->polygon_lights[found.polygon].light
                               : told_of(&scene->lights[found.punctual]);
     return WEFT_OK;
@@ -261,7 +261,7 @@ WeftResult weft_scene_put_light(WeftScene *scene, int index, const WeftLight *li
     WeftResult result = check_place(scene, index, error);
     if (result == WEFT_OK) result = ready(scene, &l, corners, error);
     if (result != WEFT_OK) return result;
-    Found found = find(scene, index);
+    FoundLight found = find(scene, index);
     bool polygon = l.kind == WEFT_LIGHT_POLYGON;
     if (polygon && found.polygon >= 0) {
         shape(scene, found.polygon, &l, corners);
@@ -280,7 +280,7 @@ WeftResult weft_scene_put_light(WeftScene *scene, int index, const WeftLight *li
 WeftResult weft_scene_remove_light(WeftScene *scene, int index, WeftError *error) {
     WeftResult result = check_place(scene, index, error);
     if (result != WEFT_OK) return result;
-    Found found = find(scene, index);
+    FoundLight found = find(scene, index);
     if (found.polygon >= 0)
         drop_polygon(scene, found.polygon);
     else

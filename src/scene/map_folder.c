@@ -17,11 +17,11 @@
 #include "weft/material.h"
 
 /* A picture that was read, and what it will be in the scene. */
-typedef struct Picture {
+typedef struct MapPicture {
     char *path; /* owned */
     WeftImage image;
     int texture; /* number, counted from 1, once it is taken over */
-} Picture;
+} MapPicture;
 
 /* Where a picture of that path is, or -1: its first texture. */
 static int find_path(const WeftScene *scene, const char *path) {
@@ -41,7 +41,7 @@ static int find_plain(const WeftScene *scene, int image) {
 }
 
 /* Gives a picture to the scene: in the place of what was read of that path before, if anything was. */
-static bool take_over(WeftScene *scene, Picture *picture) {
+static bool take_over(WeftScene *scene, MapPicture *picture) {
     int before = find_path(scene, picture->path);
     if (before < 0) {
         const char *path = arena_text(&scene->arena, picture->path);
@@ -71,16 +71,16 @@ static void put_on_input(Material *material, InputId id, int texture, int channe
 }
 
 /* "MATERIAL.INPUT" or "MATERIAL.INPUT.g", cut in three. */
-typedef struct Target {
+typedef struct MapTarget {
     char material[256];
     InputId input;
     int channel;
-} Target;
+} MapTarget;
 
-static WeftResult read_target(const char *text, Target *target, WeftError *error) {
+static WeftResult read_target(const char *text, MapTarget *target, WeftError *error) {
     static const char channels[] = "rgba";
     char copy[320];
-    *target = (Target){.channel = -1};
+    *target = (MapTarget){.channel = -1};
     if (strlen(text) >= sizeof copy) return fail(error, WEFT_MESSAGE_PARAM_NAME, text, "it is too long");
     snprintf(copy, sizeof copy, "%s", text);
     char *point = strrchr(copy, '.');
@@ -104,14 +104,14 @@ static WeftResult read_target(const char *text, Target *target, WeftError *error
 
 WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char *path, const WeftLog *log,
                                   WeftError *error) {
-    Target target;
+    MapTarget target;
     WeftError said = {0};
     WeftResult result = read_target(text, &target, error);
     if (result != WEFT_OK) return result;
     const bool *wished = materials_matching(scene, target.material, &said);
     if (!wished && error) *error = said;
     if (!wished) return said.result;
-    Picture picture = {.path = strdup(path)};
+    MapPicture picture = {.path = strdup(path)};
     result = picture.path ? weft_image_read(path, &picture.image, log, error)
                           : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK && !take_over(scene, &picture))
@@ -204,7 +204,7 @@ static const char *map_of(const char *file) {
 
 /* Pictures of a folder that have a meaning, each input's by the first in the order of names. */
 typedef struct Wardrobe {
-    Picture pictures[FILES_MOST];
+    MapPicture pictures[FILES_MOST];
     const char *meaning[FILES_MOST];
     int count;
     int of_input[INPUT_COUNT]; /* which picture, + 1 */
@@ -247,7 +247,7 @@ static WeftResult take_file(Wardrobe *wardrobe, const char *folder, const char *
     if (!needed) return WEFT_OK;
     size_t length = strlen(folder), size = length + strlen(file) + 2;
     bool slash = length && folder[length - 1] == '/';
-    Picture *picture = &wardrobe->pictures[wardrobe->count++]; /* of at most one an input */
+    MapPicture *picture = &wardrobe->pictures[wardrobe->count++]; /* of at most one an input */
     picture->path = malloc(size);
     if (!picture->path) return fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     snprintf(picture->path, size, "%s%s%s", folder, slash ? "" : "/", file);

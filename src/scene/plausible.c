@@ -61,16 +61,16 @@ static float diffuse_on_metal(Surface s) { return specular_is_metal(s) ? rgb_max
  * diffuse colour. Its dielectrics are grey, with a tenth of tolerance. */
 typedef enum Kept { KEPT_DIELECTRIC, KEPT_METAL, KEPT_ALBEDO, KEPT_GREY, KEPT_NONE } Kept;
 
-typedef struct Range {
+typedef struct PlausibleRange {
     float low, high;
-} Range;
+} PlausibleRange;
 
 static float strongest(const float color[3]) { return fmaxf(color[0], fmaxf(color[1], color[2])); }
 
-static Range range_of(Kept kept) {
-    Range range = {0.0f, kept == KEPT_GREY ? 0.1f : 0.0f};
-    if (kept == KEPT_DIELECTRIC) range = (Range){DIELECTRIC_LOW, DIELECTRIC_HIGH};
-    if (kept == KEPT_METAL) range = (Range){1.0f, 1.0f};
+static PlausibleRange range_of(Kept kept) {
+    PlausibleRange range = {0.0f, kept == KEPT_GREY ? 0.1f : 0.0f};
+    if (kept == KEPT_DIELECTRIC) range = (PlausibleRange){DIELECTRIC_LOW, DIELECTRIC_HIGH};
+    if (kept == KEPT_METAL) range = (PlausibleRange){1.0f, 1.0f};
     const WeftChartEntry *entry;
     for (int k = 0; (entry = weft_chart(k)); k++) {
         bool metal = entry->kind == WEFT_CHART_METAL, gem = entry->kind == WEFT_CHART_GEM;
@@ -183,7 +183,7 @@ static void check_limit(const Limit *limit, const Material *material, const char
                         const WeftLog *log) {
     if (!applies(limit, material)) return;
     float found = limit->measure(material_plain(material)), has = 0.0f;
-    Range range = range_of(limit->kept);
+    PlausibleRange range = range_of(limit->kept);
     if (!(found < range.low - 1e-6f || found > range.high + 1e-6f)) return; /* nor where it is NOTHING */
     const WeftChartEntry *nearest = nearest_of(limit->kept, found, &has);
     if (nearest)

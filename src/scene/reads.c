@@ -11,20 +11,20 @@
 #include "shading/frame.h"
 
 /* A point of the world and where it is seen from. */
-typedef struct Probe {
+typedef struct ReadProbe {
     Dir normal, tangent, point, eye;
-} Probe;
+} ReadProbe;
 
-static const Probe probes[] = {
+static const ReadProbe probes[] = {
     {{0.36f, 0.80f, 0.48f}, {1.0f, 0.0f, 0.0f}, {0.031f, 0.212f, 0.117f}, {0.10f, 0.55f, 0.83f}},
     {{-0.48f, -0.36f, 0.80f}, {0.6f, 0.0f, 0.8f}, {1.373f, -0.418f, 0.702f}, {-0.78f, -0.10f, 0.62f}},
     {{0.48f, 0.60f, -0.64f}, {0.0f, 1.0f, 0.0f}, {-0.561f, 0.933f, 2.207f}, {0.88f, 0.12f, 0.46f}},
 };
 enum { PROBES = sizeof probes / sizeof *probes, INCOMING = 4, ANSWERS = PROBES * INCOMING };
 
-typedef struct Answer {
+typedef struct MaterialAnswer {
     Rgb f_cos[ANSWERS];
-} Answer;
+} MaterialAnswer;
 
 /* In place of E, which takes long, a number that depends on all that E depends on: what the sheen's lobe
  * itself says of one pair of directions. */
@@ -43,7 +43,7 @@ static Dir incoming(Dir o, int k) {
     return dir(x, y, sqrt(1.0f - x * x - y * y));
 }
 
-static void answer_at(const Probe *probe, Surface s, const Choices *choices, Rgb f_cos[INCOMING]) {
+static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices, Rgb f_cos[INCOMING]) {
     enum { COLUMNS = 4 };
     const Facing at = {probe->normal, probe->normal, probe->tangent, 1.0f};
     const TableRef none = {.kind = TABLE_NONE};
@@ -63,8 +63,8 @@ static void answer_at(const Probe *probe, Surface s, const Choices *choices, Rgb
     }
 }
 
-static Answer answer_of(const Surface *surface, const Choices *choices) {
-    Answer answer;
+static MaterialAnswer answer_of(const Surface *surface, const Choices *choices) {
+    MaterialAnswer answer;
     for (int k = 0; k < PROBES; k++) answer_at(&probes[k], *surface, choices, answer.f_cos + k * INCOMING);
     return answer;
 }
@@ -72,7 +72,7 @@ static Answer answer_of(const Surface *surface, const Choices *choices) {
 /* Beyond what rounding does. */
 static bool is_other(float a, float b) { return fabsf(a - b) > 1e-7f + 1e-5f * max(fabsf(a), fabsf(b)); }
 
-static bool differ(const Answer *a, const Answer *b) {
+static bool differ(const MaterialAnswer *a, const MaterialAnswer *b) {
     bool other = false;
     for (int k = 0; k < ANSWERS; k++)
         other |= is_other(a->f_cos[k].r, b->f_cos[k].r) || is_other(a->f_cos[k].g, b->f_cos[k].g) ||
@@ -109,14 +109,14 @@ static bool moves_the_light(const Material *material, int input) {
     const float places[] = {0.0f, 1.0f, 0.37f};
     const Choices choices = material_choices(material);
     const Surface surface = middle_of(material);
-    const Answer before = answer_of(&surface, &choices);
+    const MaterialAnswer before = answer_of(&surface, &choices);
     bool reads = false;
     for (size_t k = 0; k < sizeof places / sizeof *places && !reads; k++) {
         Material moved = *material;
         move(&moved, input, places[k]);
         Surface other = middle_of(&moved);
         if (input == INPUT_clearcoat_normal) other.clearcoat_normal = dir(0.36f, 0.48f, 0.8f);
-        Answer after = answer_of(&other, &choices);
+        MaterialAnswer after = answer_of(&other, &choices);
         reads = differ(&before, &after);
     }
     return reads;

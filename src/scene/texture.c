@@ -15,13 +15,13 @@ SrgbTable srgb_table(void) {
 typedef float Channels __attribute__((vector_size(16)));
 
 /* The two texels around a coordinate and how far it is from the first. */
-typedef struct Span {
+typedef struct TexelSpan {
     size_t first, second;
     float t;
-} Span;
+} TexelSpan;
 
 /* Where u falls after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
-static inline Span span(float u, int size, TextureWrap wrap, bool nearest) {
+static inline TexelSpan span(float u, int size, TextureWrap wrap, bool nearest) {
     if (!(fabsf(u) < 1e6f)) u = 0.0f;
     float period = wrap == WRAP_MIRROR ? 0.5f * u : u;
     if (wrap != WRAP_CLAMP) u = period - floorf(period); /* in [0, 1]; rounding can reach 1 */
@@ -36,7 +36,7 @@ static inline Span span(float u, int size, TextureWrap wrap, bool nearest) {
     }
     first = first < 0 ? 0 : first > last ? last : first;
     second = second < 0 ? 0 : second > last ? last : second;
-    return (Span){(size_t)first, (size_t)(nearest ? first : second), nearest ? 0.0f : x - whole};
+    return (TexelSpan){(size_t)first, (size_t)(nearest ? first : second), nearest ? 0.0f : x - whole};
 }
 
 static inline Channels read_u8(const uint8_t *p, const SrgbTable *srgb, int channels) {
@@ -79,8 +79,8 @@ static inline Channels read_texel(const WeftImage *image, const SrgbTable *srgb,
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u,
                     float v) {
     const WeftImage *image = &images[texture->image];
-    Span x = span(u, image->width, texture->wrap_u, texture->nearest);
-    Span y = span(v, image->height, texture->wrap_v, texture->nearest);
+    TexelSpan x = span(u, image->width, texture->wrap_u, texture->nearest);
+    TexelSpan y = span(v, image->height, texture->wrap_v, texture->nearest);
     Channels c = read_texel(image, srgb, x.first, y.first);
     if (!texture->nearest) {
         Channels right = read_texel(image, srgb, x.second, y.first);

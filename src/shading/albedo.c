@@ -10,15 +10,15 @@
  * Takahasi, Masatake Mori, "Double Exponential Formulas for Numerical Integration", 1974. */
 enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
 
-typedef struct Rule {
+typedef struct QuadratureRule {
     int count;
     double x[NODES_MAX], rest[NODES_MAX], w[NODES_MAX]; /* on (0, 1); rest = 1 - x without cancellation */
     double cos_phi[NODES_MAX], sin_phi[NODES_MAX];      /* of phi = pi x */
     double cos_half[NODES_MAX], sin_half[NODES_MAX];    /* of phi = pi x / 2 */
-} Rule;
+} QuadratureRule;
 
-static Rule rule_make(double step) {
-    Rule rule = {0};
+static QuadratureRule rule_make(double step) {
+    QuadratureRule rule = {0};
     const double reach = 3.1; /* x(-3.1) is 9e-16 */
     int half = (int)(reach / step);
     for (int k = -half; k <= half; k++) {
@@ -55,7 +55,7 @@ static double distance(const Sum *a, const Sum *b) {
 }
 
 /* Sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
-static Sum ring(const Asked *asked, Dir wo, const Rule *rule, double sin_i, double cos_i) {
+static Sum ring(const Asked *asked, Dir wo, const QuadratureRule *rule, double sin_i, double cos_i) {
     float ox[2 * NODES_MAX], oy[2 * NODES_MAX], oz[2 * NODES_MAX];
     float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[3][2 * NODES_MAX];
     double w[2 * NODES_MAX];
@@ -118,7 +118,7 @@ static Pieces pieces_of(const Lobe *lobe, Dir wo) {
     return p;
 }
 
-static Sum hemisphere(const Asked *asked, Dir wo, const Rule *rule) {
+static Sum hemisphere(const Asked *asked, Dir wo, const QuadratureRule *rule) {
     const Pieces pieces = pieces_of(asked->lobe, wo);
     Sum sum = {0};
     for (int piece = pieces.count; piece > 0; piece--) {
@@ -137,7 +137,7 @@ static Sum hemisphere(const Asked *asked, Dir wo, const Rule *rule) {
 }
 
 static Sum quadrature(const Asked *asked, Dir wo, double tolerance, double *error) {
-    Rule rule = rule_make(0.25);
+    QuadratureRule rule = rule_make(0.25);
     Sum before = hemisphere(asked, wo, &rule), now = before;
     for (int halving = 3; halving <= 5; halving++) {
         rule = rule_make(ldexp(1.0, -halving));

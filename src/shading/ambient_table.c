@@ -17,10 +17,10 @@
 enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENSE };
 enum { BANDS = 24, GRAIN = 256, KERNELS = 3, ATOMS = 4, SAMPLES = 1024 };
 
-typedef struct Kernel {
+typedef struct FitKernel {
     double a[BANDS];
     double s[GRAIN + 1]; /* S over mu, even from -1 to 1 */
-} Kernel;
+} FitKernel;
 
 typedef struct Atom {
     int kernel, axes; /* with two axes each has half of the weight */
@@ -28,7 +28,7 @@ typedef struct Atom {
 } Atom;
 
 typedef struct Fitter {
-    Kernel kernels[KERNELS];
+    FitKernel kernels[KERNELS];
     double a[ATOMS][ATOMS];
     AmbientFit *fit;
 } Fitter;
@@ -55,7 +55,7 @@ static double weight_at(double kappa, double mu) {
     return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
 }
 
-static void make_kernel(Kernel *kernel, double kappa) {
+static void make_kernel(FitKernel *kernel, double kappa) {
     enum { STEPS = 2000 };
     double p[BANDS], sum = 0.0;
     for (int k = 0; k < STEPS; k++) {
@@ -71,7 +71,7 @@ static void make_kernel(Kernel *kernel, double kappa) {
     }
 }
 
-static double kernel_at(const Kernel *kernel, double mu) {
+static double kernel_at(const FitKernel *kernel, double mu) {
     double x = fmin(fmax(0.5 * (mu + 1.0), 0.0), 1.0) * GRAIN;
     int k = x < GRAIN - 1 ? (int)x : GRAIN - 1;
     return kernel->s[k] + (kernel->s[k + 1] - kernel->s[k]) * (x - k);

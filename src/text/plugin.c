@@ -98,12 +98,12 @@ static const char *const half_flags[2][16] = {
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
 /* A folder of a compilation and what is in it. */
-typedef struct Work {
+typedef struct CompileWork {
     char folder[CACHE_PATH_SIZE];
     char text[PATH_SIZE], loops[PATH_SIZE], library[PATH_SIZE], log[PATH_SIZE];
-} Work;
+} CompileWork;
 
-static void work_name(Work *work) {
+static void work_name(CompileWork *work) {
     snprintf(work->text, sizeof work->text, "%s/lobe.c", work->folder);
     snprintf(work->loops, sizeof work->loops, "%s/loops.o", work->folder);
     snprintf(work->library, sizeof work->library, "%s/lobe.so", work->folder);
@@ -111,7 +111,7 @@ static void work_name(Work *work) {
 }
 
 /* Beside the cache's file, which the library is to become by a change of its name; or in /tmp. */
-static bool work_begin(Work *work, const char *cached) {
+static bool work_begin(CompileWork *work, const char *cached) {
     const char *slash = cached ? strrchr(cached, '/') : NULL;
     snprintf(work->folder, sizeof work->folder, "%.*s/lobe-XXXXXX", slash ? (int)(slash - cached) : 4,
              slash ? cached : "/tmp");
@@ -120,7 +120,7 @@ static bool work_begin(Work *work, const char *cached) {
     return true;
 }
 
-static void work_end(const Work *work) {
+static void work_end(const CompileWork *work) {
     unlink(work->text);
     unlink(work->loops);
     unlink(work->library);
@@ -131,7 +131,7 @@ static void work_end(const Work *work) {
 /* Removes what compilations have left that were interrupted more than an hour ago. */
 static void sweep(const char *folder) {
     DIR *entries = opendir(folder);
-    Work work;
+    CompileWork work;
     struct stat status;
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
         if (strncmp(entry->d_name, "lobe-", 5) != 0) continue;
@@ -166,7 +166,7 @@ static bool compiler_choose(Compiler *compiler) {
 }
 
 /* Half 0, the loops, or 1, all the rest with them. */
-static int compile_half(const Work *work, const Compiler *compiler, int half) {
+static int compile_half(const CompileWork *work, const Compiler *compiler, int half) {
     const char *arguments[40] = {0};
     int count = compiler->count;
     memcpy(arguments, compiler->words, (size_t)count * sizeof *arguments);
@@ -199,7 +199,8 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
 }
 
 /* The first error of those that the compiler has told, else its last line. */
-static WeftResult fail_compile(const Work *work, const char *path, const char *file, WeftError *error) {
+static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file,
+                               WeftError *error) {
     FileBytes log;
     const char *first = NULL, *last = NULL;
     int count = 0;
@@ -218,8 +219,8 @@ static WeftResult fail_compile(const Work *work, const char *path, const char *f
     return result;
 }
 
-static WeftResult compile(const Work *work, const Compiler *compiler, const Buffer *text, const char *path,
-                          const char *file, WeftError *error) {
+static WeftResult compile(const CompileWork *work, const Compiler *compiler, const Buffer *text,
+                          const char *path, const char *file, WeftError *error) {
     FILE *stream = fopen(work->text, "wb");
     bool written = stream && fwrite(text->bytes, 1, text->size, stream) == text->size;
     if (stream) written = fclose(stream) == 0 && written;
@@ -276,7 +277,7 @@ static void keep(const char *library, const char *cached) {
 
 static WeftResult make(const Compiler *compiler, const Buffer *text, const char *path, const char *file,
                        const char *cached, const Plugin **out, WeftError *error) {
-    Work work;
+    CompileWork work;
     if (!work_begin(&work, cached)) return fail(error, WEFT_MESSAGE_FILE_WRITE, work.folder, NULL);
     WeftResult result = compile(&work, compiler, text, path, file, error);
     if (result == WEFT_OK) {

@@ -14,14 +14,14 @@
 
 enum { PATH = 1024, NAME = 256, ENTRIES = 4096 };
 
-typedef struct Entry {
+typedef struct FolderEntry {
     char name[NAME];
     bool folder;
-} Entry;
+} FolderEntry;
 
 struct Browser {
     char folder[PATH], typed[PATH], chosen[2 * PATH];
-    Entry *entries;
+    FolderEntry *entries;
     int count;
     bool more;      /* than are listed */
     unsigned kinds; /* that are listed and chosen: bit k for PathKind k */
@@ -30,7 +30,7 @@ struct Browser {
 };
 
 static int by_name(const void *a, const void *b) {
-    const Entry *x = a, *y = b;
+    const FolderEntry *x = a, *y = b;
     if (x->folder != y->folder) return x->folder ? -1 : 1;
     return strcasecmp(x->name, y->name);
 }
@@ -147,7 +147,7 @@ const char *browser_draw(Browser *self, unsigned kinds, float height) {
     if (self->failure[0]) ui_warning(self->failure);
     if (ui_list("files", height - 3.2f * ui_line_height())) {
         for (int k = 0; k < self->count && !chosen; k++) {
-            const Entry *entry = &self->entries[k];
+            const FolderEntry *entry = &self->entries[k];
             char label[NAME + 4];
             snprintf(label, sizeof label, "%s%s", entry->name, entry->folder ? "/" : "");
             if (!ui_selectable(label, false)) continue;

@@ -163,7 +163,7 @@ static void draw_environment(Viewer *v) {
         } else {
             if (kind == ENVIRONMENT_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
                 a->color[0] = a->color[1] = a->color[2] = 1.0f;
-            a->kind = (EnvironmentKind)kind;
+            a->kind = (EnvironmentSource)kind;
         }
     }
     ui_indent();

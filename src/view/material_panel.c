@@ -31,24 +31,24 @@ static int group_of(const char *name) {
 /* ---- choices ---- */
 
 /* The rows of a menu: auto, and the values that fit. */
-typedef struct Rows {
+typedef struct InputRows {
     int choice, count;
     int values[64];
-} Rows;
+} InputRows;
 
-static Rows rows_of(int choice) {
-    Rows rows = {.choice = choice, .count = 1, .values = {-1}};
+static InputRows rows_of(int choice) {
+    InputRows rows = {.choice = choice, .count = 1, .values = {-1}};
     for (int value = 0; weft_material_choice_value(choice, value) && rows.count < 64; value++)
         if (weft_material_choice_fits(choice, value)) rows.values[rows.count++] = value;
     return rows;
 }
 
 static const char *choice_name(const void *user, int row) {
-    const Rows *rows = user;
+    const InputRows *rows = user;
     return row ? weft_material_choice_value(rows->choice, rows->values[row]) : "auto";
 }
 static const char *choice_help(const void *user, int row) {
-    const Rows *rows = user;
+    const InputRows *rows = user;
     return help_choice(rows->choice, rows->values[row]);
 }
 
@@ -92,7 +92,7 @@ static void label_of(const char *name, char label[96]) {
 }
 
 static void draw_choice(WeftMaterial *m, int choice) {
-    const Rows rows = rows_of(choice);
+    const InputRows rows = rows_of(choice);
     const UiChoices menu = {rows.count, choice_name, choice_help, &rows};
     char label[96];
     int row = 0;
@@ -264,20 +264,20 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_tip("A sheet of the scene with this material under every engine's profile.");
 }
 
-typedef struct Lines {
+typedef struct WarningLines {
     char text[1024];
     int count;
-} Lines;
+} WarningLines;
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
-    Lines *lines = user;
+    WarningLines *lines = user;
     size_t used = strlen(lines->text);
     snprintf(lines->text + used, sizeof lines->text - used, "%s%s", used ? "\n" : "", text);
     lines->count++;
 }
 
 static void draw_plausible(Viewer *v, const WeftMaterial *m) {
-    Lines lines = {.count = 0};
+    WarningLines lines = {.count = 0};
     char label[64];
     const WeftLog log = {on_warning, &lines};
     weft_material_plausible(m, v->facts.materials[v->material], &log);

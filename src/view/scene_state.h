@@ -28,9 +28,13 @@ typedef struct Folders {
 } Folders;
 
 /* The light from far away. */
-typedef enum EnvironmentKind { ENVIRONMENT_STUDIO = 0, ENVIRONMENT_FILE, ENVIRONMENT_COLOR } EnvironmentKind;
+typedef enum EnvironmentSource {
+    ENVIRONMENT_STUDIO = 0,
+    ENVIRONMENT_FILE,
+    ENVIRONMENT_COLOR
+} EnvironmentSource;
 typedef struct EnvironmentState {
-    EnvironmentKind kind;
+    EnvironmentSource kind;
     char path[STATE_PATH]; /* of a lat-long picture or of a cubemap */
     float color[3];
     float rotation, strength;  /* degrees; a factor */

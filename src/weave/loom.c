@@ -7,23 +7,23 @@
 #include "base/memory.h"
 
 /* `count` lines of crossings; the bytes of a line stand `step` apart. */
-typedef struct Lines {
+typedef struct LoomLines {
     const unsigned char *cells;
     size_t line_step, step;
     int count, length;
-} Lines;
+} LoomLines;
 
-static Lines columns_of(const WeftDraft *draft) {
-    return (Lines){draft->up, 1, (size_t)draft->count[WEFT_WARP], draft->count[WEFT_WARP],
-                   draft->count[WEFT_WEFT]};
+static LoomLines columns_of(const WeftDraft *draft) {
+    return (LoomLines){draft->up, 1, (size_t)draft->count[WEFT_WARP], draft->count[WEFT_WARP],
+                       draft->count[WEFT_WEFT]};
 }
 
-static Lines rows_of(const WeftDraft *draft) {
-    return (Lines){draft->up, (size_t)draft->count[WEFT_WARP], 1, draft->count[WEFT_WEFT],
-                   draft->count[WEFT_WARP]};
+static LoomLines rows_of(const WeftDraft *draft) {
+    return (LoomLines){draft->up, (size_t)draft->count[WEFT_WARP], 1, draft->count[WEFT_WEFT],
+                       draft->count[WEFT_WARP]};
 }
 
-static bool same(const Lines *lines, int a, int b) {
+static bool same(const LoomLines *lines, int a, int b) {
     const unsigned char *x = lines->cells + (size_t)a * lines->line_step,
                         *y = lines->cells + (size_t)b * lines->line_step;
     for (int k = 0; k < lines->length; k++)
@@ -32,7 +32,7 @@ static bool same(const Lines *lines, int a, int b) {
 }
 
 /* FNV-1a, Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, 1991: lines of another value differ. */
-static uint64_t hash_of(const Lines *lines, int line) {
+static uint64_t hash_of(const LoomLines *lines, int line) {
     uint64_t hash = 0xcbf29ce484222325u;
     for (int k = 0; k < lines->length; k++)
         hash =
@@ -42,7 +42,7 @@ static uint64_t hash_of(const Lines *lines, int line) {
 
 /* Sets group[line] to the number of the first kind that equals it, and firsts[kind] to the first line of
  * each. Returns how many kinds there are, 0 where memory is short. */
-static int kinds_of(const Lines *lines, int *group, int *firsts) {
+static int kinds_of(const LoomLines *lines, int *group, int *firsts) {
     uint64_t *hashes = alloc_array((size_t)lines->count, sizeof *hashes);
     int kinds = 0;
     for (int line = 0; hashes && line < lines->count; line++) {
@@ -60,7 +60,7 @@ static int kinds_of(const Lines *lines, int *group, int *firsts) {
 
 bool loom_of(const WeftDraft *draft, Loom *out) {
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
-    const Lines columns = columns_of(draft), rows = rows_of(draft);
+    const LoomLines columns = columns_of(draft), rows = rows_of(draft);
     int *first_warp = alloc_array((size_t)warps, sizeof *first_warp),
         *first_pick = alloc_array((size_t)picks, sizeof *first_pick);
     *out = (Loom){.threading = alloc_array((size_t)warps, sizeof *out->threading),

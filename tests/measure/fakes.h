@@ -8,21 +8,21 @@
 #include "measure/passport.h"
 #include "shading/warp.h"
 
-static inline void fake_look(const Bsdf *bsdf, int setting, Dir o, View *view) {
+static inline void fake_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
 }
 
-static inline void fake_f(const View *view, Dirs i, float *f) {
+static inline void fake_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) f[k] = i.z[k] > 0.0f ? 1.0f / PI : 0.0f;
 }
 
-static inline void fake_pdf(const View *view, Dirs i, float *pdf) {
+static inline void fake_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++)
         pdf[k] = i.z[k] > 0.0f ? warp_cosine_pdf(dir(i.x[k], i.y[k], i.z[k])) : 0.0f;
 }
 
-static inline Dir fake_sample(const View *view, float u, float v) { return warp_cosine(u, v); }
+static inline Dir fake_sample(const BsdfView *view, float u, float v) { return warp_cosine(u, v); }
 
 /* A white Lambert surface: nothing is wrong with it. */
 static inline Bsdf fake_lambert(void) {

@@ -39,7 +39,7 @@ static void lambert_is_found_right(void **state) {
 }
 
 /* f = cos_o / pi: half the light or less comes back, and viewer and light cannot change places. */
-static void one_sided_f(const View *view, Dirs i, float *f) {
+static void one_sided_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) f[k] = i.z[k] > 0.0f ? view->o.z / PI : 0.0f;
 }
 
@@ -55,7 +55,7 @@ static void what_is_not_reciprocal_is_found(void **state) {
         assert_near((double)p.albedo[0][c], (double)p.cosines[c], 1e-3);
 }
 
-static void gaining_f(const View *view, Dirs i, float *f) {
+static void gaining_f(const BsdfView *view, Dirs i, float *f) {
     fake_f(view, i, f);
     for (size_t k = 0; k < i.n; k++) f[k] *= view->o.z < 0.03f ? 1.1f : 0.9f;
 }
@@ -74,7 +74,7 @@ static void gain_is_found_where_it_is(void **state) {
 }
 
 /* Samples that are uniform under the pdf of the cosine. */
-static Dir uniform_sample(const View *view, float u, float v) { return warp_uniform(u, v); }
+static Dir uniform_sample(const BsdfView *view, float u, float v) { return warp_uniform(u, v); }
 
 static void wrong_samples_are_found(void **state) {
     (void)state;
@@ -84,7 +84,7 @@ static void wrong_samples_are_found(void **state) {
     assert_true(weft_passport_significance(p.p, p.tests) < 1e-9);
 }
 
-static void large_pdf(const View *view, Dirs i, float *pdf) {
+static void large_pdf(const BsdfView *view, Dirs i, float *pdf) {
     fake_pdf(view, i, pdf);
     for (size_t k = 0; k < i.n; k++) pdf[k] *= 1.02f;
 }
@@ -97,7 +97,7 @@ static void a_pdf_of_more_than_one_is_found(void **state) {
     assert_near((double)p.pdf_most, 1.02, 1e-3);
 }
 
-static void holed_pdf(const View *view, Dirs i, float *pdf) {
+static void holed_pdf(const BsdfView *view, Dirs i, float *pdf) {
     fake_pdf(view, i, pdf);
     for (size_t k = 0; k < i.n; k++)
         if (i.x[k] > 0.9f) pdf[k] = 0.0f;
@@ -114,11 +114,11 @@ static void impossible_samples_are_found(void **state) {
 
 /* The cosine's samples, those of x < 0 thrown to the other side: none is impossible and the pdf integrates to
  * 1, but half of E is never found. */
-static void halved_pdf(const View *view, Dirs i, float *pdf) {
+static void halved_pdf(const BsdfView *view, Dirs i, float *pdf) {
     fake_pdf(view, i, pdf);
     for (size_t k = 0; k < i.n; k++) pdf[k] *= i.x[k] < 0.0f ? 0.0f : 2.0f;
 }
-static Dir halved_sample(const View *view, float u, float v) {
+static Dir halved_sample(const BsdfView *view, float u, float v) {
     Dir i = warp_cosine(u, v);
     return dir(fabsf(i.x), i.y, i.z);
 }
@@ -135,12 +135,12 @@ static void what_samples_miss_is_found(void **state) {
 }
 
 /* NaN towards one side, for grazing wo alone: larger than whatever comes before or after it. */
-static void broken_f(const View *view, Dirs i, float *f) {
+static void broken_f(const BsdfView *view, Dirs i, float *f) {
     fake_f(view, i, f);
     for (size_t k = 0; k < i.n; k++)
         if (i.x[k] > 0.5f && view->o.z < 0.06f && view->o.z > 0.04f) f[k] = NAN;
 }
-static void broken_pdf(const View *view, Dirs i, float *pdf) {
+static void broken_pdf(const BsdfView *view, Dirs i, float *pdf) {
     fake_pdf(view, i, pdf);
     for (size_t k = 0; k < i.n; k++)
         if (i.x[k] > 0.5f && view->o.z < 0.5f && view->o.z > 0.3f) pdf[k] = NAN;
@@ -162,7 +162,7 @@ static void no_nan_gets_lost(void **state) {
 }
 
 /* f with a zero under it, one below 0, and one that forgets the horizon. */
-static void wild_f(const View *view, Dirs i, float *f) {
+static void wild_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++)
         f[k] = i.z[k] > 0.99f ? HUGE_VALF : i.z[k] < -0.99f ? 1.0f : i.z[k] > 0.9f ? -1.0f : 0.0f;
 }
@@ -193,17 +193,17 @@ static void the_sweep_is_as_hard_as_it_says(void **state) {
 /* f = 3 cos_i / (2 pi) under the cosine's sampling: the weight is 3 cos_i / 2, of mean 1 and variance 9/8
  * - 1.
  */
-static void rising_f(const View *view, Dirs i, float *f) {
+static void rising_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) f[k] = i.z[k] > 0.0f ? 1.5f * i.z[k] / PI : 0.0f;
 }
-static void mixed_pdf(const View *view, Dirs i, float *pdf) {
+static void mixed_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = i.z[k] > 0.0f ? (1.0f + i.z[k]) / (3.0f * PI) : 0.0f;
 }
 
 static void variances_are_those_of_closed_forms(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
-    View view;
+    BsdfView view;
     bsdf.f = rising_f;
     bsdf.look(&bsdf, 0, grid_direction(0.3, 1.0), &view);
     Weight weight = weight_measure(&view, 200);

@@ -14,7 +14,7 @@ enum { STACK_TESTS = 60, TESTS = 1200 };
 
 static double significance(void) { return 1.0 - (pow)(1.0 - 0.01, 1.0 / TESTS); }
 
-static ChiSquare measure(const View *view) {
+static ChiSquare measure(const BsdfView *view) {
     ChiSquare found;
     assert_true(chi_square_measure(view,
                                    test_long()    ? 2000000
@@ -24,7 +24,7 @@ static ChiSquare measure(const View *view) {
     return found;
 }
 
-static void check_proposal(const View *view, const char *name) {
+static void check_proposal(const BsdfView *view, const char *name) {
     ChiSquare found = measure(view);
     if (!(found.integral <= 1.0 + 1e-3)) fail_msg("%s: the pdf integrates to %.5f", name, found.integral);
     if (found.stray) fail_msg("%s: %d samples with pdf 0", name, found.stray);
@@ -60,16 +60,16 @@ static void lobes_sample_what_their_pdf_says(void **state) {
                 Dir o = direction_cos(elevations[e], 0.4 + e);
                 Bsdf bsdf;
                 bsdf_of_lobe(&bsdf, &lobe, true);
-                check_proposal(&(View){.bsdf = &bsdf, .o = o, .lobe = lobe}, case_name(&lobe, o).text);
+                check_proposal(&(BsdfView){.bsdf = &bsdf, .o = o, .lobe = lobe}, case_name(&lobe, o).text);
             }
     print_message("%d proposals of lobes\n", tests);
     assert_true(tests <= TESTS - STACK_TESTS); /* else raise TESTS */
 }
 
-static void stack_pdf(const View *view, Dirs i, float *pdf) {
+static void stack_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
-static Dir stack_draw(const View *view, float u, float v) { return seen_sample(&view->whole, u, v); }
+static Dir stack_draw(const BsdfView *view, float u, float v) { return seen_sample(&view->whole, u, v); }
 static const Bsdf stacked = {.pdf = stack_pdf, .sample = stack_draw};
 
 static void stacks_sample_what_their_pdf_says(void **state) {
@@ -82,7 +82,8 @@ static void stacks_sample_what_their_pdf_says(void **state) {
         if (k % 3 == 1) surface = dusted(surface, 0.1f * (float)k);
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
-            View view = {.bsdf = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
+            BsdfView view = {
+                .bsdf = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
             char name[64];
             snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
             check_proposal(&view, name);
@@ -91,7 +92,7 @@ static void stacks_sample_what_their_pdf_says(void **state) {
 }
 
 /* Lambert's pdf, 5 % too large in one half of the hemisphere and too small in the other. */
-static void leaning_pdf(const View *view, Dirs i, float *pdf) {
+static void leaning_pdf(const BsdfView *view, Dirs i, float *pdf) {
     float lean = test_short() ? 0.2f : 0.05f; /* few samples see no less */
     for (size_t k = 0; k < i.n; k++) pdf[k] = i.z[k] / PI * (i.x[k] > 0.0f ? 1.0f + lean : 1.0f - lean);
 }
@@ -103,7 +104,7 @@ static void a_wrong_pdf_is_found(void **state) {
     Bsdf bsdf;
     bsdf_of_lobe(&bsdf, &lambert, true);
     for (int e = 0; e < ELEVATIONS; e++) {
-        View view = {.bsdf = &bsdf, .o = direction_cos(elevations[e], 0.4 + e), .lobe = lambert};
+        BsdfView view = {.bsdf = &bsdf, .o = direction_cos(elevations[e], 0.4 + e), .lobe = lambert};
         bsdf.pdf = leaning_pdf;
         ChiSquare found = measure(&view);
         assert_true(fabs(found.integral - 1.0) < 1e-3 && found.stray == 0);
