@@ -43,9 +43,9 @@ static void clock_text(double seconds, char text[TIME_SIZE]) {
 }
 
 void progress_draw(Progress *progress, double fraction) {
-    double now = now(), elapsed = now - progress->started;
-    if (!progress->shown || now - progress->drawn < 0.1) return;
-    progress->drawn = now;
+    double clock = now(), elapsed = clock - progress->started;
+    if (!progress->shown || clock - progress->drawn < 0.1) return;
+    progress->drawn = clock;
 
     double done = fraction; /* of the work: samples or time, whichever ends first */
     if (progress->limit > 0.0) done = fmin(fmax(done, elapsed / progress->limit), 1.0);

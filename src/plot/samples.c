@@ -82,18 +82,18 @@ static void compare_all(const WeftPlotModel *model, const float wo[3], Histogram
 
 /* p of the passport's test, whose bins crowd where the lobe is narrow. */
 static double test(const WeftLobe *given, float view, int count) {
-    Model *model = alloc_array(1, sizeof *model);
+    Bsdf *model = alloc_array(1, sizeof *model);
     ChiSquare found = {.p = (double)NAN};
-    View look;
+    BsdfView look;
     if (!model) return (double)NAN;
     Lobe lobe = lobe_default(given->lobe);
     for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&lobe, k, given->params[k]);
-    model_of_lobe(model, &lobe, true);
+    bsdf_of_lobe(model, &lobe, true);
     model->rows = 1;
     model->values[0] = lobe.params[0];
     model->look(model, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
     if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = (double)NAN;
-    model_free(model);
+    bsdf_free(model);
     free(model);
     return found.p;
 }

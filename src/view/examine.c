@@ -23,7 +23,7 @@ static int on_progress(void *user, double fraction) {
 static void *work(void *user) {
     Examination *self = user;
     weft_doctor_open_watched(self->path, on_progress, self, &self->doctor, NULL, &self->error);
-    atomic_store(&self->drawn, true);
+    atomic_store(&self->done, true);
     window_wake(self->window);
     return NULL;
 }
@@ -39,14 +39,14 @@ Examination *examination_start(Window *window, const char *path) {
     if (!self) return NULL;
     self->window = window;
     self->path = strdup(path);
-    atomic_init(&self->drawn, false);
+    atomic_init(&self->done, false);
     atomic_init(&self->stop, false);
     if (self->path && pthread_create(&self->thread, NULL, work, self) == 0) return self;
     drop(self);
     return NULL;
 }
 
-bool examination_done(Examination *self) { return atomic_load(&self->drawn); }
+bool examination_done(Examination *self) { return atomic_load(&self->done); }
 
 const WeftDoctor *examination_doctor(const Examination *self) { return self->doctor; }
 

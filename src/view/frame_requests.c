@@ -1,6 +1,6 @@
 /* What the window wants to see, and what comes back from renderer and path tracer. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/requests.h"
+#include "view/frame_requests.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef WEFT_VIEW_HISTORY_H
 #define WEFT_VIEW_HISTORY_H
 
-#include "view/state.h"
+#include "view/scene_state.h"
 
 enum { HISTORY_STEPS = 200 };
 

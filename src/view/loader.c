@@ -223,7 +223,7 @@ static void *work(void *user) {
         self->loaded.scene = NULL;
         snprintf(self->loaded.failure, sizeof self->loaded.failure, "%s", error.text);
     }
-    atomic_store(&self->drawn, true);
+    atomic_store(&self->done, true);
     window_wake(self->window);
     return NULL;
 }
@@ -240,7 +240,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
     snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
     atomic_init(&self->thousandths, -1);
-    atomic_init(&self->drawn, false);
+    atomic_init(&self->done, false);
     atomic_init(&self->stop, false);
     if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
     free(self);
@@ -249,7 +249,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
 
 float loader_progress(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
 
-bool loader_done(Loader *self) { return atomic_load(&self->drawn); }
+bool loader_done(Loader *self) { return atomic_load(&self->done); }
 
 const char *loader_path(const Loader *self, bool *again) {
     *again = self->loaded.again;

@@ -2,7 +2,7 @@
 #ifndef WEFT_VIEW_LOADER_H
 #define WEFT_VIEW_LOADER_H
 
-#include "view/state.h"
+#include "view/scene_state.h"
 #include "view/view.h"
 #include "view/window.h"
 

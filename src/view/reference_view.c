@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* setpriority of one thread */
-#include "view/reference.h"
+#include "view/reference_view.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -30,9 +30,9 @@ struct ReferenceView {
     WeftImage linear; /* what the picture was made of */
     /* of the thread alone */
     WeftRender *render;
-    ReferenceRequest done;
+    ReferenceRequest drawn;
     unsigned drawn_number;
-    bool current; /* `render` is of the scene and of `done` */
+    bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* what stands in has all its pixels */
     double samples;
     WeftImage compared;

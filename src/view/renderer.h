@@ -9,8 +9,8 @@
 
 #include "view/loader.h"
 #include "view/orbit.h"
-#include "view/reference.h"
-#include "view/state.h"
+#include "view/reference_view.h"
+#include "view/scene_state.h"
 #include "view/window.h"
 #include "weft/raster.h"
 

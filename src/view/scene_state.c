@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "view/state.h"
+#include "view/scene_state.h"
 
 #include <math.h>
 #include <stdatomic.h>

@@ -4,7 +4,7 @@
 #define WEFT_VIEW_STUDIES_H
 
 #include "view/orbit.h"
-#include "view/state.h"
+#include "view/scene_state.h"
 #include "weft/raster.h"
 
 enum { STUDY_MOST = 40 };

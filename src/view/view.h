@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "view/state.h"
+#include "view/scene_state.h"
 #include "weft/raster.h"
 
 /* What the window starts with. Texts must outlive it. */

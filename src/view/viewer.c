@@ -13,9 +13,9 @@
 #include "view/browser.h"
 #include "view/examine.h"
 #include "view/file_watch.h"
+#include "view/frame_requests.h"
 #include "view/opening.h"
 #include "view/replay.h"
-#include "view/requests.h"
 #include "view/state_report.h"
 #include "view/steady_clock.h"
 

@@ -128,7 +128,7 @@ static void make_target(Window *self) {
 }
 
 static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
-    const char *warnings = NULL;
+    const char *reason = NULL;
     if (!glfwInit()) {
         glfwGetError(&reason);
         snprintf(why, 256,

@@ -119,15 +119,17 @@ static void matrices_are_those_written_out(void **state) {
 }
 
 /* Samples, behind the signature of what is measured: the entries lie in the parameters of a lobe. */
-static Ltc viewed(const View *view) {
+static Ltc viewed(const BsdfView *view) {
     const float *p = view->lobe.params;
     return ltc_of(p[0], p[1], p[2], p[3], view->o.z);
 }
-static void pdf_of(const View *view, Dirs i, float *pdf) {
+static void pdf_of(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = ltc_pdf(viewed(view), view->o, dir(i.x[k], i.y[k], i.z[k]));
 }
-static Dir sample_of(const View *view, float u, float v) { return ltc_sample(viewed(view), view->o, u, v); }
-static const Subject transformed = {.pdf = pdf_of, .sample = sample_of};
+static Dir sample_of(const BsdfView *view, float u, float v) {
+    return ltc_sample(viewed(view), view->o, u, v);
+}
+static const Bsdf transformed = {.pdf = pdf_of, .sample = sample_of};
 
 static void samples_fall_where_the_pdf_says(void **state) {
     (void)state;
@@ -139,7 +141,7 @@ static void samples_fall_where_the_pdf_says(void **state) {
         Entries e = random_entries(&random);
         e.z = max(e.z, 0.15f); /* the bins crowd about the mirror direction, not about this peak */
         if (!test_turn(&turn, 1, 4)) continue;
-        View view = {.subject = &transformed, .o = direction_cos(cosines[k % 5], 0.3 + k)};
+        BsdfView view = {.bsdf = &transformed, .o = direction_cos(cosines[k % 5], 0.3 + k)};
         float *p = view.lobe.params;
         p[0] = e.z, p[1] = e.q, p[2] = e.b, p[3] = e.r;
         ChiSquare found;

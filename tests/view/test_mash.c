@@ -86,7 +86,7 @@ static void nothing_comes_of_mashing(void **state) {
                                          "--height", "300", CHEAP, "--script", "mash"));
     drive_finish_within(&drive, 0.3 * count + 100.0);
     size_t size;
-    char *warnings = file_bytes("stdout", &size);
+    char *said = file_bytes("stdout", &size);
     assert_true(size > 1000);
     free(said);
 }

@@ -113,7 +113,7 @@ static void a_light_that_cannot_be_read_leaves_the_one_before(void **state) {
     assert_true(pictures_most("lit.png", "again.png") < 0.5 / 255.0);
     assert_true(pictures_most("lit.png", "dark.png") > 0.1);
     size_t size;
-    char *warnings = file_bytes("said", &size);
+    char *said = file_bytes("said", &size);
     assert_non_null(strstr(said, " --env good.hdr "));
     free(said);
 }
@@ -186,7 +186,7 @@ static void the_chooser_of_lights_keeps_what_was_typed(void **state) {
     drive_finish(&drive);
     assert_true(listed && stays);
     size_t size;
-    char *warnings = file_bytes("said", &size);
+    char *said = file_bytes("said", &size);
     if (!said || !strstr(said, "/lights/dome.hdr ")) fail_msg("%s", said);
     free(said);
 }

@@ -1,4 +1,4 @@
-/* The parts of the window that need none: the camera, history, the file_watch, strokes, names of files, and how
+/* The parts of the window that need none: the camera, history, the file watch, strokes, names of files, and how
  * a command line is quoted. */
 #include <math.h>
 #include <setjmp.h>
@@ -194,35 +194,35 @@ static void change(History *history, SceneState *state, int number) {
 static void what_was_done_is_undone(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
-    SceneState state = state_of(0);
+    SceneState scene = state_of(0);
     assert_non_null(history);
-    assert_false(history_undo(history, &state));
-    assert_false(history_redo(history, &state));
+    assert_false(history_undo(history, &scene));
+    assert_false(history_redo(history, &scene));
     for (int k = 1; k <= 3; k++) {
-        change(history, &state, 10 * k);
-        change(history, &state, 10 * k + 1); /* the same drag: one step */
+        change(history, &scene, 10 * k);
+        change(history, &scene, 10 * k + 1); /* the same drag: one step */
         history_close(history);
     }
     static const int back[] = {21, 11, 0}, forth[] = {11, 21, 31};
     for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < 3; k++) {
-            assert_true(history_undo(history, &state));
-            assert_int_equal(number_of(&state), back[k]);
+            assert_true(history_undo(history, &scene));
+            assert_int_equal(number_of(&scene), back[k]);
         }
-        assert_false(history_undo(history, &state));
+        assert_false(history_undo(history, &scene));
         for (int k = 0; k < 3; k++) {
-            assert_true(history_redo(history, &state));
-            assert_int_equal(number_of(&state), forth[k]);
+            assert_true(history_redo(history, &scene));
+            assert_int_equal(number_of(&scene), forth[k]);
         }
-        assert_false(history_redo(history, &state));
+        assert_false(history_redo(history, &scene));
     }
-    assert_true(history_undo(history, &state));
-    change(history, &state, 99); /* what was undone is gone */
+    assert_true(history_undo(history, &scene));
+    change(history, &scene, 99); /* what was undone is gone */
     history_close(history);
-    assert_false(history_redo(history, &state));
-    assert_true(history_undo(history, &state));
-    assert_int_equal(number_of(&state), 21);
-    scene_state_free(&state);
+    assert_false(history_redo(history, &scene));
+    assert_true(history_undo(history, &scene));
+    assert_int_equal(number_of(&scene), 21);
+    scene_state_free(&scene);
     history_free(history);
     free(history);
 }
@@ -230,16 +230,16 @@ static void what_was_done_is_undone(void **state) {
 static void the_oldest_steps_are_forgotten(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
-    SceneState state = state_of(0);
+    SceneState scene = state_of(0);
     int undone = 0;
     assert_non_null(history);
     for (int k = 1; k <= HISTORY_STEPS + 50; k++) {
-        change(history, &state, k);
+        change(history, &scene, k);
         history_close(history);
     }
-    while (history_undo(history, &state)) assert_int_equal(number_of(&state), HISTORY_STEPS + 49 - undone++);
+    while (history_undo(history, &scene)) assert_int_equal(number_of(&scene), HISTORY_STEPS + 49 - undone++);
     assert_int_equal(undone, HISTORY_STEPS);
-    scene_state_free(&state);
+    scene_state_free(&scene);
     history_free(history);
     free(history);
 }

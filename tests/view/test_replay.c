@@ -128,7 +128,7 @@ static void a_full_disk_is_told_of(void **state) {
         " --light 'sun;-1,-2,-1;3,3,3' --occlusion 0 --windowless --forget --json --width 640"
         " --height 420 --script script || echo failed >&2 ) | cat > said");
     size_t size;
-    char *warnings = file_bytes("said", &size);
+    char *said = file_bytes("said", &size);
     assert_string_equal(ran.err, "");
     assert_non_null(strstr(said, "\"message\":\"full.glb: "));
     assert_non_null(strstr(said, "\"message\":\"full.exr: "));

@@ -80,7 +80,7 @@ static bool other_stage(const json_t *now, const json_t *before) {
 
 /* How far the eye went along where it looked at first: 1 is straight ahead. */
 static double ahead(const char *camera, const json_t *before, const json_t *now) {
-    double a[3], b[3], eye[3], target[3], moved = 0.0, state = 0.0, dot = 0.0;
+    double a[3], b[3], eye[3], target[3], moved = 0.0, look = 0.0, dot = 0.0;
     numbers_of(json_object_get(before, "eye"), a, 3);
     numbers_of(json_object_get(now, "eye"), b, 3);
     assert_int_equal(sscanf(camera, "%lf,%lf,%lf;%lf,%lf,%lf", &eye[0], &eye[1], &eye[2], &target[0],
@@ -92,7 +92,7 @@ static double ahead(const char *camera, const json_t *before, const json_t *now)
         dot += (b[k] - a[k]) * (target[k] - eye[k]);
     }
     assert_true(moved > 0.0 && look > 0.0);
-    return dot / sqrt(moved * state);
+    return dot / sqrt(moved * look);
 }
 
 static void drag(const json_t *now, double x, double y, double to_x, double to_y) {
