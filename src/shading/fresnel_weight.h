@@ -1,4 +1,4 @@
-/* share.h - how much of a lobe is in its second colour */
+/* fresnel_weight.h - how much of a lobe is in its second colour */
 #ifndef WEFT_SHADING_FRESNEL_WEIGHT_H
 #define WEFT_SHADING_FRESNEL_WEIGHT_H
 

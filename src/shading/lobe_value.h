@@ -8,7 +8,7 @@
 
 STRUCT(LobeValue) {
     float f;   /* 1/sr, of the white lobe */
-    float s;   /* share of the second colour, or a cosine (share.h); 0 without TRAIT_TWO_COLORS */
+    float s;   /* share of the second colour, or a cosine (fresnel_weight.h); 0 without TRAIT_TWO_COLORS */
     float pdf; /* density of lobe_sample at a.i, 1/sr */
     Tint tint; /* tint_none without TRAIT_TINTED */
 };

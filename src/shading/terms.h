@@ -132,7 +132,7 @@
 #define F_COUNT            7
 
 /* T(id, number, share s of the second colour, the second colour, help):  F = f0 (1 - s) + second s, or with
- * a cosine for a share what share.h makes of it */
+ * a cosine for a share what fresnel_weight.h makes of it */
 #define WEFT_F_TERMS(T)                                                                                      \
     T("none", F_NONE, 0.0f, f0, "f0 from everywhere")                                                        \
     T("schlick", F_SCHLICK, schlick_s(d), 1.0f, "to white by a fifth power")                                 \
