@@ -112,7 +112,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void);
 void ui_column(float fraction); /* goes on in this row, from that fraction of the width on */
-void ui_beside(void);        /* the next, a small button, goes to the end of this row's column of names */
+void ui_beside(void);           /* the next, a small button, goes to the end of this row's column of names */
 void ui_rule(void);
 void ui_disabled(bool disabled);
 void ui_disabled_end(void);
