@@ -63,8 +63,8 @@ typedef struct WeftImageWriting {
 WEFT_API WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
                                         WeftError *error);
 
-/* Whether weft_image_write knows this suffix, and whether what it writes is linear (EXR, HDR, NPY) or
- * display-referred. */
+/* The first returns 1 if weft_image_write knows this suffix, the second if what it writes is linear (EXR,
+ * HDR, NPY) and not display-referred; else 0. */
 WEFT_API int weft_image_suffix_known(const char *path);
 WEFT_API int weft_image_suffix_linear(const char *path);
 

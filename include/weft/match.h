@@ -73,7 +73,7 @@ WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric m
 WEFT_API WeftResult weft_match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
                                         WeftMaterial *material, WeftMatch *out, WeftError *error);
 
-/* Whether weft_match_material may change that input of the material. */
+/* Returns 1 if weft_match_material may change that input of the material, else 0. */
 WEFT_API int weft_match_is_free(const WeftMaterial *material, int input);
 
 /* Many matches at once, on `threads` threads (0: one a processor). progress (may be NULL) can stop it,

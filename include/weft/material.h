@@ -98,8 +98,8 @@ WEFT_API void weft_material_plausible(const WeftMaterial *material, const char *
  * texture counts as reaching down to 0. weft_material_plausible says this too. */
 WEFT_API void weft_material_fitted(const WeftMaterial *material, const char *name, const WeftLog *log);
 
-/* Whether an input has any influence on it: whether its workflow or profile reads it, and no other input
- * hides it, as a sheen that is black hides its roughness. */
+/* Returns 1 if the input has any influence on the material, else 0: its workflow or profile must read it, and
+ * no other input may hide it, as a black sheen hides its roughness. */
 WEFT_API int weft_material_reads(const WeftMaterial *material, int input);
 
 /* Puts a picture of a file in the place of an input's texture: target is "MATERIAL.INPUT" as in

@@ -155,7 +155,7 @@ WEFT_API void weft_plot_data_free(WeftPlotData *data);
 /* The figure as U8 RGB. */
 WEFT_API WeftResult weft_plot_image(const WeftPlotDesc *desc, WeftImage *out, WeftError *error);
 
-/* Whether weft_plot_write knows this suffix: .png, .svg or .pdf, in any case. */
+/* Returns 1 if weft_plot_write knows this suffix (.png, .svg or .pdf, in any case), else 0. */
 WEFT_API int weft_plot_suffix_known(const char *path);
 
 /* Writes the figure by suffix; text in .svg and .pdf is outlines, so that it looks the same everywhere. The

@@ -106,7 +106,8 @@ WEFT_API const char *weft_material_choice_name(int index);
 WEFT_API const char *weft_material_choice_help(int index);
 WEFT_API const char *weft_material_choice_value(int index, int value);
 
-/* Whether a material may be made with it: a diffuse term as the diffuse lobe, any lobe as a sheen. */
+/* Returns 1 if a material may have this value, else 0: a diffuse term is a diffuse lobe, any lobe is a
+ * sheen. */
 WEFT_API int weft_material_choice_fits(int index, int value);
 
 /* Lights the scene from a lat-long image file (its columns run towards +x, row 0 is up), or from the six

@@ -22,8 +22,8 @@ bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix);
 /* Makes the folder of the cache, where it is not there; false where there can be none. */
 bool cache_folder_make(void);
 
-/* Whether a file or folder is the user's own and nobody else may write to it, so that what is in it may be
- * run; false of links, and where there is none. */
+/* Returns true if a file or folder belongs to the user and nobody else may write to it, so that code in it
+ * may be run. Returns false for links and for paths that do not exist. */
 bool cache_is_private(const char *path);
 
 /* Writes a file of the cache, complete or not at all, and the folders it is in. What fails is a warning

@@ -62,7 +62,7 @@ static int audit_read(const Options *options, Audit *audit) {
     return weft_image_read(audit->path, &audit->file, &log, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* Whether the colour channels hold the same. */
+/* Returns true if all colour channels are equal. */
 static bool is_grey(const WeftImage *image) {
     const size_t bytes = image->type == WEFT_PIXEL_U8 ? 1 : image->type == WEFT_PIXEL_U16 ? 2 : 4;
     const size_t count = (size_t)image->width * (size_t)image->height;

@@ -81,7 +81,7 @@ static bool check_item(int axis, const char *text, int k) {
     return false;
 }
 
-/* Whether item k of a list stands there once; it was checked, and so were those before it. */
+/* Returns true if item k differs from the items before it, which were checked already. */
 static bool check_once(const Varied *varied, int k) {
     char item[DRESS_LABEL], other[DRESS_LABEL];
     item_at(varied->values, varied->separator, k, item);

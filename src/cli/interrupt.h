@@ -8,7 +8,7 @@
  * ends the program. A SIGHUP that is ignored stays so. */
 void interrupt_watch(void);
 
-/* Whether one has come. */
+/* Returns true if the program was interrupted. */
 bool interrupt_seen(void);
 
 #endif

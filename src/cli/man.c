@@ -69,7 +69,7 @@ static void option_item(const Option *row) {
     putchar('\n');
 }
 
-/* Whether a line is one word, above lines that are indented. */
+/* Returns true if the line is a single word: such a line stands above indented ones. */
 static bool is_heading(const char *line) {
     size_t length = strcspn(line, "\n");
     return length && line[0] != ' ' && strcspn(line, " ") > length && line[length] && line[length + 1] == ' ';

@@ -19,7 +19,7 @@ int match_begin(Match *match, const char *from, const char *to);
 int match_search(Match *match);
 void match_free(Match *match);
 
-/* Whether both have inputs: are profiles or materials. */
+/* Returns true if both models have inputs: profiles and materials do. */
 bool match_has_parts(const Match *match);
 
 /* The sheet: from, copy and match, and how the last two differ from the first. */

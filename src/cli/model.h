@@ -57,7 +57,7 @@ int model_prepare(Model *model);
 /* Says on standard error where it takes another number than it was given. */
 void model_warn(const Model *model);
 
-/* Whether it has a material: a profile and a workflow have one too. */
+/* Returns true if the model has a material, as profiles and workflows do. */
 bool model_is_material(const Model *model);
 
 void model_free(Model *model);

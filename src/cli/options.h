@@ -59,7 +59,7 @@ void options_free(Options *options);
 /* Prints `weft VERB --help` on standard output. */
 void options_help(const Verb *verb);
 
-/* Whether the option was typed. */
+/* Returns true if the option was given. */
 bool option_given(const Options *options, const char *name);
 
 /* The value typed, else the default, else NULL. */

@@ -22,7 +22,7 @@ int output_end(Output *output);
 /* Removes the file. */
 void output_drop(Output *output);
 
-/* Whether path can be written, found out by making a file there and removing it. Returns as output_begin. */
+/* Tests that path can be written by creating a file there and removing it. Returns as output_begin. */
 int output_probe(const char *path);
 
 /* The same of a path that must not be one of the files among the operands, with or without what stands behind

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Whether a path ends in that suffix, in any case, and has more before it. */
+/* Returns true if the path ends in that suffix, in any case, and has more before it. */
 static inline bool path_ends(const char *path, const char *suffix) {
     size_t length = strlen(path), size = strlen(suffix);
     return length > size && strcasecmp(path + length - size, suffix) == 0;

@@ -33,8 +33,8 @@ int request_count(const Request *request);
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool request_read(const Options *options, Request *request);
 
-/* Whether every -o names a format and a place that can be written, found out by making a file there: what can
- * be known of the outputs before hours of rendering. Returns 0, or an exit code after one line. */
+/* Tests before a long render that every -o names a known format and a place that can be written, by creating
+ * a file there. Returns 0, or an exit code after one line. */
 int request_outputs_check(const Request *request);
 
 /* Writes every -o, linear or as displayed; one that fails does not keep the others from being written. number

@@ -5,8 +5,8 @@
 #include "options.h"
 #include "weft/scene.h"
 
-/* Whether every --save names a kind of file and a place that can be written. Returns 0, or an exit code after
- * one line. */
+/* Tests that every --save names a known kind of file and a place that can be written. Returns 0, or an exit
+ * code after one line. */
 int save_check(const Options *options);
 
 /* Writes every --save. */

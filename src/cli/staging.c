@@ -105,7 +105,7 @@ static bool read_env(const Options *options, Staging *staging) {
     return false;
 }
 
-/* Whether what begins with "builtin:" is built in. */
+/* Returns true unless the name begins with "builtin:" and no such scene is built in. */
 static bool check_scene(const char *scene) {
     static const char prefix[] = "builtin:";
     if (strncmp(scene, prefix, strlen(prefix)) != 0) return true;

@@ -15,7 +15,8 @@ typedef struct TableFile {
     bool half;              /* an .exr of 16 bit floats, not 32 */
 } TableFile;
 
-/* Whether path ends in one of .h .png .exr .dds .npy .csv .txt; else one line on standard error. */
+/* Returns true if path ends in one of .h .png .exr .dds .npy .csv .txt; otherwise prints one line on
+ * standard error. */
 bool table_suffix_check(const char *path);
 
 /* Writes the file, complete or not at all. A .png whose values have a scale is told of in one line. Nothing

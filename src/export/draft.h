@@ -59,7 +59,7 @@ void draft_identifier(const char *name, char id[DRAFT_ID]);
 /* A lobe's functions; which: 0, or 1 for that on the right. */
 void draft_lobe(Draft *draft, const WeftLobe *lobe, int which);
 
-/* Whether its record has a first parameter that an artist's roughness sets. */
+/* Returns true if the first parameter of the lobe's record is set from an artist's roughness. */
 bool draft_lobe_rough(const WeftLobe *lobe);
 
 /* How a lobe's record is called. */

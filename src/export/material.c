@@ -113,7 +113,7 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
     return WEFT_OK;
 }
 
-/* Whether its rule looks at E, and whether that comes from a table of the sheen's own lobe. */
+/* Returns true if the layer rule reads E and E comes from a table of the sheen's own lobe. */
 static bool needs_e(const ExportModel *model) {
     const Stack *m = &model->stack;
     return model->slots.slots[2].count &&

@@ -253,7 +253,7 @@ static void compact(MeshBake *bake) {
     mesh_gather(asset, mesh, source, used);
 }
 
-/* Whether the mesh has anything to show. */
+/* Bakes one primitive. */
 static bool bake_primitive(MeshBake *bake) {
     Asset *asset = bake->asset;
     const Primitive *p = bake->primitive;

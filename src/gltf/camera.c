@@ -18,8 +18,8 @@ static Vec3 column(const Transform *t, int c) {
 
 static double length(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* Whether the columns are of unit length and stand on each other, right-handed, as far as floats can say:
- * then they stay, so that a camera that was saved is read as it was. */
+/* Returns true if the columns are orthonormal and right-handed to within float precision. They are then kept,
+ * so that a saved camera is read back exactly. */
 static bool is_frame(const Transform *t) {
     const double slack = 2e-7;
     bool frame = true;

@@ -145,7 +145,7 @@ double field_number(const Field *field, double absent, double low, double high) 
     return clamped;
 }
 
-/* Whether the field is there and an array of count. */
+/* Returns true if the field exists and is an array of count numbers. */
 static bool numbers(const Field *field, size_t count) {
     if (!field->json) return false;
     if (json_is_array(field->json) && json_array_size(field->json) == count) return true;

@@ -26,7 +26,7 @@ void gltf_open(Asset *asset, const char *path, const void *data, size_t size);
 void gltf_read_parts(Asset *asset);
 void gltf_close(Asset *asset);
 
-/* Whether an extension may be required of weft. */
+/* Returns true if weft supports the extension, so that an asset may require it. */
 bool gltf_supports(const char *extension);
 
 #endif

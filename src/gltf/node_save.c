@@ -45,7 +45,7 @@ static void attribute_put(Saving *saving, const Mesh *mesh, json_t *attributes, 
     saving_put(saving, attributes, name, json_integer(index));
 }
 
-/* Whether a map of a material is looked up by that set of texture coordinates. */
+/* Returns true if a map of the material uses that set of texture coordinates. */
 static bool looks_up(const Material *material, int set) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++)

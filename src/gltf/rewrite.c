@@ -85,7 +85,7 @@ int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, We
     return texture;
 }
 
-/* Whether bytes of the asset, from memory, may be called buffer 0 of a GLB. */
+/* Returns true if bytes of an asset in memory may become buffer 0 of a GLB. */
 static bool takes_bytes(const Saving *saving) {
     const json_t *buffers = json_object_get(saving->root, "buffers"), *first = json_array_get(buffers, 0);
     return saving->packed && (!first || (saving->size && !json_object_get(first, "uri")));

@@ -63,7 +63,7 @@ void saving_extend(Saving *saving, json_t *object, const char *name, json_t *val
     saving_put(saving, member(saving, object, "extensions", json_object), name, value);
 }
 
-/* Whether there is room for so many bytes more. */
+/* Makes room for `more` bytes; returns false if memory is short. */
 static bool make_room(Saving *saving, size_t more) {
     const size_t most = (size_t)4000 << 20; /* of a .glb, whose sizes are 32-bit numbers */
     if (more > most - saving->size) {

@@ -72,7 +72,7 @@ static bool has_scheme(const char *uri) {
     return name && uri[name] == ':';
 }
 
-/* Whether walking the path ever stands above where it began. */
+/* Returns true if the path leaves the folder that it starts in, at any step. */
 static bool leaves_folder(const char *path) {
     int depth = 0;
     while (*path) {

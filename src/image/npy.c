@@ -32,7 +32,7 @@ static void skip_blanks(NpyText *text) {
     while (text->at < text->end && isspace((unsigned char)*text->at)) text->at++;
 }
 
-/* Whether `mark` comes next; takes it. */
+/* Skips `mark` and returns true if it comes next. */
 static bool take(NpyText *text, char mark) {
     skip_blanks(text);
     if (text->at == text->end || *text->at != mark) return false;
@@ -75,8 +75,8 @@ static bool take_side(NpyText *text, int64_t *side) {
     return true;
 }
 
-/* Whether one more item of a list comes: behind a comma but for the first; the last may have one too. Takes
- * `close` where there is none; *broken where neither comes. */
+/* Returns true if another item of a list follows. Items are separated by commas, and the last may have one
+ * too. At the end of the list takes `close` and returns false; sets *broken if neither follows. */
 static bool take_next(NpyText *text, bool first, char close, bool *broken) {
     const bool closed = take(text, close);
     *broken = !closed && !first && !take(text, ',');

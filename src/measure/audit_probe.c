@@ -118,7 +118,7 @@ ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading) 
     return scaled;
 }
 
-/* Whether an engine uses these axes but for flips. */
+/* Returns true if an engine uses these axes, apart from flips. */
 static bool is_base(WeftTableForm form) {
     for (int k = 0; weft_table_form_name(k); k++) {
         WeftTableForm known = weft_table_form_at(k);

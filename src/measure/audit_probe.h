@@ -50,7 +50,7 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
 /* The reading with the factor that brings its values nearest to E, in least squares. */
 ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading);
 
-/* Whether E of the lobe is the same in all views and for all parameters, to 1e-3. */
+/* Returns true if E of the lobe is constant over views and parameters to 1e-3. */
 bool probe_flat(const Lobe *lobe, int threads);
 
 #endif

@@ -62,7 +62,7 @@ BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form);
 WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
                        WeftImage *out, WeftError *error);
 
-/* Whether two forms have the same axes; what `total` says is left aside. */
+/* Returns true if two forms have the same axes; `total` is not compared. */
 bool form_same(const WeftTableForm *a, const WeftTableForm *b);
 
 /* The lobe's first parameter at t in [0, 1] of its axis, see weft_table_form_texel. */

@@ -23,7 +23,8 @@ static int set_of(json_t *info) {
     return set >= 0.0 && set < 1e6 ? (int)set : -1;
 }
 
-/* Whether a texture somewhere in a material wants a set that the primitive has not; its key and set then. */
+/* Returns true if a texture of the material needs a set of texture coordinates that the primitive lacks,
+ * and then sets its key and set. */
 static bool lacks_set(json_t *part, const Primitive *p, const char **key, int *set) {
     const char *name;
     json_t *value;

@@ -79,7 +79,7 @@ static WeftResult encode(const WeftImage *image, const char *name, char **bytes,
     return result;
 }
 
-/* Whether two repairs need the same picture, sampled alike. */
+/* Returns true if two repairs need the same image with the same sampler. */
 static bool same_move(const WeftDoctor *doctor, const Repair *a, const Repair *b) {
     if (a->act != REPAIR_ALPHA || b->act != REPAIR_ALPHA || a->channel != b->channel) return false;
     const TextureSource *x = &doctor->asset.textures[a->texture], *y = &doctor->asset.textures[b->texture];

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Whether value takes the place of the most so far. NaN is more than any number: it must not get lost. */
+/* Returns true if value replaces the largest value so far. NaN exceeds every number, so that it cannot get
+ * lost. */
 static inline bool exceeds_or_nan(double value, double most) {
     return value > most || (isnan(value) && !isnan(most));
 }

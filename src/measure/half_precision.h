@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether the compiler that built this has half floats; where not, half_eval is 0. */
+/* Returns true if the compiler that built this has half floats; otherwise half_eval returns 0. */
 bool half_here(void);
 
 /* A table of shading/table.h. */

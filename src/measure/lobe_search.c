@@ -164,8 +164,7 @@ static unsigned hold_turning(const LobeWalker *self) {
     return hold;
 }
 
-/* Whether a parameter changes f anywhere: at some settings of the others that are free, chosen once and for
- * all. */
+/* Returns true if the parameter changes f at any of a fixed set of values of the other free parameters. */
 static bool has_influence(const LobeWalker *self, int param, unsigned hold) {
     enum { SETTINGS = 3 };
     const WeftLobeInfo *info = info_of(self);
@@ -184,7 +183,7 @@ static bool has_influence(const LobeWalker *self, int param, unsigned hold) {
     return false;
 }
 
-/* Whether f is a sum of what f0 and f90 are factors of, and whether f90 is one. */
+/* Finds out whether f is linear in f0 and f90, and whether it depends on f90. */
 static void look_at_colors(LobeWalker *self) {
     const Samples *s = self->search->samples;
     int count = s->count < LOOKS ? s->count : LOOKS;

@@ -33,7 +33,7 @@ LtcTable ltc_table_ref(const WeftLtc *ltc);
  * threads. Fails with WEFT_INTERRUPTED or WEFT_MESSAGE_MEMORY. */
 WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error);
 
-/* Whether f stays the same as both directions turn about the normal, from low to high. */
+/* Returns true if f is isotropic for every value of the parameter from low to high. */
 bool ltc_isotropic(const WeftLtc *ltc);
 
 #endif

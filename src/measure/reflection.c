@@ -36,8 +36,8 @@ struct WeftReflection {
     Merl merl;
 };
 
-/* Whether E of the sheen is asked of a table of its lobe, and the stack that says so. Engines' own tables are
- * made before they are asked. */
+/* Returns true if E of the sheen comes from a table of its lobe, and sets the stack that reads it. Tables of
+ * engines are made beforehand. */
 static bool asks_for_table(const Whole *self, Stack *stack) {
     stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE});
     if (!HAS_SHEEN(stack) && stack->layer != LAYER_MULTIPLICATIVE) return false;

@@ -33,7 +33,7 @@ bool samples_spread(Samples *samples, WeftBrdfMetric metric);
 /* Fills x with a reflection's. */
 void samples_ask(const Samples *samples, const WeftReflection *reflection, int part, float *const x[3]);
 
-/* Whether a reflection is the same however both directions turn about the normal. */
+/* Returns true if the reflection is isotropic. */
 bool samples_isotropic(const Samples *samples, const WeftReflection *reflection);
 
 /* To be called when directions, weights and x are there, before all that follows. */

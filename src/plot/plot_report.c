@@ -122,7 +122,7 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
                  "comes back.</p>\n");
 }
 
-/* Whether a kind has something to show, and of which models. */
+/* Returns true if the kind of figure applies, and sets the models it applies to. */
 static bool serves(WeftPlotDesc *desc, WeftPlotModel *chosen) {
     int count = 0;
     if (desc->kind == WEFT_PLOT_DIFFERENCE) return desc->count == 2;

@@ -64,7 +64,7 @@ static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const cha
     return (Reach){most > 0.0 ? most : 1.0, least};
 }
 
-/* Whether a panel of that quantity has what lies above the top. */
+/* Returns true if a panel of that quantity has values above the top. */
 static bool goes_beyond(const WeftPlotData *data, const char *label, double top) {
     for (int p = 0; p < data->count; p++) {
         const WeftPlotPanel *panel = &data->panels[p];

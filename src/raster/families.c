@@ -29,7 +29,7 @@ static bool same_texel(const Material *material, int j, int k) {
     return same;
 }
 
-/* Whether input k of all of a family is the texel of its input j, or neither has a map. */
+/* Returns true if in every material of a family inputs k and j read the same texel, or neither has a map. */
 static bool all_like(const Families *self, int head, int j, int k) {
     bool like = shader_same_rest(j, k);
     for (int m = 0; m < self->scene->material_count && like; m++)
@@ -37,8 +37,8 @@ static bool all_like(const Families *self, int head, int j, int k) {
     return like;
 }
 
-/* Whether a slot also does for input k: those of the family that have something in both have it in one place,
- * and some do. */
+/* Returns true if a slot also serves input k: the materials that use both use the same place, and at least
+ * one uses both. */
 static bool slot_serves(const Families *self, int head, const int *slot, int k) {
     bool some = false;
     for (int m = 0; m < self->scene->material_count; m++) {

@@ -234,7 +234,7 @@ static bool copy_scene(Occlusion *self, const WeftScene *scene) {
     return true;
 }
 
-/* Whether an earlier run has found them. */
+/* Returns true if the cache of an earlier run has the values. */
 static bool known(Occlusion *self, const WeftLog *log) {
     if (self->no_cache) return false;
     size_t count = values_count(self);

@@ -5,7 +5,7 @@
 #include "text/text.h"
 #include "weft/raster.h"
 
-/* Whether a part is no light. */
+/* Returns true if the part is a property and not light. */
 bool part_is_property(int part);
 
 /* Says in a fragment shader's text what of glsl/forward.glsl is shown. */

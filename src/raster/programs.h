@@ -53,7 +53,7 @@ enum { PROGRAMS_KEPT = 8, PROGRAMS_LATE = 3 };
 /* Notes that a key will be drawn with; false where memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);
 
-/* Whether a key was built, and its text has not changed since. */
+/* Returns true if the key's program was built from the current text. */
 bool programs_has(Programs *programs, const ShaderKey *key);
 
 /* Compiles those noted that are new or stale, several at once, in threads with contexts that share the

@@ -36,7 +36,7 @@ WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Whether solid meshes still come before those that blend. */
+/* Returns true if opaque meshes still come before blended ones. */
 static bool serves(const Queue *self, const WeftScene *scene) {
     bool good = self->count == scene->mesh_count;
     for (int k = 0; k < self->count; k++) good &= blends(scene, self->order[k]) == (k >= self->solid);

@@ -107,7 +107,8 @@ static bool is_same_place(const EnvLight *a, const EnvLight *b) {
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Whether the lights, as they are now, are elsewhere; while it is dark they are where they were. */
+/* Updates the environment's lights and returns true if they moved. In a dark environment they keep their
+ * places. */
 static bool find_env_lights(WeftRaster *self) {
     EnvLight env_lights[AMBIENT_LIGHTS_MAX];
     if (!self->shines) return false;
@@ -433,7 +434,7 @@ static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, con
     return key;
 }
 
-/* Whether `what` is true of all keys that a picture will be drawn with; a floor is among them where asked. */
+/* Returns true if `what` holds for all keys that the image needs, including the floor's if with_floor. */
 static bool of_all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
                         bool (*what)(Programs *programs, const ShaderKey *key)) {
     bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;

@@ -203,7 +203,7 @@ static void put_lights(Text *text, const ShaderKey *key) {
     text_define(text, "EACH_POLYGON(L)", polygons);
 }
 
-/* Whether a pixel looks another way for another tangent. */
+/* Returns true if a pixel depends on the tangent. */
 static bool turns(const ShaderKey *key, const CompositionSlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
@@ -226,8 +226,7 @@ static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
     return same;
 }
 
-/* Whether a table over a parameter, which knows nothing of the others, is as good to one key as to the other.
- */
+/* Returns true if one table over a parameter, made without regard to the others, suits both keys. / */
 static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
     bool same = true, turned = false;
     for (int k = 0; k < SHADER_SLOTS; k++) same &= shader_holds(a, k) == shader_holds(b, k);
@@ -238,7 +237,7 @@ static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
     return same || !turned;
 }
 
-/* Whether two keys leave out and hold the same. */
+/* Returns true if two keys omit and bake the same things. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
     const CompositionSlots x = find_slots(a), y = find_slots(b);
     return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && same_tables(a, b);

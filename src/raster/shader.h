@@ -57,7 +57,7 @@ typedef struct ShaderKey {
  * out. */
 bool shader_join(ShaderKey *key, const ShaderKey *other);
 
-/* Whether an input that has no map reads the same without one: what stands in for a texel. */
+/* Returns true if two inputs without a map read the same value in place of a texel. */
 bool shader_same_rest(int input, int other);
 
 /* Puts the fragment shader into text, which the caller ends and frees. Behind the tables that the text names,
@@ -65,10 +65,10 @@ bool shader_same_rest(int input, int other);
  * to. */
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text);
 
-/* Whether the table by which a slot's lobe meets the environment is baked (shading/ambient.h), its first
- * parameter being a number: then its polynomials are material_fits from slot times AMBIENT_BAKED on.
- * Departure: what textures make of the other parameters, of nap and anisotropy, is not known to it, which
- * takes half of their number; a table that is not baked takes none. `focus` is not read. */
+/* Returns true if the environment table of a slot's lobe is baked (shading/ambient.h), which needs a constant
+ * first parameter. Its polynomials are then material_fits from slot times AMBIENT_BAKED on. Departure: what
+ * textures make of the other parameters, of nap and anisotropy, is not known to it, which takes half of their
+ * number; a table that is not baked takes none. `focus` is not read. */
 bool shader_holds(const ShaderKey *key, int slot);
 
 /* What is behind everything: the environment. */

@@ -303,7 +303,7 @@ bool textures_stale(const GlTextures *self, const WeftScene *scene, int texture)
     return texture < self->texture_count && self->turns[texture] != scene->textures[texture].turn;
 }
 
-/* Whether what a texture is now can lie where it was. */
+/* Returns true if the texture as it is now fits in its place. */
 static bool fits(const GlTextures *self, const WeftScene *scene, int texture, int side_most) {
     bool fit = true;
     for (int color = 0; color < 2; color++) {

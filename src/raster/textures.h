@@ -43,14 +43,14 @@ WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out,
                            WeftError *error);
 void textures_destroy(GlTextures *textures);
 
-/* Whether an input of a material looks its texture up as a colour. */
+/* Returns true if the input reads its texture as a colour. */
 bool textures_color(const Material *material, int input);
 
-/* Whether all that materials look up by now is there, for each in no more than TEXTURE_SLOTS groups, and
- * where pixels changed fits where the old ones are. */
+/* Returns true if all textures that materials read are uploaded, for each material in at most TEXTURE_SLOTS
+ * groups, and if changed pixels fit in the place of the old ones. */
 bool textures_serve(const GlTextures *textures, const WeftScene *scene);
 
-/* Whether a texture of the scene has other pixels than were uploaded. */
+/* Returns true if the pixels of a texture of the scene differ from the uploaded ones. */
 bool textures_stale(const GlTextures *textures, const WeftScene *scene, int texture);
 
 /* Uploads those that are, which must serve, with their smaller copies. Fails with WEFT_MESSAGE_MEMORY or

@@ -42,7 +42,8 @@ static Camera frame_scene(const WeftScene *scene, float aspect) {
     return camera;
 }
 
-/* Whether text is "eye;target;fov"; *wrong is what such a view cannot be, NULL: a camera was made. */
+/* Returns true if text has the form "eye;target;fov". *wrong then names what is invalid in it, or is NULL
+ * if a camera was made. */
 static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     char copy[256];
     if (strlen(text) >= sizeof copy) return false;

@@ -10,7 +10,7 @@
 
 #include "weft/image.h"
 
-/* Whether the path is a folder, or is called like a face. */
+/* Returns true if the path is a folder or is named like a face of a cube map. */
 bool cubemap_named(const char *path);
 
 /* From the folder, or from the one the face is in: F32 RGB of 4 n by 2 n for faces of n by n, at most

@@ -163,7 +163,7 @@ typedef struct Placing {
     bool whole; /* by the matrix */
 } Placing;
 
-/* Whether the key is about that. */
+/* Returns true if the key describes the placing, and reads it. */
 static bool read_placing(Reader *r, const char *key, const json_t *value, Placing *placing) {
     if (strcmp(key, "scale") == 0) {
         pair(r, value, key, placing->scale);

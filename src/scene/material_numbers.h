@@ -13,7 +13,7 @@ Material material_of_numbers(const WeftMaterial *numbers);
  * where an input has no number. */
 void numbers_of_material(const Material *material, WeftMaterial *out);
 
-/* Whether its choices are there and its values finite; else WEFT_MESSAGE_PARAM_VALUE. */
+/* Fails with WEFT_MESSAGE_PARAM_VALUE if a choice does not exist or a value is not finite. */
 WeftResult numbers_sound(const WeftMaterial *numbers, WeftError *error);
 
 /* A value clamped to the hard range of an input, angles in radians; NaN becomes its lower end. */

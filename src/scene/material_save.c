@@ -160,7 +160,7 @@ static json_t *texture_json(Writer *w, const Material *material, InputId id) {
     return object;
 }
 
-/* Whether dressing leaves an input as the asset has it unless it is named. */
+/* Returns true if assigning a material leaves the input as the asset has it, unless the file names it. */
 static bool is_of_shape(int id) { return id == INPUT_normal || id == INPUT_occlusion || id == INPUT_opacity; }
 
 static void write_inputs(Writer *w, const Material *material) {

@@ -167,7 +167,7 @@ static bool concerns(const Limit *limit, int input) {
     return named;
 }
 
-/* Whether it speaks of this material: of its workflow, and of numbers alone. */
+/* Returns true if the limit applies to this material: to its workflow, and if the input has no texture. */
 static bool applies(const Limit *limit, const Material *material) {
     int workflow = material->choices[CHOICE_workflow] == CHOICE_AUTO ? 0 : material->choices[CHOICE_workflow];
     const char *id = choice_id(CHOICE_workflow, workflow);

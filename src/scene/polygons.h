@@ -24,7 +24,8 @@ typedef struct LightPolygons {
     int count, found;    /* found: how many the scene has */
 } LightPolygons;
 
-/* Whether the material sends out light: unlit ones are shown as they are and light nothing. */
+/* Returns true if the material emits light. Unlit materials are shown as they are and do not light the
+ * scene. */
 bool material_emits(const Material *material);
 
 /* Finds the `most` strongest. Release with light_polygons_free. False when memory is short. */

@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-/* Whether "name", a decimal index or "*" means material k. */
+/* Returns true if name is that of material k, its decimal index, or "*". */
 bool material_matches(const WeftScene *scene, int k, const char *name);
 
 /* A choice by name, or -1. */

@@ -16,7 +16,7 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
 WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
                               SheenTables **out, WeftError *error);
 
-/* Whether one has a table that the other has not, or has at another place. */
+/* Returns true if one has a table that the other lacks or has elsewhere. */
 bool sheen_tables_differ(const SheenTables *tables, const SheenTables *other);
 
 /* tables may be NULL; frees all, or all that `kept` (may be NULL) does not have. */

@@ -10,7 +10,8 @@
 /* The input whose map tangents of this material are for, or NULL where it needs none. */
 const Input *tangents_input(const Material *material);
 
-/* Whether the mesh has texture coordinates for it that say where u grows: not all the same. */
+/* Returns true if the mesh has texture coordinates for the input from which the direction of u follows:
+ * they must not all be equal. */
 bool tangents_possible(const Mesh *mesh, const Input *input);
 
 /* Gives every mesh that needs tangents, has texture coordinates and no tangents, some: at each vertex the sum

@@ -68,7 +68,7 @@ void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
 /* The same of a sheen whose tilt a texture scales: from 0 to that of the lobe. */
 void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
-/* Whether the table is that of the lobe for its parameter 0 over low .. high and, scaled, for all tilts. */
+/* Returns true if the table is the lobe's for parameter 0 over low .. high and, if scaled, for all tilts. */
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled);
 
 /* The table for table.h to read, which clamps to its ends; it must outlive the reference. Off the nodes it is

@@ -228,7 +228,7 @@ static void fit_column(void *user, int column, int thread) {
         for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
 }
 
-/* Whether its azimuth matters: not of fibres that stand upright, nor of what is not brushed. */
+/* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
 static bool turns(const Lobe *lobe) {
     int tilt = lobe_param(lobe->id, "tilt"), brushed = lobe_param(lobe->id, "anisotropy");
     int by = tilt < 0 ? brushed : tilt;
@@ -296,7 +296,7 @@ bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, floa
     return alike_from(&fit->lobe, lobe, 1) && same(fit->low, low) && same(fit->high, high);
 }
 
-/* Whether nothing is lost, whatever wo. */
+/* Returns true if E is 1 for every wo. */
 static bool is_flat(const AmbientFit *fit) {
     for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
         for (int row = 0; row < fit->rows; row++)

@@ -28,10 +28,10 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 void ambient_fit_finish(AmbientFit *fit);
 
-/* Whether one fit over a single value of parameter 0 does for both lobes. */
+/* Returns true if one fit for a single value of parameter 0 serves both lobes. */
 bool ambient_alike(const Lobe *a, const Lobe *b);
 
-/* Whether it is the fit of that lobe for its parameter 0 over low .. high. */
+/* Returns true if this is the fit of that lobe for parameter 0 over low .. high. */
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
 
 /* The table for ambient.h to read, not baked; the fit must outlive it. */

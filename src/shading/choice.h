@@ -10,7 +10,7 @@ const char *choice_id(ChoiceId choice, int k);
 /* The value of an id or of an alias; -1 is none. "auto", CHOICE_AUTO, is not found. */
 int choice_find(ChoiceId choice, const char *id);
 
-/* Whether a material can be made from that value: a diffuse term as the diffuse lobe, any lobe as a sheen. */
+/* Returns true if a material may have this value: a diffuse term is a diffuse lobe, any lobe is a sheen. */
 int choice_fits(ChoiceId choice, int k);
 
 /* The id for which a name is an alias ("charlie-v": conty-kulla), or the name itself. */

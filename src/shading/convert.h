@@ -60,7 +60,7 @@ FN Surface convert_to_metallic(Surface s) {
     return t;
 }
 
-/* Whether the surface's workflow is the other one of the two. A profile has inputs of its own. */
+/* Returns true if the surface has the other one of the two workflows. A profile has inputs of its own. */
 FN bool convert_wanted(Choices c) {
     return c.profile <= 0 && ((c.convert == CONVERT_SPECULAR && c.workflow <= WORKFLOW_METALLIC) ||
                               (c.convert == CONVERT_METALLIC && c.workflow == WORKFLOW_SPECULAR));

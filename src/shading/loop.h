@@ -16,8 +16,8 @@
 #define CLONES
 #endif
 
-/* Whether both directions are above the horizon and none of their components is infinite or NaN, which
- * their sum would show. */
+/* Returns true if both directions are above the horizon and all of their components are finite; their sum
+ * would show any that is not. */
 FN bool pair_counts(Dir o, Dir i) {
     float sum = (o.x + i.x) + (o.y + i.y) + (o.z + i.z);
     uint32_t bits;

@@ -118,8 +118,8 @@ STRUCT(StackValue) {
     float pdf; /* of the mixture, 1/sr */
 };
 
-/* Whether a slot holds a lobe, and whether a layer rule has a sheen to see. A shader, which knows what its
- * slots may hold, says so in place of these: what holds nothing then adds nothing. */
+/* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
+ * sheen to see. A shader defines them as constants where it knows: an empty slot then costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
 #define HAS_SPECULAR(m)      ((m)->specular.normal > 0.0f)
@@ -129,14 +129,14 @@ STRUCT(StackValue) {
 #define HAS_LAYERED_SHEEN(m) ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
 #endif
 
-/* Whether the rule lays the interface of the base over the sheen too: it asks for no E. */
+/* Tests whether the layer rule puts the specular interface over the sheen too. Such a rule needs no E. */
 #define IS_BELOW_F(m) (m->layer == LAYER_SEED || m->layer == LAYER_SIDE_BY_SIDE)
 
-/* Whether the specular slot has `more`. */
+/* Tests whether the view has `extra`, a correction of the specular slot. */
 #define HAS_EXTRA_F(m) (m->view != VIEW_PLAIN && m->view != VIEW_URP)
 
-/* Whether what a slot reflects is looked at. A shader that shows a part of the light says so; what the others
- * do to that part stays. */
+/* A shader that shows one part of the light defines these as false for the other slots. Those slots still dim
+ * that part. */
 #ifndef SHOWS_DIFFUSE
 #define SHOWS_DIFFUSE  true
 #define SHOWS_SPECULAR true

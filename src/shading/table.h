@@ -161,7 +161,7 @@ FN float sheen_e_in(SheenE x, float color) {
     return IS_TINTED(x.tint) ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
 }
 
-/* Whether it is one of weft's, whose rows may be kept and which knows E on average. */
+/* Tests whether the table is one of weft's own: its rows may be kept, and it has the average of E. */
 #define SHEEN_IS_OWN(m) (SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED)
 
 FN SheenE table_sheen_at(TableRef m, TablePlace at) {

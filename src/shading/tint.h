@@ -21,7 +21,8 @@ STRUCT(Tint) {
     float e;
 };
 
-/* Whether colour is more than a factor. A shader that has no lobe with TRAIT_TINTED says so. */
+/* Tests whether colour is more than a factor. A shader without a lobe of TRAIT_TINTED defines this as
+ * false. */
 #ifndef IS_TINTED
 #define IS_TINTED(t) ((t).s > 0.0f)
 #endif

@@ -10,7 +10,7 @@
 /* The lobe's file. One with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
 void text_lobe(Text *text, int id);
 
-/* Whether the share of its second colour may be a cosine (shading/fresnel_weight.h). */
+/* Returns true if the lobe's Fresnel weight may be a cosine (shading/fresnel_weight.h). */
 bool text_weight_is_cosine(int id);
 
 /* The lobes behind one signature, as registry.h has them for C, whose place this takes; call it once:

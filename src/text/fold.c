@@ -167,7 +167,7 @@ static const char *statement_end(const char *c, const char *end) {
     return end;
 }
 
-/* Whether a block declares anything: then it stays one. */
+/* Returns true if a block declares anything: its braces then stay. */
 static bool declares(const char *c, const char *end) {
     while (c < end) {
         const char *cursor = c;

@@ -4,12 +4,12 @@
 
 #include "text/token.h"
 
-/* Whether a blank line at that place would follow another one or an opening brace. */
+/* Returns true if a blank line at this place would follow another one or an opening brace. */
 static bool blank_is_enough(const Buffer *out, size_t line) {
     return out->bytes && line > 1 && (out->bytes[line - 2] == '\n' || out->bytes[line - 2] == '{');
 }
 
-/* Whether the line that c is in is a directive, or goes on with one. */
+/* Returns true if c is in a directive or in a continuation line of one. */
 static bool in_directive(const char *source, const char *c) {
     for (;;) {
         const char *line = c;

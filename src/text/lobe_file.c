@@ -63,7 +63,7 @@ static void set_names(LobeFile *own, const char *name) {
 static const char *const records[] = {"", "Prepared", "View"};
 enum { RECORDS = sizeof records / sizeof *records };
 
-/* Whether one of its records has the name of one of another lobe's. */
+/* Returns true if a record of the lobe has the name of a record of another lobe. */
 static bool shares_record(const char *record, const char *other) {
     char a[64], b[64];
     for (int k = 0; k < RECORDS * RECORDS; k++) {
@@ -74,7 +74,7 @@ static bool shares_record(const char *record, const char *other) {
     return false;
 }
 
-/* Whether a text defines a record, a type or a macro that it defines. */
+/* Returns true if the text defines a record, a type or a macro that the lobe file defines too. */
 static bool is_defined(const LobeFile *own, const char *text) {
     static const char *const around[][2] = {{"STRUCT(", ")"},     {"STRUCT(", "Prepared)"},
                                             {"STRUCT(", "View)"}, {"} ", ";"},
@@ -109,7 +109,7 @@ static WeftResult check_names(const LobeFile *own, const char *path, WeftError *
     return WEFT_OK;
 }
 
-/* Whether what every file has is there, so that what is missing is called by its name. */
+/* Tests that the file has all the parts of a lobe, and names a part that is missing. */
 static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *error) {
     const char *const parts[][2] = {{own->macros, "_PARAMS("},
                                     {own->macros, "_TRAITS"},
@@ -127,7 +127,7 @@ static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *
                : WEFT_OK;
 }
 
-/* Whether it is text of the dialect, which a shader can be made of. */
+/* Tests that the file is in the shading dialect, from which a shader can be made. */
 static WeftResult check_dialect(const LobeFile *own, const char *path, WeftError *error) {
     Text text;
     Buffer bytes = {0};

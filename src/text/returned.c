@@ -51,7 +51,7 @@ static void list_fillers(Returned *self) {
     }
 }
 
-/* Whether [c, end) names the variable as a whole, or the part of it that path says. */
+/* Returns true if [c, end) names the whole variable or its part `path`. */
 static bool is_named(const char *c, const char *end, Piece path) {
     const char *rest = path.at;
     Token base = token_next(&rest, path.end), before = {TOKEN_NONE, "", 0};
@@ -85,7 +85,7 @@ static const char *declared_bare(const char *body, const char *call, Piece path)
     return found;
 }
 
-/* Whether a loop begins between, so that what follows may run again. */
+/* Returns true if a loop begins in [c, end), so that the code after it may run again. */
 static bool has_loop(const char *c, const char *end) {
     static const char *const words[] = {"for", "while", "do"};
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;)
@@ -94,7 +94,7 @@ static bool has_loop(const char *c, const char *end) {
     return false;
 }
 
-/* Whether nothing was written before the call to what it passes. */
+/* Returns true if nothing was written before the call to the variable that it passes. */
 static bool is_fresh(const Returned *self, const Item *caller, const char *body, const char *call,
                      Piece path) {
     const char *declared = declared_bare(body, call, path), *from = body;
@@ -191,7 +191,7 @@ static bool return_value(Returned *self, const Filler *filler) {
     return false;
 }
 
-/* Whether a body ends with a return that no condition stands before. */
+/* Returns true if a body ends with an unconditional return. */
 static bool returns_last(const char *open, const char *last) {
     Token before = {TOKEN_MARK, "{", 1}, token;
     bool plain = false;
@@ -238,7 +238,7 @@ static void change_function(Returned *self, const Filler *filler) {
     if (filler->takes || !return_value(self, filler)) return_filled(self, filler);
 }
 
-/* Whether both are in one block. */
+/* Returns true if both are in one block. */
 static bool is_beside(const char *declared, const char *call) {
     int depth = 0;
     for (Token token; (token = token_next(&declared, call)).kind != TOKEN_NONE;) {

@@ -127,7 +127,8 @@ static bool is_reference(const Item *function, Token name) {
     return false;
 }
 
-/* Whether the name at the end of a piece of a record's list is a type: WGSL has it behind the member. */
+/* Returns true if the name at the end of a piece of a record's list is a type: in WGSL the type follows
+ * the member. */
 static bool is_type(const Speller *speller, Token before, const char *c, const char *end) {
     if (speller->language == SPELL_WGSL) return !token_is(token_peek(c, end), ":");
     return token_is(before, "{") || token_is(before, ";") || token_is(before, "[");

@@ -112,7 +112,7 @@ static inline const char *token_closed(const char *c, const char *end) {
     return end;
 }
 
-/* Whether [c, end) has the name, but for members of that name. */
+/* Returns true if [c, end) contains the name other than as a member. */
 static inline bool token_found(const char *c, const char *end, Token name) {
     bool member = false;
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {

@@ -33,7 +33,7 @@ typedef struct Parameter {
 } Parameter;
 Parameter types_parameter(const List *list, int place);
 
-/* Whether the function writes through a parameter. */
+/* Returns true if the function writes through a parameter. */
 bool types_writes(const Item *function);
 
 /* The type of a member, and of what a function returns: a token of kind TOKEN_NONE where there is none. */
@@ -58,7 +58,7 @@ List types_declared(const char *c, const char *end, Token *type);
 /* Behind the semicolon of the plain statement at c. */
 const char *types_statement_end(const char *c, const char *end);
 
-/* Whether a statement may begin behind this token, as one of a block. */
+/* Returns true if a statement of a block may begin after this token. */
 bool types_begins(Token before);
 
 /* "a.b[2].c = ...;" at c where a statement begins: behind its path, or NULL. */

@@ -25,7 +25,8 @@ static bool is_whole(Token record, const char *const *whole) {
     return false;
 }
 
-/* Whether [c, end) does more than give a value: it calls what writes through a parameter, or counts. */
+/* Returns true if [c, end) has a side effect: it calls a function that writes through a parameter, or
+ * increments a variable. */
 static bool has_effect(const Items *items, const char *c, const char *end) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         const Item *called =

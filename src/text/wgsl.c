@@ -114,7 +114,7 @@ static void put_expression(const char *c, const char *end, Buffer *out) {
     put(out, last, end);
 }
 
-/* Whether the path that begins at c is written to. */
+/* Returns true if the path that begins at c is written to. */
 static bool is_stored(const char *c, const char *end) {
     Token token;
     token_solid(&c, end);
@@ -436,7 +436,7 @@ void wgsl_put_members(const Item *record, Buffer *out) {
     put(out, c, close + 1);
 }
 
-/* Whether the labels of the switch whose brace is at open are reached from what stands before them. */
+/* Returns true if a case of the switch with its brace at `open` falls through to the next. */
 static bool falls_through(const char *open, const char *end) {
     const char *close = token_closed(open, end) - 1, *c = open + 1;
     Token before = {TOKEN_MARK, ";", 1};

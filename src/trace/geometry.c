@@ -79,7 +79,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
         a->valid[0] = 0;
 }
 
-/* Whether a shadow ray must ask what it has hit. */
+/* Returns true if a shadow ray must examine its hits on this mesh. */
 static bool is_asked(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];
     return !material->double_sided || material->alpha_mode != ALPHA_OPAQUE;

@@ -10,7 +10,7 @@ typedef struct Geometry Geometry;
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error);
 void geometry_free(Geometry *geometry);
 
-/* Whether it does for the materials as they are now: what of them it was built for. */
+/* Returns true if the acceleration structure still suits the materials, as far as it depends on them. */
 bool geometry_serves(const Geometry *geometry);
 
 typedef struct Ray {
@@ -34,7 +34,7 @@ bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
 enum { GEOMETRY_PACKET = 16 };
 void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits);
 
-/* Whether anything is between near and far. */
+/* Returns true if anything lies on the ray between near and far. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
 
 /* Where a triangle was hit, and how it is turned there. */

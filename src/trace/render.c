@@ -175,7 +175,7 @@ static WeftResult make_lights(WeftRender *render, WeftError *error) {
     return lights_create(render->scene, &render->lights, error);
 }
 
-/* Whether a material shines, or did. */
+/* Returns true if a material emits light, or did when the render was made. */
 static bool any_emits(const WeftRender *render) {
     bool any = false;
     for (int k = 0; k < render->material_count; k++)

@@ -269,7 +269,7 @@ static void hand_linear(Renderer *self) {
         reference_set_comparison(self->reference, &linear);
 }
 
-/* Whether the path tracer is to show meanwhile what waits for a compiler. */
+/* Returns true if the shaders are not compiled yet and the path tracer is to stand in. */
 static bool waits(Renderer *self, const FrameRequest *request) {
     WeftRasterView view = request->view;
     view.camera = request->camera;

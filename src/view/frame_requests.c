@@ -81,7 +81,7 @@ static void request_reference(Viewer *v, const FrameRequest *request) {
     if (moved) v->traced.samples = 0.0; /* until there are some of this view */
 }
 
-/* Whether the picture that is shown is right but for its finish. */
+/* Returns true if the picture shown is of the latest request but could be drawn more finely. */
 bool requests_can_refine(const Viewer *v) {
     return v->has_scene && v->rendered.number == v->requested && v->rendered.texture &&
            v->rendered.effort < EFFORT_SMOOTH;

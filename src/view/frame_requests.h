@@ -7,7 +7,7 @@
 /* Sends what is wanted where it is something else than before, or can be drawn better now. */
 void requests_send(Viewer *v);
 
-/* Whether the picture that is shown is right but for its finish. */
+/* Returns true if the picture shown is of the latest request but could be drawn more finely. */
 bool requests_can_refine(const Viewer *v);
 
 /* Takes the newest picture; waits a little for one where one is due. */

@@ -17,7 +17,7 @@ typedef enum PathKind {
 
 PathKind path_kind(const char *path);
 
-/* Whether a folder holds the six faces of a cube, by the name of the first. */
+/* Returns true if the folder holds a face of a cube map by name, the first of six. */
 bool path_is_cubemap(const char *folder);
 
 /* What follows the last slash. */
@@ -26,7 +26,7 @@ const char *path_name(const char *path);
 /* The name without its suffix; what is not fit for a file becomes '-'. */
 void path_stem(const char *path, char *stem, size_t size);
 
-/* Whether the name holds a word, in any case. */
+/* Returns true if the file name contains the word, in any case. */
 bool path_contains(const char *path, const char *word);
 
 /* When and how long a file is, as one number that changes with either; 0: it is not there. */

@@ -64,7 +64,7 @@ bool reference_has_frame(ReferenceView *reference);
 /* The samples so far, F32 RGBA; false where there are none. */
 bool reference_image(ReferenceView *reference, WeftImage *out);
 
-/* Whether it rests: it is not wanted, or has all of its samples. */
+/* Returns true if the path tracer is idle: it is not wanted, or has all of its samples. */
 bool reference_is_idle(ReferenceView *reference);
 
 #endif

@@ -120,7 +120,7 @@ static bool reload_changed(Renderer *self) {
     return true;
 }
 
-/* Whether what was made in the background, or a file on disk, makes for another picture. */
+/* Returns true if a result of background work or a changed file calls for a new picture. */
 static bool has_changed(Renderer *self) {
     if (!self->raster) return false;
     if (reload_changed(self)) return true;

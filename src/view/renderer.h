@@ -131,14 +131,14 @@ void renderer_add_task(Renderer *renderer, const Task *task);
 /* The newest picture; its texture stays as it is until the next call. True where it is another one. */
 bool renderer_take_frame(Renderer *renderer, RenderedFrame *rendered);
 
-/* Whether a picture or event wait. */
+/* Returns true if a picture or an event waits. */
 bool renderer_has_output(Renderer *renderer);
 
 /* The oldest event; false where there is none. Release with render_event_free. */
 bool renderer_take_event(Renderer *renderer, RenderEvent *event);
 void render_event_free(RenderEvent *event);
 
-/* Whether all that was asked for is done. */
+/* Returns true if all requests and tasks are done. */
 bool renderer_is_idle(Renderer *renderer);
 
 /* Warnings that were said since the last call, one line each; NULL: none. Release with free. */

@@ -14,7 +14,7 @@ void replay_close(Replay *replay); /* may be NULL */
  * end of the script the window closes, unless it was asked to stay. */
 bool replay_step(Replay *replay, Viewer *v, char why[512]);
 
-/* Whether an action is under way that needs frames to be drawn; else it waits. */
+/* Returns true if an action is under way that needs frames to be drawn; otherwise the replay waits. */
 bool replay_acts(const Replay *replay);
 
 #endif

@@ -64,7 +64,7 @@ void folders_keep(Folders *folders, const char *path, int material);
 /* The built-in studio, as it is. */
 EnvironmentState environment_state_studio(void);
 
-/* Whether both shine from the same source: the studio, one reading of a file, a colour. */
+/* Returns true if both have the same source: the studio, the same version of a file, or a colour. */
 bool environment_state_same_source(const EnvironmentState *a, const EnvironmentState *b);
 /* Shines from the source of another one; how it is turned and how strong it is stays. */
 void environment_state_take_source(EnvironmentState *environment, const EnvironmentState *from);

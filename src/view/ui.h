@@ -55,10 +55,10 @@ void ui_begin(const UiInput *input);
 /* Draws everything into the framebuffer that is bound. */
 void ui_end(void);
 
-/* Whether the mouse or the keyboard is a widget's. */
+/* Returns true if a widget uses the mouse, or the keyboard. */
 bool ui_wants_mouse(void);
 bool ui_wants_keys(void);
-/* Whether text is being typed. */
+/* Returns true if text is being typed. */
 bool ui_types(void);
 
 /* Hands the keyboard to the menus, or to the next panel and after the last one back to the picture: arrows,

@@ -180,7 +180,7 @@ void viewer_set_material(Viewer *v, int index, const WeftMaterial *material);
 Shows viewer_shows(const Viewer *v);
 const char *shows_name(Shows shows); /* "nothing", "drawn", "traced" */
 
-/* Whether all that was asked for is shown: nothing is being read, drawn or compiled. */
+/* Returns true if all that was requested is shown: nothing is being read, drawn or compiled. */
 bool viewer_is_idle(Viewer *v);
 
 /* "WxH" pixels of the stage. */

@@ -55,7 +55,7 @@ void window_push(Window *window, const Event *event);
  * changed after one of them did. Returns whether anything happened. */
 bool window_take(Window *window, UiInput *input);
 
-/* Whether events wait. */
+/* Returns true if events wait. */
 bool window_has_events(const Window *window);
 
 /* The next file that was dropped on it, NULL: none; release with free. */

@@ -102,8 +102,8 @@ FN_NOINLINE float fibre_walk_more(FibreWalk m, Dir a, Dir b, uint64_t stream) {
     return sum;
 }
 
-/* Whether the walk starts at a rather than at b: from where the slab looks thicker; of two that are alike, by
- * an order of directions that holds for both ways round. */
+/* Returns true if the walk starts at a and not at b: it starts where the slab looks thicker. Ties are broken
+ * by an order of directions that is symmetric in a and b. */
 FN bool fibre_walk_first(FibreWalk m, Dir a, Dir b) {
     float s = m.alpha * m.alpha;
     Dir t = flake_axis(m.tilt, m.azimuth);
