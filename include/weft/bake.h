@@ -14,8 +14,8 @@
 extern "C" {
 #endif
 
-/* What a table's axes mean. All zero: cos_o to the right, an artist's roughness downwards, both at texel
- * centres, which is what most engines read. */
+/* The meaning of a table's axes. All zero means cos_o to the right, an artist's roughness downwards, both at
+ * texel centres, which is what most engines read. */
 typedef struct WeftTableForm {
     int transposed;     /* the parameter to the right and cos_o downwards */
     int root;           /* uniform in sqrt(cos_o) in place of cos_o */
@@ -42,13 +42,13 @@ WEFT_API WeftResult weft_table_form_parse(const char *text, WeftTableForm *out, 
 enum { WEFT_TABLE_FORM_TEXT = 80 };
 WEFT_API char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TABLE_FORM_TEXT]);
 
-/* Where texel (x, y) of a table of that size is: cos_o in [0, 1], and the lobe's first parameter, which may
- * be beyond its hard range. Roughness r means r^2 where the parameter is called alpha, r where it is called
- * roughness, and else its plausible range from low to high. A lobe without parameters has 0. */
+/* Returns the place of texel (x, y) of a table of that size: cos_o in [0, 1], and the lobe's first parameter,
+ * which may be beyond its hard range. Roughness r means r^2 where the parameter is called alpha, r where it
+ * is called roughness, and else its plausible range from low to high. A lobe without parameters has 0. */
 WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y,
                                     float *cos_o, float *value);
 
-/* What can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. */
+/* A kind of table that can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. */
 typedef struct WeftBakeKind {
     const char *id, *help; /* live as long as the program */
     int lobe;              /* 0, 1 or 2, see above */
@@ -75,7 +75,7 @@ typedef struct WeftBakeDesc {
     const WeftLog *log;    /* of warnings: a damaged cache is one; may be NULL */
 } WeftBakeDesc;
 
-/* What was baked, in words and numbers. */
+/* The result of a bake, in words and numbers. */
 typedef struct WeftBakeInfo {
     char words[160];   /* what the table holds */
     char channels[80]; /* what each channel is, comma between */
@@ -120,7 +120,7 @@ WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const 
     F(NOISY, "noisy")       /* off by what they do not share */                                              \
     F(CORNER, "corner")     /* off in a few texels only */
 
-/* What is wrong with a table: WEFT_TABLE_NONE and the rest of WEFT_TABLE_FAULTS. */
+/* The fault of a table: WEFT_TABLE_NONE and the rest of WEFT_TABLE_FAULTS. */
 typedef enum WeftTableFault {
 #define WEFT_TABLE_FAULT_ENUM(id, name) WEFT_TABLE_##id,
     WEFT_TABLE_FAULTS(WEFT_TABLE_FAULT_ENUM)
@@ -131,7 +131,8 @@ typedef enum WeftTableFault {
 /* The name of a fault, "biased". */
 WEFT_API const char *weft_table_fault_name(WeftTableFault fault);
 
-/* What of the albedo of a lobe of two colours a channel holds; of one colour all is the sum. */
+/* The part of the albedo that a channel holds, for a lobe of two colours. With one colour the sum is all
+ * of it. */
 typedef enum WeftTablePart {
     WEFT_TABLE_SUM = 0,
     WEFT_TABLE_F0,
@@ -163,7 +164,7 @@ typedef struct WeftTablePlace {
 /* The most findings of an audit, and the longest sentence of one, its end among the characters. */
 enum { WEFT_AUDIT_FINDINGS = 6, WEFT_AUDIT_TEXT = 320 };
 
-/* What an audit found. */
+/* The result of an audit. */
 typedef struct WeftAudit {
     WeftTableForm form;   /* the axes it was judged by: those said, else those found */
     int fits;             /* 0: E in that form, or a multiple of it, is not what the table is near to */

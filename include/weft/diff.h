@@ -34,7 +34,7 @@ typedef enum WeftMetric {
 /* "relmse", "flip" or "ssim". */
 WEFT_API const char *weft_metric_name(WeftMetric metric);
 
-/* What is compared. Zero-initialise for the defaults. */
+/* Describes a comparison. Zero-initialise for the defaults. */
 typedef struct WeftDiffDesc {
     const WeftImage *image, *reference; /* of one size */
     WeftMetric metric;                  /* what is measured */
@@ -46,7 +46,7 @@ typedef struct WeftDiffDesc {
     int threads;           /* 0: as many as there are processors; no influence on the result */
 } WeftDiffDesc;
 
-/* How different they are. */
+/* The differences of two images. */
 typedef struct WeftDiff {
     double value;                      /* the metric */
     float worst;                       /* of the map: the largest, of ssim the least */

@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-/* How bad it is. */
+/* The severity of a finding. */
 typedef enum WeftSeverity {
     WEFT_SEVERITY_NOTE = 0, /* looks otherwise than one may think */
     WEFT_SEVERITY_WARNING,  /* looks wrong in some engine */
@@ -72,7 +72,7 @@ typedef enum WeftSeverity {
     F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")                     \
     F(IMAGE_UNREAD, "image-unread", ERROR, 0, "an image cannot be read")
 
-/* What is found: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
+/* The kinds of findings: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {
 #define WEFT_FINDING_ENUM(id, name, severity, fixable, help) WEFT_FINDING_##id,
     WEFT_FINDINGS(WEFT_FINDING_ENUM)
@@ -89,7 +89,7 @@ WEFT_API int weft_finding_fixable(int kind);
 /* "note", "warning" or "error"; NULL out of range. */
 WEFT_API const char *weft_severity_name(WeftSeverity severity);
 
-/* What it is found in. */
+/* The part of an asset that a finding is about. */
 typedef enum WeftFindingOf { WEFT_OF_ASSET = 0, WEFT_OF_MATERIAL, WEFT_OF_MESH, WEFT_OF_IMAGE } WeftFindingOf;
 
 /* One thing that is wrong. Owned by the doctor. */
@@ -117,9 +117,9 @@ typedef struct WeftDoctor WeftDoctor;
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);
 
-/* The same with progress (may be NULL), told of the share of materials and meshes that was looked at, which
- * can stop it: WEFT_INTERRUPTED. weft_doctor_fix, which examines what it wrote, asks it too: user must
- * outlive the doctor. */
+/* As weft_doctor_examine, but calls progress (may be NULL) with the finished fraction of materials and
+ * meshes. progress can stop the examination: WEFT_INTERRUPTED. weft_doctor_fix examines its own output and
+ * calls progress too, so user must outlive the doctor. */
 WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user,
                                              WeftDoctor **out, const WeftLog *log, WeftError *error);
 
@@ -134,7 +134,7 @@ WEFT_API void weft_doctor_free(WeftDoctor *doctor); /* may be NULL */
 WEFT_API int weft_doctor_count(const WeftDoctor *doctor);
 WEFT_API const WeftFinding *weft_doctor_finding(const WeftDoctor *doctor, int index);
 
-/* What was looked at. */
+/* Counts of the parts that were examined. */
 typedef struct WeftDoctorInfo {
     int material_count, mesh_count, image_count; /* in the file */
     int sheen_count;                             /* materials with KHR_materials_sheen */

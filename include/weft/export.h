@@ -40,7 +40,7 @@ typedef enum WeftExportTarget {
 WEFT_API const char *weft_export_target(int target);
 WEFT_API const char *weft_export_target_help(int target);
 
-/* How tables reach the program. Only PNG16 changes their numbers. */
+/* The form in which tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
     WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, and of WGSL up to 2,047
                               texels, which is as long as an array may be written there */

@@ -35,19 +35,20 @@ typedef struct WeftData WeftData;
  * in what line), _MEMORY and with what reading a file can fail with. Release with weft_data_free. */
 WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
 
-/* The same from size bytes; name is the subject of errors, and its suffix says what they are. */
+/* As weft_data_read, from size bytes. Errors begin with name, whose suffix names the format. */
 WEFT_API WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
                                           WeftError *error);
 
-/* Of count pairs of unit directions and their f, 1/sr, all copied; isotropic: not 0 where f stays the same
- * however both directions turn, which halves the work. Fails with WEFT_MESSAGE_DESC where nothing is above 0
+/* Makes data of count pairs of unit directions and their f, 1/sr, all copied. isotropic: not 0 if f stays the
+ * same as both directions turn, which halves the work. Fails with WEFT_MESSAGE_DESC where nothing is above 0
  * or nothing is left, or _MEMORY. */
 WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3],
                                      const float (*f)[3], int isotropic, WeftData **out, WeftError *error);
 
 WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
 
-/* How many samples count; how many there were, with those that graze or were not measured. */
+/* Returns the number of samples in use. *all is the number of samples read, including grazing and
+ * unmeasured ones. */
 WEFT_API int weft_data_count(const WeftData *data, int *all);
 
 /* One candidate, fitted. */
@@ -68,7 +69,7 @@ enum {
 /* Returns the notes that hold of a fit, or-ed together; 0 without any. */
 WEFT_API unsigned weft_fitted_notes(const WeftFitted *fitted);
 
-/* As many candidates as a ranking has room for. */
+/* The most candidates of a ranking. */
 enum { WEFT_FITTED_MOST = 64 };
 
 /* The ranking. */

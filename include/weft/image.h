@@ -43,7 +43,7 @@ WEFT_API void weft_image_free(WeftImage *image);
  * _IMAGE_UNSUPPORTED or _MEMORY; *out is then zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
-/* The same from size bytes at data; name is the subject of errors. */
+/* As weft_image_read, from size bytes at data. Errors begin with name. */
 WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
                                            const WeftLog *log, WeftError *error);
 
@@ -51,7 +51,7 @@ WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const 
  * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
 
-/* How pixels that are data rather than a picture are written. Zero-initialise: as weft_image_write does. */
+/* Options for pixels that are data and not a picture. All zero: as weft_image_write does. */
 typedef struct WeftImageWriting {
     int data;            /* plain numbers: a .png is not called sRGB, an .exr not multiplied by its alpha */
     int single;          /* .exr of 32 bit floats in place of half */
@@ -73,7 +73,7 @@ WEFT_API int weft_image_suffix_linear(const char *path);
  */
 WEFT_API WeftResult weft_image_convert_f32(const WeftImage *in, int srgb, WeftImage *out, WeftError *error);
 
-/* How linear radiance becomes a display value in [0, 1] before the sRGB curve. */
+/* The curve by which linear radiance becomes a display value in [0, 1] before the sRGB curve. */
 typedef enum WeftTonemap {
     WEFT_TONEMAP_PBR_NEUTRAL = 0, /* Khronos PBR Neutral, 2024: keeps base colours, for products */
     WEFT_TONEMAP_ACES = 1,        /* Narkowicz, "ACES Filmic Tone Mapping Curve", 2015 */
@@ -86,9 +86,9 @@ typedef enum WeftTonemap {
 WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                        WeftImage *out, WeftError *error);
 
-/* The same over a background, and opaque. behind is light of the display, linear in [0, 1]: neither exposure
- * nor curve change it, so that a white one is white. Light is mixed before it is encoded. Of an image without
- * alpha nothing is seen through. */
+/* As weft_image_tonemap, but opaque over a background. behind is light of the display, linear in [0, 1]:
+ * neither exposure nor curve change it, so that a white one is white. Light is mixed before it is encoded. Of
+ * an image without alpha nothing is seen through. */
 WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                             const float behind[3], WeftImage *out, WeftError *error);
 

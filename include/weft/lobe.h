@@ -108,7 +108,7 @@ WEFT_API WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char 
                                   WeftError *error);
 
 /* Says with WEFT_MESSAGE_PARAM_FITTED where the lobe takes another number than it was given, since its form
- * was not fitted as far as that: of `fibre`, alpha where fibres lean. name is the subject of the message. */
+ * was not fitted as far as that: of `fibre`, alpha where fibres lean. messages begin with name. */
 WEFT_API void weft_lobe_fitted(const WeftLobe *lobe, const char *name, const WeftLog *log);
 
 /* f per colour channel, 1/sr; 0 where a direction is not above the horizon. */

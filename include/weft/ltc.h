@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* What a table holds in each cell, by the letters above. */
+/* The channels of a table's cell, by the letters above. */
 typedef enum WeftLtcChannel {
     WEFT_LTC_Z = 0,             /* > 0 */
     WEFT_LTC_Q = 1,             /* >= 0 */
@@ -64,13 +64,13 @@ WEFT_API WeftResult weft_ltc_make(const WeftLobe *lobe, const WeftLtcDesc *desc,
 /* ltc may be NULL. */
 WEFT_API void weft_ltc_free(WeftLtc *ltc);
 
-/* What a table is like. */
+/* Size and error of a table. */
 typedef struct WeftLtcInfo {
     int rows, columns; /* of every channel */
     float low, high;   /* of the parameter, in the first and the last row */
     int cached;        /* it was read from the cache */
     double seconds;    /* that it took to make or to read */
-    /* Of the error over the cells with E >= 1e-3, one weight each; and where it is worst. */
+    /* The error over the cells with E >= 1e-3, weighted equally, and the place of the largest. */
     float mean_error, worst_error, worst_cos_o, worst_value;
 } WeftLtcInfo;
 
@@ -80,7 +80,8 @@ WEFT_API WeftLtcInfo weft_ltc_info(const WeftLtc *ltc);
 /* rows * columns floats, row after row; lives as long as ltc. NULL where there is no such channel. */
 WEFT_API const float *weft_ltc_channel(const WeftLtc *ltc, int channel);
 
-/* What a column (0 is grazing) and a row stand for: uniform in the root of cos_o and of the parameter. */
+/* Return the cosine of a column (0 is grazing) and the parameter of a row: uniform in the root of cos_o
+ * and of the parameter. */
 WEFT_API float weft_ltc_cos_o(const WeftLtc *ltc, int column);
 WEFT_API float weft_ltc_value(const WeftLtc *ltc, int row);
 

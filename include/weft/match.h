@@ -41,13 +41,13 @@ typedef enum WeftBrdfMetric {
 /* "cosine", "log" or "picture". */
 WEFT_API const char *weft_brdf_metric_name(WeftBrdfMetric metric);
 
-/* How far two reflections are apart in one part (WeftPart; WEFT_PART_ALL: as wholes). 0 is the same. Fails
- * with WEFT_MESSAGE_DESC or _MEMORY; where `from` reflects nothing in that part the answer is 0 if `to` does
- * so too, else 1. */
+/* Sets *distance to the distance of two reflections in one part (WeftPart; WEFT_PART_ALL: as wholes). 0 means
+ * equal. Fails with WEFT_MESSAGE_DESC or _MEMORY; where `from` reflects nothing in that part the answer is 0
+ * if `to` does so too, else 1. */
 WEFT_API WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
                                        WeftBrdfMetric metric, double *apart, WeftError *error);
 
-/* What a search did. */
+/* The result of a search. */
 typedef struct WeftMatch {
     double copied, matched; /* the error at the start and of the answer, which is never above it */
     long long evaluations;  /* of a lobe or material over the directions */
@@ -95,8 +95,8 @@ typedef struct WeftMatchJob {
 WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
                                     WeftProgress progress, void *user, WeftError *error);
 
-/* What became of one material of an asset. Numbers are those of its factors: with textures, `matched` is
- * made for what texel and factor are on average, and the factor scaled as that was. */
+/* The result for one material of an asset. Numbers are those of its factors: with textures, `matched` is made
+ * for what texel and factor are on average, and the factor scaled as that was. */
 typedef struct WeftAssetMatch {
     char name[64];   /* of the material, cut where it is long */
     int changed;     /* 0: it has no sheen, or is unlit, and stays as it is */

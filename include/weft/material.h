@@ -50,7 +50,7 @@ typedef struct WeftInput {
     float transform[6]; /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
 } WeftInput;
 
-/* What opacity does: nothing; cut out; mix with what is behind. */
+/* The effect of opacity: none, a cut-out, or blending with the background. */
 typedef enum WeftAlphaMode { WEFT_ALPHA_OPAQUE = 0, WEFT_ALPHA_MASK, WEFT_ALPHA_BLEND } WeftAlphaMode;
 
 /* A material in numbers. */
@@ -91,7 +91,7 @@ WEFT_API WeftResult weft_scene_put_material(WeftScene *scene, int index, const W
  * default to default. choice and value out of range change nothing. */
 WEFT_API void weft_material_choose(WeftMaterial *material, int choice, int value);
 
-/* Says what is hardly real in it, as weft_scene_set does; name is the subject of the messages. */
+/* Says what is hardly real in it, as weft_scene_set does; messages begin with name. */
 WEFT_API void weft_material_plausible(const WeftMaterial *material, const char *name, const WeftLog *log);
 
 /* Says where the lobe of its sheen takes another number than it was given, as weft_lobe_fitted does; a

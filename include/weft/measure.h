@@ -21,7 +21,7 @@ enum {
     WEFT_HALF_MOST = 7          /* exponent of the largest floor that is tried */
 };
 
-/* Where something was found: the row's parameter and the pair of directions; phi between them in degrees. */
+/* The place of a result: the row's parameter and the pair of directions; phi between them in degrees. */
 typedef struct WeftPlace {
     float value, cos_o, cos_i, phi; /* the parameter, the two cosines, the azimuth between */
 } WeftPlace;
@@ -53,9 +53,9 @@ typedef struct WeftPassport {
     float reciprocity;
     WeftPlace reciprocity_place;
 
-    /* Of a lobe: what a white Lambert base under it as a white sheen returns of uniform light, for each layer
-     * rule (weft_layer_id), roughness of the sheen and view; and the standard error of that, which is 0 but
-     * of the rule that walks at random. A profile's own E says that already. */
+    /* For a lobe: the light that a white Lambert base under it as a white sheen returns of uniform light, for
+     * each layer rule (weft_layer_id), roughness of the sheen and view; and the standard error of that, which
+     * is 0 but of the rule that walks at random. A profile's own E says that already. */
     float views[WEFT_PASSPORT_VIEWS]; /* cos_o, from 1 downwards */
     int layers;                       /* 0 of a profile */
     float sheens[WEFT_PASSPORT_SHEENS];
@@ -94,7 +94,7 @@ typedef struct WeftPassport {
     long long half_count, half_bad; /* without floors, over all rows */
     int half_floor[WEFT_PASSPORT_ROWS];
     WeftPlace half_place; /* where no floor helps: such a pair; all 0 where there is none */
-    /* As the parameter falls from its plausible high end to its hard low end: the least value down to which a
+    /* The parameter falls from its plausible high end to its hard low end: the least value down to which a
      * floor keeps all finite, whether that is the hard end, and the exponent of the smallest floor that then
      * does; 0: there is none. */
     float half_parameter;
@@ -103,7 +103,7 @@ typedef struct WeftPassport {
      * not in single precision (underflow), and the share where it is off by more than 1 %. */
     float half_zero[WEFT_PASSPORT_ROWS], half_off[WEFT_PASSPORT_ROWS];
 
-    /* The same text run by the GPU: the largest relative difference within the tolerance of 5e-4 and the
+    /* The shader text run by the GPU: the largest relative difference within the tolerance of 5e-4 and the
      * share of pairs beyond it. */
     int parity_measured;
     float parity_worst, parity_beyond;

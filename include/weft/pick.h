@@ -20,7 +20,7 @@ WEFT_API WeftResult weft_pick_create(const WeftScene *scene, WeftPick **out, Wef
 /* pick may be NULL. */
 WEFT_API void weft_pick_free(WeftPick *pick);
 
-/* What lies there. */
+/* The point that a ray hits. */
 typedef struct WeftPicked {
     int mesh, material;           /* indices in the scene */
     float position[3], normal[3]; /* in the world; the normal unit, interpolated, towards the viewer */

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* What a figure shows. */
+/* The kinds of figures. */
 typedef enum WeftPlotKind {
     WEFT_PLOT_POLAR = 0,  /* f as a length over theta_i, in the plane of wo and across it */
     WEFT_PLOT_LOBE3D,     /* f as a length over all wi: a surface */
@@ -36,7 +36,7 @@ typedef enum WeftPlotKind {
 WEFT_API const char *weft_plot_kind_name(int kind);
 WEFT_API const char *weft_plot_kind_help(int kind);
 
-/* What of a colour is plotted. Luminance is that of Rec. 709. */
+/* The channel that is plotted. Luminance is that of Rec. 709. */
 typedef enum WeftPlotChannel {
     WEFT_PLOT_LUMINANCE = 0,
     WEFT_PLOT_RED,
@@ -72,7 +72,7 @@ typedef struct WeftPlotDesc {
     int width, height;                /* pixels, 96 to the inch, <= WEFT_PLOT_SIDE_MAX; 0: its own */
 } WeftPlotDesc;
 
-/* How the numbers of a panel are laid out. */
+/* The layout of a panel's numbers. */
 typedef enum WeftPlotForm {
     WEFT_PLOT_CURVES = 0, /* series over x and y */
     WEFT_PLOT_ROSE,       /* series by angle, degrees from the normal, and length */
@@ -145,8 +145,8 @@ typedef struct WeftPlotData {
     struct WeftPlotMemory *owned;           /* all of the above, see weft_plot_data_free */
 } WeftPlotData;
 
-/* What a figure shows, as numbers. Fails with WEFT_MESSAGE_DESC (a value out of its range; samples of what is
- * no lobe; a difference of other than two) or _MEMORY. */
+/* Computes the numbers that a figure shows. Fails with WEFT_MESSAGE_DESC (a value out of its range; samples
+ * of what is no lobe; a difference of other than two) or _MEMORY. */
 WEFT_API WeftResult weft_plot_data(const WeftPlotDesc *desc, WeftPlotData *out, WeftError *error);
 
 /* Releases it and zeroes the struct. data may be NULL or all zero. */

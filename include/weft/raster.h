@@ -81,7 +81,7 @@ WEFT_API WeftResult weft_raster_update(WeftRaster *raster, const WeftLog *log, W
 /* Polygon lights of a picture, unless the view says otherwise. */
 enum { WEFT_RASTER_POLYGONS = 8 };
 
-/* How the light of the environment meets a lobe (docs/environment.md has their errors). */
+/* The strategy by which a lobe is lit by the environment (docs/environment.md has their errors). */
 typedef enum WeftAmbient {
     WEFT_AMBIENT_BEST = 0,   /* for each lobe the one that is nearest to the path tracer */
     WEFT_AMBIENT_IRRADIANCE, /* irradiance times albedo, the cheapest */
@@ -90,8 +90,8 @@ typedef enum WeftAmbient {
     WEFT_AMBIENT_NONE        /* no light from the environment */
 } WeftAmbient;
 
-/* What a picture shows: all, or one part of the light, those of a material's lobes that sum up to all but
- * emission; or one property of what is seen, in numbers as they are. */
+/* The content of an image: all light; one part of it, where the parts of a material's lobes sum up to all but
+ * emission; or one property of the surface, as plain numbers. */
 typedef enum WeftPart {
     WEFT_PART_ALL = 0,
     WEFT_PART_DIFFUSE,
@@ -145,7 +145,7 @@ WEFT_API WeftResult weft_raster_wait(WeftRaster *raster, WeftError *error);
  */
 WEFT_API WeftResult weft_raster_image(WeftRaster *raster, WeftImage *out, WeftError *error);
 
-/* Where a picture is shown, and how. Zero means default, in every member. */
+/* Where and how an image is shown. Zero means the default, in every member. */
 typedef struct WeftRasterShow {
     unsigned framebuffer; /* of the context that was adopted, and complete; 0: the window's */
     int x, y;             /* the picture's lower left corner in it, pixels */
@@ -171,7 +171,7 @@ WEFT_API int weft_raster_refresh(WeftRaster *raster);
 /* Waits until the driver has done all it was asked to: for timing. */
 WEFT_API void weft_raster_finish(WeftRaster *raster);
 
-/* What a raster is made of, and what it does. */
+/* The state of a raster. */
 typedef struct WeftRasterInfo {
     const char *driver;     /* its own name for itself; lives as long as the raster */
     int programs;           /* in use */
@@ -182,7 +182,8 @@ typedef struct WeftRasterInfo {
     int making; /* not 0: something is being made in the background (weft_raster_wait waits for it) */
     int made;   /* not 0: and the next picture has it */
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */
-    /* What is wrong with a text that does not compile, from its file and line on; empty while all is well. */
+    /* The compiler's message for a text that does not compile, from its file and line on; empty if all
+     * compiled. */
     char complaint[512];
 } WeftRasterInfo;
 

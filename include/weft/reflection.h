@@ -14,20 +14,20 @@
 extern "C" {
 #endif
 
-/* What reflects. */
+/* A model that reflects, with its tables. */
 typedef struct WeftReflection WeftReflection;
 
-/* Of a material, with its numbers and choices and without its textures. Dust lies as it does where it is
- * most. Of layer rule "stochastic", what bounced between sheen and base is in WEFT_PART_ALL alone. Fails with
- * WEFT_MESSAGE_PARAM_VALUE (not finite, or a choice that there is not) or _MEMORY. Numbers are clamped as
- * weft_scene_set does. */
+/* Makes the reflection of a material, with its numbers and choices and without its textures. Dust has its
+ * greatest amount. With layer rule "stochastic", light that bounced between sheen and base is in
+ * WEFT_PART_ALL alone. Fails with WEFT_MESSAGE_PARAM_VALUE (not finite, or a choice that there is not) or
+ * _MEMORY. Numbers are clamped as weft_scene_set does. */
 WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
                                            WeftError *error);
 
-/* Of a lobe. Fails with WEFT_MESSAGE_LOBE_NAME or _MEMORY. */
+/* Makes the reflection of a lobe. Fails with WEFT_MESSAGE_LOBE_NAME or _MEMORY. */
 WEFT_API WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error);
 
-/* Of a measurement in the format of the MERL database (Wojciech Matusik, Hanspeter Pfister, Matt Brand and
+/* Reads a measurement in the format of the MERL database (Wojciech Matusik, Hanspeter Pfister, Matt Brand and
  * Leonard McMillan, "A Data-Driven Reflectance Model", 2003), ".binary": isotropic, linear between the
  * middles of its bins, reciprocal; 0 where nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _MEMORY
  * and with what reading a file can fail with. */

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/* What is behind the scene. */
+/* The background of the scene. */
 typedef enum WeftBackground {
     WEFT_BACKGROUND_AUTO = 0,    /* a plain backdrop under the studio light, else the environment */
     WEFT_BACKGROUND_ENVIRONMENT, /* what lights the scene is seen behind it */
@@ -70,8 +70,8 @@ typedef struct WeftRender WeftRender;
 WEFT_API WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
                                        WeftError *error);
 
-/* What of the scene was changed since a render was made or last restarted: a sum of these. The environment is
- * a light; a polygon light is a shape too. */
+/* The parts of the scene that changed since a render was made or last restarted: a sum of these. The
+ * environment is a light; a polygon light is a shape too. */
 enum { WEFT_CHANGED_MATERIALS = 1, WEFT_CHANGED_LIGHTS = 2, WEFT_CHANGED_SHAPES = 4 };
 
 /* Begins again from no samples, with another descriptor; what did not change is kept: after a change of the
@@ -92,7 +92,7 @@ WEFT_API void weft_render_free(WeftRender *render);
 WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress,
                                     void *user);
 
-/* How far a picture is, and what it took. */
+/* The progress of an image and its costs. */
 typedef struct WeftRenderInfo {
     double samples_per_pixel; /* mean over the picture */
     long long rays;           /* traced so far, shadow rays among them */

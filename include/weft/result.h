@@ -91,7 +91,7 @@ typedef enum WeftResult {
     M(LOBE_COMPILE, INPUT, "does not compile")                                                               \
     M(COMPILER, RESOURCES, "needs a C compiler, and there is none")
 
-/* What a warning's result would be; warnings are only ever logged, never returned. */
+/* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK
 
 /* Which message: WEFT_MESSAGE_NONE and the rest of WEFT_MESSAGES. */
@@ -109,8 +109,8 @@ typedef struct WeftError {
     char text[512];      /* "subject: text: detail", UTF-8 */
 } WeftError;
 
-/* Where warnings go. fn may be NULL: then they are dropped. text lives only during the call. fn may be called
- * from a thread the library made, but never from two at once for one log. */
+/* Receives warnings. fn may be NULL: warnings are then dropped. text lives only during the call. fn may be
+ * called from a thread the library made, but never from two at once for one log. */
 typedef struct WeftLog {
     void (*fn)(void *user, WeftMessage message, const char *text); /* receives each */
     void *user;                                                    /* handed to fn as it is */

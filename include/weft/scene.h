@@ -28,7 +28,7 @@ typedef int (*WeftProgress)(void *user, double fraction);
 WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user,
                                             WeftScene **out, const WeftLog *log, WeftError *error);
 
-/* The same from size bytes of a .glb, or of a .gltf that refers to no other file. */
+/* As weft_scene_load, from size bytes of a .glb, or of a .gltf that refers to no other file. */
 WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                            const WeftLog *log, WeftError *error);
 
@@ -39,7 +39,7 @@ WEFT_API void weft_scene_free(WeftScene *scene);
 WEFT_API const char *weft_builtin_name(int index);
 WEFT_API const char *weft_builtin_help(int index);
 
-/* How much there is in a scene. */
+/* The counts and extent of a scene. */
 typedef struct WeftSceneInfo {
     /* of each: indices run from 0 to one less */
     int mesh_count, material_count, light_count, camera_count, variant_count, image_count;
@@ -79,7 +79,8 @@ WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const c
 WEFT_API WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
                                                const WeftLog *log, WeftError *error);
 
-/* The same from size bytes of a material file that names no texture; name is the subject of messages. */
+/* As weft_scene_assign_material, from size bytes of a material file that names no texture. Messages begin
+ * with name. */
 WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material,
                                                       const void *data, size_t size, const char *name,
                                                       const WeftLog *log, WeftError *error);
@@ -134,7 +135,7 @@ WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float
 WEFT_API WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
                                                      WeftError *error);
 
-/* What shines. */
+/* The kinds of lights. */
 typedef enum WeftLightKind {
     WEFT_LIGHT_DIRECTIONAL = 0,
     WEFT_LIGHT_POINT = 1,
@@ -173,7 +174,7 @@ typedef struct WeftCamera {
     float fov;                      /* vertical, degrees; 0 of an orthographic camera */
 } WeftCamera;
 
-/* What that text means there. Fails with WEFT_MESSAGE_CAMERA_NAME. */
+/* Makes the camera that the text describes. Fails with WEFT_MESSAGE_CAMERA_NAME. */
 WEFT_API WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,
                                       WeftError *error);
 

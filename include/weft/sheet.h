@@ -31,7 +31,8 @@ typedef struct WeftSheetDesc {
  * WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_sheet_compose(const WeftSheetDesc *desc, WeftImage *out, WeftError *error);
 
-/* How far an image is from a reference. Both F32 RGBA or RGB of one size; colours count times their alpha. */
+/* The difference of an image from a reference. Both F32 RGBA or RGB of one size; colours count times their
+ * alpha. */
 typedef struct WeftDifference {
     double mean;   /* of |difference| over pixels and colour channels */
     double relmse; /* mean of difference^2 / (reference^2 + 1e-2) over the same */

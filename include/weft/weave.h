@@ -55,7 +55,7 @@ typedef struct WeftDraftInfo {
  * WEFT_MESSAGE_DRAFT, _DRAFT_NOTATION, _MEMORY, and as weft_image_read does; *out is then NULL. */
 WEFT_API WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error);
 
-/* A WIF of size bytes at data; name is the subject of errors. */
+/* A WIF of size bytes at data; errors begin with name. */
 WEFT_API WeftResult weft_draft_read_memory(const void *data, size_t size, const char *name, WeftDraft **out,
                                            const WeftLog *log, WeftError *error);
 

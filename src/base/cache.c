@@ -71,7 +71,7 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
     if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written");
 }
 
-/* What is before the data; a checksum of all is behind them. */
+/* The head of a cache file. A checksum of everything follows the data. */
 typedef struct Head {
     char magic[8];
     uint64_t key;

@@ -13,7 +13,7 @@ __attribute__((format(printf, 4, 5))) WeftResult fail(WeftError *error, WeftMess
 /* Returns what fail returns of a message. */
 WeftResult message_result(WeftMessage message);
 
-/* The same line, handed to the log as a warning. log may be NULL. */
+/* Hands the same line to the log as a warning. log may be NULL. */
 __attribute__((format(printf, 4, 5))) void warn(const WeftLog *log, WeftMessage message, const char *subject,
                                                 const char *detail, ...);
 

@@ -43,8 +43,8 @@ typedef struct FitEffort {
 bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int threads, SolveProgress progress,
              void *user, double *coefficients);
 
-/* The same form's error over the set: the mean of the slabs' means, the largest of the rest. False where
- * memory is short. */
+/* Computes the form's error over the set: the mean of the slabs' means, and the largest of the other errors.
+ * Returns false if memory is short. */
 bool fit_error(const FitForm *form, const SolvedSet *set, const double *coefficients, FitError *all);
 
 #endif

@@ -42,7 +42,7 @@ void fibre_model_free(FibreModelFit *model);
  * short. */
 bool fibre_model_write(const FibreModelFit *model, const char *command, FILE *file);
 
-/* How many coefficients each stage adds. */
+/* Returns the number of coefficients that the stage adds. */
 int fibre_model_count(FibreStage stage);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "fibre/fit.h"
 
-/* What a table is for, and what made it. */
+/* Describes a table and the command that made it. */
 typedef struct FibreTableDesc {
     int columns, rows; /* each 2 .. 64 */
     double low, high;  /* alpha in the first and the last row */

@@ -150,7 +150,8 @@ static void logarithms(const SolvedSlab *reference, int pair, double *l) {
 
 /* ---- values ---- */
 
-/* Where each group's numbers begin in theta; the forms of scattering and of colour are apart. */
+/* Returns the place of a group's first number in theta. The forms of scattering and of colour count
+ * separately. */
 static int first_local(int group) {
     int first = 0;
     for (int k = group >= SCATTER_GROUPS ? SCATTER_GROUPS : 0; k < group; k++) first += groups[k].count;
@@ -382,8 +383,8 @@ static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficien
     return true;
 }
 
-/* Where the search starts: a form that is roughly right, with no part at zero, since a product of two zeros
- * has no slope. */
+/* Returns the start of the search: a form that is roughly right, with no part at zero, since a product of two
+ * zeros has no slope. */
 static double start_of(const Coefficient *k) {
     static const double exponent[] = {2.6, -2.1, 0.0, -0.2};
     if (k->b || k->c || groups[k->group].kind != UPRIGHT) return 0.0;
@@ -535,7 +536,7 @@ static void write_polynomial(FILE *file, int n, const char *x, const double *che
                 k ? ")" : "");
 }
 
-/* Where a number's coefficients of the powers b and c begin. */
+/* Returns the place of a number's first coefficient for the powers b and c. */
 static int block_of(int group, int number, int b, int c) {
     int n = 0, last = group * 10000 + number * 100 + b * 10 + c;
     for (int g = 0; g < GROUPS; g++)
@@ -548,8 +549,8 @@ static int block_of(int group, int number, int b, int c) {
     return n;
 }
 
-/* The same sums by powers of u instead of T_q(u): what multiplies each is a polynomial in t, l and s, whose
- * coefficients are turned one by one. False where memory is short. */
+/* Converts the sums from T_q(u) to powers of u. Each factor is a polynomial in t, l and s, whose coefficients
+ * are converted one by one. Returns false if memory is short. */
 static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
     *out = *model;
     out->coefficients = alloc_array((size_t)model->count, sizeof(double));
@@ -587,7 +588,7 @@ static void write_number(FILE *file, const FibreModelFit *model, int group, int 
         }
 }
 
-/* What the powers first .. last of l give to the numbers of one kind. */
+/* Writes the contribution of the powers first .. last of l to the numbers of one kind. */
 static void write_kind(FILE *file, const FibreModelFit *model, StageKind kind, int first, int last) {
     char name[16];
     for (int g = 0; g < GROUPS; g++)

@@ -33,9 +33,9 @@ static double mode(double s, int n, double P, double M) {
     return pow(-r, n) * k * h / (4.0 * s * s * s * s * w * w * w) * (k * (A + n * S) - 8.0 * w * w);
 }
 
-/* What a flake sends from one upward direction to another, and from an upward to a downward one that is named
- * by its antipode: K_r = (s^3 / 2) G_n(P, M); K_t has P = sin^2((ti - to) / 2), M = sin^2((ti + to) / 2), and
- * (-1)^n for the azimuth of the antipode. */
+/* The phase function of a flake from one upward direction to another (K_r), and from an upward to a downward
+ * one, which is named by its antipode (K_t): K_r = (s^3 / 2) G_n(P, M); K_t has P = sin^2((ti - to) / 2), M =
+ * sin^2((ti + to) / 2), and (-1)^n for the azimuth of the antipode. */
 typedef struct Kernels {
     double up, down;
 } Kernels;

@@ -25,12 +25,13 @@ typedef struct Slab {
     double depth;  /* density times thickness, > 0 */
 } Slab;
 
-/* How finely: nodes of the quadrature over mu and thickness of the first layer, depth / 2^halvings. */
+/* The resolution: nodes of the quadrature over mu, and halvings: the first layer is depth / 2^halvings
+ * thick. */
 typedef struct SlabEffort {
     int nodes, halvings;
 } SlabEffort;
 
-/* What serves an albedo to 1e-4 for that alpha. */
+/* Returns the resolution that gives an albedo to 1e-4 at that alpha. */
 SlabEffort slab_effort(double alpha);
 
 /* Mode m of the BRDF between `count` cosines in (0, 1], single scattering included, at depths depth / 2^(kept

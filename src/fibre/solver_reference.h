@@ -32,7 +32,7 @@ typedef struct SolvedSet {
     int *numbers;
 } SolvedSet;
 
-/* What is asked for: every combination of alphas, depths (the last divided by 2^(kept - 1) .. 1), albedos,
+/* The grid to solve: every combination of alphas, depths (the last divided by 2^(kept - 1) .. 1), albedos,
  * and, where tilts is not 0, tilts; `rings` cosines by a Gauss rule in sqrt(mu), and `spokes` azimuths where
  * fibres lean, or angles between azimuths where they do not. */
 typedef struct SolvedGrid {
@@ -54,15 +54,15 @@ void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[
 /* f of the same pair, scattered once: exact, 1/sr. */
 double solved_single_scatter(const SolvedSlab *reference, int pair);
 
-/* How far f[pairs], scattered more than once, is off: integral of |f - f_true| mu over R for the directions
- * with R > 1e-3, its mean by dmu and its largest; the largest error of R in any direction, and the largest R
- * with this f. False where memory is short. */
+/* The error of f[pairs], light scattered more than once: integral of |f - f_true| mu over R for the
+ * directions with R > 1e-3, its mean by dmu and its largest; the largest error of R in any direction, and the
+ * largest R with this f. False where memory is short. */
 typedef struct FitError {
     double mean, worst, albedo, most;
 } FitError;
 bool solved_error(const SolvedSlab *reference, const double *f, FitError *out);
 
-/* What a pair adds to the integral of one direction's f mu, per f. */
+/* Return the weight of a pair in the integral of f mu of its first, or second, direction. */
 double solved_weight_i(const SolvedSlab *reference, int pair);
 double solved_weight_j(const SolvedSlab *reference, int pair);
 

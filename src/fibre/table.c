@@ -15,7 +15,7 @@ enum { PARTS = 4, RINGS = 40, SPOKES = 5, CORNERS = 4 };
 static double base_of(double alpha, double sum) { return sum + 0.2 * alpha; }
 static double power_of(double alpha) { return 1.4 - 2.2 * log(alpha) / log(2.0); }
 
-/* Where a cosine falls in [0, 1] of the columns. */
+/* Added to a cosine, whose root then gives its place among the columns. */
 static const double horizon = 1e-3;
 static double column_of(double mu) {
     return ((sqrt)(mu + horizon) - (sqrt)(horizon)) / ((sqrt)(1.0 + horizon) - (sqrt)(horizon));
@@ -68,7 +68,8 @@ static void value(void *user, int slab, const SolvedSlab *t, const double *theta
     }
 }
 
-/* What the closed form has at the nodes, A such that both agree where mu_o = mu_i. */
+/* Starts from the values of the fitted polynomial at the nodes, with A such that both agree at mu_o =
+ * mu_i. */
 static void start(const FibreTableDesc *desc, double *coefficients) {
     for (int row = 0; row < desc->rows; row++) {
         double alpha = alpha_at(desc, (double)row / (desc->rows - 1));

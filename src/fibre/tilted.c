@@ -45,8 +45,8 @@ typedef struct Directions {
     double *c, *lambda;
 } Directions;
 
-/* As in slab.c: mu = x^2; azimuths at the middles of `spokes` equal parts of half a turn, which is the
- * trapezoidal rule for what is even and periodic. */
+/* Fills the directions as slab.c does: mu = x^2; azimuths at the middles of `spokes` equal parts of half a
+ * turn, which is the trapezoidal rule for what is even and periodic. */
 static void directions_fill(Directions *d, double tilt, TiltEffort effort, int count, const Heading *at,
                             double *x, double *w) {
     gauss_legendre(effort.rings, x, w);

@@ -17,7 +17,7 @@ typedef struct TiltEffort {
     int rings, spokes, halvings;
 } TiltEffort;
 
-/* What serves f to about 0.2 percent for that alpha, and where it must not be trusted: see docs/fibre.md. */
+/* Returns the resolution that gives f to about 0.2 percent at that alpha; docs/fibre.md has its limits. */
 TiltEffort tilt_effort(double alpha);
 
 /* f between `count` directions, single scattering included, 1/sr, at depths as slab_mode has them:

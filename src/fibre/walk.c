@@ -74,7 +74,7 @@ typedef struct WalkRun {
     long long length; /* of a batch */
 } WalkRun;
 
-/* What a flake sends straight to each wi. */
+/* Adds the light that a flake sends directly to each wi. */
 static void connect(const WalkRun *run, const Walker *walker, double *sums) {
     const double back[3] = {-walker->d[0], -walker->d[1], -walker->d[2]};
     for (int k = 0; k < run->desc->directions; k++) {

@@ -37,7 +37,7 @@ typedef struct WalkEstimate {
     double mean, error; /* standard error */
 } WalkEstimate;
 
-/* How many walks there were and how they ended. */
+/* The number of walks and how they ended. */
 typedef struct WalkCount {
     long long walks, reflected, transmitted, absorbed;
     long long reflected_once; /* of those reflected: after one flake */

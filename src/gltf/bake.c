@@ -11,7 +11,7 @@
 
 enum { TRIANGLES_MAX = 100000000 };
 
-/* How far from 1 the length of a unit vector may be that was computed in floats. */
+/* The largest error of the length of a unit vector that was computed in floats. */
 static const double UNIT_SLACK = 5e-7;
 
 /* One primitive under one node. */
@@ -253,7 +253,7 @@ static void compact(MeshBake *bake) {
     mesh_gather(asset, mesh, source, used);
 }
 
-/* Bakes one primitive. */
+/* Bakes one primitive. Returns false if it has nothing to show. */
 static bool bake_primitive(MeshBake *bake) {
     Asset *asset = bake->asset;
     const Primitive *p = bake->primitive;

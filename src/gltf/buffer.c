@@ -8,7 +8,7 @@
 #include "gltf/meshopt.h"
 #include "gltf/uri.h"
 
-/* What input may decode to: instances, sparse zeros and compression make a scene larger than its file. Any
+/* The limit on decoded bytes: instances, sparse zeros and compression make a scene larger than its file. Any
  * file may use the floor, a small one a thousand times its size up to 256 MiB, a large one 64 times up to 4
  * GiB. */
 static const size_t MIB = (size_t)1 << 20;

@@ -11,7 +11,7 @@
 
 static const size_t FILE_MAX = (size_t)4 << 30;
 
-/* Where URIs are resolved: from the folder of a path. Nothing of it is read but the name. */
+/* Returns an asset whose URIs resolve from the folder of a path. Only the name of the path is read. */
 static Asset folder_of(const char *path, bool in_memory, WeftError *error) {
     return (Asset){.name = path, .in_memory = in_memory, .error = error};
 }
@@ -38,7 +38,7 @@ FileBytes bundle_bytes(const Asset *asset, const char *uri, WeftResult *result, 
     return bytes;
 }
 
-/* Where the bytes of an old buffer are now. */
+/* The new place of an old buffer's bytes. */
 typedef struct Moved {
     json_int_t number, shift;
 } Moved;
@@ -57,7 +57,7 @@ static void reference_move(Saving *saving, json_t *object, const Moved *moved, s
     if (to->shift) saving_put(saving, object, "byteOffset", json_integer((json_int_t)offset + to->shift));
 }
 
-/* Of the views, and of extensions that compress them. */
+/* Updates the buffers that views and their compression extensions name. */
 static void references_move(Saving *saving, const Moved *moved, size_t count) {
     size_t k;
     json_t *view, *extension;

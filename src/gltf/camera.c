@@ -32,8 +32,8 @@ static bool is_frame(const Transform *t) {
     return frame && fabs(across - t->m[0][2]) < slack;
 }
 
-/* Where a camera at the origin, looking along -z with +y up, comes to stand; scale does not count. False
- * where the transform leaves no direction. */
+/* Places a camera that stands at the origin and looks along -z with +y up; scale is ignored. Returns false if
+ * the transform leaves no direction. */
 static bool stand(const Transform *world, Camera *camera) {
     Transform frame = transform_identity; /* columns right, up, back */
     double back[3], up[3];

@@ -53,7 +53,7 @@ static size_t tga_bytes(Span image) {
     return (p[12] | (size_t)p[13] << 8) * (p[14] | (size_t)p[15] << 8) * 4;
 }
 
-/* What the reader of images believes at most of a file of this size. */
+/* Returns the most pixel bytes that the image readers accept for a file of this size. */
 static size_t header_bytes(Span image) {
     const size_t always = (size_t)512 << 20;
     return image.size > always / 16 ? image.size * 16 : always;

@@ -15,13 +15,14 @@
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error);
 
-/* The same with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
+/* As gltf_read, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
 WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
                              WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
 
-/* The same in three steps, for who wants to see more than the scene. The caller sets what is to be known of
- * log, error, progress, user and, before the second step, scene; the rest is 0. Opening leaves root, text,
- * bin and packed; reading, all records; closing is due however either ended, before the scene is freed. */
+/* As gltf_read, in three steps, for callers that need more than the scene. The caller sets what is to be
+ * known of log, error, progress, user and, before the second step, scene; the rest is 0. Opening leaves root,
+ * text, bin and packed; reading, all records; closing is due however either ended, before the scene is
+ * freed. */
 void gltf_open(Asset *asset, const char *path, const void *data, size_t size);
 void gltf_read_parts(Asset *asset);
 void gltf_close(Asset *asset);

@@ -184,7 +184,7 @@ static void choice_read(const Field *field, ChoiceId choice, Material *material)
     field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", field_text(field, ""));
 }
 
-/* What weft_scene_save adds, so that a material comes back as it was. */
+/* Reads the extras that weft_scene_save adds so that a material comes back as it was. */
 static void saved_read(const Field *weft, Material *material) {
     Field choices = field_member(weft, "choices"), list = field_member(weft, "inputs"),
           cutoff = field_member(weft, "alphaCutoff");
@@ -235,7 +235,7 @@ static AlphaMode alpha_mode_read(const Field *field) {
     return ALPHA_OPAQUE;
 }
 
-/* Of an object of "materials", or of a field that is absent for the default material. */
+/* Reads an object of "materials"; an absent field gives the default material. */
 static Material material_read(const Field *field) {
     Field name = field_member(field, "name"), alpha = field_member(field, "alphaMode"),
           cutoff = field_member(field, "alphaCutoff"), sided = field_member(field, "doubleSided");

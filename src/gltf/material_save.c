@@ -109,8 +109,8 @@ static void emission_save(Saving *saving, json_t *object, const Material *materi
     saving_extend(saving, object, "KHR_materials_emissive_strength", extension);
 }
 
-/* Of the dielectric: its index, and the strength and tint of its reflection. Where the workflow has F0 itself
- * for a colour, that over the F0 of index 1.5. */
+/* Saves the dielectric: its index, and the strength and tint of its reflection. If the workflow has F0 as a
+ * colour, the tint is that colour over the F0 of index 1.5. */
 static void specular_save(Saving *saving, json_t *object, const Material *material) {
     const Input *inputs = material->inputs;
     const Surface plain = {.ior = value(material, INPUT_ior),
@@ -210,7 +210,7 @@ static json_t *input_save(Saving *saving, const Input *input, int count) {
     return object;
 }
 
-/* What `read`, the material as it would be read, is not yet. */
+/* Saves in extras all that differs from `read`, the material as a reader would get it. */
 static void extras_save(Saving *saving, json_t *object, const Material *material, const Material *read) {
     json_t *weft = json_object(), *choices = json_object(), *inputs = json_object(), *extras = json_object();
     for (int k = 0; k < CHOICE_COUNT; k++)

@@ -205,7 +205,7 @@ static void lights_save(Saving *saving) {
     saving_extend(saving, saving->root, "KHR_lights_punctual", extension);
 }
 
-/* Where a camera begins to see is a number that glTF wants and nothing here needs. */
+/* glTF requires a near plane, which nothing here needs. */
 static void camera_save(Saving *saving, const Camera *camera) {
     json_t *list = saving_list(saving, "cameras"), *object = json_object(), *lens = json_object(),
            *node = json_object();

@@ -78,7 +78,7 @@ static void put_key(JsonPatch *patch, const char *key) {
     json_decref(text);
 }
 
-/* How the parts of an object or array are set: the blanks before its first part, and behind its last. */
+/* The white space of an object or array: before its first part, and after its last. */
 typedef struct JsonSetting {
     const char *open, *first, *last, *close;
 } JsonSetting;
@@ -104,7 +104,7 @@ static size_t survey(const JsonPatch *patch, const char *at, bool object, JsonSe
 
 static void put_changed(JsonPatch *patch, json_t *was, json_t *now);
 
-/* What stands before a part that is new and not the first. */
+/* Writes the separator before a new part that is not the first. */
 static void put_gap(JsonPatch *patch, const JsonSetting *setting) {
     fputc(',', patch->out);
     put(patch, setting->open, setting->first);

@@ -7,7 +7,7 @@
 /* The records of skins. Nodes must be counted, and are checked, by the caller afterwards. */
 void skins_read(Asset *asset, size_t node_count);
 
-/* What takes the vertices of one primitive under one node to the world. */
+/* Transforms the vertices of one primitive under one node to the world. */
 typedef struct Pose {
     Transform world;   /* without a skin: the node's */
     Transform *joints; /* with one: from the mesh at bind time to the world, for each joint; else NULL */

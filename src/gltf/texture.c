@@ -163,7 +163,7 @@ static void images_decode(Jobs *jobs) {
     }
 }
 
-/* What messages call image number index: its file, or the asset's name and its place there. */
+/* Returns the name of image number index in messages: its file, or the asset's name and the place in it. */
 static const char *image_name(Asset *asset, int index) {
     size_t size = strlen(asset->name) + 32;
     char *name = asset_array(asset, &asset->arena, size, 1);

@@ -64,7 +64,8 @@ bool value_ranked(const float *values, size_t count, size_t rank, float *value) 
 /* Not so large that a sum of channels overflows. */
 static float finite(float x) { return isfinite(x) ? fminf(fmaxf(x, -1e37f), 1e37f) : 0.0f; }
 
-/* What the integers of an image mean, as linear values (alpha: as they are); NULL where memory is short. */
+/* Returns the linear values that the integers of an image stand for (alpha: unchanged), or NULL if memory
+ * is short. */
 static float *decoding(WeftPixelType type) {
     const int count = type == WEFT_PIXEL_U8 ? 1 << 8 : 1 << 16;
     float *values = alloc_array((size_t)count, sizeof *values);
@@ -172,7 +173,7 @@ static WeftResult check(const WeftDiffDesc *desc, WeftError *error) {
     return WEFT_OK;
 }
 
-/* How bad a value of a map is: 0 is the same. */
+/* Returns the difference that a value of a map stands for; 0 means equal. */
 static float badness(WeftMetric metric, float value) {
     const float off = metric == WEFT_METRIC_SSIM ? 1.0f - value : value;
     return off > 0.0f ? off : 0.0f;

@@ -23,7 +23,7 @@ bool value_ranked(const float *values, size_t count, size_t rank, float *value);
  * must contain width * height zeros. False where memory is short. */
 bool flip_map(const Pair *pair, float pixels_per_degree, bool bright, WeftDiff *out, float *map);
 
-/* The same of SSIM, of pairs in [0, 1]. */
+/* Computes the map of SSIM, for pairs in [0, 1]. */
 bool ssim_map(const Pair *pair, float *map);
 
 /* The pixels at each edge of the picture whose windows reach beyond it. */

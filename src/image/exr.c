@@ -14,7 +14,7 @@
 #include "image/codec.h"
 #include "image/half.h"
 
-/* What the library's callbacks see. */
+/* The state that the library's callbacks share. */
 typedef struct ExrJob {
     const ImageSource *source; /* when reading */
     FILE *stream;              /* when writing */
@@ -183,7 +183,7 @@ static int box_sane(exr_attr_box2i_t box) {
     return box.min.x > -far && box.min.y > -far && box.max.x < far && box.max.y < far;
 }
 
-/* How the full image (level 0) is cut into chunks. */
+/* Reads how the full image (level 0) is cut into chunks. */
 static exr_result_t exr_chunks(Exr *exr) {
     exr_storage_t storage = EXR_STORAGE_SCANLINE;
     exr_result_t status = exr_get_storage(exr->context, exr->part, &storage);
@@ -313,7 +313,7 @@ static void alpha_straighten(WeftImage *image) {
         for (int c = 0; pixel[channels - 1] > 0.0f && c < channels - 1; c++) pixel[c] /= pixel[channels - 1];
 }
 
-/* What a status of the library means to the reader of the file. */
+/* Converts a status of the library into a result with a message. */
 static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *error) {
     WeftMessage message = WEFT_MESSAGE_IMAGE_DAMAGED;
     if (status == EXR_ERR_FEATURE_NOT_IMPLEMENTED) message = WEFT_MESSAGE_IMAGE_UNSUPPORTED;

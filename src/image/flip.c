@@ -228,7 +228,7 @@ static void filter_along(const Flip *flip, int filter, float *line, float *to) {
     kernel_sum(kernel, rows, 0, flip->pair->width, to);
 }
 
-/* What is seen of a picture in one row. */
+/* The filtered values of an image in one row. */
 typedef struct Seen {
     float *lightness, *a, *b, *edge, *point;
 } Seen;

@@ -4,7 +4,7 @@
 
 #include "image/srgb.h"
 
-/* What a texel covers along one axis: a side of 2 n + 1 in n parts gives each up to three texels. */
+/* The source texels of a texel along one axis: a side of 2 n + 1 in n parts gives each up to three texels. */
 typedef struct Cover {
     int first, count;
     float part[3];
@@ -18,7 +18,7 @@ static Cover cover_at(int k, int side) {
     return (Cover){2 * k, 3, {(float)(n - k) * s, (float)n * s, (float)(k + 1) * s}};
 }
 
-/* What the 256 codes stand for, and from where on each is the nearest as codes go. */
+/* The values of the 256 codes, and the threshold from which on each is the nearest code. */
 typedef struct Codes {
     float value[256], from[256];
     uint8_t near[4097]; /* the code of k / 4096 */

@@ -201,7 +201,7 @@ static void rgbe_pack(const float *rgb, unsigned char rgbe[4]) {
     rgbe[3] = (unsigned char)(exponent + 128);
 }
 
-/* How many pixels from x on have the same component, at most limit. */
+/* Returns the number of pixels from x on with an equal component, at most limit. */
 static int run_length(unsigned char (*line)[4], int c, int x, int length, int limit) {
     if (limit > length - x) limit = length - x;
     int run = 1;

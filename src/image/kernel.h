@@ -22,8 +22,8 @@ static inline void kernel_rows(const float *plane, int width, int height, int y,
     }
 }
 
-/* The same row shifted pixel by pixel, so that a sum goes along it: row[0] .. row[width - 1] with radius
- * values of room on either side, which become the row's ends. */
+/* Fills row with the row shifted pixel by pixel, so that a sum runs along it: row[0] .. row[width - 1] with
+ * radius values of room on either side, which become the row's ends. */
 static inline void kernel_shifts(float *row, int width, int radius, const float *rows[KERNEL_TAPS]) {
     for (int k = 1; k <= radius; k++) {
         row[-k] = row[0];

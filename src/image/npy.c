@@ -94,7 +94,7 @@ static bool take_shape(NpyText *text, Npy *npy) {
     return !broken;
 }
 
-/* What is wrong with the type of the values, or NULL. */
+/* Returns the fault of the values' type, or NULL. */
 static const char *type_of(const char *word, Npy *npy) {
     npy->big = word[0] == '>';
     if (!word[0] || !strchr("<>|=", word[0])) return "its values are of no known type";

@@ -23,7 +23,7 @@
 #include "image/kernel.h"
 #include "image/power.h"
 
-/* Of which windows are summed: x, y, x^2 + y^2, (x - y)^2. */
+/* The quantities summed over windows: x, y, x^2 + y^2, (x - y)^2. */
 enum { QUANTITIES = 4, LINES = QUANTITIES + 1 };
 
 typedef struct Ssim {

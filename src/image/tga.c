@@ -103,7 +103,7 @@ static int pixel_unpack(const Tga *tga, const unsigned char *from, unsigned char
     return 1;
 }
 
-/* Where the n-th pixel of the file belongs. */
+/* Returns the place of the n-th pixel of the file. */
 static unsigned char *pixel_place(const Tga *tga, const WeftImage *image, size_t n) {
     size_t width = (size_t)tga->width, x = n % width, y = n / width;
     if (tga->from_right) x = width - 1 - x;

@@ -6,11 +6,11 @@
 
 _Static_assert(TONE_PBR_NEUTRAL == WEFT_TONEMAP_PBR_NEUTRAL && TONE_ACES == WEFT_TONEMAP_ACES, "");
 
-/* What is added to a value at (x, y) before it is cut to an integer: over any small neighbourhood these
- * fractions spread evenly over 0 .. 1, so the mean brightness stays right. They are middles of 256 steps, so
- * that rounding errors do not move a value that is a whole number. The sequence is R2 of Martin Roberts, "The
- * Unreasonable Effectiveness of Quasirandom Sequences", 2018; the constants are 2^32 / g and 2^32 / g^2 with
- * g^3 = g + 1. One fraction serves all channels: grey stays grey. */
+/* Returns the dither that is added to a value at (x, y) before it is cut to an integer: over any small
+ * neighbourhood these fractions spread evenly over 0 .. 1, so the mean brightness stays right. They are
+ * middles of 256 steps, so that rounding errors do not move a value that is a whole number. The sequence is
+ * R2 of Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018; the constants are
+ * 2^32 / g and 2^32 / g^2 with g^3 = g + 1. One fraction serves all channels: grey stays grey. */
 static float dither(unsigned x, unsigned y) {
     const unsigned step = (x * 0xc13fa9a9u + y * 0x91e10da5u) >> 24;
     return ((float)step + 0.5f) / 256.0f;

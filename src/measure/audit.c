@@ -339,7 +339,7 @@ static bool ratios_find(const AuditWork *work, double ratios[3]) {
     return true;
 }
 
-/* What the errors themselves look like, where nothing else explains them. */
+/* Classifies the errors by their pattern if nothing else explains them. */
 static bool find_kind(const AuditWork *work, WeftAudit *out) {
     const double few = 0.02, both = 0.3;
     double ratios[3];

@@ -51,7 +51,7 @@ static void albedos_find(const TableProbe *probe, const ProbeReading *reading, W
     parallel_for(probe->threads, probe->columns * probe->rows, albedo_find, e);
 }
 
-/* Where the E of probed texel n is, under the flips of a form. */
+/* Returns the place of the E of probed texel n, under the flips of a form. */
 static int flipped(const TableProbe *probe, const WeftTableForm *form, int n) {
     const int i = n % probe->columns, j = n / probe->columns;
     return (form->flip_y ? probe->rows - 1 - j : j) * probe->columns +
@@ -76,7 +76,7 @@ static double distance(const TableProbe *probe, const Albedos *e, const ProbeRea
     return count ? sum / count : HUGE_VAL;
 }
 
-/* Where the mean square of factor value - E has its minimum. */
+/* Returns the factor that minimises the mean square of factor value - E. */
 static double factor_find(const TableProbe *probe, const Albedos *e, const ProbeReading *reading) {
     double across = 0.0, along = 0.0;
     for (int n = 0; n < probe->columns * probe->rows; n++) {
@@ -128,7 +128,7 @@ static bool is_base(WeftTableForm form) {
     return false;
 }
 
-/* What is nearer by less than this is not nearer. */
+/* Returns the margin by which a reading must be nearer to count as nearer. */
 static double nothing(const TableProbe *probe) { return 1e-5 + 0.02 * probe->step; }
 
 ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines,

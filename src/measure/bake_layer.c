@@ -68,7 +68,7 @@ BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form) {
     return (BakeLayer){*lobe, 2, {WEFT_TABLE_F0, WEFT_TABLE_F90}};
 }
 
-/* What one thread has met so far: together they do not depend on who did what. */
+/* The extremes that one thread has met so far. Merged, they do not depend on how work was divided. */
 typedef struct Met {
     double error;
     long long unmet, beyond;

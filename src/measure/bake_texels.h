@@ -39,7 +39,7 @@ typedef struct BakePlane {
     int late;         /* texels by which the parameter runs ahead of the axis */
 } BakePlane;
 
-/* What the quadrature finds at a texel. */
+/* The result of the quadrature at a texel. */
 typedef struct BakeTexel {
     float part[WEFT_TABLE_PARTS]; /* by WeftTablePart: E of the white lobe, and the two it is made of */
     double error;                 /* the quadrature's own estimate */

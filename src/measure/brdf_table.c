@@ -20,8 +20,8 @@ static void direction(double theta, double phi, float w[3]) {
     w[2] = (float)sin((90.0 - theta) * radians);
 }
 
-/* How many numbers a line has, of which the first seven are kept; *rest is what no number could be read of,
- * or NULL. */
+/* Returns the count of numbers in a line, of which the first seven are kept. *rest is the text that is no
+ * number, or NULL. */
 static int line_numbers(const char *line, float numbers[NUMBERS], const char **rest) {
     int count = 0;
     for (*rest = NULL;;) {

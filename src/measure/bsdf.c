@@ -51,7 +51,7 @@ static void lobe_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
 
 enum { BLOCK = 256 };
 
-/* The same wo for a block of wi. */
+/* One wo repeated for a block of wi. */
 typedef struct Ours {
     float x[BLOCK], y[BLOCK], z[BLOCK];
 } Ours;

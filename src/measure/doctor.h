@@ -7,7 +7,7 @@
 #include "gltf/asset.h"
 #include "weft/doctor.h"
 
-/* What --fix does at the place of a finding. */
+/* The repair that --fix makes at the place of a finding. */
 typedef struct Repair {
     enum {
         REPAIR_NONE = 0,
@@ -22,7 +22,7 @@ typedef struct Repair {
     char extension[64];
 } Repair;
 
-/* Of a decoded image: what its channels hold, 0 .. 1, as R G B A. */
+/* The channels of a decoded image, 0 .. 1, as R G B A. */
 typedef struct Pixels {
     bool known;
     float low[4], high[4], mean[4];
@@ -51,7 +51,7 @@ struct WeftDoctor {
     bool failed;                 /* memory gave out */
 };
 
-/* Where something is. */
+/* The place of a finding. */
 typedef struct Place {
     WeftFindingOf of;
     int index;
@@ -63,7 +63,7 @@ __attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, Weft
                                                         unsigned engines, double figure, const Repair *repair,
                                                         const char *words, ...);
 
-/* What to do about the finding noted last: a printf format. */
+/* Adds advice to the last finding; fix is a printf format. */
 __attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, const char *fix, ...);
 
 /* The finding noted last is a note that nothing repairs: of a material that is no cloth it may well be meant.

@@ -124,7 +124,7 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     return pixels;
 }
 
-/* What readers take a factor as. */
+/* Returns the value that readers use for a factor. */
 static float clamped(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
 
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,

@@ -28,15 +28,15 @@
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};
 enum { COSINES = sizeof cosines / sizeof *cosines, AT_60 = 1, READERS = 5 };
 
-/* What an engine makes of a material, with its sheen and without: E of the strongest channel, and luminance.
- */
+/* The albedo of a material in an engine, with its sheen and without: E of the strongest channel, and
+ * luminance. / */
 typedef struct Answer {
     float with[COSINES], without[COSINES];
     float light_with[COSINES], light_without[COSINES];
     float alone[COSINES]; /* E of the white sheen by itself */
 } Answer;
 
-/* What was measured of a material: it holds for all that have the same numbers. */
+/* The measured energy of a material. It holds for all materials with the same numbers. */
 struct Energy {
     MaterialKey key;
     Answer answers[READERS];
@@ -240,8 +240,8 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
     return answer;
 }
 
-/* How much more than everything comes back because of the sheen, and where; what an engine's base gains
- * without any is not the sheen's. 1e-2 is what weft_reflection_albedo may err. */
+/* Returns the gain beyond 1 that the sheen causes, and where. Gain that an engine's base has without a sheen
+ * does not count. 1e-2 is the error of weft_reflection_albedo. */
 static float gain(const Answer *answer, int *where) {
     const float slack = 0.02f;
     float most = 0.0f;
@@ -344,7 +344,7 @@ static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Energy *ene
     if (worst >= 0) tell_gain(doctor, cloth, engines, worst, energy, where);
 }
 
-/* Where the cloth is less than half as bright as it would be without a sheen. */
+/* Finds cloth that is less than half as bright as it would be without its sheen. */
 static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *answers) {
     unsigned engines = 0;
     float least = 0.5f;
@@ -374,7 +374,7 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *ans
         "make the sheen's colour less saturated, or its roughness larger, if a dark rim is not meant");
 }
 
-/* The same sheen by itself, at 60 degrees. */
+/* Compares the sheen alone in the engines, at 60 degrees. */
 static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const Answer answers[READERS]) {
     const float limit = 1.5f;
     float low = INFINITY, high = 0.0f;
@@ -406,7 +406,7 @@ static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, MaterialKey *ke
     return true;
 }
 
-/* What is known of a material with these numbers; NULL: nothing yet. */
+/* Returns the measured energy of a material with these numbers, or NULL if it is not measured yet. */
 static const Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *key) {
     for (int k = 0; k < doctor->energy_count; k++)
         if (material_key_same(&doctor->energies[k].key, key)) return &doctor->energies[k];

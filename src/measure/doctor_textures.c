@@ -10,7 +10,7 @@
 #include "gltf/bundle.h"
 #include "measure/doctor.h"
 
-/* How a texture is read; of those that give alpha alone nobody decodes anything. */
+/* The encoding in which a texture is read. A texture that gives alpha alone has none. */
 typedef enum Space { SPACE_COLOR = 1, SPACE_DATA = 2 } Space;
 
 static const struct {
@@ -41,7 +41,7 @@ static int file_image(const WeftDoctor *doctor, json_t *info) {
     return texture < 0 ? -1 : doctor->asset.textures[texture].image;
 }
 
-/* How an image is used first in either space; NULL: not at all. */
+/* The first use of an image in either encoding; NULL: none. */
 typedef struct FirstUse {
     const char *color, *data;
 } FirstUse;
@@ -82,9 +82,9 @@ static bool says_linear(const unsigned char *name, size_t size) {
     return false;
 }
 
-/* How a PNG says that its numbers are linear; NULL: it does not. W3C, "Portable Network Graphics (PNG)
- * Specification (Third Edition)", 2025, section 11.3.2: gAMA holds 100000 times the exponent, iCCP begins
- * with a name, cICP's second byte is the transfer function of ITU-T H.273, of which 8 is linear. */
+/* Returns the chunk by which a PNG declares its numbers linear, or NULL. W3C, "Portable Network Graphics
+ * (PNG) Specification (Third Edition)", 2025, section 11.3.2: gAMA holds 100000 times the exponent, iCCP
+ * begins with a name, cICP's second byte is the transfer function of ITU-T H.273, of which 8 is linear. */
 static const char *png_linear(Span png) {
     size_t at = 8;
     if (!png.data || png.size < 8 || memcmp(png.data, "\x89PNG", 4) != 0) return NULL;

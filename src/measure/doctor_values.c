@@ -187,7 +187,7 @@ static float metal_luminance(WeftDoctor *doctor, const Cloth *cloth) {
     return texels ? (float)(sum / texels) : 1.0f;
 }
 
-/* Of a metal under a sheen that is said already. */
+/* Reports a metal under a sheen, unless another finding has done so. */
 static void check_metal_base(WeftDoctor *doctor, const Cloth *cloth, Place place) {
     if (cloth->sheen) return;
     float y = metal_luminance(doctor, cloth);
@@ -240,7 +240,7 @@ static bool said_elsewhere(const Cloth *cloth, const char *words) {
     return begins(words, "reflectance of a metal") || begins(words, "diffuse colour");
 }
 
-/* What plausible.c says of its numbers, without the name of the material and of the message. */
+/* Turns a warning of plausible.c into a finding, without the names of the material and the message. */
 static void hear_plausible(void *user, WeftMessage message, const char *text) {
     const Hearing *to = user;
     const char *words = strstr(text, weft_message_text(message));

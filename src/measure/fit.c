@@ -56,7 +56,7 @@ static bool is_measured(const float f[3]) {
     return f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f && f[0] + f[1] + f[2] < 1e30f;
 }
 
-/* What was passed over, and whether any of the rest is above 0. */
+/* The skipped samples, and whether any other is above 0. */
 typedef struct Passed {
     int unmeasured, grazing;
     bool any;
@@ -97,7 +97,7 @@ static WeftResult check_samples(const WeftData *self, const Passed *passed, cons
     return WEFT_OK;
 }
 
-/* Of what came from a file of that name; or from a caller, where message is DESC. */
+/* Makes data from a file of that name, or from a caller if message is DESC. */
 static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
                             bool isotropic, const char *name, WeftMessage message, WeftData **out,
                             WeftError *error) {
@@ -297,7 +297,7 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
-/* Of an item of work: the last is the baseline. */
+/* Fits one item of work: the last is the baseline. */
 static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
     WeftFitted *fitted = &work->fitted[item];
     LobeSearch search = {.samples = &work->samples,

@@ -33,7 +33,7 @@ static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, flo
         for (int k = 0; x[c] && k < count; k++) x[c][k] *= s->i[2][k];
 }
 
-/* What a colour adds where it is held; where it is free it is a column of the blend. */
+/* Adds the contribution of a fixed colour. A free one is a column of the blend. */
 static void add_color(const LobeWalker *self, Blend *blend, int part, int count) {
     bool held = (self->search->hold & (part ? WEFT_HOLD_COLOR_2 : WEFT_HOLD_COLOR)) != 0;
     const float *color = part ? self->start.f90 : self->start.f0, *column = self->column[part];
@@ -68,7 +68,7 @@ static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
     return lobe;
 }
 
-/* Of each channel, the best of some tints: into x. */
+/* Sets x to the best of some tints for each channel. */
 static double try_tints(LobeWalker *self, double *x) {
     const Samples *s = self->search->samples;
     WeftLobe lobe = lobe_at(self, x);
@@ -250,7 +250,7 @@ static bool walker_make(LobeWalker *self, const LobeSearch *search, const WeftLo
     return true;
 }
 
-/* What the last evaluation found for colours. */
+/* Sets the colours that the last evaluation found. */
 static void colors_of(const LobeWalker *self, LobeFound *out) {
     const LobeSearch *search = self->search;
     for (int c = 0; c < 3; c++) {

@@ -22,7 +22,7 @@ bool ltc_create(WeftLtc *ltc);
 
 static inline int ltc_cells(const WeftLtc *ltc) { return ltc->rows * ltc->columns; }
 
-/* What a node stands for. */
+/* Return the cosine of a column and the parameter of a row. */
 float ltc_cos_o(const WeftLtc *ltc, int column);
 Lobe ltc_lobe(const WeftLtc *ltc, int row);
 

@@ -51,7 +51,7 @@ void ltc_seal(unsigned char *data, size_t size) {
     put(data + size - LTC_TAIL, cache_hash(CACHE_HASH, data, size - LTC_TAIL), 8);
 }
 
-/* What ltc_table.h asks of its numbers, and what products of three of them can hold. */
+/* Returns true if a number meets the conditions of ltc_table.h and products of three are finite. */
 static bool may_be(int plane, float value) {
     if (!(fabsf(value) < 1e9f)) return false;
     return plane == WEFT_LTC_B || (plane == WEFT_LTC_Z ? value > 0.0f : value >= 0.0f);

@@ -97,8 +97,8 @@ double ltc_error(const LtcTarget *target, LtcEntries at, int norm) {
     }
 }
 
-/* What the search walks in: numbers that mean the same for sharp and for blunt lobes, each in a unit of its
- * own.
+/* The coordinates of the search: numbers that mean the same for sharp and for blunt lobes, each in a unit of
+ * its own.
  *
  *   tilt   phi of the lobe's peak, where v_xy = 0: tan phi = b s / m11, against o
  *   q      as m11 = cos_o^2 + q s^2, which makes the width at the peak in the plane of incidence: along = v_z
@@ -140,7 +140,7 @@ static LtcSearch search_from(const LtcTarget *target, int norm, double phi, doub
     return search;
 }
 
-/* Where these entries stand. */
+/* Returns the coordinates of these entries. */
 static LtcSearch search_at(const LtcTarget *target, int norm, LtcEntries at) {
     Ltc m = ltc_of(at.z, at.q, at.b, at.r, target->o.z);
     double m11 = (double)m.m11, phi = atan((double)at.b * (double)target->o.x / m11);

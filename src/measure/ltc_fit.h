@@ -10,7 +10,7 @@ typedef struct LtcEntries {
     float z, q, b, r;
 } LtcEntries;
 
-/* What is to be met: f cos_i at directions that crowd where lobes change fast, on one side of the plane of
+/* The values to fit: f cos_i at directions that crowd where lobes change fast, on one side of the plane of
  * incidence, wo being in the plane of the tangent. */
 typedef struct LtcTarget {
     int rings, columns;

@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "shading/choice.h"
 
-/* Where a factor stands in a material's JSON, and what it is where it is not there. */
+/* The place of a factor in a material's JSON, and its default. */
 typedef struct Factor {
     InputId input;
     const char *extension, *name; /* extension NULL: of pbrMetallicRoughness */
@@ -32,8 +32,8 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/* Where a channel of red, green, blue, alpha stands in a picture of so many: one of grey has it in all three,
- * and alpha is the last of two or four. -1: there is no alpha. */
+/* Returns the place of red, green, blue or alpha among an image's channels. Grey stands for all three
+ * colours, and alpha is the last of two or four. Returns -1 if there is no alpha. */
 static int place_of(int channel, int channels) {
     if (channel == 3) return channels & 1 ? -1 : channels - 1;
     return channels < 3 ? 0 : channel;

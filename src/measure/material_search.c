@@ -12,7 +12,7 @@
 #include "shading/input_ids.h"
 #include "weft/raster.h"
 
-/* What may change, in this order. */
+/* The inputs that may change, in this order. */
 static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness,     INPUT_specular,
                                  INPUT_sheen,           INPUT_sheen_tint,    INPUT_base_color,
                                  INPUT_sheen_color,     INPUT_specular_color};

@@ -5,9 +5,9 @@
 #include "measure/progress_loop.h"
 #include "measure/samples.h"
 
-/* As weft_match_material, from where material is; found->matched is the error of what it leaves in material.
- * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that it
- * should end. */
+/* Searches as weft_match_material does, starting from `material`. found->matched is the error of the result.
+ * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that
+ * it should end. */
 WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
                                WeftMaterial *material, WeftMatch *found, WeftError *error);
 

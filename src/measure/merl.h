@@ -33,8 +33,8 @@ WeftResult merl_read(const char *path, Merl *out, WeftError *error);
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
 
-/* The same of a file with another number of bins, of which the format knows none: for a fuzzer, to which 35
- * MB an input are too many. */
+/* As merl_read, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
+ * smaller than 35 MB. */
 WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
                            WeftError *error);
 

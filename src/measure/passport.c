@@ -25,8 +25,8 @@ static const float sheens[WEFT_PASSPORT_SHEENS] = {0.2f, 0.5f, 0.8f};
 
 enum { CELLS = 200, WHOLE_CELLS = 100, FURNACE_CELLS = 100 };
 
-/* What the parallel loops share. Each writes to its own places; extremes are found afterwards, in order, so
- * that threads cannot change them. */
+/* State that the parallel loops share. Each writes to its own places; extremes are found afterwards, in
+ * order, so that threads cannot change them. */
 typedef struct PassportWork {
     const Bsdf *bsdf;
     const WeftPassportDesc *desc;

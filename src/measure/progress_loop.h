@@ -12,7 +12,7 @@ typedef struct LoopWatch {
     atomic_llong done;   /* of each item so many millionths */
 } LoopWatch;
 
-/* How far one item is. */
+/* The progress of one item. */
 typedef struct ItemProgress {
     LoopWatch *watch; /* NULL: nobody watches */
     long long told;

@@ -10,7 +10,7 @@ typedef struct Reciprocity {
     WeftPlace place;
 } Reciprocity;
 
-/* Of one setting, over random pairs, half of which graze. */
+/* Measures one setting over random pairs, half of which graze. */
 Reciprocity reciprocity_measure(const Bsdf *bsdf, int setting, int pairs);
 
 #endif

@@ -105,7 +105,7 @@ static WeftReflection *reflection_of_kind(ReflectionKind kind, WeftReflection **
     return *out;
 }
 
-/* What was begun, or nothing where it went wrong. */
+/* Returns what was begun, or frees it after a failure. */
 static WeftResult settle(WeftReflection **out, WeftResult result) {
     if (result == WEFT_OK) return WEFT_OK;
     weft_reflection_free(*out);
@@ -169,7 +169,7 @@ static Slots slots_of_part(int part) {
                     all || part == WEFT_PART_DUST);
 }
 
-/* Of what walks at random, the mean of some walks. */
+/* Returns the value; for a rule that walks at random, the mean of some walks. */
 static StackValue value_of(const SeenStack *seen, int part, Dir i, uint32_t first, uint32_t walks) {
     const Stack *stack = &seen->stack;
     StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part), i);

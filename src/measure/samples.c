@@ -194,7 +194,7 @@ static bool same_channels(const Samples *self) {
     return true;
 }
 
-/* What is below the line, of all channels that count. */
+/* Returns the denominator of the error, over all channels that count. */
 static double whole_of(const Samples *self, int count) {
     double sum = 0.0;
     for (int c = 0; c < self->channels; c++)

@@ -16,7 +16,7 @@ typedef struct SearchAxis {
     double low, high;
 } SearchAxis;
 
-/* How well an error is to be told. */
+/* The accuracy to which an error is computed. */
 typedef enum SearchCare {
     SEARCH_GLANCE, /* of a point of the grid: quickly; x may be changed to something better nearby */
     SEARCH_ROUGH,  /* on the way */

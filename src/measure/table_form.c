@@ -47,7 +47,7 @@ char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TABLE_FORM_
     return text;
 }
 
-/* What an axis runs over. */
+/* The quantity along an axis. */
 enum { AXIS_NONE, AXIS_COS, AXIS_ROOT, AXIS_ROUGHNESS, AXIS_ALPHA };
 
 static int axis_of(const char *word) {
@@ -109,7 +109,7 @@ WeftResult weft_table_form_parse(const char *text, WeftTableForm *out, WeftError
     return WEFT_OK;
 }
 
-/* Of texel k of count, in [0, 1]. */
+/* Returns the coordinate of texel k of count, in [0, 1]. */
 static double place(int k, int count, bool edges, bool flip) {
     if (flip) k = count - 1 - k;
     const double at = !edges ? (k + 0.5) / count : count > 1 ? (double)k / (count - 1) : 0.0;

@@ -41,7 +41,7 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
     return true;
 }
 
-/* What belongs to the shape stays where the file says nothing of it. */
+/* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */
 static Material dressed(const Material *old, const MaterialFile *file) {
     static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
     Material fresh = file->material;

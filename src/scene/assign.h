@@ -4,8 +4,9 @@
 
 #include "scene/scene.h"
 
-/* Of each material whether it is meant by a name, an index, "*" or NULL: all that have a sheen or, where none
- * has, all that send out no light. Lives as long as the scene. NULL on failure: MATERIAL_NAME or MEMORY. */
+/* Returns a flag for each material that is set if name, index or "*" selects it. NULL selects all that have a
+ * sheen or, if none has, all that emit no light. The flags live as long as the scene. Returns NULL on
+ * failure: MATERIAL_NAME or MEMORY. */
 bool *materials_matching(WeftScene *scene, const char *material, WeftError *error);
 
 #endif

@@ -15,10 +15,10 @@ static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
     camera->up = vec3_cross(camera->right, camera->forward);
 }
 
-/* Where the eye must be for every vertex to be inside the frustum, touching it on at least one pair of sides
- * and centred between the other. In camera axes, z forward, t the slope of a side: x - ex <= t (z - ez) and
- * ex - x <= t (z - ez) for all points give ex and the largest ez from the two extremes of x - t z and -x - t
- * z; y likewise. */
+/* Finds the eye from which every vertex is inside the frustum, touching it on at least one pair of sides and
+ * centred between the other. In camera axes, z forward, t the slope of a side: x - ex <= t (z - ez) and ex -
+ * x <= t (z - ez) for all points give ex and the largest ez from the two extremes of x - t z and -x - t z; y
+ * likewise. */
 static Camera frame_scene(const WeftScene *scene, float aspect) {
     const float azimuth = 0.61f, elevation = 0.26f, margin = 1.12f; /* 35 and 15 degrees */
     Camera camera = {.name = "auto", .yfov = 0.49f};                /* 28 degrees, a portrait lens */

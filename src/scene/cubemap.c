@@ -17,7 +17,7 @@ enum { FACES = 6, NAME_SIZE = 1024 };
 static const char *const long_names[FACES] = {"posx", "negx", "posy", "negy", "posz", "negz"};
 static const char *const short_names[FACES] = {"px", "nx", "py", "ny", "pz", "nz"};
 
-/* What image/ reads; a .npy is no picture that a camera made. */
+/* The formats of image/, without .npy, which no camera makes. */
 static const char *const suffixes[] = {"exr", "hdr", "png", "jpg", "jpeg", "tga"};
 
 typedef struct Faces {
@@ -81,7 +81,8 @@ static int look_through(const char *folder, bool shorter, Faces *faces, WeftErro
     return found;
 }
 
-/* Of a folder with both kinds of names the kind that more faces have; of a face its own. */
+/* Finds the faces. In a folder with both kinds of names it takes the kind that more faces have; for a face
+ * its own kind. */
 static WeftResult find_faces(const char *path, Faces *faces, WeftError *error) {
     char folder[NAME_SIZE];
     WeftError local = {0};

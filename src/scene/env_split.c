@@ -277,7 +277,7 @@ static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
     }
 }
 
-/* As few as are enough. */
+/* Finds as few lights as are enough. */
 static void find_env_lights(const Sparks *sparks, int most, AmbientParts *parts) {
     if (!sparks->count || !(sparks->energy > 0.0)) return;
     for (int count = 2; count <= most; count++) {

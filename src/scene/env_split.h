@@ -36,8 +36,8 @@ typedef struct AmbientParts {
     float residual_sh[AMBIENT_TERMS][3]; /* radiance of the residual */
 } AmbientParts;
 
-/* As many lights as are enough, but at most `lights`: 0, or 2 .. AMBIENT_LIGHTS_MAX. Fails with
- * WEFT_MESSAGE_MEMORY. */
+/* Splits the environment into as many lights as are enough, at most env_lights (0, or 2 ..
+ * AMBIENT_LIGHTS_MAX), and a residual. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out, WeftError *error);
 
 /* Spherical harmonics of degrees 0 to 4, without their factors. The cosine has none of degree 3, and of

@@ -98,7 +98,7 @@ static Material shining(const float color[3]) {
     return material;
 }
 
-/* What mesh k of the polygon lights is, out of memory that it has. */
+/* Fills mesh k of the polygon lights in the memory that it has. */
 static void shape(WeftScene *scene, int k, const WeftLight *l, const Vec3 corners[LIGHT_CORNERS]) {
     int material = scene_own_materials(scene) + k;
     Mesh *mesh = &scene->meshes[scene_own_meshes(scene) + k];
@@ -198,7 +198,7 @@ static void drop_punctual(WeftScene *scene, int k) {
 
 /* Both. */
 
-/* Where the light of a place is: one of the two is -1. */
+/* The light at an index: one of the two is -1. */
 typedef struct FoundLight {
     int polygon, punctual;
 } FoundLight;

@@ -23,7 +23,7 @@ typedef struct MapPicture {
     int texture; /* number, counted from 1, once it is taken over */
 } MapPicture;
 
-/* Where a picture of that path is, or -1: its first texture. */
+/* Returns the first texture of the image at that path, or -1. */
 static int find_path(const WeftScene *scene, const char *path) {
     for (int k = 0; k < scene->texture_count; k++)
         if (scene->textures[k].path && strcmp(scene->textures[k].path, path) == 0) return k;

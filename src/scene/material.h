@@ -9,11 +9,10 @@
 #include "scene/texture.h"
 #include "shading/input_ids.h"
 
-/* How an input's value and texture make the number or direction at a point.
- * SCALAR, ANGLE (radians): value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture.
- * NORMAL: value[0] scales x and y of 2 t - 1; without a texture the surface is smooth.
- * DIRECTION: value[0] is an angle (radians, from the tangent towards the bitangent) added to that of 2 t.rg
- * - 1. */
+/* The rule by which an input's value and texture give the number or direction at a point. SCALAR, ANGLE
+ * (radians): value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture. NORMAL: value[0]
+ * scales x and y of 2 t - 1; without a texture the surface is smooth. DIRECTION: value[0] is an angle
+ * (radians, from the tangent towards the bitangent) added to that of 2 t.rg - 1. */
 typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION, INPUT_ANGLE } InputKind;
 
 typedef struct InputInfo {

@@ -135,7 +135,7 @@ static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
     }
 }
 
-/* As in KHR_texture_transform: scale, then turn, then shift. */
+/* Places a texture as KHR_texture_transform does: scale, then rotate, then offset. */
 static void place(Input *input, const float scale[2], float degrees, const float offset[2]) {
     float angle = degrees * (3.14159265f / 180.0f), c = cosf(angle), s = sinf(angle);
     const float m[6] = {c * scale[0], s * scale[1], offset[0], 0.0f - s * scale[0], c * scale[1], offset[1]};
@@ -156,7 +156,7 @@ static void read_wrap(Reader *r, const json_t *json, Texture *texture) {
     texture->wrap_v = two ? (TextureWrap)one_of(r, json_array_get(json, 1), "wrap", wraps) : texture->wrap_u;
 }
 
-/* Where a texture lies. */
+/* The placing of a texture. */
 typedef struct Placing {
     float scale[2], offset[2], degrees;
     float matrix[6];
@@ -268,7 +268,7 @@ static void read_keep(Reader *r, const json_t *json) {
     }
 }
 
-/* What a material has beside inputs and choices. */
+/* Reads the members of a material that are neither inputs nor choices. */
 static void read_rest(Reader *r, const json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as AlphaMode */
     MaterialFile *out = r->out;

@@ -4,7 +4,8 @@
 
 #include "scene/scene.h"
 
-/* What a file says. Its images are those that inputs name, input.texture being an index into textures + 1. */
+/* The contents of a material file. Its images are those that inputs name; input.texture is an index into
+ * textures, plus 1. */
 typedef struct MaterialFile {
     Material material;       /* defaults where the file is silent; name is "" */
     bool named[INPUT_COUNT]; /* given by the file */
@@ -21,7 +22,7 @@ typedef struct MaterialFile {
 WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
                               MaterialFile *out, const WeftLog *log, WeftError *error);
 
-/* The same of the file at path, whose textures lie beside it, or of "preset:NAME", without a warning. */
+/* Reads the file at path, whose textures are relative to it, or "preset:NAME", which gives no warning. */
 WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error);
 
 void material_file_free(MaterialFile *file);

@@ -57,7 +57,7 @@ void numbers_of_material(const Material *material, WeftMaterial *out) {
     }
 }
 
-/* As they are, but for what has no place in a Material. */
+/* Copies the numbers, except those that a Material does not have. */
 static Material take_numbers(const WeftMaterial *numbers) {
     Material material = material_default("");
     material.alpha_mode =
@@ -119,7 +119,7 @@ WeftResult numbers_sound(const WeftMaterial *m, WeftError *error) {
     return WEFT_OK;
 }
 
-/* What is wrong with how an input reads its texture, NULL: nothing. */
+/* Returns the fault of an input's texture reference, or NULL. */
 static const char *wrong_map(const WeftScene *scene, const WeftInput *input) {
     if (!all_finite(input->transform, 6)) return "its transform is not finite";
     if (input->texture < 0 || input->texture > scene->texture_count) return "there is no such texture";

@@ -5,8 +5,8 @@
 #include "scene/scene.h"
 #include "weft/material.h"
 
-/* What a caller hands over may be anything: numbers become finite and keep to their hard range, choices and
- * modes that there are not become auto and opaque. The name is "". Textures are not looked at. */
+/* Sanitises a caller's numbers: they become finite and are clamped to their hard range. Unknown choices
+ * become auto, unknown modes opaque. The name becomes "". Textures are ignored. */
 Material material_of_numbers(const WeftMaterial *numbers);
 
 /* The numbers of a material: byte by byte equal for equal materials, since there is no padding and nothing

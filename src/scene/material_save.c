@@ -80,7 +80,7 @@ static char *folder_of(const char *path) {
     return folder;
 }
 
-/* How to get to a file from a folder, both in full. */
+/* Returns the relative path of a file from a folder, both absolute. */
 static char *relative(Writer *w, const char *folder, const char *file) {
     size_t common = 0, up = 0;
     for (size_t k = 0; folder[k] && folder[k] == file[k]; k++)

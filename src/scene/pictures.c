@@ -42,7 +42,7 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
     }
 }
 
-/* What is no picture is refused here, since a lookup does not ask. */
+/* Refuses an invalid image here, since lookups do not check. */
 static WeftResult check_image(const WeftImage *image, WeftError *error) {
     enum { SIDE_MAX = 65536 };
     const char *subject = "texture";

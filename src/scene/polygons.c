@@ -19,7 +19,7 @@ typedef struct Face {
     int round;            /* in which it grew last */
 } Face;
 
-/* What is found of one mesh. */
+/* The light of one mesh. */
 typedef struct Patch {
     const WeftScene *scene;
     const Mesh *mesh;

@@ -91,8 +91,8 @@ static void move(Material *material, int input, float t) {
     }
 }
 
-/* What is multiplied by a texture as it is in the middle of that, and lobes that are too narrow for these
- * directions wider, so that neither hides anything. */
+/* Returns the surface with textures at their middle value and narrow lobes widened to the spacing of the
+ * directions, so that neither hides an influence. */
 static Surface middle_of(const Material *material) {
     static const InputId widths[] = {INPUT_roughness, INPUT_clearcoat_roughness, INPUT_sheen_roughness,
                                      INPUT_dust_roughness};

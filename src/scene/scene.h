@@ -106,7 +106,7 @@ struct WeftScene {
     Vec3 low, high; /* bounding box of its own vertices; low > high when there are none */
 };
 
-/* How many meshes and materials are the scene's own, and none of its lights'. */
+/* Return the counts of the scene's own meshes and materials, without those of its lights. */
 static inline int scene_own_meshes(const WeftScene *scene) {
     return scene->mesh_count - scene->polygon_light_count;
 }

@@ -13,13 +13,11 @@ int material_choice(const char *name);
 /* The value of a choice from an id, an alias or "auto". Fails with PARAM_VALUE. */
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 
-/* What a number given for an input becomes: clamped to the hard range, with a warning about target where it
- * is beyond the plausible one or the limit, and of angles, which are given in degrees, in radians. Any
- * DIRECTION is plausible.
- */
+/* Converts a number given for an input: clamps it to the hard range, warns about target if it is beyond the
+ * plausible range or the limit, and turns degrees into radians. Any DIRECTION is plausible. / */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
 
-/* What a setting asks for: an input, or a choice. The other is -1. */
+/* The input or the choice that a setting names; the other is -1. */
 typedef struct Setting {
     int input, choice, value; /* value: of the choice */
     float v[3];

@@ -8,7 +8,7 @@
 /* The material's inputs without its textures: the same everywhere, so it need be made only once. */
 Surface material_plain(const Material *material);
 
-/* What it is made from. */
+/* Returns the choices of a material. */
 Choices material_choices(const Material *material);
 
 /* Puts in what its textures say at a point: uv holds the two UV sets, color the linear vertex colour. */

@@ -33,8 +33,8 @@ static const struct {
               {INPUT_sheen_beta, offsetof(Surface, sheen_beta), 1e-6f}};
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
-/* Where that parameter runs while textures scale their inputs from 0 to 1; with all, wherever inputs may be.
- */
+/* Finds the range of that parameter while textures scale their inputs from 0 to 1, or with `all` over the
+ * range of all inputs. / */
 static void table_range(const Material *material, bool all, float *low, float *high) {
     const Surface plain = material_plain(material);
     const Choices choices = material_choices(material);

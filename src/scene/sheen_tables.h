@@ -11,8 +11,8 @@ typedef struct SheenTables SheenTables;
  * that are alike share one. threads: 0 is one a processor. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables **out, WeftError *error);
 
-/* The same as `before` (may be NULL) has them where it does: they are then in both, and whichever goes first
- * goes with sheen_tables_free_but. */
+/* Makes the tables, and takes over those that `before` (may be NULL) has. These are then in both, and the
+ * first to go must be freed with sheen_tables_free_but. */
 WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
                               SheenTables **out, WeftError *error);
 
@@ -23,14 +23,14 @@ bool sheen_tables_differ(const SheenTables *tables, const SheenTables *other);
 void sheen_tables_free(SheenTables *tables);
 void sheen_tables_free_but(SheenTables *tables, const SheenTables *kept);
 
-/* How many there are, and each. */
+/* Return the count of tables, and each of them. */
 int sheen_tables_count(const SheenTables *tables);
 const AlbedoTable *sheen_tables_at(const SheenTables *tables, int index);
 
 /* Which of them a material's surface_stack takes; -1 where it asks for none. */
 int sheen_tables_index(const SheenTables *tables, int material);
 
-/* The same as it is handed over; of kind TABLE_NONE where there is none. Lives as long as tables. */
+/* Returns the reference to a material's table, of kind TABLE_NONE if it has none. Lives as long as tables. */
 TableRef sheen_tables_of(const SheenTables *tables, int material);
 
 #endif

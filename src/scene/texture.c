@@ -20,7 +20,7 @@ typedef struct TexelSpan {
     float t;
 } TexelSpan;
 
-/* Where u falls after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
+/* Returns the texels at u after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
 static inline TexelSpan span(float u, int size, TextureWrap wrap, bool nearest) {
     if (!(fabsf(u) < 1e6f)) u = 0.0f;
     float period = wrap == WRAP_MIRROR ? 0.5f * u : u;

@@ -12,7 +12,7 @@ typedef struct Texture {
     int image; /* index into the scene's images */
     TextureWrap wrap_u, wrap_v;
     bool nearest; /* no interpolation between texels */
-    /* Of its image, so that all textures of one have the same: */
+    /* Properties of the image, equal for all textures of it: */
     const char *path; /* its file; NULL where it is none of its own */
     unsigned turn;    /* another number for other pixels */
 } Texture;

@@ -17,7 +17,7 @@ typedef enum PathKind {
 
 PathKind path_kind(const char *path);
 
-/* Returns true if the folder holds a face of a cube map by name, the first of six. */
+/* Returns true if the folder holds the first face of a cube map, posx or px. */
 bool path_is_cubemap(const char *folder);
 
 /* What follows the last slash. */
