@@ -117,9 +117,9 @@ typedef struct WeftDoctor WeftDoctor;
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);
 
-/* As weft_doctor_examine, but calls progress (may be NULL) with the finished fraction of materials and
- * meshes. progress can stop the examination: WEFT_INTERRUPTED. weft_doctor_fix examines its own output and
- * calls progress too, so user must outlive the doctor. */
+/* Works as weft_doctor_open, but calls progress (may be NULL) with the finished fraction of materials and meshes.
+ * progress can stop the examination: WEFT_INTERRUPTED. weft_doctor_fix examines its own output and calls
+ * progress too, so user must outlive the doctor. */
 WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user,
                                              WeftDoctor **out, const WeftLog *log, WeftError *error);
 

@@ -35,7 +35,7 @@ typedef struct WeftData WeftData;
  * in what line), _MEMORY and with what reading a file can fail with. Release with weft_data_free. */
 WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
 
-/* As weft_data_read, from size bytes. Errors begin with name, whose suffix names the format. */
+/* Works as weft_data_read, from size bytes. Errors begin with name, whose suffix names the format. */
 WEFT_API WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
                                           WeftError *error);
 

@@ -43,7 +43,7 @@ WEFT_API void weft_image_free(WeftImage *image);
  * _IMAGE_UNSUPPORTED or _MEMORY; *out is then zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
-/* As weft_image_read, from size bytes at data. Errors begin with name. */
+/* Works as weft_image_read, from size bytes at data. Errors begin with name. */
 WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
                                            const WeftLog *log, WeftError *error);
 
@@ -86,7 +86,7 @@ typedef enum WeftTonemap {
 WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                        WeftImage *out, WeftError *error);
 
-/* As weft_image_tonemap, but opaque over a background. behind is light of the display, linear in [0, 1]:
+/* Works as weft_image_tonemap, but opaque over a background. behind is light of the display, linear in [0, 1]:
  * neither exposure nor curve change it, so that a white one is white. Light is mixed before it is encoded. Of
  * an image without alpha nothing is seen through. */
 WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,

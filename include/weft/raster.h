@@ -145,7 +145,7 @@ WEFT_API WeftResult weft_raster_wait(WeftRaster *raster, WeftError *error);
  */
 WEFT_API WeftResult weft_raster_image(WeftRaster *raster, WeftImage *out, WeftError *error);
 
-/* Where and how an image is shown. Zero means the default, in every member. */
+/* The way an image is shown on screen. Zero means the default, in every member. */
 typedef struct WeftRasterShow {
     unsigned framebuffer; /* of the context that was adopted, and complete; 0: the window's */
     int x, y;             /* the picture's lower left corner in it, pixels */

@@ -28,7 +28,7 @@ typedef int (*WeftProgress)(void *user, double fraction);
 WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user,
                                             WeftScene **out, const WeftLog *log, WeftError *error);
 
-/* As weft_scene_load, from size bytes of a .glb, or of a .gltf that refers to no other file. */
+/* Works as weft_scene_load, from size bytes of a .glb, or of a .gltf that refers to no other file. */
 WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                            const WeftLog *log, WeftError *error);
 
@@ -79,7 +79,7 @@ WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const c
 WEFT_API WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
                                                const WeftLog *log, WeftError *error);
 
-/* As weft_scene_assign_material, from size bytes of a material file that names no texture. Messages begin
+/* Works as weft_scene_assign_material, from size bytes of a material file that names no texture. Messages begin
  * with name. */
 WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material,
                                                       const void *data, size_t size, const char *name,

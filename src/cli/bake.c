@@ -47,7 +47,7 @@ int bake_progress(void *progress, double fraction) {
     return interrupt_seen();
 }
 
-/* What a command line asks for. */
+/* A bake as the command line describes it. */
 typedef struct BakeVerb {
     const Options *options;
     const WeftBakeKind *kind;

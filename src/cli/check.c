@@ -50,7 +50,7 @@ static const Bound bounds[] = {
 };
 enum { BOUNDS = sizeof bounds / sizeof bounds[0] };
 
-/* What was asked for. */
+/* A check as the command line describes it. */
 typedef struct Check {
     const Options *options;
     WeftPassportDesc desc;

@@ -8,8 +8,7 @@
  * memory is short. Release with free. */
 char *command_text(const Options *options);
 
-/* What was typed of the options that dress a scene and light it from near, as one could type it; else as
- * above. */
+/* Returns the options given that assign materials and add lights, as they could be typed; else as above. */
 char *command_dress_text(const Options *options);
 
 #endif

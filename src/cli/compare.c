@@ -78,7 +78,7 @@ static WeftResult measure(Comparison *all, WeftError *error) {
     return result;
 }
 
-/* What the pictures differ by. */
+/* Writes the differences between the images into the caption. */
 static void caption_of(const Request *request, char caption[CAPTION]) {
     const Dress *dress = &request->staging.dress;
     const char *by = request->engine == ENGINE_BOTH ? "engine" : dress->varied[0].name;

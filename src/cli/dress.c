@@ -19,7 +19,7 @@ static const struct {
 };
 enum { AXES = sizeof axes / sizeof *axes };
 
-/* What follows "by=", NULL where text does not begin so. */
+/* Returns the text after "by=", or NULL if text does not begin so. */
 static const char *after_by(const char *text) {
     text += strspn(text, " ");
     return strncmp(text, "by=", 3) == 0 ? text + 3 : NULL;

@@ -46,7 +46,7 @@ static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
     w[2][k] = (float)sin((90.0 - theta) * radians);
 }
 
-/* What is done with lines: numbers taken in, then all answered. */
+/* The processing of lines: numbers are read, then all are answered. */
 typedef struct EvalTask {
     const char *form;                                      /* of a line */
     int count;                                             /* numbers in it */

@@ -145,7 +145,7 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, '}');
 }
 
-/* How many lobes are fitted, the baseline's among them. */
+/* Returns the number of lobes to fit, with the baseline. */
 static int fits_count(const char *only) {
     int count = 2;
     for (int k = 0; !only && k < weft_lobe_count(); k++)

@@ -57,7 +57,7 @@ static WeftResult drawn_of(const WeftFitted *fitted, const char *base, Drawn *dr
     return result;
 }
 
-/* How bright what is bright is: 98 of 100 pixels of the data are no brighter. */
+/* Returns the brightness that 98 of 100 pixels of the data do not exceed. */
 static float bright(const WeftImage *image) {
     float low = 0.0f, high = 1e4f;
     for (int halving = 0; halving < 40; halving++) {

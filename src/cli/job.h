@@ -5,7 +5,7 @@
 #include "json_writer.h"
 #include "request.h"
 
-/* What was said along the way, each line once. */
+/* The warnings so far, each line once. */
 typedef struct Warnings {
     bool quiet;
     char **lines;
@@ -48,7 +48,7 @@ double job_samples_per_second(const Job *job);
 /* The members of its object. */
 void job_json(const Job *job, Json *json);
 
-/* What is not grave is told and kept, but not called a warning. */
+/* Adds and prints a line. One that is not grave is not called a warning. */
 void warnings_add(Warnings *warnings, bool grave, const char *text);
 void warnings_free(Warnings *warnings);
 

@@ -41,7 +41,7 @@ static void new_line(Json *json) {
     if (!json->compact) fprintf(json->stream, "\n%*s", 2 * json->depth, "");
 }
 
-/* What stands before a value: comma, line, key. */
+/* Writes the comma, line break and key before a value. */
 static void lead(Json *json, const char *key) {
     if (json->follows) fputs(json->compact ? ", " : ",", json->stream);
     if (json->depth > 0) new_line(json);

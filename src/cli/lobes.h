@@ -8,7 +8,7 @@
     "take a lobe of your own (docs/adding-a-lobe.md); it runs as native code: only one that you trust"
 #define OPTION_LOBES OPTION_LIST("--lobe", "FILE.h", LOBES_HELP)
 
-/* Of a verb whose --lobe has had a meaning before. */
+/* The option of a verb whose --lobe has another meaning too. */
 #define OPTION_LOBES_OR(words) OPTION_LIST("--lobe", "LOBE|FILE.h", words "; FILE.h: " LOBES_HELP)
 
 /* Takes every file that was typed, which the verb then sees nothing of. Returns 0, or an exit code after one

@@ -200,7 +200,7 @@ static int pair_run(Match *match) {
     return 0;
 }
 
-/* What a run is for, how many operands that has, and which options go with it. */
+/* A mode of the verb: its number of operands and the options that it takes. */
 typedef struct MatchMode {
     const char *option; /* that asks for it; NULL: none does */
     int operands;

@@ -15,7 +15,7 @@
 enum { SWEEP = 7, LOBES_MOST = 32 };
 static const double places[SWEEP] = {0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9};
 
-/* Where the formula adds no more than this to the error of the match it is printed. */
+/* The formula is printed if it adds no more than this to the error of the match. */
 static const double good_enough = 0.03;
 
 typedef struct Maps {

@@ -40,7 +40,7 @@ static int prepare(MatchTable *table) {
     return 0;
 }
 
-/* What changed, in the order of the inputs. */
+/* Writes the changes, in the order of the inputs. */
 static void changes_text(const MatchTable *table, int from, const WeftMatchJob *job, char *text,
                          size_t size) {
     const WeftMaterial *was = &table->from[from].material;

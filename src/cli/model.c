@@ -12,7 +12,7 @@
 static const char *const taken[] = {"lobe", "profile", "workflow", "preset"};
 enum { KINDS = sizeof taken / sizeof *taken };
 
-/* What was typed, taken apart: kind, name and settings, each NULL where there is none. */
+/* The parts of what was typed: kind, name and settings, each NULL if absent. */
 typedef struct Parts {
     char text[1024];
     const Kind *kind;

@@ -37,7 +37,7 @@ typedef struct Model {
     WeftReflection *reflection; /* owned */
 } Model;
 
-/* What follows the name, for help texts. */
+/* The form of a model on the command line, for help texts. */
 #define MODEL_FORM "NAME[:KEY=VALUE,...]"
 
 /* Reads what was typed. A profile or workflow without inputs has a grey cloth with a white sheen: base_color
@@ -48,7 +48,7 @@ int model_read(const char *typed, Model *out);
 /* Without the reflection. */
 int model_parse(const char *typed, Model *out);
 
-/* The same, but a profile or workflow has its own defaults and no grey cloth. */
+/* Works as model_parse, but a profile or workflow has its own defaults and no grey cloth. */
 int model_parse_bare(const char *typed, Model *out);
 
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */

@@ -197,7 +197,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
     json_close(json, '}');
 }
 
-/* Of lobes the list of all; which of them are diffuse their traits say. */
+/* The kind "lobe" lists all lobes; their traits tell which are diffuse. */
 static bool in_json(const Kind *kind) {
     return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0));
 }

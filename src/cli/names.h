@@ -36,7 +36,7 @@ const Kind *kind_prefixed(const char *text, int length);
 /* The index of an id in a kind, or -1. */
 int kind_find(const Kind *kind, const char *id);
 
-/* The same, -1 after one line on standard error. */
+/* Works as kind_find, but returns -1 after one line on standard error. */
 int kind_named(const Kind *kind, const char *id);
 
 #endif

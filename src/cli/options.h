@@ -42,7 +42,7 @@ typedef struct Verb {
     int (*run)(const Options *options);
 } Verb;
 
-/* What was typed. Strings are those of argv. */
+/* The command line, parsed. Strings are those of argv. */
 struct Options {
     const Verb *verb;
     struct Given *given;

@@ -25,8 +25,8 @@ void output_drop(Output *output);
 /* Tests that path can be written by creating a file there and removing it. Returns as output_begin. */
 int output_probe(const char *path);
 
-/* The same of a path that must not be one of the files among the operands, with or without what stands behind
- * a colon there: what is read is not written over. */
+/* Works as output_probe, for a path that must not be one of the operands' files (a colon and the text after it are
+ * ignored), so that an input is not overwritten. */
 int output_probe_other(const Options *options, const char *path);
 
 #endif

@@ -28,7 +28,7 @@ static double plot_y(const PassportPlot *plot, double y) {
     return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0));
 }
 
-/* What is above 1 is shaded; what is no number runs along the top. */
+/* Values above 1 are shaded; NaN runs along the top. */
 static PassportPlot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
     double steps[] = {1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0};
     PassportPlot plot = {.stream = f, .top = most < 1e6 ? most : 1e6, .of = of};

@@ -15,7 +15,7 @@ static const char *place_text(const WeftPassport *p, const WeftPlace *place, cha
     return text;
 }
 
-/* What the passport is headed. */
+/* Returns the heading of the passport. */
 static const char *title(const WeftPassport *p) {
     return p->profile && strcmp(p->id, "none") == 0 ? "none (weft's own)" : p->id;
 }
@@ -191,8 +191,8 @@ static void header_half(const WeftPassport *p) {
     if (p->half_cosine) printf(".\n");
 }
 
-/* What differs from machine to machine is not told: where f(wo, wi) and f(wi, wo) agree but for rounding, how
- * well; how small a variance that is almost nothing. */
+/* Numbers that differ from machine to machine are left out: the agreement of f(wo, wi) and f(wi, wo) to
+ * rounding, and variances near zero. */
 void passport_header(const WeftPassport *p) {
     char place[96];
     bool reference = (p->traits & WEFT_LOBE_REFERENCE) != 0;

@@ -9,10 +9,10 @@
 void passport_text(const WeftPassport *passport);
 void passport_line(const WeftPassport *passport);
 
-/* What the file of the lobe has at the end of its opening comment. */
+/* Prints the lines that the lobe's file has at the end of its opening comment. */
 void passport_header(const WeftPassport *passport);
 
-/* What stands over the lines. */
+/* Prints the heading of the lines. */
 void passport_line_heading(void);
 
 void passport_json(Json *json, const WeftPassport *passport);

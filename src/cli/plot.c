@@ -93,7 +93,7 @@ static int output_read(Plot *plot) {
     return output_probe(plot->output);
 }
 
-/* Of a file, its name without folders. */
+/* Returns the label of a model; for a file its name without folders. */
 static const char *label_of(const Model *model) {
     const char *slash = strrchr(model->words, '/');
     bool file = model->kind == MODEL_MEASURED || model->kind == MODEL_MATERIAL;

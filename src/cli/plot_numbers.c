@@ -94,7 +94,8 @@ static void curves_csv(const WeftPlotData *data, const WeftPlotPanel *panel) {
         }
 }
 
-/* Where a node of a grid is: maps have cells, whose middles count; surfaces nodes; pictures pixels. */
+/* Returns the coordinate of a node of a grid: the middle of a cell in maps, a node in surfaces, a pixel in
+ * pictures. */
 static float place(const WeftPlotPanel *panel, const WeftPlotAxis *axis, int k, int count) {
     if (panel->form == WEFT_PLOT_PICTURE || count < 2) return (float)k;
     float share =

@@ -22,8 +22,8 @@ typedef struct Progress {
  * outlive the line. */
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit);
 
-/* The same for so many things of another kind: texels, say. count may be 0, not known; unit must outlive the
- * line. */
+/* Works as progress_start, for `count` things of another kind, such as texels. count 0 means unknown; unit must
+ * outlive the line. */
 Progress progress_start_count(bool quiet, const char *unit, double count);
 
 /* Redraws the line, at most ten times a second. fraction is of the samples or things asked for. */

@@ -10,7 +10,7 @@
  * become '?', so that a hostile name cannot break the line. */
 __attribute__((format(printf, 2, 3))) int report(int result, const char *format, ...);
 
-/* The same for a failure of the library. */
+/* Works as report, for a failure of the library. */
 int report_error(const WeftError *error);
 
 /* Returns true if a failure was reported, in any thread. */

@@ -82,7 +82,7 @@ static bool read_crop(const Options *options, WeftRenderDesc *desc) {
     return false;
 }
 
-/* What goes with a choice of engine, and what does not. */
+/* Reads the engine and checks the options that go with it. */
 static bool read_engine(const Options *options, Request *request) {
     static const char *const engines[] = {"trace", "raster", "both", NULL}; /* as Engine */
     static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */

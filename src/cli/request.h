@@ -11,7 +11,7 @@ extern const Option request_options[];
 
 typedef enum Engine { ENGINE_TRACE, ENGINE_RASTER, ENGINE_BOTH } Engine;
 
-/* What the command line asks for, checked. */
+/* The request of the command line, checked. */
 typedef struct Request {
     const Options *options;
     Staging staging;
@@ -27,7 +27,7 @@ typedef struct Request {
     int turntable; /* pictures around the scene; 0: one */
 } Request;
 
-/* How many pictures stand beside each other. */
+/* Returns the number of images side by side. */
 int request_count(const Request *request);
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */

@@ -95,7 +95,7 @@ static bool read_lights(const Options *options, Staging *staging) {
     return true;
 }
 
-/* What reads as a color is a radiance and never the name of a file. */
+/* A value that reads as a colour is a radiance and never the name of a file. */
 static bool read_env(const Options *options, Staging *staging) {
     const char *text = staging->env = option_text(options, "--env");
     double c[3];

@@ -62,7 +62,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which);
 /* Returns true if the first parameter of the lobe's record is set from an artist's roughness. */
 bool draft_lobe_rough(const WeftLobe *lobe);
 
-/* How a lobe's record is called. */
+/* Returns the name of a lobe's record. */
 const char *draft_lobe_record(int lobe);
 
 /* A profile's, a workflow's or a material's functions. */
@@ -71,7 +71,7 @@ WeftResult draft_material(Draft *draft, WeftError *error);
 /* The tables in the words of the target: samplers or arrays, and the function that reads a texel. */
 void draft_tables(const Draft *draft, Buffer *out); /* any draft: the tables are those of all */
 
-/* What the program must upload, in the order in which the text names them. */
+/* Lists the tables that the program must upload, in the order in which the text names them. */
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error);
 
 /* The comment at the top. */

@@ -3,13 +3,13 @@
 
 #include "export/draft.h"
 
-/* How the target writes a direction. */
+/* Returns the target's type for a direction. */
 static const char *vector(const Draft *draft) {
     if (draft->desc->target == WEFT_EXPORT_WGSL) return "vec3f";
     return draft->desc->target == WEFT_EXPORT_HLSL ? "float3" : "vec3";
 }
 
-/* What a variable of that type is declared with. */
+/* Returns the qualifier that declares a variable of that type. */
 static const char *word(const Draft *draft, const char *type) {
     return draft->desc->target == WEFT_EXPORT_WGSL ? "let" : type;
 }

@@ -57,7 +57,7 @@ static void find_zeros(const Draft *draft, ExportModel *model) {
     if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has it */
 }
 
-/* What all surfaces have in common: facts for the conditions of the text. */
+/* Finds the facts that hold for all surfaces, for the conditions of the text. */
 static void find_facts(Draft *draft, ExportModel *model) {
     const Choices *c = &model->choices;
     Stack m[3];

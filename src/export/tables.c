@@ -23,7 +23,7 @@ static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
     return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
 }
 
-/* What a texel of 16 bits, 0 to 1, is multiplied by, and what is added: powers of two, or 1 and 0. */
+/* The factor and offset of a texel of 16 bits, 0 to 1: powers of two, or 1 and 0. */
 typedef struct TableRange {
     float scale, offset;
 } TableRange;
@@ -96,7 +96,7 @@ static void put_declaration(const Draft *draft, int k, Buffer *out) {
         put_line(out, "uniform highp sampler2D %s;", name);
 }
 
-/* What reads a texel: row, column and stride are known by these names. */
+/* Writes the function that reads a texel; row, column and stride have these names. */
 static void put_texel(const Draft *draft, int k, Buffer *out) {
     char name[SPELL_NAME];
     buffer_put_text(out, table_name(draft, k, name));

@@ -34,7 +34,7 @@ size_t field_size(const Field *field, size_t absent, size_t low, size_t high);
 /* An index below count, -1 where absent, else GLTF_REFERENCE. */
 int field_index(const Field *field, size_t count);
 
-/* As field_index, but fails if the field is absent. */
+/* Works as field_index, but fails if the field is absent. */
 int field_needed_index(const Field *field, size_t count);
 
 bool field_bool(const Field *field, bool absent);

@@ -15,11 +15,11 @@
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error);
 
-/* As gltf_read, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
+/* Works as gltf_read, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
 WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
                              WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
 
-/* As gltf_read, in three steps, for callers that need more than the scene. The caller sets what is to be
+/* Works as gltf_read, in three steps, for callers that need more than the scene. The caller sets what is to be
  * known of log, error, progress, user and, before the second step, scene; the rest is 0. Opening leaves root,
  * text, bin and packed; reading, all records; closing is due however either ended, before the scene is
  * freed. */

@@ -182,7 +182,7 @@ static json_t *material_save(Saving *saving, const Material *material) {
     return object;
 }
 
-/* How an input is when its texture has the number that it has in the file. */
+/* Returns the input with its texture numbered as in the file. */
 static Input numbered(const Saving *saving, const Input *input) {
     Input out = *input;
     if (input->texture) out.texture = saving->texture_number[input->texture - 1] + 1;

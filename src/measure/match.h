@@ -5,7 +5,7 @@
 #include "measure/progress_loop.h"
 #include "weft/match.h"
 
-/* As weft_match_material, but reports to item_progress (may be NULL) and ends early if that asks for it:
+/* Works as weft_match_material, but reports to item_progress (may be NULL) and ends early if that asks for it:
  * WEFT_INTERRUPTED. */
 WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
                           ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out,

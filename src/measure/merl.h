@@ -33,7 +33,7 @@ WeftResult merl_read(const char *path, Merl *out, WeftError *error);
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
 
-/* As merl_read, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
+/* Works as merl_read, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
  * smaller than 35 MB. */
 WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
                            WeftError *error);

@@ -52,7 +52,7 @@ static bool angle_series(Making *making, WeftPlotPanel *panel, int model) {
     return true;
 }
 
-/* Of what has a roughness. */
+/* Adds the curves of a model that has a roughness. */
 static bool rough_series(Making *making, WeftPlotPanel *panel, int model, float view) {
     float *x, *y;
     Rough rough;

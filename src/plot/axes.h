@@ -33,7 +33,7 @@ void axis_text(const WeftPlotAxis *axis, char text[96]);
 
 bool axis_in_degrees(const WeftPlotAxis *axis);
 
-/* What frame, ticks, labels and grid lines leave of a box for the values; draws them. */
+/* Draws frame, ticks, labels and grid lines, and returns the rest of the box for the values. */
 PageBox axes_draw(const Page *page, const WeftPlotPanel *panel, PageBox box);
 
 #endif

@@ -55,7 +55,7 @@ void making_axis(WeftPlotAxis *axis, const char *label, const char *unit, float 
 __attribute__((format(printf, 3, 4))) void making_mark(WeftPlotPanel *panel, float x, const char *label, ...);
 void making_figure(WeftPlotPanel *panel, const char *name, const char *unit, double value);
 
-/* How many views there are, and theta_o of one in degrees; `usual` where none was asked for. */
+/* Return the number of views, and theta_o of one in degrees; `usual` if none was given. */
 int making_view_count(const Making *making);
 float making_view(const Making *making, int k, float usual);
 
@@ -72,7 +72,7 @@ void making_eval(const WeftPlotModel *model, const float wo[3], int count, const
 /* So many, or a part of that where a first look is asked for. */
 int making_walks(const Making *making, int walks);
 
-/* What the descriptor's channel makes of a colour. */
+/* Returns the value of the descriptor's channel for a colour. */
 float making_value(const Making *making, const float color[3]);
 
 /* The name of what is plotted: "f", "f cos". */

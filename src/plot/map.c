@@ -7,7 +7,7 @@
 #include "plot/axes.h"
 #include "plot/scale.h"
 
-/* Where a value is among the colours: -1 .. 1 where these part, else 0 .. 1. */
+/* Returns the place of a value among the colours: -1 .. 1 if these diverge, else 0 .. 1. */
 static float color_place(const WeftPlotPanel *panel, float value) {
     const WeftPlotAxis *z = &panel->z;
     if (!isnan(panel->center)) {

@@ -77,7 +77,7 @@ WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bo
 
 static const double natural_type = 13.0;
 
-/* What a panel wants, with its title and figures. */
+/* Returns the size that a panel wants, with its title and figures. */
 static void natural_panel(const WeftPlotPanel *panel, double *width, double *height) {
     *width = 37.0;
     *height = panel->form == WEFT_PLOT_ROSE      ? 22.6

@@ -52,7 +52,7 @@ const char *weft_plot_kind_help(int kind) {
     return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].help : NULL;
 }
 
-/* What is wrong with a descriptor; NULL: nothing. */
+/* Returns the fault of a descriptor, or NULL. */
 static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->kind < 0 || desc->kind >= WEFT_PLOT_KINDS) return "there is no such kind";
     if (!desc->models || desc->count < 1 || desc->count > WEFT_PLOT_MODELS_MAX)

@@ -13,7 +13,7 @@ double round_up(double x) {
     return 10.0 * power;
 }
 
-/* What one curve wants to have shown. */
+/* The range that one curve needs. */
 typedef struct Reach {
     double most, least; /* least: above 0 */
 } Reach;

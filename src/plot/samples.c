@@ -106,7 +106,7 @@ static WeftPlotPanel *one_panel(Making *making, const char *label, const char *w
     return panel;
 }
 
-/* The same colours for histogram and pdf. */
+/* Sets one colour range for histogram and pdf. */
 static void set_ranges(const Making *making, WeftPlotPanel *const panels[3]) {
     double most = 0.0;
     for (int k = 0; k < THETAS * PHIS; k++) most = fmax(most, (double)panels[1]->values[k]);

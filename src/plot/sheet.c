@@ -184,7 +184,7 @@ static void copy_image(const WeftImage *image, unsigned char *pixels, int stride
         }
 }
 
-/* Where panel k begins. */
+/* Sets the corner of panel k. */
 static void panel_place(const SheetLayout *layout, int k, int *x, int *y) {
     *x = layout->margin + k % layout->columns * (layout->column_width + layout->gap);
     *y = layout->margin + layout->caption +

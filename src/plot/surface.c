@@ -255,7 +255,7 @@ static WeftResult lay_over(const Page *page, const PlotStage *stage) {
     return WEFT_OK;
 }
 
-/* How far above the middle of the ground the surface and the arrow reach, in radii. */
+/* Returns the height that surface and arrow reach above the middle of the ground, in radii. */
 static double reach_up(const WeftPlotPanel *panel) {
     PlotStage unit = {.radius = 1.0, .scale = scale_of(&panel->z, 0.0, 1.0)};
     double angle = (double)panel->view * 0.017453292519943295;
@@ -270,7 +270,7 @@ static double reach_up(const WeftPlotPanel *panel) {
     return most;
 }
 
-/* As large as width and height allow, in the middle. */
+/* Returns the stage, as large as width and height allow and centred. */
 static PlotStage stage_of(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type, room = box.height - 5.0 * type, up = reach_up(panel);
     PlotStage stage = {.box = box};

@@ -17,7 +17,8 @@ double text_width(cairo_t *cairo, const char *text);
 /* Writes text from x on; what does not fit into `room` ends in an ellipsis. */
 void write_text(cairo_t *cairo, const double color[3], double x, double y, double room, const char *text);
 
-/* The same, with share (0: all, 0.5: half, 1: nothing) of its width to the left of x. */
+/* Works as write_text, with x at `share` of the text's width: 0 is its left end, 0.5 its middle, 1 its right
+ * end. */
 void place_text(cairo_t *cairo, const double color[3], double x, double y, double share, const char *text);
 
 #endif

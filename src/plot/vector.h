@@ -17,7 +17,7 @@ typedef struct Vector {
 bool vector_append(Vector *vector, const void *bytes, size_t count);
 __attribute__((format(printf, 2, 3))) bool vector_print(Vector *vector, const char *format, ...);
 
-/* The same with <, >, & and quotes as HTML and XML have them. */
+/* Appends text with <, >, & and quotes escaped for HTML and XML. */
 bool vector_escaped(Vector *vector, const char *text);
 
 /* Cairo numbers surfaces through the life of a program: here they count from 1. A title for those who hear

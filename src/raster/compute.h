@@ -29,8 +29,8 @@ WeftResult compute_create(GlContext *context, const ComputeDesc *desc, Compute *
 /* NULL is fine. */
 void compute_destroy(Compute *compute);
 
-/* What weft_tables holds (TextDesc.tables): the tables of the text, and any more; none where count is 0.
- * Replaces those of before. Fails with WEFT_MESSAGE_GL_MEMORY. */
+/* Sets the contents of weft_tables (TextDesc.tables): the tables of the text, and any others; none if count
+ * is 0. Replaces earlier ones. Fails with WEFT_MESSAGE_GL_MEMORY. */
 WeftResult compute_tables(Compute *compute, const TextTable *tables, int count, WeftError *error);
 
 /* Runs the body for n samples: in[k] and out[k] hold n vec4 each, 4 n floats. Fails with

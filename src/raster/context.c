@@ -151,7 +151,7 @@ static void put_back(GlContext *self, const GlOuter *outer) {
         eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
-/* Of the context that is current: its name for itself; false where it cannot draw floats. */
+/* Reads the driver's name from the current context. Returns false if it cannot draw floats. */
 static bool take_driver(GlContext *self) {
     snprintf(self->driver, sizeof self->driver, "%s", (const char *)glGetString(GL_RENDERER));
     return epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_EXT_color_buffer_float");

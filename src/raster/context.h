@@ -33,7 +33,7 @@ bool context_adopted(const GlContext *context);
  * must be destroyed before. */
 void context_destroy(GlContext *context);
 
-/* What was current in a thread before. */
+/* The context that was current in a thread before. */
 typedef struct GlOuter {
     void *display, *context, *draw, *read;
     unsigned api;

@@ -86,7 +86,7 @@ static void join(Families *self, int m) {
     self->head[m] = m;
 }
 
-/* What does for a narrow lobe does for a broad one. */
+/* A table made for a narrow lobe also serves a broad one. */
 static void share_finest(Families *self, int head) {
     float finest[SHADER_SLOTS] = {0.0f};
     for (int pass = 0; pass < 2; pass++)

@@ -178,7 +178,7 @@ static unsigned make_cube(const uint16_t *texels) {
     return cube;
 }
 
-/* As it is seen: 16-bit floats, filtered. */
+/* Uploads the map as 16-bit floats, filtered. */
 static WeftResult make_map(const WeftImage *image, unsigned *map, WeftError *error) {
     size_t count = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
     uint16_t *rgba = alloc_array(count, 4 * sizeof *rgba);

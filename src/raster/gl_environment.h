@@ -55,10 +55,10 @@ void environment_place(const GlEnvironment *self, const Environment *environment
 int environment_lights(const GlEnvironment *environment, float rotation,
                        EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
-/* What shading/ambient.h asks of its source, which then is a Frame (shading/frame.h); takes one sampler.
- * AmbientWeights ambient_baked(Frame, int), float ambient_light_visibility(Frame, int, float) and float
- * ambient_nearest_visibility(Frame, Dir, float) are left to the caller.
- */
+/* Declares the functions that shading/ambient.h needs from its source, which is then a Frame
+ * (shading/frame.h). Takes one sampler. AmbientWeights ambient_baked(Frame, int), float
+ * ambient_light_visibility(Frame, int, float) and float ambient_nearest_visibility(Frame, Dir, float) are
+ * left to the caller. / */
 void environment_text(Text *text);
 
 /* Texture unit, and the binding of the uniform block; of a program that lacks them nothing is asked. */

@@ -183,7 +183,7 @@ static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_mes
     }
 }
 
-/* What a material is known by, all zero. */
+/* Allocates the records of materials, all zero. */
 static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *error) {
     self->all = alloc_array((size_t)self->count, sizeof(GlMaterial));
     self->blocks = alloc_array((size_t)self->count, (size_t)self->stride);

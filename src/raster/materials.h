@@ -42,7 +42,7 @@ typedef struct GlMaterials {
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
                             WeftError *error);
 
-/* What an update has found. */
+/* The changes that an update has found. */
 typedef struct MaterialsChange {
     bool tables;   /* the sheens' are others */
     bool coverage; /* light may pass where it did not, or the other way round */
@@ -58,7 +58,7 @@ WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, cons
 
 void materials_destroy(GlMaterials *materials);
 
-/* What of a key depends on the environment's lights: log2 of their kappa. */
+/* Sets the part of a key that depends on the environment's lights; env_light_kappa is log2 of their kappa. */
 void material_in_light(const GlMaterial *material, float env_light_kappa, ShaderKey *key);
 
 /* Binds a material's uniforms to block `block` and its textures to units from 0 on. */

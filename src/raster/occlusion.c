@@ -165,7 +165,7 @@ static void look(void *user, int item, int thread) {
     }
 }
 
-/* What is not opaque hides by its textures: too much to hash. */
+/* Returns true if all materials are opaque. Others hide by their textures, which are too much to hash. */
 static bool is_opaque(const WeftScene *scene) {
     bool opaque = true;
     for (int m = 0; m < scene_own_meshes(scene); m++)

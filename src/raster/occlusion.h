@@ -17,7 +17,7 @@ enum {
     OCCLUSION_RAYS_MAX = 4096
 };
 
-/* How to look. */
+/* Options of the search. */
 typedef struct OcclusionHow {
     int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; a quarter of them for each light */
     int threads;   /* beside the caller; 0: one a processor */

@@ -47,8 +47,7 @@ static Range depth_range(const WeftScene *scene, const View *view, const Floor *
     return range;
 }
 
-/* What a distance w along the axis becomes in clip space: a w + b, which is yet to be divided by w where
- * there is perspective. */
+/* The depth in clip space of a distance w along the axis: a w + b, to be divided by w with perspective. */
 typedef struct Depth {
     float a, b;
 } Depth;

@@ -9,7 +9,7 @@
 
 enum { PICTURE_LIGHTS_MOST = 64, PICTURE_POLYGONS_MOST = WEFT_RASTER_POLYGONS };
 
-/* As glsl/picture.glsl declares it, std140. */
+/* The block that glsl/picture.glsl declares, in std140. */
 typedef struct Picture {
     float to_clip[16]; /* column after column */
     float eye[4], forward[4];
@@ -20,9 +20,9 @@ typedef struct Picture {
     float floor_place[4], floor_light[4], floor_lens[4];
 } Picture;
 
-/* What a scene looks like through a view, lit by at most PICTURE_POLYGONS_MOST polygons, over a floor.
- * polygons may be NULL; shadows is NULL of what a light sees. Where there is a floor, floor_light[0] and [2]
- * are left to the caller. */
+/* Fills the block for a view of a scene lit by at most PICTURE_POLYGONS_MOST polygons, over a floor. polygons
+ * may be NULL; shadows is NULL for the view of a light. Where there is a floor, floor_light[0] and [2] are
+ * left to the caller. */
 void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
                   const Shadows *shadows, const Floor *floor, Picture *out);
 

@@ -118,7 +118,7 @@ static void compile_in_thread(void *user, int item, int thread) {
     context_thread_ends();
 }
 
-/* What was there before stays where compiling failed. */
+/* Takes over a compiled program. If compiling failed, the earlier one stays. */
 static void take(Programs *programs, CompileJob *job) {
     Program *self = job->program;
     const Text *text = &job->fragment;
@@ -169,7 +169,7 @@ static GlContext *share_context(const GlContext *context) {
     return NULL;
 }
 
-/* As many contexts as there are threads to use. */
+/* Creates a context for each thread. */
 static void share_contexts(CompileBatch *batch, const GlContext *context, int threads) {
     if (threads <= 0) threads = thread_count();
     if (threads > batch->count) threads = batch->count;

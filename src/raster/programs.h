@@ -73,8 +73,7 @@ unsigned programs_background(const Programs *programs, WeftError *error);
 /* From now on all are compiled again at their next use. */
 void programs_refresh(Programs *programs);
 
-/* What is wrong with the first of those that did not compile when they were last used; empty while all is
- * well. */
+/* Returns the compiler's message for the first program that failed at its last use; empty if none did. */
 const char *programs_complaint(const Programs *programs);
 
 void programs_destroy(Programs *programs);

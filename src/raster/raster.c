@@ -294,7 +294,7 @@ static void set_picture(WeftRaster *self, const View *view, const Shadows *shado
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
 }
 
-/* What every pass starts from. */
+/* Sets the state that every pass starts from. */
 static void set_state(WeftRaster *self) {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
@@ -341,7 +341,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
     clear(&self->target, view, box);
 }
 
-/* What meshes are drawn with, beside what is their own. */
+/* Binds the textures and blocks that all meshes share. */
 static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     bool plain = view->plain_textures != 0;
     if (plain != self->plain) textures_filter(&self->textures, plain);
@@ -393,7 +393,7 @@ static ShaderKey depth_key(const ShaderKey *key) {
     return depth;
 }
 
-/* What the lights make of a key. */
+/* Adds the lights' part of a key. */
 static void add_lights(const WeftRaster *self, const WeftRasterView *view, ShaderKey *key) {
     const WeftScene *scene = self->scene;
     key->shadowed = !view->no_shadows && self->shadows.count;
@@ -474,7 +474,7 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-/* Where nothing was drawn; behind what blends. */
+/* Draws the background where nothing was drawn, before blended meshes. */
 static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *error) {
     const Environment *e = &self->scene->environment;
     WeftError said = {0};
@@ -564,7 +564,7 @@ WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-/* What other pixels in its maps may change of a material beside its looks. */
+/* Adds the changes, other than of colour, that new pixels in its maps may cause in a material. */
 static void add_stale(const WeftRaster *self, const Material *material, MaterialsChange *change) {
     const int opacity = material->inputs[INPUT_opacity].texture,
               emission = material->inputs[INPUT_emission].texture;

@@ -297,7 +297,8 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
               boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
 }
 
-/* Of a slot that holds nothing too: nobody asks. False where memory is short. */
+/* Writes the table of a slot; an empty slot has one too, which is never read. Returns false if memory is
+ * short. */
 static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
     static const char *const names[SHADER_SLOTS] = {"diffuse", "specular", "sheen", "coat", "dust"};
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};

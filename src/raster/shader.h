@@ -10,8 +10,8 @@
 #include "shading/table.h"
 #include "text/text.h"
 
-/* How a shader finds an input. Numbers that leave something out altogether are in the text, so that it falls
- * away. */
+/* The way a shader reads an input. Numbers that disable a part are constants in the text, so that the part is
+ * removed. */
 typedef enum InputState {
     INPUT_VALUE,
     INPUT_ZERO,
@@ -26,7 +26,7 @@ typedef struct ShaderInput {
     int16_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
-/* Of a stack: diffuse, specular, sheen, coat, dust. */
+/* The slots of a stack: diffuse, specular, sheen, coat, dust. */
 enum { SHADER_SLOTS = 5 };
 
 /* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
@@ -71,7 +71,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
  * number; a table that is not baked takes none. `focus` is not read. */
 bool shader_holds(const ShaderKey *key, int slot);
 
-/* What is behind everything: the environment. */
+/* Makes the shaders that draw the environment behind everything. */
 void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment);
 
 /* The vertex shader likewise. */

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-/* What the last look saw. Zero-initialise: nothing; release with watch_free. */
+/* The files that the last scan found. Zero-initialise: none; release with watch_free. */
 typedef struct FolderWatch {
     Arena arena;
     struct WatchedFile *files; /* sorted by path */

@@ -46,8 +46,8 @@ static Box smaller_box(const WeftScene *scene, float size, float *largest) {
     return sum;
 }
 
-/* What shadows are looked at on: the scene without its stage, which is a mesh more than so many times as
- * large as the rest together, such as a floor to the horizon. */
+/* Returns the box that shadow maps cover: the scene without its stage, a mesh many times as large as all
+ * others together, such as a floor to the horizon. */
 static Box find_subject(const WeftScene *scene) {
     const float stage = 4.0f;
     float largest, next;

@@ -4,7 +4,7 @@
 #ifndef WEFT_RASTER_STATE_H
 #define WEFT_RASTER_STATE_H
 
-/* What is put back as it was: where the caller draws. */
+/* The caller's drawing state, which is restored. */
 typedef struct GlPlace {
     int draw, read; /* framebuffers */
     int viewport[4], scissor[4];

@@ -181,7 +181,7 @@ static size_t texel_size(const TextureGroup *group) {
     return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4;
 }
 
-/* Of the levels before that one. */
+/* Returns the size of all levels before that one. */
 static size_t level_at(const TextureGroup *group, int level) {
     size_t texels = 0;
     for (int w = group->width, h = group->height; level > 0; level--, w = halved(w), h = halved(h))

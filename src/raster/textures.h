@@ -10,14 +10,13 @@
 /* Array textures that one material may read at once. */
 enum { TEXTURE_SLOTS = 8 };
 
-/* Where a texture of the scene is: looked up as a colour, decoded before it is filtered, or as plain numbers.
- */
+/* The place of a texture of the scene. A colour is decoded before it is filtered; plain numbers are not. / */
 typedef struct TexturePlace {
     int group; /* -1: not uploaded */
     int layer;
 } TexturePlace;
 
-/* What the layers of one array texture have in common. */
+/* The properties that the layers of one array texture share. */
 typedef struct TextureGroup {
     int width, height;
     unsigned format; /* of the driver's texels */
@@ -57,7 +56,7 @@ bool textures_stale(const GlTextures *textures, const WeftScene *scene, int text
  * _GL_MEMORY. */
 WeftResult textures_refresh(GlTextures *textures, const WeftScene *scene, int threads, WeftError *error);
 
-/* Of what an input of a material looks up. */
+/* Returns the place of the texture that an input reads. */
 TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);
 
 /* From now on they are looked up without, or again with, their smaller copies. */

@@ -63,7 +63,7 @@ static bool is_same(const WatchedFile *a, const WatchedFile *b) {
            a->number == b->number;
 }
 
-/* How many files are in one of both only, or differ: both are sorted. */
+/* Returns the number of files that are in only one of two sorted lists, or differ. */
 static int count_changes(const FolderWatch *a, const FolderWatch *b) {
     int changes = 0;
     for (int i = 0, j = 0; i < a->count || j < b->count;) {

@@ -187,13 +187,13 @@ typedef struct Fill {
 /* The colours, beside white, that the maps of a tinted lobe are made from: the last is 0 in the limit. */
 static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
-/* How far the lobe leans; 0 of one that cannot. */
+/* Returns the tilt of the lobe's fibres; 0 for a lobe without one. */
 static float tilt_of(const Lobe *lobe) {
     int tilt = lobe_param(lobe->id, "tilt");
     return tilt > 0 && lobe_param(lobe->id, "azimuth") > 0 ? lobe->params[tilt] : 0.0f;
 }
 
-/* Of how many tilts there are maps. */
+/* Returns the number of tilts that have maps. */
 static int tilts_of(const Lobe *lobe, bool scaled) {
     if (!(tilt_of(lobe) > 0.0f)) return 0;
     return scaled ? TABLE_TILTS : 1;

@@ -18,8 +18,8 @@ typedef struct Albedo {
  * walks, with a standard error of sqrt(tolerance) / 4 at most: 0.0025 where 1e-4 is asked for. */
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 
-/* The same, and how far it may be off: the change that the last halving of the step made. That is above
- * `tolerance` where the finest step was not enough. */
+/* Works as albedo_quadrature, with an error estimate: the change that the last halving of the step made. That is
+ * above `tolerance` where the finest step was not enough. */
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
 /* Returns true where colour is no factor and no share either: for a tinted lobe, and where f0 makes F. */
@@ -65,7 +65,7 @@ typedef struct AlbedoTable {
  * Runs on `threads` threads (0: all). */
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
-/* The same of a sheen whose tilt a texture scales: from 0 to that of the lobe. */
+/* Works as albedo_table_fill, for a sheen whose tilt a texture scales from 0 to that of the lobe. */
 void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
 /* Returns true if the table is the lobe's for parameter 0 over low .. high and, if scaled, for all tilts. */

@@ -33,7 +33,7 @@ typedef struct Fitter {
     AmbientFit *fit;
 } Fitter;
 
-/* As ambient_broad_light looks them up. */
+/* The directions and widths of the look-ups of ambient_broad_light. */
 static const Atom atoms[ATOMS] = {
     {2, 1, {{0.0f, 0.0f, 1.0f}}},
     {1, 2, {{0.612372436f, 0.612372436f, 0.5f}, {0.612372436f, -0.612372436f, 0.5f}}},
@@ -49,7 +49,7 @@ static void legendre(double mu, double p[BANDS]) {
 
 static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
 
-/* As ambient_residual weighs. */
+/* The concentrations of the look-ups of ambient_residual. */
 static const double kappas[KERNELS] = {12.5, 3.125, 0.0};
 static double weight_at(double kappa, double mu) {
     return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
@@ -89,7 +89,7 @@ static double product(const Fitter *fitter, const Atom *x, const Atom *y) {
     return sum / (x->axes * y->axes);
 }
 
-/* What a lobe sends on from one wo, as weighted directions with x towards wo. */
+/* The light that a lobe reflects from one wo, as weighted directions with x towards wo. */
 typedef struct Cloud {
     int count;
     Dir i[SAMPLES];
@@ -330,7 +330,8 @@ enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
  * that is small elsewhere would be all there is. */
 static const double FADED = 0.01;
 
-/* Of A x = b, A symmetric and positive definite, all planes b at once: A = L L^T. Both are overwritten. */
+/* Solves A x = b, A symmetric and positive definite, for all planes b at once: A = L L^T. Both are
+ * overwritten. */
 static void cholesky_solve(double a[TERMS][TERMS], double b[TERMS][PLANES_HELD]) {
     for (int i = 0; i < TERMS; i++)
         for (int j = 0; j <= i; j++) {

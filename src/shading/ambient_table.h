@@ -24,7 +24,7 @@ typedef struct AmbientFit {
  * threads (0: all); the same numbers on any number of them. */
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
 
-/* The same from texels that were kept: all but them, then what follows from them. */
+/* Completes a fit whose texels were cached: sets all other members. */
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 void ambient_fit_finish(AmbientFit *fit);
 

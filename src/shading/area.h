@@ -58,7 +58,7 @@ FN AreaDensity area_fibres(float alpha, Dir o) {
 /* Half of the haze of gtr1 lies within the root of its alpha. */
 FN AreaDensity area_haze(float alpha, Dir o) { return area_facets(sqrt(alpha), sqrt(alpha), o); }
 
-/* Of a composition; distributions of cloth are broad. */
+/* Returns the density for a composition of terms; distributions of cloth are broad. */
 FN AreaDensity area_composed(Lobe lobe, Dir o) {
     float alpha = lobe.params[COOK_TORRANCE_ALPHA];
     int d = to_int(lobe.params[COOK_TORRANCE_D]);

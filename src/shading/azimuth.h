@@ -12,7 +12,7 @@
 
 FN float azimuth_half(float t) { return t / (1.0f + sqrt(1.0f + t * t)); }
 
-/* Of w projected on the tangent plane; 0 where nothing is left of it. */
+/* Returns the azimuth of w in the tangent plane, radians; 0 if w has no tangential part. */
 FN float azimuth_of(Dir w) {
     float r = sqrt(w.x * w.x + w.y * w.y);
     if (r < 1e-15f) return 0.0f;

@@ -27,7 +27,7 @@ const char *choice_id(ChoiceId choice, int k) {
     return NULL;
 }
 
-/* What papers and engines call the halves of the two sheens. Their letter says which half. */
+/* The names of papers and engines for the terms of the two sheens. The letter tells D from V. */
 static const struct {
     const char *name, *id, *help;
 } aliases[] = {

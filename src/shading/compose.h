@@ -168,8 +168,8 @@ FN void view_coat(const Stack *m, StackView *w) {
     w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
 }
 
-/* What lies below dust keeps 1 - E, E of white dust: what dark dust does not send back it keeps. So a white
- * base under white dust returns what it receives. */
+/* Layers below dust are dimmed by 1 - E, E of white dust; dark dust absorbs the light that it does not
+ * return. So a white base under white dust returns the light it receives. */
 FN void view_dust(const Stack *m, StackView *w) {
     if (m->dust_amount <= DUST_LEAST) return;
     float e_1 = dust_albedo(&m->dust.lobe, w->o.z);
@@ -210,7 +210,7 @@ FN void view_begin(const Stack *m, Dir o, StackView *w) {
     stack_view_lobes(m, w);
 }
 
-/* What the layer rule leaves, of a rule that does not ask for wi. */
+/* Sets the base scale of a layer rule that does not depend on wi. */
 FN void view_base_scale(const Stack *m, StackView *w) {
     if (HAS_LAYERED_SHEEN(m)) w->base_scale = stack_base_scale(m, w, w->e_o);
 }
@@ -254,7 +254,7 @@ FN void view_select_p(const Stack *m, StackView *w) {
     SLOTS(SELECT_P_SCALE)
 }
 
-/* What wo (shading frame, z > 0) adds to a stack. */
+/* Computes the view of a stack for wo (shading frame, z > 0). */
 FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_begin(m, o, w);
     if (HAS_SHEEN(m)) w->e_o = stack_albedo(m, o);
@@ -266,7 +266,7 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
-/* The same as stack_value for some of the slots: what the others do to these stays. */
+/* Works as stack_value, for some of the slots. The others still dim these. */
 FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
                              const Angles *coat) {
     bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;

@@ -23,7 +23,7 @@
  * than what the product is rounded by. */
 FN float dust_mod(float x) { return x - floor((x + 0.5f) * 0.00346020761f) * 289.0f; }
 
-/* The same of a sum of two that are below 289. */
+/* Works as dust_mod, for a sum of two numbers below 289. */
 FN float dust_sum(float a, float b) { return a + b < 289.0f ? a + b : a + b - 289.0f; }
 
 /* A permutation of 0 .. 288: 34 x^2 + 10 x mod 17^2. Ian McEwan, David Sheets, Mark Richardson, Stefan
@@ -68,7 +68,7 @@ FN float dust_amount(float amount, float cosine, float falloff, float mask) {
     return cosine > 0.0f ? amount * mask * pow(min(max(cosine, 1e-6f), 1.0f), falloff) : 0.0f;
 }
 
-/* Where the dust comes from, in the world. */
+/* Returns the direction from which dust falls, in the world. */
 FN Dir dust_source(Surface s) {
     float across = sin(s.dust_tilt);
     return dir(across * s.dust_direction.x, cos(s.dust_tilt), across * s.dust_direction.y);

@@ -60,8 +60,8 @@ FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
                            i);
 }
 
-/* What f1 of upright fibres needs of a material: with e = log2(exp(1)) thickness, what makes up e sigma, and
- * the shares of q and m^2 in the root of D / (4 e). */
+/* Constants of f1 for upright fibres, with e = log2(exp(1)) thickness: the parts of e sigma, and the weights
+ * of q and m^2 in the root of D / (4 e). */
 STRUCT(FlakeUpright) { float e2, rest, across, along; };
 
 /* s is 0.03 at least: thinner flakes need the series above. */

@@ -27,8 +27,8 @@ STRUCT(FibreModel) {
     float hold;             /* keeps E below 1 against the nap; set by hand after the fit, which knows none */
 };
 
-/* What one direction has of its own: cosines to the normal and to the fibre, exponents of M, and for colour
- * the chance q that light meets a flake more, and exponents again. */
+/* The values of one direction: cosines to the normal and to the fibre, exponents of M, and for colour the
+ * probability q that light meets another flake, and exponents again. */
 STRUCT(FibreSide) { float mu, nu, a, h, g, k, q, v, u, c; };
 
 FN FibreModel fibre_model(float alpha, float density, float tilt) {
@@ -69,7 +69,7 @@ FN FibreSide fibre_nap(FibreModel m, FibreSide side, float mu, float nu, float u
     return side;
 }
 
-/* What thin fibres have more: sums of T_0 .. T_11 of u, whose powers would cancel. */
+/* Adds the terms of thin fibres: sums of T_0 .. T_11 of u, whose powers would cancel. */
 FN FibreSide fibre_thin(FibreNumbers n, FibreSide r, float u) {
     float x = 2.0f * u;
     float t2 = x * u - 1.0f, t3 = x * t2 - u, t4 = x * t3 - t2, t5 = x * t4 - t3, t6 = x * t5 - t4;

@@ -57,7 +57,7 @@ FN Dir frame_bent(Dir n, Dir geometric, Dir wo) {
     return dir_choose(cosine > 1e-4f && below >= least, n, bent);
 }
 
-/* What a hit or a fragment knows of its surface, seen from the side of the viewer. */
+/* The surface at a hit or fragment, seen from the side of the viewer. */
 STRUCT(Facing) {
     Dir geometric;    /* unit, towards the viewer */
     Dir normal;       /* unit, interpolated */

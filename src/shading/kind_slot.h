@@ -27,7 +27,7 @@
         *i = name##_sample(&p->name, &w->name, *o, u, v);                                                    \
     }
 
-/* Of a slot that holds none they are never asked. */
+/* The functions of an empty slot, which are never called. */
 #define KIND_EMPTY(slot)                                                                                     \
     enum { slot##_lobe = -1 };                                                                               \
     FN void slot##_prepare(const Lobe *m, LobePrepared *p) {}                                                \

@@ -49,7 +49,7 @@
     L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true,                             \
       "light bounces between sheen and base; the path tracer's reference")
 
-/* What of the base is left for wo and wi. */
+/* Returns the factor that the layer rule leaves for the base at wo and wi. */
 #define LAYER_CASE(id, index, base, conserves, help)                                                         \
     if (layer == index) return base;
 FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {

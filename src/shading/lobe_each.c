@@ -4,8 +4,8 @@
 #include "shading/registry.h"
 #include "weft/arrays.h"
 
-/* As in lobe_arrays.c: loops are only ever given whole groups of LANES, so that an answer does not depend on
- * its place. */
+/* Loops run over whole groups of LANES, as in lobe_arrays.c, so that a result does not depend on its
+ * place. */
 enum { LANES = 64, BLOCK = 256 };
 
 /* Rows that the loops read where the caller's are missing, too short, or not within their range; and rows
@@ -64,7 +64,7 @@ static void stage_take(Stage *stage, const WeftLobes *lobes, size_t k, size_t n,
     stage_params(stage, lobes, k);
 }
 
-/* Where the loop writes: the caller's own where all n go there. */
+/* Returns the array that the loop writes: the caller's own if it takes all n. */
 static float *target(const Stage *stage, float *row, float *to, size_t k) {
     return to && stage->used == stage->n ? to + k : row;
 }

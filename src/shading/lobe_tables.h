@@ -20,7 +20,7 @@
 extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 void lobe_tables_make(void);
 
-/* The same of those that a lobe reads, and of all that need no computing. */
+/* Makes the tables that a lobe reads, and all that need no computing. */
 void lobe_tables_make_for(int id);
 
 /* The cosines, rising, at which f of a lobe bends as a function of cos_i, since what is between the columns

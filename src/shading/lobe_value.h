@@ -22,8 +22,8 @@ FN LobeValue lobe_value_of(float f, float s, float pdf) {
     return v;
 }
 
-/* What f is multiplied by in one channel: the second colour is what lobe_second says, times any weight that
- * the first has too. Of a tinted lobe that makes the weight, and first / second the albedo of its flakes. */
+/* Returns the factor of f in one channel. second is the colour of lobe_second times the weight of the first.
+ * With a tinted lobe second is the weight, and first / second the albedo of its flakes. */
 FN float lobe_color(LobeValue v, float first, float second) {
     if (IS_TINTED(v.tint)) return second * tint_color(v.tint, first / max(second, 1e-30f));
     return fresnel_weight_mix(v.s, first, second);
@@ -46,7 +46,7 @@ FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
     return x;
 }
 
-/* The same of a lobe of one colour. */
+/* Works as lobe_reflected, for a lobe of one colour. */
 FN LobeReflected lobe_reflected_one(LobeValue v, Rgb color) {
     LobeReflected x;
     x.f.r = v.f * color.r;

@@ -21,7 +21,7 @@ ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
 ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
                          StackValue *value);
 
-/* The same of some of the slots, and of layer rule stochastic without its walk. */
+/* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
 /* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */

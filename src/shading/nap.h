@@ -13,7 +13,7 @@ STRUCT(Nap) {
     float x, y; /* where to, in the tangent plane, of unit length */
 };
 
-/* As azimuth_of has it, a direction without length is the tangent. */
+/* A direction without length means the tangent, as in azimuth_of. */
 FN Nap nap_of(float tilt, Dir direction) {
     float r = sqrt(direction.x * direction.x + direction.y * direction.y);
     Nap n;

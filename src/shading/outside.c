@@ -17,7 +17,7 @@ const OutsideLobe *outside_lobe(int id) {
     return k >= 0 && k < OUTSIDE_MOST ? atomic_load(&taken[k]) : NULL;
 }
 
-/* Where a lobe of that name is, or would be. */
+/* Returns the place of the lobe of that name, or the place where it would be added. */
 static int place_of(const char *id) {
     int k = 0;
     while (k < outside_count() && strcmp(outside_lobe(LOBE_COUNT + k)->info.id, id) != 0) k++;
@@ -38,7 +38,7 @@ bool outside_take(OutsideLobe *lobe, int *id) {
     return k < OUTSIDE_MOST;
 }
 
-/* What it takes no functions for: its parameters as data. */
+/* Sets the parameters' defaults, which are data and need no plugin function. */
 
 void outside_default(Lobe *m) {
     const OutsideLobe *lobe = outside_lobe(m->id);
@@ -106,7 +106,7 @@ float outside_seconds(const Lobe *m, float f0, float f90) {
     return plugin && plugin->traits & TRAIT_TINTED ? 1.0f : f0;
 }
 
-/* Of an id that has no lobe. */
+/* The loop of an id without a lobe. */
 static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
 static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,
                       float *restrict b) {

@@ -12,7 +12,7 @@
 #define PLUGIN_PARAM(type, name, def, low, high, hard_low, hard_high, help)                                  \
     {#type, #name, help, def, low, high, hard_low, hard_high},
 
-/* What both halves begin with. */
+/* The record that both halves begin with. */
 #define PLUGIN_RECORD(name, Name, NAME)                                                                      \
     FN Name name##_of(const Lobe *m) {                                                                       \
         Name r;                                                                                              \

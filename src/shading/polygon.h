@@ -115,7 +115,7 @@ FN Dir polygon_flux(Polygon p) {
     return dir(s * sum.x, s * sum.y, s * sum.z);
 }
 
-/* Where L is so small, sr, that a thousandth of it is rounding: there it gives way to what has none. */
+/* Below this L, sr, rounding reaches a thousandth of it, and another formula without that loss takes over. */
 #define POLYGON_SMALL 1e-4f
 
 /* c of a polygon on the sphere: the direction of L. */
@@ -148,8 +148,8 @@ STRUCT(PolygonPoint) {
     float area; /* sr */
 };
 
-/* How many rays an edge of a polygon with so many corners gets, 1 to 3, and a ray points, 2 or 3: so that
- * there are 32 at most. */
+/* Return the rays for an edge of a polygon with `count` corners, 1 to 3, and the points on a ray, 2 or 3: at
+ * most 32 in all. */
 FN int polygon_rays(int count) { return count < 4 ? 3 : count < 9 ? 2 : 1; }
 FN int polygon_steps(int count) { return count < 6 || count > 8 ? 3 : 2; }
 

@@ -51,7 +51,7 @@
     P("order-1886", 13, order_1886_stack(m, s), "The Order: 1886, a reconstruction")                         \
     P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
 
-/* What engines take for E: A(name, source, formula). Only khronos asks the table of the lobe. */
+/* The formulas of engines for E: A(name, source, formula). Only khronos reads the table of the lobe. */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \
     A(khronos, ALBEDO_KHRONOS, khronos_albedo(m, cosine))                                                    \
     A(three, ALBEDO_THREE, three_albedo(cosine, m->albedo_coord))                                            \
@@ -59,7 +59,8 @@
     A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->albedo_coord))    \
     A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m->albedo_coord))
 
-/* What engines make of wo: V(name, view, what it does to one in which nothing is dimmed yet). */
+/* The steps of engines that depend on wo: V(name, view, statement that changes a view in which nothing is
+ * dimmed yet). */
 #define WEFT_VIEWS(V)                                                                                        \
     V(urp, VIEW_URP, urp_view(m, w))                                                                         \
     V(three, VIEW_THREE, filament_view(engine_table(ENGINE_THREE_GGX), m, w))                                \

@@ -11,7 +11,8 @@ FN float punctual_distance(float d2, float range) {
     return clamp(1.0f - x * x, 0.0f, 1.0f) / d2;
 }
 
-/* Of a spot at the cosine c from its axis: 1 inside the inner cone, 0 outside the outer. */
+/* Returns the falloff of a spot light at the cosine c from its axis: 1 inside the inner cone, 0 outside
+ * the outer. */
 FN float punctual_cone(float c, float cos_inner, float cos_outer) {
     float t = clamp((c - cos_outer) / max(cos_inner - cos_outer, 1e-3f), 0.0f, 1.0f);
     return t * t;

@@ -19,7 +19,7 @@ SAME_TRAIT(DIFFUSE);
 SAME_TRAIT(TABLE);
 SAME_TRAIT(TINTED);
 
-/* What a parameter of each type may be: a number, or an index into these. */
+/* The values of a parameter of each type: a number, or an index into these. */
 #define choices_float                            NULL
 #define D_TERM_ID(id, NAME, value, drawn, help)  [NAME] = id,
 #define V_TERM_ID(id, NAME, value, help)         [NAME] = id,

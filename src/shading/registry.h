@@ -56,7 +56,8 @@ LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
-/* What a parameter of a type of terms, "DTerm", may be, as WeftParamInfo has it; NULL of others. */
+/* Returns the ids that a parameter of a term's type, such as "DTerm", takes (WeftParamInfo); NULL for
+ * other types. */
 const char *const *lobe_choices(const char *type);
 
 /* Index of a parameter by name, or -1. */

@@ -23,21 +23,22 @@ STRUCT(Slot) {
     float normal, grazing; /* about what it reflects to there, for the choice of one to sample; 0: no lobe */
 };
 
-/* How the specular interface dims the diffuse lobe: not; by F at wi . h, as glTF has it; by F at the least of
- * wi . h, cos_o and cos_i, which never gains energy; or by F at wi . h as f_schlick_gaussian has it. */
+/* The dimming of the diffuse lobe by the specular interface: none; by F at wi . h, as glTF has it; by F at
+ * the least of wi . h, cos_o and cos_i, which never gains energy; or by F at wi . h as f_schlick_gaussian has
+ * it. */
 #define BASE_FRESNEL_NONE     0
 #define BASE_FRESNEL_HALF     1
 #define BASE_FRESNEL_LEAST    2
 #define BASE_FRESNEL_GAUSSIAN 3
 
-/* How the coat weighs what it reflects and dims what is below: not, its lobe's own Fresnel factor is all
- * there is; both by F at its cosine; or what is below by F as f_schlick_gaussian has it. */
+/* The Fresnel factor of the coat. BARE: only that of its lobe. SCHLICK: F at the coat's cosine scales the
+ * coat and dims the layers below. GAUSSIAN: F by f_schlick_gaussian dims the layers below. */
 #define COAT_BARE     0
 #define COAT_SCHLICK  1
 #define COAT_GAUSSIAN 2
 
-/* Where the E of the sheen comes from: a table of the lobe's own, which ALBEDO_KHRONOS reads too, or what an
- * engine takes for it (profile.h). */
+/* The source of E of the sheen: the lobe's own table, which ALBEDO_KHRONOS reads too, or an engine's formula
+ * (profile.h). */
 #define ALBEDO_TABLE     0
 #define ALBEDO_KHRONOS   1
 #define ALBEDO_THREE     2
@@ -45,7 +46,7 @@ STRUCT(Slot) {
 #define ALBEDO_BABYLON   4
 #define ALBEDO_MATERIALX 5
 
-/* What an engine makes of wo besides (profile.h). */
+/* An engine's own steps that depend on wo (profile.h). */
 #define VIEW_PLAIN     0
 #define VIEW_URP       1
 #define VIEW_THREE     2
@@ -164,7 +165,7 @@ FN void slot_make(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight, float
     s->grazing = grazing;
 }
 
-/* The same of one that reflects alike everywhere. */
+/* Works as slot_make, for a lobe that reflects alike in all directions. */
 FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
     slot_make(s, lobe, color, second, weight, weight * rgb_mean(color), weight * rgb_mean(color));
 }
@@ -216,7 +217,7 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-/* What the lobes' parameters make, and where E is in its table, once they are settled. */
+/* Prepares the lobes and finds the rows of E in its table, once all parameters are set. */
 #define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
 FN void stack_prepare(Stack *m) {
@@ -225,7 +226,7 @@ FN void stack_prepare(Stack *m) {
         m->rows = table_rows(m->table, m->albedo_coord);
 }
 
-/* What wo adds to that, where it is above the slot's horizon: a coat's normal may turn it away. */
+/* Computes the lobes' views for wo if it is above the slot's horizon: a coat's normal may turn it away. */
 #define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
     if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                   \
         IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_view);                  \
@@ -286,7 +287,7 @@ FN Rgb stack_interface_transmittance(const Stack *m, const StackView *w, const A
     return stack_interface_at(m, w, schlick_s(cosine));
 }
 
-/* What the sheen leaves of the base, by one channel of its colour. */
+/* Returns the factor that the sheen leaves for the base, by one channel of its colour. */
 FN float stack_base_scale_of(const Stack *m, const StackView *w, float c, SheenE e_i) {
     return layer_base(m->layer, c, sheen_e_in(w->e_o, c), sheen_e_in(e_i, c), sheen_e_in(m->e_avg, c));
 }

@@ -73,13 +73,13 @@ FN float table_row(TableRef m, int row, Taps x) {
            x.d * table_texel(m.texels, m.columns + 1, row, x.first + 3);
 }
 
-/* Where the parameter falls among the rows. */
+/* Returns the place of the parameter among the rows. */
 FN float table_height(TableRef m, float p) {
     float root = sqrt(sqrt(sqrt(max(p, 0.0f))));
     return m.rows > 1 ? (root - m.low) / (m.high - m.low) * to_float(m.rows - 1) : 0.0f;
 }
 
-/* Where a cosine and a parameter fall in weft's maps. */
+/* The place of a cosine and a parameter in weft's maps. */
 STRUCT(TablePlace) { Taps x, y; };
 
 /* The parameter's part of it, which may be kept. */
@@ -145,7 +145,7 @@ FN SheenE sheen_e_of(float e) {
     return x;
 }
 
-/* The same with what a table's maps say of colour. */
+/* Works as sheen_e_of, with the colour values of a table's maps. */
 FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
     SheenE x;
     x.e = e;
@@ -187,11 +187,11 @@ FN float table_albedo(TableRef m, float cos_o, float p) {
     return table_roots(m, cos_o, p);
 }
 
-/* Where the maps for headings begin. */
+/* Returns the index of the first map for headings. */
 FN int table_headings(TableRef m) { return SHEEN_KIND(m) == TABLE_TINTED ? 4 : 1; }
 
-/* Where a tilt falls among those of the maps: even in its root, for E changes the most as fibres begin to
- * lean. */
+/* Returns the place of a tilt among those of the maps. They are uniform in its root, since E changes most as
+ * fibres begin to lean. */
 FN Taps table_tilt(TableRef m, float tilt) {
     return table_taps(sqrt(max(tilt, 0.0f) / m.tilt) * to_float(SHEEN_TILTS(m) - 1), SHEEN_TILTS(m));
 }
@@ -232,8 +232,7 @@ FN SheenE table_sheen_average(TableRef m, Taps rows) {
                           table_map_average(m, 3, rows));
 }
 
-/* The same of a sheen with a nap, and on average over the azimuth, which is what the maps of all headings
- * have. */
+/* Returns the average E of a sheen with a nap, over the azimuth too, which the first maps hold. */
 FN SheenE table_sheen_nap_average(TableRef m, Nap nap, Taps rows) {
     SheenE x = table_sheen_average(m, rows);
     if (!SHEEN_IS_OWN(m) || SHEEN_TILTS(m) < 1) return x;

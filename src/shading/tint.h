@@ -27,7 +27,7 @@ STRUCT(Tint) {
 #define IS_TINTED(t) ((t).s > 0.0f)
 #endif
 
-/* Of light that meets one flake: colour is a factor. */
+/* Returns the tint of light that meets one flake: colour is a factor. */
 FN Tint tint_none(void) {
     Tint t;
     t.s = 0.0f;

@@ -6,7 +6,7 @@
 
 #include "shading/rgb.h"
 
-/* As WeftTonemap numbers them; any other number is the last. */
+/* The numbers of WeftTonemap; any other number is the last. */
 #define TONE_PBR_NEUTRAL 0
 #define TONE_ACES        1
 

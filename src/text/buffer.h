@@ -27,10 +27,10 @@ enum { BUFFER_LIMIT = 1 << 24 };
 void buffer_put(Buffer *buffer, const char *bytes, size_t size);
 void buffer_put_text(Buffer *buffer, const char *text);
 
-/* As printf makes it, at most 511 bytes. */
+/* Appends formatted text, at most 511 bytes. */
 __attribute__((format(printf, 2, 3))) void buffer_print(Buffer *buffer, const char *format, ...);
 
-/* Where the byte at that place comes from. */
+/* Returns the origin of the byte at that place. */
 Origin buffer_origin(const Buffer *buffer, size_t at);
 
 /* Leaves an empty buffer that can be used again. */

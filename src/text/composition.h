@@ -9,7 +9,7 @@
  * a stack may make a choice of. */
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 
-/* What the slots of a stack may hold: ids, and the first lobe of each with its parameters. */
+/* The possible contents of a stack's slots: ids, and the first lobe of each with its parameters. */
 typedef struct CompositionSlots {
     TextSlot slots[TEXT_SLOTS];
     Lobe lobes[TEXT_SLOTS];

@@ -95,7 +95,7 @@ void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
     text_define(text, "IN_SLOT(name, function)", "name##_##function");
 }
 
-/* What stands for shading/dust_lobe.h where its lobe is not there. */
+/* Provides shading/dust_lobe.h for a text without the lobe of dust. */
 static void put_no_dust(Text *text) {
     if (!text_provide(text, "shading/dust_lobe.h")) return;
     text_line(text, "\nfloat dust_weight(float dust, float e_1, float cos_o) { return 0.0; }\n"

@@ -96,7 +96,7 @@ static Value read_one(const Fold *fold, const char **c, const char *end) {
     return token.kind == TOKEN_NAME ? read_name(fold, token, c, end) : UNKNOWN;
 }
 
-/* What is added, multiplied and so on is known only where it is alone. */
+/* The value of an operand is known only if no operator follows. */
 static Value read_sum(const Fold *fold, const char **c, const char *end) {
     Value v = read_one(fold, c, end);
     for (;;) {
@@ -387,7 +387,8 @@ static bool is_read(Token name, const char *c, const char *end) {
     return false;
 }
 
-/* What the declaration at c declares, each with a value; 0 where it is none such. *stop: behind it. */
+/* Finds the variables that the declaration at c defines, each with a value. Returns their count, 0 if it
+ * is no such declaration. *stop is set behind it. */
 static int find_declared(const char *c, const char *end, Declared all[DECLARED_MAX], const char **stop) {
     int count = 0;
     Token type = token_solid(&c, end), mark;

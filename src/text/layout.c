@@ -98,7 +98,7 @@ static const char *find_mark(const char *c, const char *end, const char *marks) 
 
 static bool has_words(const char *c, const char *end) { return token_solid(&c, end).kind != TOKEN_NONE; }
 
-/* What is put from now on comes from the first word at c or behind it. */
+/* Sets the origin of the text that follows: the first word at or after c. */
 static void set_origin(const Buffer *source, const char *c, Buffer *out) {
     const char *end = source->bytes + source->size;
     while (c < end && is_blank(*c)) c++;
@@ -164,7 +164,7 @@ static void put_enumeration(const Buffer *source, const char *c, const char *end
     }
 }
 
-/* What GLSL has no word for, found before a driver stumbles over it. */
+/* Returns a construct that GLSL lacks, found before a driver fails on it, or NULL. */
 static const char *wrong_in(const Buffer *source, const char *c, const char *end, Buffer *out) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         set_origin(source, token.at, out);

@@ -2,7 +2,7 @@
 
 #include "text/types.h"
 
-/* How tightly an expression holds together. */
+/* The precedence of an expression. */
 typedef enum Bond { BOND_CHOICE, BOND_SUM, BOND_PRODUCT, BOND_CALL } Bond;
 
 /* A call, and what it is with the arguments in place of A, B and C. */
@@ -29,7 +29,7 @@ static const Form *find_form(Token name) {
 
 static Bond least(Bond a, Bond b) { return a < b ? a : b; }
 
-/* What a mark between two operands binds by; a sign's is not asked for. */
+/* Returns the precedence of a binary operator; signs are not looked up. */
 static Bond bond_of(Token mark) {
     if (token_is(mark, "*") || token_is(mark, "/")) return BOND_PRODUCT;
     if (token_is(mark, "+") || token_is(mark, "-")) return BOND_SUM;
@@ -66,7 +66,7 @@ static void put_form(const Form *form, const List *arguments, Buffer *out) {
     }
 }
 
-/* How tightly an expression must hold together between two tokens. */
+/* Returns the least precedence that an expression needs between two tokens. */
 static Bond bond_between(Token before, Token after) {
     if (token_is(before, "/") || token_is(after, ".") || token_is(after, "[")) return BOND_CALL;
     if (token_is(before, "*") || token_is(before, "-") || token_is(after, "*") || token_is(after, "/"))

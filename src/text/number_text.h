@@ -10,8 +10,8 @@ typedef struct Number {
     char text[32];
 } Number;
 
-/* As many digits as it takes to be read as the same, and a point or an exponent in any case: without one it
- * would be an integer. */
+/* Prints the shortest digits that read back as the same number, always with a point or an exponent: without
+ * one it would be an integer. */
 static inline Number number(float value) {
     Number n;
     int size = 0;

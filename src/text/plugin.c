@@ -82,7 +82,7 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
 
 /* Compiling it. */
 
-/* As the library itself is: CMakeLists.txt says why. */
+/* The options of the library itself; CMakeLists.txt explains them. */
 #if defined(__AVX2__) && defined(__FMA__)
 #define ARCH "-march=x86-64-v3",
 #else
@@ -258,8 +258,8 @@ static uint64_t key_of(const Buffer *text, const Compiler *compiler) {
     return hash;
 }
 
-/* Where it is to be in the cache; false where there is none, or others can write there: what is loaded runs.
- */
+/* Finds the place in the cache. Returns false if there is no cache or others can write to it, since a loaded
+ * file is run. / */
 static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
     if (!cache_folder_make() || !cache_path(cached, key, "so")) return false;
     char *slash = strrchr(cached, '/');

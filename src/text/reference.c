@@ -30,7 +30,7 @@ static bool is_open(Token last) {
     return last.kind == TOKEN_MARK && !token_is(last, ")") && !token_is(last, "]");
 }
 
-/* What stands in brackets behind this is no operand. */
+/* After this token, brackets hold a condition and not an operand. */
 static bool has_condition(Token last) {
     return token_is(last, "if") || token_is(last, "for") || token_is(last, "while");
 }

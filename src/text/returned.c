@@ -68,7 +68,7 @@ static bool is_named(const char *c, const char *end, Piece path) {
     return false;
 }
 
-/* What "T x;" declares without a value: the statement, or NULL. */
+/* Returns the statement "T x;" that declares the variable without a value, or NULL. */
 static const char *declared_bare(const char *body, const char *call, Piece path) {
     Token before = {TOKEN_NONE, "", 0};
     const char *c = body, *found = NULL, *rest = path.at;

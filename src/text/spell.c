@@ -9,7 +9,7 @@ typedef struct Word {
     const char *plain, *spelt;
 } Word;
 
-/* What a language has another word for. */
+/* The words that a language spells differently. */
 static const Word glsl_words[] = {{"Dir", "vec3"}, {"Rgb", "vec3"}, {NULL, NULL}};
 static const Word hlsl_words[] = {{"Dir", "float3"}, {"Rgb", "float3"}, {"mix", "lerp"}, {NULL, NULL}};
 static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"}, {"sqrt", "sqrtf"}, {"sin", "sinf"},

@@ -33,7 +33,7 @@ void spell_helpers(const Speller *speller, const Items *const *texts, int count,
 /* The name that an item of that kind gets. Returns name. */
 char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]);
 
-/* The same, of one of these items where there is one of that name. */
+/* Works as spell_name, for the item of that name among these if there is one. */
 char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *plain,
                  char name[SPELL_NAME]);
 

@@ -41,7 +41,7 @@ WeftResult text_fail_at(Origin origin, WeftMessage message, const char *what, We
     return fail(error, message, place, "%s", what);
 }
 
-/* Of the place where the text's buffer is. */
+/* Fails with the place that the text's buffer has reached. */
 static void fail_dialect(Text *text, const char *what) {
     if (!failed(text)) text_fail_at(text->buffer.origin, WEFT_MESSAGE_TEXT_DIALECT, what, &text->error);
 }
@@ -83,7 +83,7 @@ void text_begin(Text *text, const TextDesc *desc) {
               desc->language == TEXT_GLSL_450 ? "layout(set = 0, binding = 0) " : "");
 }
 
-/* As printf makes it. */
+/* Appends formatted text. */
 static void put_line(Text *text, const char *format, va_list arguments) {
     va_list again;
     va_copy(again, arguments);
@@ -260,7 +260,7 @@ static bool condition_or(Text *text, const char **c, const char *end) {
     return any;
 }
 
-/* What a whole #if line says. */
+/* Evaluates the condition of a whole #if line. */
 static bool condition(Text *text, const char *c, const char *end) {
     bool any = end - c < CONDITION_LIMIT && condition_or(text, &c, end);
     if (token_solid(&c, end).kind != TOKEN_NONE)

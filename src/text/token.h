@@ -29,7 +29,7 @@ static inline bool is_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
 }
 
-/* Where a string that opens at c has its last character, or end. */
+/* Returns the last character of the string that opens at c, or end. */
 static inline const char *string_end(const char *c, const char *end) {
     for (c++; c < end && *c != '"'; c++)
         if (*c == '\\' && c + 1 < end) c++;

@@ -118,7 +118,7 @@ Token types_member(const Items *items, Token record, Token member) {
     return NOTHING;
 }
 
-/* What a function's parameters and variables are of. */
+/* The types of a function's parameters and variables. */
 typedef struct Symbols {
     struct {
         Token name, type; /* a type of kind TOKEN_NONE: of more than one */

@@ -75,7 +75,7 @@ static Member *find_member(Unused *self, Token record, Token name) {
     return NULL;
 }
 
-/* Of a record that is not known all members of that name count as read. */
+/* If the record is unknown, all members of that name count as read. */
 static void visit_read(void *user, const Access *access) {
     Unused *self = user;
     if (access->statement) return;

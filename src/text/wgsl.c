@@ -54,7 +54,7 @@ static const char *find_or(const char *c, const char *end) {
 
 static void put_expression(const char *c, const char *end, Buffer *out);
 
-/* What stands between brackets, an expression behind each comma. */
+/* Writes a bracketed list, an expression after each comma. */
 static void put_list(const char *c, const char *end, Buffer *out) {
     while (c < end) {
         const char *comma = find_mark(c, end, ",");
@@ -229,7 +229,7 @@ static const char *put_statements(const Body *body, const char *c, const char *e
     }
 }
 
-/* What a condition is in front of, in braces; from: where all of it begins. */
+/* Writes the statement that a condition guards, in braces. from: the start of the whole statement. */
 static const char *put_branch(const Body *body, const char *c, const char *from) {
     const char *end = body->function->end, *first = blank_end(c, end);
     bool braces = *first == '{', line = memchr(c, '\n', (size_t)(first - c)) != NULL;

@@ -10,7 +10,7 @@ typedef struct Emitter {
     float area;
 } Emitter;
 
-/* What a point of an emitter sends out where it is not transparent, times how much of it is there. */
+/* Returns the emission of a point times its opacity. */
 static Rgb emission(const WeftScene *scene, const Material *material, const Attributes *at) {
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     float uv[2][2];

@@ -30,14 +30,14 @@ typedef struct Hit {
 /* The nearest surface that is there: not the back of a single-sided one, not a transparent point. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
 
-/* The same for `count` <= GEOMETRY_PACKET camera rays at once; t < 0 where nothing is hit. */
+/* Works as geometry_hit, for `count` <= GEOMETRY_PACKET camera rays at once; t < 0 if nothing is hit. */
 enum { GEOMETRY_PACKET = 16 };
 void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits);
 
 /* Returns true if anything lies on the ray between near and far. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
 
-/* Where a triangle was hit, and how it is turned there. */
+/* The point and orientation at which a triangle was hit. */
 typedef struct Vertex {
     Vec3 position;
     Vec3 geometric;   /* unit, on the side the triangle winds counter-clockwise */
@@ -48,7 +48,7 @@ typedef struct Vertex {
 
 Vertex geometry_vertex(const Mesh *mesh, const Hit *hit);
 
-/* What textures are looked up with there. */
+/* The texture coordinates and other attributes at a hit. */
 typedef struct Attributes {
     float uv[2][2];
     float color[4]; /* linear RGBA, white where the mesh has none */

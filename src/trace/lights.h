@@ -31,7 +31,8 @@ typedef struct LightSample {
 /* Of a group that shines, for (u, v) in [0, 1)^2. */
 LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v);
 
-/* What comes from where nothing is hit, and the density with which lights_sample finds that direction. */
+/* Returns the light from a direction in which nothing is hit, and the density with which lights_sample
+ * finds that direction. */
 LightSample lights_environment(const Lights *lights, Vec3 direction);
 
 /* Density with which lights_sample, from a point at distance t, finds that triangle's point seen under

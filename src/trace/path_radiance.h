@@ -9,7 +9,7 @@
 #include "trace/sampler.h"
 #include "weft/render.h"
 
-/* What a material is wherever it is hit. */
+/* The part of a material that is equal at all hits. */
 typedef struct PathMaterial {
     Material material; /* the scene's, without textures that a path never looks at */
     Surface plain;     /* all its textures left out */

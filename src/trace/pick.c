@@ -47,7 +47,7 @@ static bool nearest(const WeftPick *self, CameraRay through, Hit *hit) {
     return any;
 }
 
-/* How position changes with u and with v on a triangle, and the UV that a metre spans. */
+/* The change of position with u and with v on a triangle, and the UV that a metre spans. */
 typedef struct Stretch {
     Vec3 u, v;
     float texel;

@@ -297,7 +297,7 @@ static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *samp
                  render->desc.hide_lights != 0};
 }
 
-/* What is behind everything: colour and coverage. */
+/* Adds the background: colour and coverage. */
 static void add_background(const WeftRender *render, Vec3 direction, float *sum) {
     const WeftRenderDesc *d = &render->desc;
     if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;

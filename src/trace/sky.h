@@ -26,7 +26,7 @@ typedef struct SkyPoint {
 /* Fills sky; its arrays come from arena. false when memory is short. */
 bool sky_make(Sky *sky, const Environment *environment, Arena *arena);
 
-/* What comes from a unit direction. */
+/* Returns the light from a unit direction. */
 SkyPoint sky_at(const Sky *sky, Vec3 direction);
 
 /* A direction for (u, v) in [0, 1)^2, by about its radiance. */

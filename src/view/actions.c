@@ -1,4 +1,4 @@
-/* What can be asked for by menu, key or replay. */
+/* Actions of menus, keys and replays. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +69,7 @@ void viewer_make_fibre(Viewer *v) {
     viewer_say(v, false, "%s has a sheen of fibres now: stroke it", v->facts.materials[v->material]);
 }
 
-/* What is not edited is kept while the comparison is off. */
+/* The state that is not edited is kept while the comparison is off. */
 void viewer_split(Viewer *v, Split split) {
     if (!v->has_scene) return;
     if (split != SPLIT_NONE && !v->other.materials && !scene_state_copy(&v->other, &v->state)) return;

@@ -114,7 +114,7 @@ static const char *choose(Browser *self, const char *path) {
     return self->chosen;
 }
 
-/* Where the program was started, or else in the folder that is shown. */
+/* A typed path is relative to the folder where the program was started, or else to the one shown. */
 static const char *choose_typed(Browser *self) {
     char path[2 * PATH];
     struct stat s;

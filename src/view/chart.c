@@ -9,7 +9,7 @@
 #include "weft/chart.h"
 #include "weft/reflection.h"
 
-/* Where each workflow has the F0 of a dielectric; the last is that of all others. */
+/* The input that holds the F0 of a dielectric in each workflow; the last row is for all others. */
 static const struct {
     const char *workflow, *input;
 } f0_inputs[] = {
@@ -51,7 +51,8 @@ static void put_f0(WeftMaterial *m, const WeftChartEntry *e, const char *input) 
         put(m, input, e->f0, strcmp(input, "specular") == 0 ? 1.0f / 0.08f : 1.0f);
 }
 
-/* What is clear has no base colour; a metal has no index of refraction. */
+/* Returns true if the entry has a value for the input: clear materials have no base colour, metals no
+ * index of refraction. */
 static bool has_swatch(const WeftChartEntry *e, const char *input) {
     if (strcmp(input, "base_color") == 0) return e->kind == WEFT_CHART_OPAQUE || e->kind == WEFT_CHART_METAL;
     return e->kind != WEFT_CHART_METAL || strcmp(input, "specular_color") == 0;

@@ -69,7 +69,7 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     put_word(line, word);
 }
 
-/* What was changed in a material since it was read; choices first, since they move inputs. */
+/* Writes the changes of a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
     WeftMaterial was = *scene_state_material(&v->first, index);
     const WeftMaterial *is = scene_state_material(&v->state, index);

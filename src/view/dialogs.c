@@ -1,4 +1,4 @@
-/* What stands above the window for a while: files, help, warnings, the sheet of profiles. */
+/* The dialogs: files, help, warnings, the sheet of profiles. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* What weft doctor says of the file that is open. */
+/* The panel with the findings of weft doctor for the open file. */
 #include <stdio.h>
 #include <string.h>
 

@@ -14,7 +14,8 @@ Examination *examination_start(Window *window, const char *path);
 
 bool examination_done(Examination *examination);
 
-/* What was found once it is done; NULL where the file could not be examined, and then why. */
+/* Return the findings once the examination is done, or NULL if the file could not be examined, and the
+ * reason. */
 const WeftDoctor *examination_doctor(const Examination *examination);
 const char *examination_failure(const Examination *examination);
 

@@ -41,7 +41,8 @@ static bool is_watched(const FileWatch *self, const char *path) {
     return false;
 }
 
-/* Of a folder that of the files in it that are not watched by themselves, in any request. */
+/* Returns the stamp of a file; of a folder the sum over its files that are not watched themselves, in any
+ * order. */
 static unsigned long long stamp_of(const FileWatch *self, const char *path) {
     size_t length = strlen(path);
     const char *slash = length && path[length - 1] == '/' ? "" : "/";
@@ -75,7 +76,7 @@ int file_watch_poll(FileWatch *self, double seconds) {
             file->seen = stamp;
             file->since = seconds;
         }
-        /* What is gone may be on its way: editors write another file and rename it. */
+        /* A missing file may be about to return: editors write another file and rename it. */
         if (!stamp || stamp == file->told || seconds - file->since < 0.3) continue;
         file->told = stamp;
         self->looked = 0.0; /* others may have changed as well */

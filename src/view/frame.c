@@ -41,7 +41,7 @@ static int take_target(Renderer *self, int width, int height) {
     return k;
 }
 
-/* What the scene is configured as, asked of itself, where it could not be brought to a state. */
+/* Reads the state back from the scene after a state could not be applied. */
 static bool read_again(Renderer *self, const SceneState *wanted, SceneState *is) {
     if (!scene_state_read(is, self->scene)) return false;
     is->environment = self->is.environment;
@@ -169,8 +169,8 @@ static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsi
                      target, 0.5 * expected, whole, error);
 }
 
-/* What can be drawn in the time there is: smooth edges in a few seconds, or at once where they take no longer
- * than a frame may; all pixels where that has proved quick enough; or at least what is asked for. */
+/* Returns the effort that fits the time: smooth edges in a few seconds, or at once if they take no longer
+ * than a frame may; all pixels if that has proved quick enough; but at least the requested effort. */
 static Effort effort_of(const Renderer *self, const FrameRequest *request) {
     if (request->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
     if (request->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
@@ -281,7 +281,7 @@ const SceneState *frame_edited_state(const FrameRequest *request) {
     return request->edited && request->split != SPLIT_NONE ? &request->other : &request->state;
 }
 
-/* Where the state that is edited is worn in another variant than before. */
+/* Surveys the materials if the edited state has another variant than before. */
 static void survey(Renderer *self, const FrameRequest *request) {
     int variant = self->is.variant;
     if (self->surveyed == variant || frame_edited_state(request)->variant != variant) return;

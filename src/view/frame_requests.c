@@ -1,4 +1,4 @@
-/* What the window wants to see, and what comes back from renderer and path tracer. */
+/* Sends requests to the renderer and the path tracer, and takes their results. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/frame_requests.h"
 
@@ -106,7 +106,7 @@ void requests_send(Viewer *v) {
     if (changed) v->has_probe = false;
 }
 
-/* Where a camera of the scene stands is known once it has been drawn through. */
+/* The place of a camera of the scene is known once a frame was drawn through it. */
 void requests_read_camera(Viewer *v) {
     const RenderedFrame *p = &v->rendered;
     if (!v->orbit.name[0] || p->number != v->requested || !p->texture) return;
@@ -156,7 +156,7 @@ static bool lit_by(const SceneState *state, const char *path) {
     return state->environment.kind == ENVIRONMENT_FILE && strcmp(state->environment.path, path) == 0;
 }
 
-/* The same file, read again, is no step: what it was before is gone. */
+/* A file that was read again makes no step of history, since its earlier contents are gone. */
 static void take_light(Viewer *v, const EnvironmentState *environment) {
     if (!lit_by(&v->state, environment->path)) keep_step(v);
     if (lit_by(&v->other, environment->path))

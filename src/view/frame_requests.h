@@ -14,10 +14,10 @@ bool requests_can_refine(const Viewer *v);
 void requests_wait_frame(Viewer *v);
 void requests_take_reference(Viewer *v);
 
-/* Where a camera of the scene stands is known once it has been drawn through. */
+/* The place of a camera of the scene is known once a frame was drawn through it. */
 void requests_read_camera(Viewer *v);
 
-/* What has become of tasks. */
+/* Takes the events of tasks. */
 void requests_take_events(Viewer *v);
 
 #endif

@@ -7,7 +7,7 @@
 #include "weft/lobe.h"
 #include "weft/material.h"
 
-/* Where the files of a choice lie: folder and what their names begin with. */
+/* The files of a choice: folder and the prefix of their names. */
 static const struct {
     const char *choice, *prefix;
 } places[] = {{"workflow", "workflows/"}, {"profile", "profiles/"}, {"diffuse", "lobes/"},

@@ -6,7 +6,7 @@
  * about. "" where there is none. Valid until the next call. */
 const char *help_choice(int choice, int value);
 
-/* Of an input: what it is, its range and what resets it. Valid until the next call. */
+/* Returns the help of an input: meaning, range and how to reset it. Valid until the next call. */
 const char *help_input(int input);
 
 #endif

@@ -6,7 +6,7 @@
 int input_number(const char *name);
 int choice_number(const char *name);
 
-/* How many values a choice has. */
+/* Returns the number of values of a choice. */
 int choice_values(int choice);
 
 #endif

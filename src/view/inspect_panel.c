@@ -1,4 +1,4 @@
-/* What the material does with light, and what one pixel is made of. */
+/* The panel that plots the material's reflection and takes a pixel's light apart. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

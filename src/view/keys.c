@@ -1,4 +1,4 @@
-/* What keys do that are no text: by what is written on them, so that a shortcut is where its letter is. */
+/* Keyboard shortcuts, by the letters on the keys, so that a shortcut is where its letter is. */
 #include <stdio.h>
 #include <string.h>
 

@@ -91,7 +91,7 @@ static void make_thumb(const WeftImage *image, unsigned char *out) {
         }
 }
 
-/* Where memory is short there are none. */
+/* There are no thumbnails if memory is short. */
 static void read_thumbs(Facts *facts, const WeftScene *scene) {
     int count = facts->map_count < FACTS_THUMBS ? facts->map_count : FACTS_THUMBS;
     if (!count || weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs,
@@ -162,7 +162,7 @@ static const char *first_camera(const Loader *self) {
     return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
 }
 
-/* What is seen largest of it; that nothing is known of it is no failure. */
+/* Surveys which material covers most of the picture. A survey that fails is no failure of the load. */
 static void survey(Loader *self) {
     Loaded *loaded = &self->loaded;
     WeftPick *pick;

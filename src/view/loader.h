@@ -10,7 +10,7 @@ enum { FACTS_NAME = 64, FACTS_MOST = 512, FACTS_THUMB = 32, FACTS_THUMBS = 128 }
 
 typedef char FactName[FACTS_NAME];
 
-/* What there is in a scene: copies, since the scene is the renderer's. */
+/* The contents of a scene: copies, since the scene belongs to the renderer. */
 typedef struct Facts {
     char path[STATE_PATH];
     FactName *materials, *cameras, *variants; /* owned */
@@ -23,7 +23,7 @@ typedef struct Facts {
     WeftSceneInfo info;
 } Facts;
 
-/* Of a scene from path. False where memory is short. */
+/* Reads the facts of a scene from path. Returns false if memory is short. */
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
 void facts_free(Facts *facts);
 /* Its maps anew, where pictures were put on. */
@@ -31,7 +31,7 @@ void facts_read_maps(Facts *facts, const WeftScene *scene);
 
 typedef struct Loader Loader;
 
-/* What has been loaded, or why not. */
+/* The result of a load, or the reason of its failure. */
 typedef struct Loaded {
     WeftScene *scene; /* owned; NULL on failure */
     SceneState state; /* owned; what it is configured as */
@@ -47,7 +47,7 @@ typedef struct Loaded {
     bool taken;            /* it was, whatever became of the scene */
 } Loaded;
 
-/* What is to be read. */
+/* A load as it is requested. */
 typedef struct Reading {
     const char *path;
     const char *lobe;       /* file of a lobe to be taken before; may be NULL */

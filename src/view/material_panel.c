@@ -1,4 +1,4 @@
-/* What a material is made of: choices and inputs, from the catalogue's tables. */
+/* The panel of a material: choices and inputs, from the catalogue's tables. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -79,7 +79,7 @@ static const char *const words[][2] = {{"base_color", "colour"},
                                        {"layer_by", "rule goes by"},
                                        {"convert", "convert from"}};
 
-/* What is shown, and the name by which a script finds it: blanks between its words. */
+/* Makes the label, by which scripts find the control too: with blanks between its words. */
 static void label_of(const char *name, char label[96]) {
     char plain[48];
     const char *shown = plain;
@@ -198,7 +198,7 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
 
 /* ---- what else can be done with one ---- */
 
-/* What nothing wears says so. */
+/* Returns the name of a material, marked if nothing uses it. */
 static const char *material_name(const void *user, int k) {
     static char text[FACTS_NAME + 16];
     const Facts *facts = &((const Viewer *)user)->facts;

@@ -141,7 +141,7 @@ void menu_draw(Viewer *v) {
     ui_panel_end();
 }
 
-/* How many lines there are. */
+/* Returns the number of lines. */
 static int lines_of(const char *text) {
     int count = 0;
     for (; *text; text++) count += *text == '\n';

@@ -86,7 +86,7 @@ void opening_begin(Viewer *v) {
     opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
 }
 
-/* What a picture is for, by its name: "velvet_normal.png". */
+/* Guesses the input that an image is for by its name, such as "velvet_normal.png". */
 static int guess_input(const char *path) {
     static const char *const words[][2] = {{"normal", "normal"},     {"sheenrough", "sheen_roughness"},
                                            {"sheen", "sheen_color"}, {"rough", "roughness"},
@@ -136,7 +136,7 @@ void opening_home(Viewer *v, const float eye[3], const float target[3]) {
     v->reach = fmaxf(0.5f * v->reach, 1e-3f);
 }
 
-/* Where it is seen from; how large things are, until the renderer knows what is in the middle. */
+/* Sets the first camera, and the size of things until the renderer knows the centre of the picture. */
 static void start_seeing(Viewer *v, const Loaded *loaded) {
     if (!orbit_at(&v->orbit, loaded->scene, loaded->camera, viewer_aspect(v))) {
         viewer_say(v, true, "%.100s: %s", loaded->camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
@@ -146,7 +146,7 @@ static void start_seeing(Viewer *v, const Loaded *loaded) {
     opening_home(v, v->orbit.eye, v->orbit.target);
 }
 
-/* What was edited stays edited where the scene is read again; maps are those of the file. */
+/* Keeps the edits when the scene is read again; maps are those of the file. */
 static void keep_edits(const Viewer *v, SceneState *state) {
     for (int k = 0; k < state->material_count; k++) {
         if (scene_state_same_material(&v->state, &v->first, k)) continue;

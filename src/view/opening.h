@@ -26,7 +26,7 @@ void opening_take(Viewer *v, const RenderEvent *event);
 /* Materials were changed by a variant: coverage, of the state's materials, are taken over. */
 void opening_varied(Viewer *v, float **coverage);
 
-/* Where things are, and how large: half as far as they are looked at from. */
+/* Sets the centre of the scene, and its size: half the distance of the camera. */
 void opening_home(Viewer *v, const float eye[3], const float target[3]);
 
 /* Releases all that is of the scene. */

@@ -37,11 +37,11 @@ void orbit_fly(Orbit *orbit, float forward, float right, float up);
 /* Puts all of a box into a picture of that aspect, from where it is looked at now. */
 void orbit_frame(Orbit *orbit, const float low[3], const float high[3], float aspect);
 
-/* As `weft render --camera` takes it. */
+/* Writes the camera in the form of `weft render --camera`. */
 const char *orbit_text(const Orbit *orbit, char text[ORBIT_TEXT]);
 
-/* Where a point of the world is in a picture, coverage of its width and height from the top left; false where
- * it is behind the eye. */
+/* Projects a point of the world into a picture, as fractions of its width and height from the top left.
+ * Returns false if the point is behind the eye. */
 bool orbit_project(const Orbit *orbit, const float point[3], float aspect, float at[2]);
 
 /* The ray through a place of a picture: direction is unit. */

@@ -20,7 +20,7 @@ PathKind path_kind(const char *path);
 /* Returns true if the folder holds the first face of a cube map, posx or px. */
 bool path_is_cubemap(const char *folder);
 
-/* What follows the last slash. */
+/* Returns the part after the last slash. */
 const char *path_name(const char *path);
 
 /* The name without its suffix; what is not fit for a file becomes '-'. */

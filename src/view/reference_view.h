@@ -23,7 +23,7 @@ typedef struct ReferenceRequest {
     int samples;     /* a pixel, after which it rests */
 } ReferenceRequest;
 
-/* What there is to show: U8 RGBA. */
+/* A picture of the path tracer: U8 RGBA. */
 typedef struct ReferenceFrame {
     WeftImage image;
     unsigned number; /* of the renderer's request in whose place it is; 0: it is wanted for itself */

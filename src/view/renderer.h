@@ -16,14 +16,14 @@
 
 typedef struct Renderer Renderer;
 
-/* How two states share a picture. */
+/* The arrangement of two states in one picture. */
 typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
 
-/* How well a picture is drawn: while the hand moves one of fewer pixels may do, where a whole one takes long;
- * edges are smoothed last. */
+/* The quality of a picture: fewer pixels while the mouse moves if all would take long, then all pixels, then
+ * smooth edges. */
 typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
-/* What the window wants to see. Numbers that do not change the picture have no place here. */
+/* A request for a picture. It holds only values that change the picture. */
 typedef struct FrameRequest {
     unsigned scene;          /* that it is of: renderer_set_scene's number */
     int edited;              /* tasks are done to `state` (0) or to `other` (1) */
@@ -96,7 +96,7 @@ typedef struct RenderEvent {
     int index;
 } RenderEvent;
 
-/* What is told of the scene at hand. */
+/* The latest picture and its state. */
 typedef struct RenderedFrame {
     unsigned texture; /* 0: nothing yet */
     int width, height;

@@ -69,7 +69,8 @@ bool environment_state_same_source(const EnvironmentState *a, const EnvironmentS
 /* Shines from the source of another one; how it is turned and how strong it is stays. */
 void environment_state_take_source(EnvironmentState *environment, const EnvironmentState *from);
 
-/* Of a scene as it is; the environment apart, which a scene does not tell. False where memory is short. */
+/* Reads the state of a scene, without its environment, which a scene does not report. Returns false if
+ * memory is short. */
 bool scene_state_read(SceneState *state, const WeftScene *scene);
 bool scene_state_copy(SceneState *copy, const SceneState *state);
 void scene_state_free(SceneState *state);
@@ -99,7 +100,7 @@ bool scene_state_set_nap(SceneState *state, Nap *nap);
 void scene_state_take_naps(SceneState *state, const SceneState *from);
 void nap_free(Nap *nap);
 
-/* What of naps a scene has: the number of each one's texture. */
+/* The textures of naps in a scene. */
 typedef struct BoundNaps {
     int materials[STATE_NAPS], textures[STATE_NAPS];
     int count;
@@ -110,7 +111,7 @@ typedef struct BoundNaps {
  * somewhere between. */
 WeftResult scene_state_apply(const SceneState *state, const SceneState *is, BoundNaps *naps, WeftScene *scene,
                              unsigned *changed, WeftError *error);
-/* The same of the light from far away. Where its source cannot be had the scene is as it was. */
+/* Applies the environment likewise. If its source cannot be read the scene stays as it was. */
 WeftResult environment_state_apply(const EnvironmentState *environment, const EnvironmentState *is,
                                    WeftScene *scene, unsigned *changed, const WeftLog *log, WeftError *error);
 

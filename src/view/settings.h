@@ -16,7 +16,7 @@ typedef struct Settings {
     char folder[RECENT_PATH]; /* the browser's */
 } Settings;
 
-/* What it starts with. */
+/* Returns the settings of a first start. */
 Settings settings_default(void);
 
 /* From $XDG_CONFIG_HOME/weft/view.json, or ~/.config/weft/view.json; what is missing or makes no sense stays

@@ -17,7 +17,7 @@ static bool over_stage(const Viewer *v) {
            v->input.y < s->y + s->height;
 }
 
-/* Where the state that is edited is seen: half of the stage where two stand side by side. */
+/* Returns the box of the edited state: half of the stage if two stand side by side. */
 static UiBox seen_box(const Viewer *v) {
     UiBox box = v->stage;
     if (v->split != SPLIT_SIDES || v->mode != MODE_LIVE) return box;
@@ -31,7 +31,7 @@ static float seen_aspect(const Viewer *v) {
     return fmaxf(box.width, 1.0f) / fmaxf(box.height, 1.0f);
 }
 
-/* Where the mouse is on that picture, coverage of its sides. */
+/* Returns the mouse position on that picture, as fractions of its sides. */
 static void on_picture(const Viewer *v, float at[2]) {
     UiBox box = seen_box(v);
     at[0] = (v->input.x - box.x) / box.width;
@@ -106,7 +106,7 @@ static void ask(Viewer *v, TaskKind kind, unsigned why) {
     renderer_add_task(v->renderer, &task);
 }
 
-/* Where nothing leans yet the map says what does, and the number how far. */
+/* Gives a material without a nap an angle, so that the brushed map shows. */
 static void begin_nap(Viewer *v, int material) {
     WeftMaterial m = *scene_state_material(&v->state, material);
     int nap = input_number("nap");
@@ -116,7 +116,7 @@ static void begin_nap(Viewer *v, int material) {
     viewer_set_material(v, material, &m);
 }
 
-/* What has no nap takes no stroke, and stays as it is. */
+/* Returns true if the material has a nap to brush; otherwise explains what to do. */
 static bool takes_strokes(Viewer *v, int material) {
     if (weft_material_reads(scene_state_material(&v->state, material), input_number("nap"))) return true;
     viewer_say(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",

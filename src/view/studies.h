@@ -23,12 +23,13 @@ typedef struct Study {
     WeftImage pictures[STUDY_MOST];
 } Study;
 
-/* Of what a state is; what is under way is given up. */
+/* Starts a sheet of a state, and gives up one under way. */
 void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view,
                  const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp);
 void study_stop(Study *study);
 
-/* What the next picture is of, and how it is seen. False where memory is short; look is empty then. */
+/* Return the state and the view of the next picture. The first returns false, with an empty state, if
+ * memory is short. */
 bool study_state(const Study *study, SceneState *state);
 WeftRasterView study_view(const Study *study);
 void study_add(Study *study, WeftImage *linear); /* takes it over */

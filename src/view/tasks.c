@@ -1,4 +1,4 @@
-/* What is done once: files to write and to wear, questions about a pixel, a sheet of profiles. */
+/* Tasks, which are done once: files to write and to apply, queries of a pixel, a sheet of profiles. */
 #include <stdio.h>
 #include <string.h>
 
@@ -57,7 +57,7 @@ static WeftResult save(Renderer *self, const Task *task, const FrameRequest *req
     return weft_scene_save(self->scene, task->path, error);
 }
 
-/* What its materials have become, for the window to know. */
+/* Sends the new state of the materials to the window. */
 static WeftResult finish_assign(Renderer *self, WeftResult result, RenderEvent *event, WeftError *error) {
     const WeftLog log = renderer_log(self);
     if (result == WEFT_OK) {

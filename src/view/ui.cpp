@@ -79,7 +79,7 @@ void note(const char *label) {
     }
 }
 
-/* The same of what says all by its words: a heading, a line of a menu, a file. */
+/* Works as note, for a control whose label is all of its state: a heading, a line of a menu, a file. */
 void note_spoken(const char *label) {
     note(label);
     if (ui->noted) ui->shown.back().told = true;

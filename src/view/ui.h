@@ -25,7 +25,7 @@ typedef struct UiPress {
     bool control, shift, alt, again; /* again: it is held, and repeats */
 } UiPress;
 
-/* What the user does with mouse and keys, as it is now; wheel and typed since the last frame. */
+/* The state of mouse and keys; wheel and typed text since the last frame. */
 typedef struct UiInput {
     int width, height;       /* of the window */
     float seconds;           /* since the last frame */
@@ -84,7 +84,7 @@ void ui_panel_end(void);
 /* A window that floats, with a cross that sets *open false. */
 bool ui_window(const char *name, UiBox first, bool *open);
 void ui_window_end(void);
-/* What stands above all else until it is closed; open it once, then call every frame. */
+/* A dialog above all else until it is closed; open it once, then call it every frame. */
 void ui_dialog_open(const char *name);
 bool ui_dialog(const char *name, float width, float height);
 bool ui_escaped(void); /* Escape was pressed, and is not a text's */
@@ -126,7 +126,7 @@ void ui_wrapped(const char *text);
 void ui_dim(const char *text);
 void ui_warning(const char *text);
 
-/* What the widget before is about, shown when the mouse rests on it. NULL: nothing. */
+/* Shows help for the preceding widget when the mouse rests on it; NULL: none. */
 void ui_tip(const char *text);
 
 bool ui_button(const char *label);
@@ -180,7 +180,7 @@ void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, 
 
 /* A row of a plot over one number: the points and their colour. */
 
-/* What was shown in the last frame. */
+/* A control of the last frame. */
 typedef struct UiControl {
     char name[96];
     UiBox box;

@@ -7,7 +7,7 @@
 #include "view/scene_state.h"
 #include "weft/raster.h"
 
-/* What the window starts with. Texts must outlive it. */
+/* The window's initial content. Texts must outlive it. */
 typedef struct ViewDesc {
     const char *scene; /* NULL: the built-in cloth */
     const char

@@ -1,4 +1,4 @@
-/* How the scene is seen: camera, picture, comparison. */
+/* The panel of the view: camera, picture, comparison. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

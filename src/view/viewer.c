@@ -186,7 +186,7 @@ static void stop(Viewer *v) {
     if (v->has_pending) loaded_free(&v->pending);
 }
 
-/* How long nothing needs to be drawn: files are looked at now and then. */
+/* Returns how long the window may wait, s, before it looks at files again. */
 static double patience(const Viewer *v, int due) {
     bool flies = false;
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};

@@ -12,11 +12,11 @@
 #include "weft/measure.h"
 #include "weft/reflection.h"
 
-/* What the stage shows: OpenGL, the path tracer, or how they differ. */
+/* The content of the stage: OpenGL, the path tracer, or their difference. */
 typedef enum Mode { MODE_LIVE, MODE_REFERENCE, MODE_DIFFERENCE } Mode;
 typedef enum Tool { TOOL_ORBIT, TOOL_PROBE, TOOL_BRUSH } Tool;
 
-/* What of it is there to be seen. */
+/* The kind of picture that is shown. */
 typedef enum Shows { SHOWS_NOTHING, SHOWS_DRAWN, SHOWS_TRACED } Shows;
 
 enum { TRACE_SAMPLES = 1024, MESSAGE_SIZE = 512 };
@@ -150,7 +150,7 @@ void viewer_say(Viewer *v, bool grave, const char *format, ...) __attribute__((f
  * dresses it, a lobe is taken, a picture asks what it is for, a folder of maps is worn. */
 void viewer_open(Viewer *v, const char *path);
 
-/* What the user asks for by menu, key or replay. */
+/* Actions of menus, keys and replays. */
 void viewer_accept_state(
     Viewer *v); /* the state is as it is by undo or event: that is no change of its own */
 void viewer_undo(Viewer *v);
@@ -195,7 +195,7 @@ void viewer_upload(unsigned *texture, const WeftImage *image);
 /* stage.c: the picture, and what the mouse does on it */
 void stage_input(Viewer *v);
 void stage_draw(Viewer *v);
-/* What lies where the mouse was: the answer to a question of the stage. */
+/* Takes the surface point under the mouse, which the stage asked for. */
 void stage_picked(Viewer *v, const RenderEvent *event);
 
 /* panels, one file each */

@@ -7,7 +7,7 @@ uniform highp vec4 show_back;  /* light of what is behind it; w: the gain */
 uniform int show_curve;
 out highp vec4 shown;
 
-/* As in image/tonemap.c, for a pixel counted from the top left. */
+/* Dithers as image/tonemap.c does; pixels count from the top left. */
 float show_dither(ivec2 at) {
     uint turn = uint(at.x) * 0xc13fa9a9u + uint(at.y) * 0x91e10da5u;
     return (float(turn >> 24) + 0.5) / 256.0;

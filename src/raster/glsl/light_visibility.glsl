@@ -8,7 +8,7 @@ in highp vec4 vertex_open_back;
 in highp vec4 vertex_lights_0;
 in highp vec4 vertex_lights_1;
 
-/* Of the sky, by a texture, which is of the material's own bumps. */
+/* Visible fraction of the sky by the occlusion texture, which has the material's own bumps. */
 float texture_occlusion = 1.0;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }

@@ -3,9 +3,9 @@
 
 uniform highp sampler2DArrayShadow shadow_map;
 
-/* Where a point is in a map: x and y in [0, 1], depth as the map holds it, w the distance along the light's
- * axis; w is 0 outside. The point is moved out along its normal, further where light grazes, so that a surface
- * does not shade itself: Daniel Holbert, "Normal Offset Shadows", GDC 2011. */
+/* Returns the place of a point in a map: x and y in [0, 1], depth as the map holds it, w the distance along
+ * the light's axis; w is 0 outside. The point is moved out along its normal, further where light grazes, so
+ * that a surface does not shade itself: Daniel Holbert, "Normal Offset Shadows", GDC 2011. */
 vec4 shadow_place(int map, vec3 normal, float cosine, float most) {
     vec3 p = eye.xyz + from_eye - shadow_eye[map].xyz;
     float texel = shadow_eye[map].w;

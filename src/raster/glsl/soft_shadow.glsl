@@ -26,9 +26,9 @@ float quad_place() { return 0.0; }
 float quad_mean(float v) { return v; }
 #endif
 
-/* How the depth of the plane through a point p from the light, with normal n, changes over the map. There
- * 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at distance 1; and
- * depth is linear in 1 / w. */
+/* Returns how the depth of the plane through a point p from the light, with normal n, changes over the map.
+ * There 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at
+ * distance 1; and depth is linear in 1 / w. */
 vec2 shadow_slope(int map, vec3 p, vec3 n) {
     mat4 m = shadow_clip[map];
     float h2 = shadow_disc[map].y * shadow_disc[map].y, through = min(dot(n, p), -1e-3 * length(p));

@@ -40,7 +40,8 @@ STRUCT(FibreTableSpot) {
     float x, y;
 };
 
-/* Where in [0, 1] of the columns, which are uniform in the root of mu + 0.001, from the horizon on. */
+/* Returns the place in [0, 1] among the columns, which are uniform in the root of mu + 0.001, from the
+ * horizon on. */
 FN float fibre_table_column(float mu) { return (sqrt(mu + 1e-3f) - 0.0316227766f) * 1.03212265f; }
 
 /* The other way. */
@@ -74,7 +75,7 @@ FN float fibre_table_mixed(FibreTableSpot s, int plane) {
     return mix(a, b, s.y);
 }
 
-/* What one look-up brings. */
+/* The result of one look-up. */
 STRUCT(FibreTableSide) { float a, h, g, k; };
 
 FN FibreTableSide fibre_table_side(float alpha, float mu) {
@@ -93,7 +94,7 @@ FN float fibre_table_multiple(FibreTableSide o, FibreTableSide i, Dir wo, Dir wi
     return exp2(e - p * log2(wo.z + wi.z + 0.2f * alpha));
 }
 
-/* The same fibres as the other lobe has them, upright and of density 1. */
+/* The fibres of lobe `fibre`, upright and of density 1. */
 STRUCT(FibreTablePrepared) {
     FibreNap nap;
     FlakeUpright flake;

@@ -55,7 +55,8 @@ FN Dir threads_turn_back(Dir w, bool weft, float slope) {
     return dir(weft ? w.x : along, weft ? along : w.x, (w.z + slope * w.y) * r);
 }
 
-/* What w sees of the two slopes of a family, per unit of share; of all, which is never below w.z. */
+/* Return the projected area towards w: of the two slopes of a family, per unit of its area; and of all,
+ * which is never below w.z. */
 FN float threads_seen(float along, float z, float slope) { return 0.5f * max(z - slope * along, 0.0f); }
 FN float threads_all(Threads m, Dir w) {
     float warp = threads_seen(w.x, w.z, m.warp_crimp) + threads_seen(w.x, w.z, -m.warp_crimp);

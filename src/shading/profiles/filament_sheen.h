@@ -41,7 +41,7 @@ FN void filament_fuzz(Stack *m, float r, Rgb color, int layer) {
     m->sheen.f90 = m->sheen.f0;
 }
 
-/* What the highlight reflects, times f0 (1 / Ess - 1), is added to it: Ess towards wo, by the roughness. */
+/* Adds the highlight times f0 (1 / Ess - 1) to itself: Ess towards wo, by the roughness. */
 FN void filament_compensate(Stack *m, Rgb f0, int view, float roughness) {
     m->view = view;
     m->gloss = roughness;

@@ -47,9 +47,9 @@ STRUCT(Strip) {
     float density;
 };
 
-/* The same with u along the longer axis: the cap is cut across that axis, u tells the cut and v the place on
- * its arc, which is as long on a sphere wherever it is cut and on the cap between half as long and all of it.
- * So points that are even in u are even along a highlight that is drawn out. */
+/* Works as ggx_sample_h, with u along the longer axis: the cap is cut across that axis, u tells the cut and v
+ * the place on its arc, which is as long on a sphere wherever it is cut and on the cap between half as long
+ * and all of it. So points that are even in u are even along a highlight that is drawn out. */
 FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
     bool turned = ay > ax;
     float a = turned ? ay : ax, b = turned ? ax : ay, l = 1.0f / ggx_length(ax, ay, o);
