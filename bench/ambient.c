@@ -332,13 +332,13 @@ static void measure(void *user, int item, int thread) {
                                         maps[k].parts.env_light_count,
                                         maps[k].parts.env_light_kappa,
                                         baked->polynomials};
-            Rgb truth = reference(&maps[k], p, &m, draws, count);
+            Rgb expected = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);
                 double *sum = results[model][r][s][k];
-                sum[0] +=
-                    p->weight * (double)(abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b));
-                sum[1] += p->weight * (double)(truth.r + truth.g + truth.b);
+                sum[0] += p->weight * (double)(abs(got.r - expected.r) + abs(got.g - expected.g) +
+                                               abs(got.b - expected.b));
+                sum[1] += p->weight * (double)(expected.r + expected.g + expected.b);
             }
         }
     }

@@ -67,9 +67,9 @@ static WeftImage drawn(const WeftScene *scene, int rays) {
 }
 
 /* Of means over blocks, in which noise is small. */
-static void compare(const WeftImage *image, const WeftImage *truth, double *sum, double *apart) {
+static void compare(const WeftImage *image, const WeftImage *reference, double *sum, double *apart) {
     enum { BLOCK = 4 };
-    const float *p = image->pixels, *q = truth->pixels;
+    const float *p = image->pixels, *q = reference->pixels;
     double more = 0.0, off = 0.0, all = 0.0;
     for (int block = 0; block < WIDTH / BLOCK * (HEIGHT / BLOCK) * 3; block++) {
         int b = block / 3, x = b % (WIDTH / BLOCK) * BLOCK, y = b / (WIDTH / BLOCK) * BLOCK;
@@ -108,9 +108,9 @@ int main(int argc, char **argv) {
             if (only && strcmp(only, info->id) != 0) continue;
             for (int s = 0; s < 2; s++) {
                 WeftScene *scene = scene_of(scenes[s], maps[m], info->id);
-                WeftImage truth = traced(scene), image = drawn(scene, rays);
-                compare(&image, &truth, &sum[s], &apart[s]);
-                weft_image_free(&truth);
+                WeftImage reference = traced(scene), image = drawn(scene, rays);
+                compare(&image, &reference, &sum[s], &apart[s]);
+                weft_image_free(&reference);
                 weft_image_free(&image);
                 weft_scene_free(scene);
             }

@@ -55,7 +55,7 @@ WEFT_API WeftResult weft_albedo_n(const WeftLobe *lobe, size_t n, const float *c
 /* Lobes of one kind, each with numbers of its own. Arrays of n, each of which may be NULL: then `lobe` has
  * that number for all of them. A parameter that is a choice (WeftParamInfo.choices) is one for all. */
 typedef struct WeftLobes {
-    WeftLobe lobe; /* which lobe; and what no array says */
+    WeftLobe lobe; /* the lobe, and the values that no array gives */
     const float
         *params[WEFT_LOBE_PARAMS_MAX]; /* in the order of WeftLobeInfo.params; clamped as lobe's are */
     const float *f0[3], *f90[3];       /* colours, each channel */

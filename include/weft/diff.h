@@ -1,4 +1,4 @@
-/* diff.h - how different two pictures are: as one number, and pixel by pixel
+/* diff.h - difference of two images: as one number, and pixel by pixel
  *
  * Integer pixels are display-referred (sRGB), F32 pixels linear radiance. Where only one of the two is
  * linear, it is first shown as weft_image_tonemap shows it. Colours count times their alpha, which is the

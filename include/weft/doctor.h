@@ -1,4 +1,4 @@
-/* doctor.h - what will go wrong with a cloth asset, in which engine, and the asset with that repaired
+/* doctor.h - validation (lint) of a cloth asset: findings for each engine, and repairs
  *
  *   weft_doctor_open("chair.gltf", &doctor, NULL, &error);
  *   for (int k = 0; k < weft_doctor_count(doctor); k++) puts(weft_doctor_finding(doctor, k)->words);
@@ -98,7 +98,7 @@ typedef struct WeftFinding {
     WeftSeverity severity; /* of that kind */
     WeftFindingOf of;      /* where */
     int index;             /* in the list of that name in the file; 0 of the asset */
-    char subject[96];      /* its name; where the file gives none "materials[3]" */
+    char subject[96];      /* name of the object, or its place, such as "materials[3]", if it has none */
     unsigned engines;      /* bit k: weft_profile_id(k) is hurt; 0: whatever reads the file */
     char words[400];       /* what is wrong, with figures: a sentence without a full stop */
     char fix[280];         /* what to do */

@@ -58,10 +58,10 @@ WEFT_API const char *weft_export_lut(int lut);
  * material: then the text is that of a profile, for any numbers, and has the material's choices and numbers
  * for defaults. */
 typedef struct WeftExportDesc {
-    const WeftLobe *lobe;         /* its parameters are what ID_default returns */
+    const WeftLobe *lobe;         /* ID_default returns these parameters */
     const WeftLobe *right;        /* SHADERTOY: a second lobe, for the right half of the picture */
     const char *profile;          /* the id of an engine profile, or of a workflow */
-    const WeftMaterial *material; /* its numbers; what it has at 0 may not be in the text */
+    const WeftMaterial *material; /* the default inputs; a part at 0 may not be in the text */
     const char *name;             /* of the material, in names of the text; NULL: "material" */
     WeftExportTarget target;      /* what is written */
     WeftExportLut lut;            /* what tables are written as */
@@ -85,7 +85,7 @@ typedef struct WeftExportTable {
 typedef struct WeftExport {
     char *text;  /* owned; ends with a zero byte that size does not count */
     size_t size; /* bytes */
-    WeftExportTable tables[WEFT_EXPORT_TABLES_MAX]; /* that are not in the text itself */
+    WeftExportTable tables[WEFT_EXPORT_TABLES_MAX]; /* tables outside the text */
     int table_count;                                /* of these */
 } WeftExport;
 

@@ -61,7 +61,7 @@ typedef struct WeftFitted {
 
 /* Notes on a fit beside its error. */
 enum {
-    WEFT_FITTED_NOTHING = 1 << 0, /* its colours are 0: it is the base alone */
+    WEFT_FITTED_NOTHING = 1 << 0, /* the lobe's colours are 0: only the base is left */
     WEFT_FITTED_BRIGHT = 1 << 1,  /* a colour, of the base, f0 or f90, is above 1 */
     WEFT_FITTED_EDGE = 1 << 2     /* a number ends where its plausible range does */
 };

@@ -20,7 +20,7 @@ enum {
     WEFT_LOBE_RECIPROCAL = 1,   /* f(wo, wi) = f(wi, wo) */
     WEFT_LOBE_CONSERVES = 2,    /* E <= 1 */
     WEFT_LOBE_LOSSLESS = 4,     /* E = 1 when white */
-    WEFT_LOBE_TWO_COLORS = 8,   /* it mixes f0 and f90: from normal to grazing, or from yarn to yarn */
+    WEFT_LOBE_TWO_COLORS = 8,   /* f mixes f0 and f90: from normal to grazing, or from yarn to yarn */
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions turn about the normal */
     WEFT_LOBE_REFERENCE = 32,   /* f is an estimate, and its mean over near directions is meant */
     WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */

@@ -68,8 +68,8 @@ WEFT_API void weft_ltc_free(WeftLtc *ltc);
 typedef struct WeftLtcInfo {
     int rows, columns; /* of every channel */
     float low, high;   /* of the parameter, in the first and the last row */
-    int cached;        /* it was read from the cache */
-    double seconds;    /* that it took to make or to read */
+    int cached;        /* not 0 if read from the cache */
+    double seconds;    /* s, to make or to read */
     /* The error over the cells with E >= 1e-3, weighted equally, and the place of the largest. */
     float mean_error, worst_error, worst_cos_o, worst_value;
 } WeftLtcInfo;

@@ -45,7 +45,7 @@ WEFT_API const char *weft_brdf_metric_name(WeftBrdfMetric metric);
  * equal. Fails with WEFT_MESSAGE_DESC or _MEMORY; where `from` reflects nothing in that part the answer is 0
  * if `to` does so too, else 1. */
 WEFT_API WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
-                                       WeftBrdfMetric metric, double *apart, WeftError *error);
+                                       WeftBrdfMetric metric, double *distance, WeftError *error);
 
 /* The result of a search. */
 typedef struct WeftMatch {
@@ -101,7 +101,7 @@ typedef struct WeftAssetMatch {
     char name[64];   /* of the material, cut where it is long */
     int changed;     /* 0: it has no sheen, or is unlit, and stays as it is */
     int clipped;     /* not 0: a factor would have passed 1, where glTF ends */
-    int search;      /* which search it is of, counted from 1: equal averages share one; 0: none */
+    int search;      /* number of the search, counted from 1; equal averages share one; 0: none */
     WeftMatch found; /* the errors of copy and match */
     WeftMaterial copied, matched; /* under profile `to`: with the numbers as they were, and as they are now */
 } WeftAssetMatch;

@@ -1,4 +1,4 @@
-/* pick.h - what lies under a pixel
+/* pick.h - the surface under a pixel
  *
  * Shapes are those of when the picker was made, and none of lights; materials are read as they are. One
  * thread at a time, not beside calls that change the scene. */

@@ -107,13 +107,13 @@ enum { WEFT_PLOT_FIGURES_MAX = 6, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX 
 
 /* A place on the x axis with a name: the mirror direction, a view. */
 typedef struct WeftPlotMark {
-    char label[16]; /* its name */
+    char label[16]; /* the name shown beside the mark */
     float x;        /* where */
 } WeftPlotMark;
 
 /* One panel of a figure. */
 typedef struct WeftPlotPanel {
-    WeftPlotForm form;      /* which of the members below count */
+    WeftPlotForm form;      /* selects the members below that count */
     char title[192];        /* above it */
     WeftPlotAxis x, y, z;   /* z: of the values of a map or a surface */
     int series_count;       /* curves */

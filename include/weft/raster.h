@@ -173,12 +173,12 @@ WEFT_API void weft_raster_finish(WeftRaster *raster);
 
 /* The state of a raster. */
 typedef struct WeftRasterInfo {
-    const char *driver;     /* its own name for itself; lives as long as the raster */
+    const char *driver;     /* name of the driver; lives as long as the raster */
     int programs;           /* in use */
     int compiled;           /* shaders compiled since the start */
     int samplers;           /* the most that one program has */
     int samples;            /* a pixel, of the last picture */
-    double compile_seconds; /* that all of them took */
+    double compile_seconds; /* s, for all programs */
     int making; /* not 0: something is being made in the background (weft_raster_wait waits for it) */
     int made;   /* not 0: and the next picture has it */
     float camera_eye[3], camera_target[3], camera_fov; /* of the last picture, as in WeftRenderInfo */

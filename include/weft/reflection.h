@@ -1,4 +1,4 @@
-/* reflection.h - what reflects, behind one handle: a lobe, a material, or a measured BRDF
+/* reflection.h - a BRDF behind one handle: a lobe, a material, or a measurement
  *
  * Directions, f and E are those of lobe.h. A reflection is prepared once and then asked many times; it does
  * not change, so any number of threads may ask. */

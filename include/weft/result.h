@@ -1,4 +1,4 @@
-/* result.h - how every call of the library answers
+/* result.h - results, errors and warnings of all calls
  *
  * A call that can fail returns a WeftResult and takes a WeftError* (may be NULL) that it fills on failure.
  * Warnings go to a WeftLog. The library never prints and never exits. */

@@ -145,9 +145,10 @@ typedef enum WeftLightKind {
 
 /* A punctual light, that of KHR_lights_punctual (Khronos Group, 2018-2020) in radiometric units. */
 typedef struct WeftLight {
-    WeftLightKind kind; /* which of the members below count */
+    WeftLightKind kind; /* selects the members below that count */
     float position[3];  /* m; point, spot, middle of a polygon */
-    float direction[3]; /* that it travels, of any length but 0; directional, spot, polygon: its normal */
+    float direction
+        [3]; /* direction in which the light travels, of any length but 0; directional, spot; for a polygon its normal */
     float color[3]; /* >= 0: W/m^2 across the beam (directional), W/sr (point, spot), radiance (polygon) */
     float range;    /* m, where it ends; 0: nowhere */
     float inner, outer; /* spot: degrees from the axis, 0 <= inner <= outer <= 90; outer 0: 45 */

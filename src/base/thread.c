@@ -54,23 +54,23 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
     for (int t = 1; t <= started; t++) pthread_join(workers[t].handle, NULL);
 }
 
-typedef struct Apart {
+typedef struct ThreadCall {
     void (*body)(void *);
     void *user;
-} Apart;
+} ThreadCall;
 
-static void *do_apart(void *argument) {
-    const Apart *apart = argument;
-    apart->body(apart->user);
+static void *run_call(void *argument) {
+    const ThreadCall *call = argument;
+    call->body(call->user);
     return NULL;
 }
 
 void thread_step_back(void) { setpriority(PRIO_PROCESS, (id_t)gettid(), 10); } /* of the thread, in Linux */
 
 void run_in_thread(void (*body)(void *user), void *user) {
-    Apart apart = {body, user};
+    ThreadCall call = {body, user};
     pthread_t thread;
-    if (pthread_create(&thread, NULL, do_apart, &apart) == 0)
+    if (pthread_create(&thread, NULL, run_call, &call) == 0)
         pthread_join(thread, NULL);
     else
         body(user);

@@ -1,4 +1,4 @@
-/* bake.h - what making tables and auditing them share */
+/* bake.h - parts that baking and auditing share */
 #ifndef WEFT_CLI_BAKE_H
 #define WEFT_CLI_BAKE_H
 
@@ -9,7 +9,7 @@
 /* The options that both take. */
 typedef struct BakeCommon {
     WeftTableForm form;
-    bool formed; /* it was given */
+    bool formed; /* a form was given */
     double tolerance, scale;
     int threads;
     bool quiet;

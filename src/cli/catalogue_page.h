@@ -1,4 +1,4 @@
-/* catalogue_page.h - what the catalogue's own files say of an id: the comment that each begins with */
+/* catalogue_page.h - the opening comment of an id's file in the catalogue */
 #ifndef WEFT_CLI_CATALOGUE_PAGE_H
 #define WEFT_CLI_CATALOGUE_PAGE_H
 

@@ -33,7 +33,7 @@ char *command_text(const Options *options) {
 }
 
 /* Each is an option and its value: "--preset velvet". */
-char *command_dress_text(const Options *options) {
+char *command_assign_text(const Options *options) {
     static const char *const names[] = {"--variant", "--preset",  "--material", "--materials", "--workflow",
                                         "--profile", "--diffuse", "--sheen",    "--layer",     "--texture",
                                         "--set",     "--convert", "--light"};

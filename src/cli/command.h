@@ -9,6 +9,6 @@
 char *command_text(const Options *options);
 
 /* Returns the options given that assign materials and add lights, as they could be typed; else as above. */
-char *command_dress_text(const Options *options);
+char *command_assign_text(const Options *options);
 
 #endif

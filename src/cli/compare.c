@@ -13,15 +13,15 @@ enum { NOTE = 96, COLUMNS_MOST = 5, CAPTION = 512 };
 /* One picture and its two panels. */
 typedef struct Shot {
     Job job;
-    char label[DRESS_LABEL], samples[NOTE], title[NOTE + DRESS_LABEL], figures[NOTE];
+    char label[ASSIGN_LABEL], samples[NOTE], title[NOTE + ASSIGN_LABEL], figures[NOTE];
     WeftDifference difference; /* from the first */
     WeftImage picture;         /* of it */
 } Shot;
 
 typedef struct Comparison {
     const Request *request;
-    Shot shots[DRESS_VARIANTS_MOST];
-    int count;   /* that there are, after an interruption fewer than were asked for */
+    Shot shots[ASSIGN_VARIANTS_MOST];
+    int count;   /* images made; fewer than requested after an interruption */
     float scale; /* of all pictures of differences */
 } Comparison;
 
@@ -35,7 +35,7 @@ static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupt
         if (request->engine == ENGINE_BOTH)
             snprintf(shot->label, sizeof shot->label, "%s", k ? "raster" : "trace");
         else
-            dress_label(&request->staging.dress, k, shot->label);
+            assign_label(&request->scene_options.assignment, k, shot->label);
         shot->job.engine = request->engine == ENGINE_BOTH ? (Engine)k : request->engine;
         result = job_run(&shot->job, error);
         job_close(&shot->job);
@@ -80,18 +80,18 @@ static WeftResult measure(Comparison *all, WeftError *error) {
 
 /* Writes the differences between the images into the caption. */
 static void caption_of(const Request *request, char caption[CAPTION]) {
-    const Dress *dress = &request->staging.dress;
-    const char *by = request->engine == ENGINE_BOTH ? "engine" : dress->varied[0].name;
-    if (dress->varied_count > 1)
-        snprintf(caption, CAPTION, "%.200s, rows by %s, columns by %s", request->staging.scene, by,
-                 dress->varied[1].name);
+    const Assignments *assignment = &request->scene_options.assignment;
+    const char *by = request->engine == ENGINE_BOTH ? "engine" : assignment->varied[0].name;
+    if (assignment->varied_count > 1)
+        snprintf(caption, CAPTION, "%.200s, rows by %s, columns by %s", request->scene_options.scene, by,
+                 assignment->varied[1].name);
     else
-        snprintf(caption, CAPTION, "%.200s, by %s", request->staging.scene, by);
+        snprintf(caption, CAPTION, "%.200s, by %s", request->scene_options.scene, by);
 }
 
 /* Rows and columns of pictures alone. */
 static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
-    *columns = all->request->staging.dress.varied[1].count;
+    *columns = all->request->scene_options.assignment.varied[1].count;
     if (*columns > all->count) *columns = all->count;
     for (int k = 0; k < all->count; k++) {
         const Shot *shot = &all->shots[k];
@@ -120,8 +120,8 @@ static int place_bands(const Comparison *all, WeftPanel *panels, int *columns) {
 }
 
 static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *error) {
-    WeftPanel panels[2 * (DRESS_VARIANTS_MOST + COLUMNS_MOST)] = {0};
-    bool grid = all->request->staging.dress.varied_count > 1;
+    WeftPanel panels[2 * (ASSIGN_VARIANTS_MOST + COLUMNS_MOST)] = {0};
+    bool grid = all->request->scene_options.assignment.varied_count > 1;
     int columns, count = grid ? place_grid(all, panels, &columns) : place_bands(all, panels, &columns);
     char caption[CAPTION];
     caption_of(all->request, caption);
@@ -131,12 +131,12 @@ static WeftResult compose(const Comparison *all, WeftImage *sheet, WeftError *er
 
 /* Writes what sets picture k apart from the rest, by the names of what varies. */
 static void json_variant(Json *json, const Request *request, int k) {
-    const Dress *dress = &request->staging.dress;
-    char value[DRESS_LABEL];
+    const Assignments *assignment = &request->scene_options.assignment;
+    char value[ASSIGN_LABEL];
     if (request->engine == ENGINE_BOTH) json_text(json, "engine", k ? "raster" : "trace");
-    for (int v = 0; v < dress->varied_count; v++) {
-        dress_value(dress, v, k, value);
-        json_text(json, dress->varied[v].name, value);
+    for (int v = 0; v < assignment->varied_count; v++) {
+        assign_value(assignment, v, k, value);
+        json_text(json, assignment->varied[v].name, value);
     }
 }
 
@@ -186,7 +186,7 @@ int compare_run(const Request *request, Warnings *warnings) {
         if (option_given(request->options, "--json")) figures(all);
         if (interrupted) result = WEFT_INTERRUPTED;
     }
-    for (int k = 0; k < DRESS_VARIANTS_MOST; k++) {
+    for (int k = 0; k < ASSIGN_VARIANTS_MOST; k++) {
         job_free(&all->shots[k].job);
         weft_image_free(&all->shots[k].picture);
     }

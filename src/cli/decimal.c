@@ -59,7 +59,7 @@ static char *fraction_end(char *first, char *end) {
 /* Nine digits of value > 0, the first for 10^exponent; 0 where double precision leaves their rounding open.
  */
 static uint32_t nine_digits(double value, int *exponent) {
-    int power = (int)floor(0.30102999566398 * ilogb(value)); /* that of value or one less */
+    int power = (int)floor(0.30102999566398 * ilogb(value)); /* the decimal exponent of value, or one less */
     if (power < -2 * EXACT + 9 || power > 2 * EXACT + 8) return 0;
     int shift = 8 - power, far = abs(shift) > EXACT ? EXACT : abs(shift), rest = abs(shift) - far;
     double scaled =

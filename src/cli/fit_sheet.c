@@ -83,7 +83,7 @@ static float to_figure(float x) {
 }
 
 typedef struct Slices {
-    WeftImage linear[ROWS][COLUMNS], shown[ROWS][COLUMNS], apart[ROWS][COLUMNS];
+    WeftImage linear[ROWS][COLUMNS], shown[ROWS][COLUMNS], difference[ROWS][COLUMNS];
     float scale;  /* what is white */
     float differ; /* where the colours of differences end */
 } Slices;
@@ -102,7 +102,7 @@ static WeftResult draw_all(Slices *all, const Drawn *drawn, WeftError *error) {
                                         &all->shown[r][c], error);
             if (c > 0 && result == WEFT_OK)
                 result = weft_difference_image(&all->linear[r][c], &all->linear[r][0], all->differ,
-                                               &all->apart[r][c], error);
+                                               &all->difference[r][c], error);
         }
     }
     return result;
@@ -119,14 +119,14 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
     snprintf(names[2], sizeof names[2], "baseline ggx, error %.4f", fit->baseline.error);
     for (int r = 0; r < ROWS; r++) {
         snprintf(notes[r], sizeof notes[r], "phi_d %.0f\xc2\xb0", azimuths[r]);
-        WeftPanel *shown = panels + (ptrdiff_t)2 * r * COLUMNS, *apart = shown + COLUMNS;
+        WeftPanel *shown = panels + (ptrdiff_t)2 * r * COLUMNS, *difference = shown + COLUMNS;
         for (int c = 0; c < COLUMNS; c++)
             shown[c] = (WeftPanel){.image = &all->shown[r][c], .title = names[c], .note = notes[r]};
-        apart[0] = (WeftPanel){.scale = all->differ,
-                               .title = "difference from the data",
-                               .note = "of f cos, the channel that differs most"};
-        apart[1] = (WeftPanel){.image = &all->apart[r][1], .title = "fit \xe2\x88\x92 data"};
-        apart[2] = (WeftPanel){.image = &all->apart[r][2], .title = "baseline \xe2\x88\x92 data"};
+        difference[0] = (WeftPanel){.scale = all->differ,
+                                    .title = "difference from the data",
+                                    .note = "of f cos, the channel that differs most"};
+        difference[1] = (WeftPanel){.image = &all->difference[r][1], .title = "fit \xe2\x88\x92 data"};
+        difference[2] = (WeftPanel){.image = &all->difference[r][2], .title = "baseline \xe2\x88\x92 data"};
     }
     snprintf(caption, sizeof caption, "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0",
              path);
@@ -152,7 +152,7 @@ int fit_sheet_write(const char *path, const char *base, const WeftFit *fit, cons
         for (int c = 0; c < COLUMNS; c++) {
             weft_image_free(&all.linear[r][c]);
             weft_image_free(&all.shown[r][c]);
-            weft_image_free(&all.apart[r][c]);
+            weft_image_free(&all.difference[r][c]);
         }
     for (int c = 0; c < COLUMNS; c++) weft_reflection_free(of[c]);
     return result == WEFT_OK ? 0 : report_error(&error);

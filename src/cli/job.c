@@ -44,8 +44,9 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     const Request *request = job->request;
     int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
     const WeftLog log = {.fn = warn, .user = job->warnings};
-    WeftResult result = weft_scene_load(request->staging.scene, scene, &log, error);
-    if (result == WEFT_OK) result = staging_apply(&request->staging, picture, *scene, &log, error);
+    WeftResult result = weft_scene_load(request->scene_options.scene, scene, &log, error);
+    if (result == WEFT_OK)
+        result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
     return result;
 }
 
@@ -76,7 +77,7 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
 /* A built-in scene has a camera that shows it best. */
 static const char *camera_of(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
-    bool builtin = strncmp(job->request->staging.scene, "builtin:", 8) == 0;
+    bool builtin = strncmp(job->request->scene_options.scene, "builtin:", 8) == 0;
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 
@@ -170,14 +171,14 @@ static void lay_behind(WeftImage *linear, const float color[3]) {
 /* Makes the picture as displayed; a colour is laid behind what is displayed, where neither curve nor exposure
  * changes it, and behind what is linear. */
 static WeftResult finish(Job *job, WeftError *error) {
-    const Staging *staging = &job->request->staging;
-    bool color = staging->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
-    WeftTonemap curve = (WeftTonemap)staging->tonemap;
-    float exposure = (float)staging->exposure;
+    const SceneOptions *scene_options = &job->request->scene_options;
+    bool color = scene_options->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
+    WeftTonemap curve = (WeftTonemap)scene_options->tonemap;
+    float exposure = (float)scene_options->exposure;
     if (!color) return weft_image_tonemap(&job->linear, curve, exposure, &job->display, error);
-    WeftResult result = weft_image_tonemap_over(&job->linear, curve, exposure, staging->background_color,
-                                                &job->display, error);
-    lay_behind(&job->linear, staging->background_color);
+    WeftResult result = weft_image_tonemap_over(&job->linear, curve, exposure,
+                                                scene_options->background_color, &job->display, error);
+    lay_behind(&job->linear, scene_options->background_color);
     return result;
 }
 
@@ -222,7 +223,7 @@ void job_json(const Job *job, Json *json) {
     const Request *request = job->request;
     const WeftRenderInfo *info = &job->info;
     int cursor = 0;
-    json_text(json, "scene", request->staging.scene);
+    json_text(json, "scene", request->scene_options.scene);
     json_text(json, "engine", job->engine == ENGINE_RASTER ? "raster" : "trace");
     if (job->engine == ENGINE_RASTER) json_text(json, "driver", job->driver);
     json_whole(json, "triangles", job->triangles);

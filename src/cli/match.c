@@ -202,7 +202,7 @@ static int pair_run(Match *match) {
 
 /* A mode of the verb: its number of operands and the options that it takes. */
 typedef struct MatchMode {
-    const char *option; /* that asks for it; NULL: none does */
+    const char *option; /* the option that selects this mode; NULL: none */
     int operands;
     const char *needs;
     const char *with[5]; /* beside --json and --metric */

@@ -1,5 +1,5 @@
-/* match_maps.c - what number one lobe wants where another has its own: matched over a sweep, and as a formula
- * where that is good enough */
+/* match_maps.c - the parameter of one lobe as a function of another's: matched over a sweep, and as a formula
+ * if that is good enough */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,16 +96,16 @@ static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric,
         WeftLobe lobe = job_of(maps, from, to, k)->lobe;
         WeftReflection *said;
         WeftError error;
-        double apart = 1.0;
+        double distance = 1.0;
         lobe.params[0] = (float)(out->a * pow(x[k], out->b));
         for (int c = 0; c < 3; c++)
             lobe.f0[c] = (float)((double)maps->source[from][k].f0[c] * out->c * pow(x[k], out->d));
         WeftResult result = weft_reflection_of_lobe(&lobe, &said, &error);
         if (result == WEFT_OK)
-            result = weft_brdf_distance(said, maps->from[from][k], WEFT_PART_ALL, metric, &apart, &error);
+            result = weft_brdf_distance(said, maps->from[from][k], WEFT_PART_ALL, metric, &distance, &error);
         weft_reflection_free(said);
         if (result != WEFT_OK) return report_error(&error);
-        out->worst = fmax(out->worst, apart - job_of(maps, from, to, k)->found.matched);
+        out->worst = fmax(out->worst, distance - job_of(maps, from, to, k)->found.matched);
     }
     return 0;
 }

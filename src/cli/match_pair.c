@@ -1,4 +1,4 @@
-/* match_pair.c - from one model to another: what is copied, what stays, what is searched */
+/* match_pair.c - one model matched to another: inputs copied, kept and searched */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* match_sheet.c - from, copy and match as spheres, and how far the last two are from the first */
+/* match_sheet.c - a sheet of spheres: original, copy and match, with the differences of the last two from
+ * the first */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,7 +9,7 @@
 enum { SIZE = 300, PICTURES = 3 };
 
 typedef struct Pictures {
-    WeftImage linear[PICTURES], shown[PICTURES], apart[PICTURES];
+    WeftImage linear[PICTURES], shown[PICTURES], difference[PICTURES];
     WeftDifference difference[PICTURES];
     float scale; /* of all pictures of differences */
 } Pictures;
@@ -36,7 +37,8 @@ static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
     }
     all->scale = round_up(fmaxf(all->difference[1].high, all->difference[2].high));
     for (int k = 1; k < PICTURES && result == WEFT_OK; k++)
-        result = weft_difference_image(&all->linear[k], &all->linear[0], all->scale, &all->apart[k], error);
+        result =
+            weft_difference_image(&all->linear[k], &all->linear[0], all->scale, &all->difference[k], error);
     return result;
 }
 
@@ -45,15 +47,15 @@ static WeftResult compose(const Pictures *all, const Match *match, WeftImage *sh
     const char *titles[PICTURES] = {match->from.words, "numbers copied", "matched"};
     const char *differences[PICTURES] = {"difference", "copied \xe2\x88\x92 original",
                                          "matched \xe2\x88\x92 original"};
-    const double apart[PICTURES] = {0.0, match->found.copied, match->found.matched};
+    const double difference[PICTURES] = {0.0, match->found.copied, match->found.matched};
     WeftPanel panels[2 * PICTURES] = {{0}};
     for (int k = 0; k < PICTURES; k++) {
-        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_brdf_metric_name(match->metric), apart[k]);
+        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_brdf_metric_name(match->metric), difference[k]);
         snprintf(figures[k], sizeof figures[k], "mean %.4f   relMSE %.4f", all->difference[k].mean,
                  all->difference[k].relmse);
         panels[k] = (WeftPanel){.image = &all->shown[k], .title = titles[k], .note = k ? notes[k] : NULL};
         panels[PICTURES + k] =
-            k ? (WeftPanel){.image = &all->apart[k], .title = differences[k], .note = figures[k]}
+            k ? (WeftPanel){.image = &all->difference[k], .title = differences[k], .note = figures[k]}
               : (WeftPanel){.scale = all->scale,
                             .title = differences[k],
                             .note = "of linear radiance, the channel that differs most"};
@@ -74,7 +76,7 @@ int match_sheet_write(const Match *match, const char *path) {
     for (int k = 0; k < PICTURES; k++) {
         weft_image_free(&all.linear[k]);
         weft_image_free(&all.shown[k]);
-        weft_image_free(&all.apart[k]);
+        weft_image_free(&all.difference[k]);
     }
     weft_image_free(&sheet);
     return result == WEFT_OK ? 0 : report_error(&error);

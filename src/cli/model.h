@@ -54,7 +54,7 @@ int model_parse_bare(const char *typed, Model *out);
 /* Makes the reflection of what was parsed, or again after its numbers were changed. */
 int model_prepare(Model *model);
 
-/* Says on standard error where it takes another number than it was given. */
+/* Says on standard error where it replaces a number by the nearest valid one. */
 void model_warn(const Model *model);
 
 /* Returns true if the model has a material, as profiles and workflows do. */

@@ -1,5 +1,5 @@
-/* options.h - what follows a verb on the command line: one table a verb, from which parsing, checks, help and
- * docs/cli.md come
+/* options.h - the arguments of a verb: one table a verb, from which parsing, checks, help and docs/cli.md
+ * come
  *
  * "--name value" and "--name=value" are the same; "--" ends the options; "-" alone is an operand. */
 #ifndef WEFT_CLI_OPTIONS_H

@@ -22,7 +22,7 @@ const Option request_options[] = {
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
 
-    STAGING_OPTIONS,
+    SCENE_OPTIONS,
 
     OPTION_HEADING("Several pictures"),
     OPTION_NUMBER("--turntable", "COUNT", NULL, 1, 10000,
@@ -110,9 +110,9 @@ static bool read_engine(const Options *options, Request *request) {
         report(WEFT_USAGE, "--part: needs --engine raster, the path tracer has no parts");
         return false;
     }
-    if (good && request->engine == ENGINE_BOTH && request->staging.dress.count > 1) {
+    if (good && request->engine == ENGINE_BOTH && request->scene_options.assignment.count > 1) {
         report(WEFT_USAGE, "--engine both: %s has several values already; one option may",
-               request->staging.dress.varied[0].option);
+               request->scene_options.assignment.varied[0].option);
         return false;
     }
     if (good && request->turntable && request_count(request) > 1) {
@@ -123,7 +123,7 @@ static bool read_engine(const Options *options, Request *request) {
 }
 
 int request_count(const Request *request) {
-    return request->engine == ENGINE_BOTH ? 2 : request->staging.dress.count;
+    return request->engine == ENGINE_BOTH ? 2 : request->scene_options.assignment.count;
 }
 
 static bool read_desc(const Options *options, WeftRenderDesc *desc) {
@@ -143,14 +143,14 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
 bool request_read(const Options *options, Request *request) {
     *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
     bool good = read_desc(options, &request->desc) &&
-                staging_read(options, options->operands[0], &request->staging) &&
+                scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request);
-    request->desc.camera = request->staging.camera;
-    bool laid_behind = request->staging.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
-    request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->staging.background;
-    request->desc.floor = request->staging.floor;
-    request->desc.hide_lights = request->staging.hide_lights;
+    request->desc.camera = request->scene_options.camera;
+    bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
+    request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
+    request->desc.floor = request->scene_options.floor;
+    request->desc.hide_lights = request->scene_options.hide_lights;
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;
 }

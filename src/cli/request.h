@@ -1,8 +1,8 @@
-/* request.h - what a `weft render` command line asks for */
+/* request.h - the command line of `weft render`, checked */
 #ifndef WEFT_CLI_REQUEST_H
 #define WEFT_CLI_REQUEST_H
 
-#include "staging.h"
+#include "scene_options.h"
 #include "weft/raster.h"
 
 enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
@@ -14,7 +14,7 @@ typedef enum Engine { ENGINE_TRACE, ENGINE_RASTER, ENGINE_BOTH } Engine;
 /* The request of the command line, checked. */
 typedef struct Request {
     const Options *options;
-    Staging staging;
+    SceneOptions scene_options;
     WeftRenderDesc desc;
     int spp; /* 0: until the time is up */
     double time_limit;

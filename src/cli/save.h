@@ -1,4 +1,4 @@
-/* save.h - what --save writes of a scene: all of it as glTF, or one material as JSON */
+/* save.h - option --save: a scene as glTF, or one material as JSON */
 #ifndef WEFT_CLI_SAVE_H
 #define WEFT_CLI_SAVE_H
 

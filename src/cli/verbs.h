@@ -1,4 +1,4 @@
-/* verbs.h - what the program can do: one table and one file a verb */
+/* verbs.h - the commands of the program: one table and one file each */
 #ifndef WEFT_CLI_VERBS_H
 #define WEFT_CLI_VERBS_H
 

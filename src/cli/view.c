@@ -9,7 +9,7 @@
 
 #include "command.h"
 #include "report.h"
-#include "staging.h"
+#include "scene_options.h"
 #include "verbs.h"
 
 static const Option view_options[] = {
@@ -23,7 +23,7 @@ static const Option view_options[] = {
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
-    STAGING_OPTIONS,
+    SCENE_OPTIONS,
 
     OPTION_HEADING("Automation"),
     OPTION_TEXT("--script", "FILE", NULL, "do what FILE says, as if by hand: docs/view.md has its words"),
@@ -36,21 +36,21 @@ static const Option view_options[] = {
     OPTION_END,
 };
 
-static WeftResult dress_scene(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
-                              WeftError *error) {
-    const Staging *staging = user;
-    environment->rotation = (float)staging->env_rotation;
-    environment->strength = (float)staging->env_strength;
-    environment->ambient = (float)staging->env_ambient;
-    environment->reflection = (float)staging->env_reflection;
-    if (staging->env_is_color) {
+static WeftResult configure_scene(void *user, WeftScene *scene, EnvironmentState *environment,
+                                  const WeftLog *log, WeftError *error) {
+    const SceneOptions *scene_options = user;
+    environment->rotation = (float)scene_options->env_rotation;
+    environment->strength = (float)scene_options->env_strength;
+    environment->ambient = (float)scene_options->env_ambient;
+    environment->reflection = (float)scene_options->env_reflection;
+    if (scene_options->env_is_color) {
         environment->kind = ENVIRONMENT_COLOR;
-        memcpy(environment->color, staging->env_color, sizeof environment->color);
-    } else if (staging->env && strlen(staging->env) < sizeof environment->path) {
+        memcpy(environment->color, scene_options->env_color, sizeof environment->color);
+    } else if (scene_options->env && strlen(scene_options->env) < sizeof environment->path) {
         environment->kind = ENVIRONMENT_FILE;
-        snprintf(environment->path, sizeof environment->path, "%s", staging->env);
+        snprintf(environment->path, sizeof environment->path, "%s", scene_options->env);
     }
-    return staging_apply(staging, 0, scene, log, error);
+    return scene_options_apply(scene_options, 0, scene, log, error);
 }
 
 /* A folder of maps beside the program, or where it was started, is worn by itself. */
@@ -76,24 +76,24 @@ static bool read_sizes(const Options *options, ViewDesc *desc) {
 }
 
 static int view_verb_run(const Options *options) {
-    Staging staging;
+    SceneOptions scene_options;
     ViewDesc desc = {.scene = options->operand_count ? options->operands[0] : NULL};
     char why[512], beside[4096];
-    if (!staging_read(options, desc.scene ? desc.scene : "builtin:cloth", &staging) ||
+    if (!scene_options_read(options, desc.scene ? desc.scene : "builtin:cloth", &scene_options) ||
         !read_sizes(options, &desc))
         return WEFT_USAGE;
-    if (staging.dress.count > 1)
+    if (scene_options.assignment.count > 1)
         return report(WEFT_USAGE, "%s: the window shows one picture: give one value",
-                      staging.dress.varied[0].option);
-    desc.configure = dress_scene;
-    desc.user = &staging;
-    desc.camera = staging.camera;
-    desc.background = staging.background;
-    memcpy(desc.background_color, staging.background_color, sizeof desc.background_color);
-    desc.floor = staging.floor;
-    desc.hide_lights = staging.hide_lights;
-    desc.tonemap = (WeftTonemap)staging.tonemap;
-    desc.exposure = (float)staging.exposure;
+                      scene_options.assignment.varied[0].option);
+    desc.configure = configure_scene;
+    desc.user = &scene_options;
+    desc.camera = scene_options.camera;
+    desc.background = scene_options.background;
+    memcpy(desc.background_color, scene_options.background_color, sizeof desc.background_color);
+    desc.floor = scene_options.floor;
+    desc.hide_lights = scene_options.hide_lights;
+    desc.tonemap = (WeftTonemap)scene_options.tonemap;
+    desc.exposure = (float)scene_options.exposure;
     desc.shader_dir = option_text(options, "--shader-dir");
     if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
     desc.lobes = lobes_taken();
@@ -101,7 +101,7 @@ static int view_verb_run(const Options *options) {
     desc.unseen = option_given(options, "--windowless");
     desc.forget = option_given(options, "--forget");
     desc.report = option_given(options, "--json");
-    char *configured = command_dress_text(options);
+    char *configured = command_assign_text(options);
     desc.options = configured;
     int code = view_run(&desc, why);
     free(configured);

@@ -1,4 +1,4 @@
-/* ball.c - what makes a Shadertoy of a model: a lit ball, or one beside the other where there are two lobes
+/* ball.c - the rest of a Shadertoy: a lit ball for one model, or two halves for two lobes
  *
  * The picture is made by weft and not taken from anywhere. A light stands where the mouse says and a second,
  * faint one behind the ball shows the rim; both are distant. Tone: sRGB of the radiance, clamped. */

@@ -96,7 +96,7 @@ static void put_guard(const Draft *draft, bool open, Buffer *out) {
 
 static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
     const Items *texts[WEFT_EXPORT_MODELS_MAX];
-    const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* its place is taken */
+    const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* the name table_fetch, which is replaced */
     for (int d = 0; d < count; d++) {
         texts[d] = &drafts[d].items;
         for (int k = 0; k < drafts[d].items.count; k++)
@@ -163,7 +163,7 @@ WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *o
     for (int k = 0; k < count; k++) draft_free(&drafts[k]);
     free(drafts);
     if (result == WEFT_OK) {
-        out->text = text.bytes; /* which free() releases, as all of a buffer */
+        out->text = text.bytes; /* free() releases it, as the whole buffer */
         out->size = text.size;
         text.bytes = NULL;
     } else {

@@ -25,7 +25,8 @@ typedef struct ExportModel {
     Choices choices;
     bool zero[INPUT_COUNT]; /* inputs that the material has at nothing */
     Stack stack;            /* what its choices come to */
-    bool one_layer, chosen; /* its rule is the same for all surfaces; a choice is made beside its profile */
+    bool one_layer,
+        chosen; /* one_layer: the rule is equal for all surfaces; chosen: a choice is made beside the profile */
     CompositionSlots slots;
     AlbedoTable *table; /* of its sheen, NULL: none is asked for */
 } ExportModel;

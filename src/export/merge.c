@@ -37,10 +37,10 @@ static bool part(Draft *a, Draft *b) {
     for (int k = 0; k < a->items.count; k++) {
         Item *item = &a->items.all[k], *other = item->kept ? find_kept(b, item->name) : NULL;
         if (!other || (item->own && other->own)) continue;
-        bool apart = item->own || other->own || !same_code(item, other) ||
-                     any_named(&a->items, item, is_own) || any_named(&b->items, other, is_own);
-        item->own = other->own = apart;
-        any |= apart;
+        bool differs = item->own || other->own || !same_code(item, other) ||
+                       any_named(&a->items, item, is_own) || any_named(&b->items, other, is_own);
+        item->own = other->own = differs;
+        any |= differs;
     }
     return any;
 }

@@ -1,4 +1,4 @@
-/* slab.h - what a slab of fibres reflects: fibres along the normal, solved without noise
+/* slab.h - reflection of a slab of fibres along the normal, solved without noise
  *
  * A medium of SGGX flakes around fibres that stand upright (Eric Heitz, Jonathan Dupuy, Cyril Crassin,
  * Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM Transactions on Graphics 34(4), 2015), as
@@ -11,7 +11,7 @@
  *   f = (1 / 2 pi) sum_m (2 - [m = 0]) r_m(mu_i, mu_o) cos(m phi).
  *
  * Each r_m is a problem in mu alone, solved by doubling.h. Angles phi are between the azimuths of wo and wi.
- */
+ * / */
 #ifndef WEFT_FIBRE_SLAB_H
 #define WEFT_FIBRE_SLAB_H
 

@@ -144,7 +144,7 @@ typedef struct Asset {
     Span text;   /* what root was read from */
     Span bin;    /* BIN chunk of a GLB */
     Span behind; /* the chunks of a GLB that nobody knows, with their headers */
-    bool packed; /* it is a GLB */
+    bool packed; /* true for a GLB */
 
     FileTable buffer_files, image_files;
 

@@ -1,4 +1,4 @@
-/* extent.h - how much memory an encoded image will take, from its header alone */
+/* extent.h - memory of a decoded image, from its header alone */
 #ifndef WEFT_GLTF_EXTENT_H
 #define WEFT_GLTF_EXTENT_H
 

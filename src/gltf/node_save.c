@@ -119,7 +119,7 @@ static void node_append(Saving *saving, json_t *node) {
 }
 
 static void mesh_save(Saving *saving, const Mesh *mesh) {
-    if (!mesh->triangle_count || !mesh->vertex_count) return; /* which glTF cannot say */
+    if (!mesh->triangle_count || !mesh->vertex_count) return; /* glTF cannot express an empty mesh */
     json_t *list = saving_list(saving, "meshes"), *object = json_object(), *primitives = json_array(),
            *primitive = json_object(), *node = json_object();
     saving_put(saving, primitive, "attributes", attributes_save(saving, mesh));
@@ -181,7 +181,7 @@ static json_t *light_object(Saving *saving, const Light *light) {
 }
 
 static void light_save(Saving *saving, const Light *light, json_t *list) {
-    if ((int)light->kind > (int)LIGHT_SPOT) return; /* its mesh shines for it */
+    if ((int)light->kind > (int)LIGHT_SPOT) return; /* a polygon light is saved as an emissive mesh */
     json_t *node = json_object(), *extension = json_object();
     saving_put(saving, extension, "light", json_integer((json_int_t)json_array_size(list)));
     saving_append(saving, list, light_object(saving, light));

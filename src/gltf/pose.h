@@ -1,4 +1,4 @@
-/* pose.h - where vertices stand at rest: node transforms, skins and the default weights of morph targets */
+/* pose.h - vertices in the rest pose: node transforms, skins and the default weights of morph targets */
 #ifndef WEFT_GLTF_POSE_H
 #define WEFT_GLTF_POSE_H
 

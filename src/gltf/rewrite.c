@@ -117,7 +117,7 @@ static void bin_unpack(Saving *saving) {
 }
 
 /* Buffer 0 is as long as what was put behind it made it. */
-static void length_settle(Saving *saving, size_t before) {
+static void length_update(Saving *saving, size_t before) {
     if (!saving->packed || saving->size == before) return;
     json_t *buffers = saving_list(saving, "buffers"), *first = json_array_get(buffers, 0);
     if (!first) saving_append(saving, buffers, json_object());
@@ -159,7 +159,7 @@ WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *err
     if (!packed && saving.size) bin_unpack(&saving);
     for (int k = 0; k < rewrite->image_count && saving.result == WEFT_OK; k++)
         image_put(&saving, &rewrite->images[k]);
-    length_settle(&saving, before);
+    length_update(&saving, before);
     bundle_copy(&saving, asset);
     if (saving.result == WEFT_OK) document_write(&saving, asset);
     json_decref(saving.root);

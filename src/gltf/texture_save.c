@@ -21,25 +21,25 @@ static void number_texture(Saving *saving, const Input *input) {
 static bool number_all(Saving *saving) {
     const WeftScene *scene = saving->scene;
     size_t textures = (size_t)scene->texture_count, images = (size_t)scene->image_count;
-    bool *worn = arena_array(&saving->arena, (size_t)scene->material_count, sizeof *worn);
+    bool *used = arena_array(&saving->arena, (size_t)scene->material_count, sizeof *used);
     saving->texture_order = arena_array(&saving->arena, textures, sizeof(int));
     saving->texture_number = arena_array(&saving->arena, textures, sizeof(int));
     saving->image_order = arena_array(&saving->arena, images, sizeof(int));
     saving->image_number = arena_array(&saving->arena, images, sizeof(int));
-    if (!worn || !saving->texture_order || !saving->texture_number || !saving->image_order ||
+    if (!used || !saving->texture_order || !saving->texture_number || !saving->image_order ||
         !saving->image_number)
         return false;
     for (size_t k = 0; k < textures; k++) saving->texture_number[k] = -1;
     for (size_t k = 0; k < images; k++) saving->image_number[k] = -1;
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
-        worn[mesh->material] = true;
+        used[mesh->material] = true;
         for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
-            if (mesh->variant_material[v] >= 0) worn[mesh->variant_material[v]] = true;
+            if (mesh->variant_material[v] >= 0) used[mesh->variant_material[v]] = true;
     }
     for (int idle = 0; idle < 2; idle++) /* what nobody wears comes last */
         for (int m = 0; m < scene->material_count; m++)
-            for (int k = 0; k < INPUT_COUNT && worn[m] == !idle; k++)
+            for (int k = 0; k < INPUT_COUNT && used[m] == !idle; k++)
                 number_texture(saving, &scene->materials[m].inputs[k]);
     return true;
 }

@@ -1,4 +1,4 @@
-/* uri.h - where buffers and images lie: in the URI itself or in a file beside the asset
+/* uri.h - URIs of buffers and images: data in the URI itself, or a file beside the asset
  *
  * Accepted: "data:...;base64,..." and relative references with percent-encoding whose path stays in the
  * asset's folder or below it. Refused with GLTF_URI: every other scheme, absolute paths, `..` that leads out,

@@ -30,7 +30,7 @@ static inline uint16_t half_bits(float x) {
     uint32_t bits, sign;
     float value = fminf(fabsf(x), 65504.0f);
     memcpy(&sign, &x, sizeof sign);
-    value *= 0x1p-112f; /* its exponent is where a half's is read from; subnormal where the half is */
+    value *= 0x1p-112f; /* the exponent is now where a half's is read from; subnormal if the half is */
     memcpy(&bits, &value, sizeof bits);
     bits += 0xfffu + (bits >> 13 & 1u);
     return (uint16_t)((sign >> 16 & 0x8000u) | bits >> 13);

@@ -196,7 +196,7 @@ static void rgbe_pack(const float *rgb, unsigned char rgbe[4]) {
     memset(rgbe, 0, 4);
     if (largest < 1e-32) return;
     int exponent;
-    if (frexp(largest, &exponent) * 256.0 >= 255.5) exponent++; /* its mantissa would round to 256 */
+    if (frexp(largest, &exponent) * 256.0 >= 255.5) exponent++; /* the mantissa would round to 256 */
     for (int c = 0; c < 3; c++) rgbe[c] = (unsigned char)(ldexp(value[c], 8 - exponent) + 0.5);
     rgbe[3] = (unsigned char)(exponent + 128);
 }

@@ -82,8 +82,9 @@ static void map_row(void *user, int row, int thread) {
     float *to = ssim->map + (size_t)row * (size_t)width;
 #pragma omp simd
     for (int k = 0; k < width; k++) {
-        const float squares = x[k] * x[k] + y[k] * y[k], apart = (x[k] - y[k]) * (x[k] - y[k]);
-        to[k] = (1.0f - apart / (squares + c1)) * (1.0f - (off[k] - apart) / (sum[k] - squares + c2));
+        const float squares = x[k] * x[k] + y[k] * y[k], squared_error = (x[k] - y[k]) * (x[k] - y[k]);
+        to[k] = (1.0f - squared_error / (squares + c1)) *
+                (1.0f - (off[k] - squared_error) / (sum[k] - squares + c2));
     }
 }
 

@@ -1,4 +1,4 @@
-/* bake_texels.h - what the kinds of baked tables share: one file a kind, and the loop over texels
+/* bake_texels.h - parts of all kinds of baked tables: one file a kind, and the loop over texels
  *
  * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
 #ifndef WEFT_MEASURE_BAKE_TEXELS_H

@@ -42,7 +42,7 @@ Lobe bsdf_lobe(const Bsdf *bsdf, int setting) {
     return lobe;
 }
 
-static void lobe_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
+static void lobe_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
     view->lobe = bsdf_lobe(bsdf, setting);
@@ -103,7 +103,7 @@ void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick) {
     *bsdf = (Bsdf){.lobe = *lobe,
                    .albedo = 1.0f,
                    .parameter = "",
-                   .look = lobe_look,
+                   .prepare = lobe_prepare,
                    .f = lobe_f,
                    .pdf = lobe_density,
                    .sample = lobe_draw};
@@ -165,7 +165,7 @@ static Surface extreme_velvet(int k) {
     return s;
 }
 
-static void whole_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
+static void whole_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
     seen_make(&view->whole, &bsdf->surfaces[setting], &bsdf->choices,
@@ -236,7 +236,7 @@ static bool fill_tables(Bsdf *bsdf, int threads) {
 bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     *bsdf = (Bsdf){.whole = true,
                    .parameter = "sheen_roughness",
-                   .look = whole_look,
+                   .prepare = whole_prepare,
                    .f = whole_f,
                    .pdf = whole_pdf,
                    .sample = whole_sample};

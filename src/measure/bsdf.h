@@ -1,4 +1,5 @@
-/* bsdf.h - what a passport is made of: a lobe, or a whole material under a profile, behind one signature
+/* bsdf.h - the model under test of a passport: a lobe, or a whole material under a profile, behind one
+ * interface
  *
  * A BSDF is white, unless it is tinted and `albedo` says otherwise. It has settings: the rows of the
  * passport, then extremes for the sweep. The calls are pointers so that a test can put a wrong one in. */
@@ -30,7 +31,7 @@ enum { BSDF_EXTREMES = 64 };
 struct Bsdf {
     int rows, row_default;
     float values[WEFT_PASSPORT_ROWS]; /* of the parameter */
-    const char *parameter;            /* its name, "" without one */
+    const char *parameter;            /* name of the parameter, "" without one */
     int settings;                     /* rows and extremes */
 
     Lobe lobe;
@@ -41,8 +42,8 @@ struct Bsdf {
     AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
     int table_of[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
 
-    void (*look)(const Bsdf *bsdf, int setting, Dir o, BsdfView *view); /* o.z > 0 */
-    void (*f)(const BsdfView *view, Dirs i, float *f);                  /* 0 below the horizon */
+    void (*prepare)(const Bsdf *bsdf, int setting, Dir o, BsdfView *view); /* o.z > 0 */
+    void (*f)(const BsdfView *view, Dirs i, float *f);                     /* 0 below the horizon */
     void (*pdf)(const BsdfView *view, Dirs i, float *pdf);
     Dir (*sample)(const BsdfView *view, float u, float v);
 };

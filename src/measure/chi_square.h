@@ -1,4 +1,4 @@
-/* chi_square.h - whether samples fall where their pdf says */
+/* chi_square.h - chi-square test of samples against their pdf */
 #ifndef WEFT_MEASURE_CHI_SQUARE_H
 #define WEFT_MEASURE_CHI_SQUARE_H
 

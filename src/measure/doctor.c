@@ -303,7 +303,7 @@ WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor) {
 
 static WeftResult fix_once(const WeftDoctor *doctor, const char *path, WeftError *error) {
     Rewrite rewrite;
-    Asset asset = doctor->asset; /* which is only read: a failure here is none of the doctor's */
+    Asset asset = doctor->asset; /* a copy: a failure here is not the doctor's */
     WeftResult result = rewrite_begin(&rewrite, &asset, error);
     for (int k = 0; k < doctor->count && result == WEFT_OK; k++)
         result = doctor_repair(doctor, &rewrite, k, error);

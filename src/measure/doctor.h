@@ -11,9 +11,9 @@
 typedef struct Repair {
     enum {
         REPAIR_NONE = 0,
-        REPAIR_NUMBER,  /* it becomes number */
-        REPAIR_NUMBERS, /* it becomes an array of `count` numbers */
-        REPAIR_REMOVE,  /* it goes away */
+        REPAIR_NUMBER,  /* the value becomes `number` */
+        REPAIR_NUMBERS, /* the value becomes an array of `count` numbers */
+        REPAIR_REMOVE,  /* the member is removed */
         REPAIR_DECLARE, /* extensionsUsed gets the name that `extension` is */
         REPAIR_ALPHA    /* a channel of texture number `texture` moves to alpha, in a picture of its own */
     } act;
@@ -36,7 +36,7 @@ struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
     WeftLog log;           /* of the caller, behind the doctor's own */
-    WeftLog own;           /* that of the asset */
+    WeftLog own;           /* the log of the asset */
     WeftProgress progress; /* of the caller; NULL: nobody watches */
     void *user;
     bool examining; /* before, the file is read */

@@ -1,4 +1,4 @@
-/* doctor_asset.c - what the checks ask of an asset: its JSON, its images, its materials as mean numbers */
+/* doctor_asset.c - an asset as the checks read it: JSON, images, and materials as mean numbers */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,4 @@
-/* doctor_energy.c - what a sheen does with light under each engine that reads glTF, measured on what renders
- * there
+/* doctor_energy.c - energy of a sheen in each engine that reads glTF, measured on the engine's profile
  *
  * The material is taken with the means of its textures. E is the share of light that comes back, all of it
  * towards one cosine. Under the rules of these engines the base keeps a part that depends on the cosines of
@@ -97,7 +96,7 @@ static Dir seen_from(Dir along, int k) {
 }
 
 /* The surface with a sheen, as stack_make takes it. */
-static Surface dressed(const Case *self, const float color[3], float roughness) {
+static Surface surface_of(const Case *self, const float color[3], float roughness) {
     Surface surface = self->bare;
     surface.sheen_color = (Rgb){color[0], color[1], color[2]};
     surface.sheen_roughness = roughness;
@@ -106,7 +105,7 @@ static Surface dressed(const Case *self, const float color[3], float roughness) 
 
 static void see(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
                 SeenStack *seen) {
-    const Surface surface = dressed(self, color, roughness);
+    const Surface surface = surface_of(self, color, roughness);
     seen_make(seen, &surface, &self->choices, table, o);
 }
 

@@ -185,8 +185,8 @@ static void check_back(WeftDoctor *doctor, int mesh) {
     int cloth = -1;
     for (size_t k = 0; k < source->primitive_count && cloth < 0; k++) {
         json_t *material = material_of(doctor, &source->primitives[k]);
-        Cloth worn = material ? doctor_cloth(doctor, source->primitives[k].material) : (Cloth){0};
-        if (cloth_shows(&worn) && !json_is_true(json_object_get(material, "doubleSided")))
+        Cloth used = material ? doctor_cloth(doctor, source->primitives[k].material) : (Cloth){0};
+        if (cloth_shows(&used) && !json_is_true(json_object_get(material, "doubleSided")))
             cloth = source->primitives[k].material;
     }
     double share = cloth < 0 ? 0.0 : mesh_open(doctor, source);

@@ -41,7 +41,7 @@ static void declare_below(WeftDoctor *doctor, json_t *value) {
     size_t k;
     json_array_foreach(value, k, part) { declare_below(doctor, part); }
     json_object_foreach(value, key, part) {
-        if (strcmp(key, "extras") == 0) continue; /* which are anybody's */
+        if (strcmp(key, "extras") == 0) continue; /* extras belong to any application */
         if (strcmp(key, "extensions") == 0) json_object_foreach(part, name, extension) {
                 declare(doctor, name);
             }
@@ -75,10 +75,10 @@ void check_glass(WeftDoctor *doctor) {
     int glass = -1, cloth = -1;
     for (int m = (int)doctor->asset.material_count - 1; m >= 0; m--) {
         json_t *material = doctor_item(doctor, "materials", m);
-        Cloth worn = doctor_cloth(doctor, m);
+        Cloth used = doctor_cloth(doctor, m);
         if (lets_light_through(material))
             glass = m;
-        else if (cloth_shows(&worn))
+        else if (cloth_shows(&used))
             cloth = m;
     }
     if (glass < 0 || cloth < 0) return;

@@ -230,7 +230,7 @@ static bool samples_make(FitWork *work, const WeftData *data, WeftBrdfMetric met
         }
     }
     s->first = data->count > 4000 ? data->count / 4 : data->count > 1000 ? 1000 : data->count;
-    samples_settle(s);
+    samples_finish(s);
     return true;
 }
 

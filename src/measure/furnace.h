@@ -1,5 +1,5 @@
-/* furnace.h - what a white cloth returns of uniform light: a white lobe as the sheen of a white Lambert base
- */
+/* furnace.h - the white furnace: the light that a white lobe as the sheen of a white Lambert base returns
+ * / */
 #ifndef WEFT_MEASURE_FURNACE_H
 #define WEFT_MEASURE_FURNACE_H
 

@@ -132,7 +132,7 @@ void half_floor_measure(const Bsdf *bsdf, WeftPassport *out, int threads) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     unsigned traits = bsdf->whole ? 0u : weft_lobe_info(bsdf->lobe.id)->traits;
     out->half_measured = half_here() && !bsdf->whole && !(traits & TRAIT_REFERENCE) &&
-                         !outside_lobe(bsdf->lobe.id); /* which are compiled as they are */
+                         !outside_lobe(bsdf->lobe.id); /* outside lobes are compiled as they are */
     if (!out->half_measured) return;
     if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
     FloorRows rows = {.bsdf = bsdf, .out = out};

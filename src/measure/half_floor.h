@@ -1,4 +1,4 @@
-/* half_floor.h - what floors keep a lobe finite in half precision */
+/* half_floor.h - the floors that keep a lobe finite in half precision */
 #ifndef WEFT_MEASURE_HALF_FLOOR_H
 #define WEFT_MEASURE_HALF_FLOOR_H
 

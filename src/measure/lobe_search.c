@@ -14,7 +14,7 @@ static const float tints[TINTS] = {0.1f, 0.3f, 0.5f, 0.7f, 0.85f, 0.97f};
 typedef struct LobeWalker {
     const LobeSearch *search;
     WeftLobe start;
-    bool tinted, second; /* its colour is no factor; it has two that are */
+    bool tinted, second; /* tinted: colour is no factor; second: two colours are */
     int free[WEFT_LOBE_PARAMS_MAX], frees;
     /* x: of f0, of f90 and without either, or of a colour's channels, or of tints */
     float *column[TINTS];

@@ -11,7 +11,7 @@
 
 typedef struct LobeSearch {
     const Samples *samples;
-    const WeftLobe *base;        /* its white x is what a base colour scales; NULL: none */
+    const WeftLobe *base;        /* the white base, which a base colour scales; NULL: none */
     unsigned hold;               /* as weft_match_lobe has it */
     bool isotropic;              /* what is to be met is: then a lobe that is stays so */
     ItemProgress *item_progress; /* may be NULL */

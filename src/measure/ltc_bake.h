@@ -7,7 +7,7 @@
 #include "weft/ltc.h"
 
 struct WeftLtc {
-    Lobe lobe;        /* its parameter 0 says nothing */
+    Lobe lobe;        /* parameter 0 is not used */
     float f0, second; /* the colours that the matrix is fitted to */
     bool level;       /* r is 0 */
     int norm, rows, columns;

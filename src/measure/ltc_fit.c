@@ -28,7 +28,7 @@ void ltc_target_look(LtcTarget *target, float cos_o) {
     target->o = grid_direction((double)cos_o, 0.0);
     grid_make(&grid, target->o, target->rings);
     for (int row = 0; row < target->rings; row++) {
-        grid_ring(&grid, row, &ring); /* its first half mirrors the second */
+        grid_ring(&grid, row, &ring); /* the first half mirrors the second */
         for (int k = 0; k < target->columns; k++) {
             int at = row * target->columns + k, from = target->columns + k;
             target->x[at] = ring.x[from], target->y[at] = ring.y[from], target->z[at] = ring.z[from];

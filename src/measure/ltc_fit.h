@@ -17,7 +17,7 @@ typedef struct LtcTarget {
     bool level; /* r shall be 0; set after ltc_target_create */
     Dir o;
     float *x, *y, *z; /* wi, ring after ring */
-    float *area;      /* its solid angle and that of its mirror image, sr */
+    float *area;      /* solid angle of the direction and of its mirror image, sr */
     float *f;         /* f cos_i over e */
     double e;         /* the integral of f cos_i */
     double e0, e90;   /* of a lobe: the parts of the first and the second colour, both white */

@@ -28,38 +28,38 @@ static WeftResult samples_from(Samples *samples, const WeftReflection *from, int
     if (!weft_brdf_metric_name(metric)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
     if (!samples_spread(samples, metric)) return short_of_memory(error);
     samples_ask(samples, from, part, samples->x);
-    samples_settle(samples);
+    samples_finish(samples);
     return WEFT_OK;
 }
 
-static WeftResult distance_of(const Samples *samples, const WeftReflection *to, int part, double *apart,
+static WeftResult distance_of(const Samples *samples, const WeftReflection *to, int part, double *distance,
                               WeftError *error) {
     Samples other;
     bool held = samples_create(&other, samples->count, samples->metric);
     if (held) {
         samples_ask(samples, to, part, other.x);
-        *apart = samples_distance(samples, samples->count, (const float *const *)other.x);
+        *distance = samples_distance(samples, samples->count, (const float *const *)other.x);
     }
     samples_free(&other);
     return held ? WEFT_OK : short_of_memory(error);
 }
 
 WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
-                              WeftBrdfMetric metric, double *apart, WeftError *error) {
+                              WeftBrdfMetric metric, double *distance, WeftError *error) {
     Samples samples;
-    *apart = 0.0;
+    *distance = 0.0;
     WeftResult result = samples_from(&samples, from, part, metric, error);
-    if (result == WEFT_OK) result = distance_of(&samples, to, part, apart, error);
+    if (result == WEFT_OK) result = distance_of(&samples, to, part, distance, error);
     samples_free(&samples);
     return result;
 }
 
 /* The error of a lobe as it is. */
-static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *apart,
+static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *distance,
                                 WeftError *error) {
     WeftReflection *to;
     WeftResult result = weft_reflection_of_lobe(lobe, &to, error);
-    if (result == WEFT_OK) result = distance_of(samples, to, WEFT_PART_ALL, apart, error);
+    if (result == WEFT_OK) result = distance_of(samples, to, WEFT_PART_ALL, distance, error);
     weft_reflection_free(to);
     return result;
 }

@@ -1,4 +1,5 @@
-/* material_key.h - what a material is to a reflection: its numbers and choices, without its textures */
+/* material_key.h - the part of a material that a reflection depends on: numbers and choices, without
+ * textures */
 #ifndef WEFT_MEASURE_MATERIAL_KEY_H
 #define WEFT_MEASURE_MATERIAL_KEY_H
 

@@ -169,14 +169,14 @@ static WeftResult walker_make(MaterialWalker *self, const Samples *samples, cons
 }
 
 /* The error of a material with E as it is. */
-static WeftResult exact_distance(MaterialWalker *self, const WeftMaterial *material, double *apart,
+static WeftResult exact_distance(MaterialWalker *self, const WeftMaterial *material, double *distance,
                                  WeftError *error) {
     const Samples *s = self->samples;
     WeftReflection *exact;
     WeftResult result = weft_reflection_create(material, &exact, error);
     if (result != WEFT_OK) return result;
     samples_ask(s, exact, WEFT_PART_ALL, self->x);
-    *apart = samples_distance(s, s->count, (const float *const *)self->x);
+    *distance = samples_distance(s, s->count, (const float *const *)self->x);
     weft_reflection_free(exact);
     return WEFT_OK;
 }

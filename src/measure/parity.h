@@ -1,4 +1,4 @@
-/* parity.h - whether the GPU gets the same numbers from the same text */
+/* parity.h - comparison of the GPU's results with those of C, from the same text */
 #ifndef WEFT_MEASURE_PARITY_H
 #define WEFT_MEASURE_PARITY_H
 

@@ -51,7 +51,7 @@ static void measure_albedo(void *user, int item, int thread) {
     Dir o = grid_direction((double)cosines[c], 0.0);
     if (work->bsdf->whole) {
         BsdfView view;
-        work->bsdf->look(work->bsdf, row, o, &view);
+        work->bsdf->prepare(work->bsdf, row, o, &view);
         work->out->albedo[row][c] = (float)weight_albedo(&view, WHOLE_CELLS);
         return;
     }
@@ -158,7 +158,7 @@ static void measure_sampling(void *user, int item, int thread) {
     const Bsdf *bsdf = work->bsdf;
     int row = item / WEFT_PASSPORT_VIEWS, v = item % WEFT_PASSPORT_VIEWS;
     BsdfView view;
-    bsdf->look(bsdf, row, grid_direction((double)views[v], 0.4 + v), &view);
+    bsdf->prepare(bsdf, row, grid_direction((double)views[v], 0.4 + v), &view);
     Weight weight = weight_measure(&view, bsdf->whole ? WHOLE_CELLS : CELLS);
     work->out->variance[row][v] = (float)weight.own;
     work->out->variance_cosine[row][v] = (float)weight.by_cosine;

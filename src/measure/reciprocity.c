@@ -9,7 +9,7 @@ static const double turn = 6.28318530717959;
 static float ask_f(const Bsdf *bsdf, int setting, Dir o, Dir i) {
     BsdfView view;
     float f;
-    bsdf->look(bsdf, setting, o, &view);
+    bsdf->prepare(bsdf, setting, o, &view);
     bsdf->f(&view, (Dirs){1, &i.x, &i.y, &i.z}, &f);
     return f;
 }

@@ -1,4 +1,4 @@
-/* reciprocity.h - whether f stays the same when viewer and light change places */
+/* reciprocity.h - test of reciprocity: f with viewer and light exchanged */
 #ifndef WEFT_MEASURE_RECIPROCITY_H
 #define WEFT_MEASURE_RECIPROCITY_H
 

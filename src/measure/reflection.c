@@ -106,7 +106,7 @@ static WeftReflection *reflection_of_kind(ReflectionKind kind, WeftReflection **
 }
 
 /* Returns what was begun, or frees it after a failure. */
-static WeftResult settle(WeftReflection **out, WeftResult result) {
+static WeftResult finish(WeftReflection **out, WeftResult result) {
     if (result == WEFT_OK) return WEFT_OK;
     weft_reflection_free(*out);
     *out = NULL;
@@ -120,7 +120,7 @@ WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection *
     if (!reflection_of_kind(REFLECTION_WHOLE, out, error)) return WEFT_RESOURCES;
     const Material taken = material_of_numbers(material);
     if (!whole_make(&(*out)->whole, &taken)) result = fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
-    return settle(out, result);
+    return finish(out, result);
 }
 
 WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error) {
@@ -135,7 +135,7 @@ WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, W
 
 WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error) {
     if (!reflection_of_kind(REFLECTION_MEASURED, out, error)) return WEFT_RESOURCES;
-    return settle(out, merl_read(path, &(*out)->merl, error));
+    return finish(out, merl_read(path, &(*out)->merl, error));
 }
 
 void weft_reflection_free(WeftReflection *self) {

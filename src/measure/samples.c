@@ -204,7 +204,7 @@ static double whole_of(const Samples *self, int count) {
     return sum;
 }
 
-void samples_settle(Samples *self) {
+void samples_finish(Samples *self) {
     double sum = 0.0, weights = 0.0;
     self->channels = same_channels(self) ? 1 : 3;
     for (int k = 0; k < self->count; k++) {

@@ -37,7 +37,7 @@ void samples_ask(const Samples *samples, const WeftReflection *reflection, int p
 bool samples_isotropic(const Samples *samples, const WeftReflection *reflection);
 
 /* To be called when directions, weights and x are there, before all that follows. */
-void samples_settle(Samples *samples);
+void samples_finish(Samples *samples);
 
 /* The error of x over the first count samples: `first` or all of them. */
 double samples_distance(const Samples *samples, int count, const float *const x[3]);

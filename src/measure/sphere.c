@@ -14,7 +14,7 @@ typedef struct SphereLight {
 } SphereLight;
 
 /* x right, y up, z towards the viewer. */
-static const SphereLight lamps[LIGHTS] = {
+static const SphereLight lights[LIGHTS] = {
     {{0.424264, 0.565685, 0.707107}, 2.0}, {{-0.692820, 0.519615, -0.5}, 2.0}, {{0.0, 0.0, 1.0}, 0.6}};
 
 typedef struct Sphere {
@@ -32,16 +32,16 @@ static void shade(const WeftReflection *reflection, double x, double y, double r
     for (int l = 0; l < LIGHTS; l++) {
         double local[3] = {0.0};
         for (int c = 0; c < 3; c++) {
-            local[0] += t[c] * lamps[l].direction[c];
-            local[1] += b[c] * lamps[l].direction[c];
-            local[2] += n[c] * lamps[l].direction[c];
+            local[0] += t[c] * lights[l].direction[c];
+            local[1] += b[c] * lights[l].direction[c];
+            local[2] += n[c] * lights[l].direction[c];
         }
         for (int c = 0; c < 3; c++) wi[l][c] = (float)local[c];
     }
     weft_reflection_eval(reflection, 0, wo, LIGHTS, (const float(*)[3])wi, f);
     for (int l = 0; l < LIGHTS; l++)
         for (int c = 0; c < 3; c++)
-            radiance[c] += (double)f[l][c] * fmax((double)wi[l][2], 0.0) * lamps[l].irradiance;
+            radiance[c] += (double)f[l][c] * fmax((double)wi[l][2], 0.0) * lights[l].irradiance;
 }
 
 static void row_draw(void *user, int row, int thread) {

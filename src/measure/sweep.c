@@ -64,7 +64,7 @@ Sweep sweep_setting(const Bsdf *bsdf, int setting) {
     for (int k = 0; k < SWEEP_DIRS; k++) {
         BsdfView view;
         Dir o = sweep_dir(k);
-        bsdf->look(bsdf, setting, o, &view);
+        bsdf->prepare(bsdf, setting, o, &view);
         sweep_partners(o, k, true, &partners);
         Dirs dirs = {(size_t)partners.count, partners.x, partners.y, partners.z};
         bsdf->f(&view, dirs, f);

@@ -1,4 +1,4 @@
-/* table_form.c - what the axes of a table mean: forms that engines use, their words, and places of texels */
+/* table_form.c - the meaning of a table's axes: forms that engines use, their words, and places of texels */
 #include <stdio.h>
 
 #include "base/fail.h"

@@ -1,4 +1,4 @@
-/* weight.h - how much the weights f cos / pdf of a sampler scatter, by quadrature */
+/* weight.h - variance of the weights f cos / pdf of a sampler, by quadrature */
 #ifndef WEFT_MEASURE_WEIGHT_H
 #define WEFT_MEASURE_WEIGHT_H
 

@@ -74,11 +74,11 @@ static void decade_text(int exponent, char text[24]) {
                  size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
 }
 
-static int decades(const Scale *scale, double apart, Tick ticks[TICKS_MAX]) {
+static int decades(const Scale *scale, double spacing, Tick ticks[TICKS_MAX]) {
     int first = (int)lround(ceil(log10(scale->low) - 1e-6)),
         last = (int)lround(floor(log10(scale->high) + 1e-6));
     double room = fabs(scale->to - scale->from) / fmax(log10(scale->high / scale->low), 1e-3);
-    int step = (int)ceil(apart / room), count = 0;
+    int step = (int)ceil(spacing / room), count = 0;
     if (step < 1) step = 1;
     for (int e = first - 1; e <= last && count < TICKS_MAX - 9; e++) {
         if (e >= first) {
@@ -96,9 +96,9 @@ static int decades(const Scale *scale, double apart, Tick ticks[TICKS_MAX]) {
     return count;
 }
 
-static double step_of(const Scale *scale, bool degrees, double apart) {
+static double step_of(const Scale *scale, bool degrees, double spacing) {
     static const double rights[] = {1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0};
-    double least = apart * fabs((scale->high - scale->low) / (scale->to - scale->from));
+    double least = spacing * fabs((scale->high - scale->low) / (scale->to - scale->from));
     if (!degrees || least < 1.0) {
         const double steps[] = {1.0, 2.0, 5.0, 10.0}, power = pow(10.0, floor(log10(least)));
         for (int k = 0; k < 4; k++)
@@ -109,9 +109,9 @@ static double step_of(const Scale *scale, bool degrees, double apart) {
     return 90.0;
 }
 
-int ticks_make(const Scale *scale, bool degrees, double apart, Tick ticks[TICKS_MAX]) {
-    if (scale->logarithmic) return decades(scale, apart, ticks);
-    double step = step_of(scale, degrees, apart);
+int ticks_make(const Scale *scale, bool degrees, double spacing, Tick ticks[TICKS_MAX]) {
+    if (scale->logarithmic) return decades(scale, spacing, ticks);
+    double step = step_of(scale, degrees, spacing);
     int count = 0, places = (int)fmax(-floor(log10(step) + 1e-9), 0.0);
     double most = fmax(fabs(scale->low), fabs(scale->high));
     for (double k = ceil(scale->low / step - 1e-6);

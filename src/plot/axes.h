@@ -1,4 +1,4 @@
-/* axes.h - from values to places, and the round values that are written beside an axis */
+/* axes.h - scales of axes, and their tick values */
 #ifndef WEFT_PLOT_AXES_H
 #define WEFT_PLOT_AXES_H
 
@@ -20,10 +20,10 @@ typedef struct Tick {
 
 enum { TICKS_MAX = 96 };
 
-/* Round values in the scale's range, at least `apart` pixels from each other: of degrees what divides a right
+/* Round values in the scale's range, at least `spacing` pixels from each other: of degrees what divides a right
  * angle, of logarithmic scales decades, with 2 .. 9 between them as minor ones where there is room. Returns
  * how many. */
-int ticks_make(const Scale *scale, bool degrees, double apart, Tick ticks[TICKS_MAX]);
+int ticks_make(const Scale *scale, bool degrees, double spacing, Tick ticks[TICKS_MAX]);
 
 /* A value in so many digits, short: "0.25", "1.3e5"; minus is U+2212. */
 void value_text(double value, int digits, char text[24]);

@@ -59,9 +59,9 @@ WeftResult weft_difference(const WeftImage *image, const WeftImage *reference, W
     for (size_t k = 0; k < count; k++) {
         sizes[k] = fabsf(pixel_difference(image, reference, k));
         for (int c = 0; c < 3; c++) {
-            double truth = (double)shown(reference, k, c), off = (double)shown(image, k, c) - truth;
+            double expected = (double)shown(reference, k, c), off = (double)shown(image, k, c) - expected;
             sum += fabs(off);
-            squares += off * off / (truth * truth + 1e-2);
+            squares += off * off / (expected * expected + 1e-2);
         }
     }
     qsort(sizes, count, sizeof *sizes, compare_floats);

@@ -1,4 +1,4 @@
-/* difference_map.c - where two reflections differ, over theta_o and theta_i in one plane */
+/* difference_map.c - the difference of two reflections over theta_o and theta_i in one plane */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -19,7 +19,7 @@ enum {
     FOOT = 2 * TYPE,     /* the line of figures below */
     GAP = 1,             /* cells between the parts */
     LOOM_MAX = 48,       /* shafts and treadles, above which the drawdown stands alone */
-    CELLS_MAX = 1 << 20, /* that are drawn */
+    CELLS_MAX = 1 << 20, /* the most crossings that are drawn */
     SIDE = 1100          /* pixels that a drawdown is to have about */
 };
 

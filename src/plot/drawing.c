@@ -66,7 +66,7 @@ static WeftResult draw_lines(const Drawing *drawing, bool pdf, Vector *out, Weft
     if (result == WEFT_OK && (out->broken || cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS))
         result = fail(error, WEFT_MESSAGE_MEMORY, "plot", NULL);
     cairo_surface_destroy(surface);
-    if (result == WEFT_OK && !pdf && !vector_settle_svg(out, drawing->title))
+    if (result == WEFT_OK && !pdf && !vector_finish_svg(out, drawing->title))
         result = fail(error, WEFT_MESSAGE_MEMORY, "plot", NULL);
     return result;
 }

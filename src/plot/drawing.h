@@ -1,4 +1,4 @@
-/* drawing.h - what Cairo draws, as pixels, as lines, and as files */
+/* drawing.h - Cairo drawings, as pixels, as lines, and as files */
 #ifndef WEFT_PLOT_DRAWING_H
 #define WEFT_PLOT_DRAWING_H
 

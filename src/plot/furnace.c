@@ -1,5 +1,5 @@
-/* furnace.c - what white cloth returns of uniform light: a lobe as the sheen of a white Lambert base, under
- * each layer rule, and what else there is as a whole */
+/* furnace.c - the white furnace: the light that a white lobe over a white Lambert base returns under each
+ * layer rule, and that of whole materials */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

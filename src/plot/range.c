@@ -1,4 +1,4 @@
-/* range.c - how much of f an axis shows */
+/* range.c - the range of f on an axis */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* samples.c - what a lobe draws beside what it says it draws: histogram, pdf, their ratio */
+/* samples.c - histogram of a lobe's samples beside its pdf, and their ratio */
 #include <math.h>
 #include <stdlib.h>
 
@@ -91,7 +91,7 @@ static double test(const WeftLobe *given, float view, int count) {
     bsdf_of_lobe(model, &lobe, true);
     model->rows = 1;
     model->values[0] = lobe.params[0];
-    model->look(model, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
+    model->prepare(model, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
     if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = (double)NAN;
     bsdf_free(model);
     free(model);

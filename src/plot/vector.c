@@ -79,7 +79,7 @@ static size_t numbered(const char *text, size_t *word) {
     return 0;
 }
 
-bool vector_settle_svg(Vector *svg, const char *title) {
+bool vector_finish_svg(Vector *svg, const char *title) {
     Vector out = {0};
     Names names = {.count = 0};
     bool titled = false;

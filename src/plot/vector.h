@@ -22,7 +22,7 @@ bool vector_escaped(Vector *vector, const char *text);
 
 /* Cairo numbers surfaces through the life of a program: here they count from 1. A title for those who hear
  * rather than see is put in. */
-bool vector_settle_svg(Vector *svg, const char *title);
+bool vector_finish_svg(Vector *svg, const char *title);
 
 /* A figure of numbers that are there as SVG, and a file from bytes, whole or not at all. */
 WeftResult plot_svg(const WeftPlotDesc *desc, const WeftPlotData *data, Vector *out, WeftError *error);

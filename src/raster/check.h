@@ -1,4 +1,4 @@
-/* check.h - what passes share: errors of the driver, textures that are read texel by texel */
+/* check.h - helpers of all passes: errors of the driver, textures that are read texel by texel */
 #ifndef WEFT_RASTER_CHECK_H
 #define WEFT_RASTER_CHECK_H
 

@@ -1,4 +1,4 @@
-/* complaint.h - what a driver says of a text that it does not take, as one line for people */
+/* complaint.h - a driver's compiler message as one line for people */
 #ifndef WEFT_RASTER_COMPLAINT_H
 #define WEFT_RASTER_COMPLAINT_H
 

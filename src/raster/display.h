@@ -12,7 +12,7 @@
 typedef struct Display {
     unsigned program;       /* 0 until it is needed */
     int place, back, curve; /* locations of its uniforms */
-    bool stale;             /* its text may have changed */
+    bool stale;             /* true if the text may have changed */
     WeftError error;        /* of the last attempt; the program before stays in use */
 } Display;
 

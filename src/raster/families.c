@@ -8,7 +8,7 @@ typedef struct Families {
     const WeftScene *scene;
     const GlTextures *textures;
     GlMaterial *all;
-    int *head;   /* of each material: the first of its family, or -1 where it is not worn */
+    int *head;   /* of each material: the first of its family, or -1 where it is not used */
     int *groups; /* of textures, for each slot and material; -1: nothing there */
 } Families;
 
@@ -125,7 +125,7 @@ static bool make_all(Families *self) {
     bool fits = true;
     for (int m = 0; m < count; m++) self->head[m] = -1;
     for (int m = 0; m < count; m++)
-        if (self->all[m].worn) join(self, m);
+        if (self->all[m].used) join(self, m);
     for (int m = 0; m < count; m++)
         if (self->head[m] == m) fits = fits && finish(self, m);
     return fits;

@@ -5,7 +5,7 @@
 
 #include "raster/materials.h"
 
-/* Joins the keys of all materials of a scene that are worn, so that those of a family are equal, and gives
+/* Joins the keys of all materials of a scene that are used, so that those of a family are equal, and gives
  * each map a slot: sets slot and like of all inputs of their keys, and their groups. A slot that a material
  * leaves empty holds what another of the family has there. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all,

@@ -21,7 +21,7 @@ typedef struct GlEnvironment {
     AmbientParts parts;
     unsigned cube;
     unsigned map;     /* the image as it is, for environment_background; 0 where it is one colour */
-    unsigned blurred; /* that image as backdrop.h has it; 0 until it was asked for */
+    unsigned blurred; /* the image blurred by backdrop.h; 0 until first used */
     unsigned buffer;  /* uniform block Environment */
     bool cached;      /* the cube came from the cache */
 } GlEnvironment;

@@ -127,7 +127,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
     bool whole = true;
     for (int m = 0; m < scene->mesh_count; m++) {
         int k = self->of_mesh[m] = scene->meshes[m].material;
-        self->all[k].worn = true;
+        self->all[k].used = true;
         self->all[k].key.colored |= scene->meshes[m].color != NULL;
     }
     for (int k = 0; k < self->count; k++) {
@@ -138,7 +138,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
             memcpy(material->fits, old->all[k].fits, sizeof material->fits);
             memcpy(uniforms.fits, old->blocks + at + offsetof(Uniforms, fits), sizeof uniforms.fits);
         }
-        if (material->worn) {
+        if (material->used) {
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
             material->key.ranged = self->count > MATERIALS_HELD && is_round(&material->key);
@@ -154,7 +154,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
 static bool is_same(const GlMaterial *a, const GlMaterial *b) {
     return memcmp((const char *)&a->key, (const char *)&b->key, sizeof a->key) == 0 &&
            a->group_count == b->group_count && memcmp(a->groups, b->groups, sizeof a->groups) == 0 &&
-           a->worn == b->worn && a->emits == b->emits;
+           a->used == b->used && a->emits == b->emits;
 }
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
@@ -167,9 +167,9 @@ static void add_change(const GlMaterial *old, const GlMaterial *fresh, Materials
 static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
                    MaterialsChange *change) {
     static const GlMaterial none;
-    size_t worn = (size_t)own_meshes * sizeof *fresh->of_mesh;
+    size_t used = (size_t)own_meshes * sizeof *fresh->of_mesh;
     change->tables = !old->sheens || sheen_tables_differ(old->sheens, fresh->sheens);
-    change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, worn) != 0;
+    change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, used) != 0;
     change->emission |= old->mesh_count != fresh->mesh_count;
     glBindBuffer(GL_UNIFORM_BUFFER, fresh->uniforms);
     for (int k = 0; k < fresh->count; k++) {

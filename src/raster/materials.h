@@ -11,7 +11,7 @@
 /* The table of a slot that is baked in the uniforms, or was when the slot last asked for one. */
 typedef struct MaterialFit {
     bool made, turning; /* as AmbientFit has it */
-    bool dense;         /* its `denser` is above AMBIENT_DENSER */
+    bool dense;         /* true if the fit's `denser` exceeds AMBIENT_DENSER */
     float finest;       /* as AmbientFit has it */
     Lobe lobe;
 } MaterialFit;
@@ -20,7 +20,7 @@ typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
-    bool worn;                  /* by some mesh */
+    bool used;                  /* by some mesh */
     bool emits;                 /* light */
     float finest[SHADER_SLOTS]; /* of the tables that are baked, or a finer one's; 0 where none is */
     MaterialFit fits[SHADER_SLOTS];

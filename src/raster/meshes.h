@@ -23,7 +23,7 @@ typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
     unsigned occlusion;               /* buffer, 0 until there is one */
-    bool env_lights;                  /* it knows of them */
+    bool env_lights;                  /* true if values for the environment's lights are there */
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
     int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
     uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */

@@ -1,4 +1,5 @@
-/* occlusion.h - how much of the sky and of each light a vertex sees, found by rays in the background */
+/* occlusion.h - visibility of the sky and of each environment light from a vertex, found by rays in the
+ * background */
 #ifndef WEFT_RASTER_OCCLUSION_H
 #define WEFT_RASTER_OCCLUSION_H
 

@@ -27,7 +27,7 @@ unsigned program_create(const char *name, ShaderSource vertex, ShaderSource frag
         glAttachShader(program, v);
         glAttachShader(program, f);
         glLinkProgram(program);
-        glDetachShader(program, v); /* which would keep as much memory as the program itself */
+        glDetachShader(program, v); /* an attached shader would keep as much memory as the program itself */
         glDetachShader(program, f);
         glGetProgramiv(program, GL_LINK_STATUS, &done);
         if (!done) {

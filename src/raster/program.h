@@ -7,7 +7,7 @@
 /* A whole shader: what a Text holds, and perhaps lines of the caller's own behind it. */
 typedef struct ShaderSource {
     const char *bytes;
-    const Text *text; /* which knows the files that its lines come from; may be NULL */
+    const Text *text; /* knows the files that the lines come from; may be NULL */
 } ShaderSource;
 
 /* A program in the context that is current; 0 on failure. Fails with WEFT_MESSAGE_GL_COMPILE as complain

@@ -29,7 +29,7 @@ typedef struct Program {
     int own_count;
     unsigned turn;   /* of the sheens that it holds */
     int samplers;    /* array elements counted one by one */
-    bool stale;      /* its text may have changed */
+    bool stale;      /* true if the text may have changed */
     bool wanted;     /* and it is to be compiled */
     unsigned used;   /* tick of the picture that it was last drawn with */
     WeftError error; /* of the last attempt; its program before stays in use */

@@ -40,7 +40,7 @@ struct WeftRaster {
     bool shines;                             /* the environment does */
     unsigned turn, shape_turn;               /* of the environment and of the shapes that were uploaded */
     Occlusion *occlusion;                    /* NULL where none is wanted, or once it is uploaded */
-    EnvLight env_lights[AMBIENT_LIGHTS_MAX]; /* that it looked for, or looks for */
+    EnvLight env_lights[AMBIENT_LIGHTS_MAX]; /* the lights whose visibility was or is being found */
     int env_light_count;
     bool look; /* once more, when what is looked for now is found */
     LightPolygons polygons;
@@ -220,7 +220,7 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
     WeftResult result = queue_create(scene, &self->queue, error);
     if (result == WEFT_OK && desc->shader_dir && !self->desc.shader_dir)
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    if (result == WEFT_OK && desc->shader_dir) watch_look(&self->watch, desc->shader_dir);
+    if (result == WEFT_OK && desc->shader_dir) watch_poll(&self->watch, desc->shader_dir);
     if (result == WEFT_OK) result = begin_drawing(self, log, error);
     if (result == WEFT_OK && desc->occlusion) {
         find_env_lights(self);
@@ -439,7 +439,7 @@ static bool of_all_keys(WeftRaster *self, const WeftRasterView *view, bool with_
                         bool (*what)(Programs *programs, const ShaderKey *key)) {
     bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
     for (int k = 0; k < self->materials.count && all; k++) {
-        if (!self->materials.all[k].worn) continue;
+        if (!self->materials.all[k].used) continue;
         const GlMaterial *material = &self->materials.all[k];
         ShaderKey key = lit_key(self, view, material), depth = depth_key(&material->key);
         all = what(&self->programs, &key);
@@ -646,7 +646,7 @@ static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRaste
     Floor floor = floor_of(self->scene, &view->floor);
     bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
     floor.there = floor.there && view->part == WEFT_PART_ALL && above;
-    if (floor.there != self->floor.there) self->shadows.drawn = false; /* which reach as far as it does */
+    if (floor.there != self->floor.there) self->shadows.drawn = false; /* shadows reach as far as the floor */
     self->floor = floor;
     self->sky_on_floor = 0.0f;
     self->floor_shaded = !view->no_shadows;
@@ -761,7 +761,7 @@ WeftResult weft_raster_show(WeftRaster *self, const WeftRasterShow *wanted, Weft
 
 int weft_raster_refresh(WeftRaster *self) {
     const char *folder = self->desc.shader_dir;
-    int changes = folder ? watch_look(&self->watch, folder) : 0;
+    int changes = folder ? watch_poll(&self->watch, folder) : 0;
     if (!changes) return 0;
     programs_refresh(&self->programs);
     self->display.stale = true;

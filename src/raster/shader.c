@@ -215,7 +215,7 @@ static bool turns(const ShaderKey *key, const CompositionSlots *found) {
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
-    bool same = a->worn == b->worn;
+    bool same = a->used == b->used;
     for (int k = 0; k < TEXT_SLOTS; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
         same = same && s->count == t->count;

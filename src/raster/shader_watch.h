@@ -1,4 +1,4 @@
-/* shader_watch.h - whether shader text in a folder has changed since the last look
+/* shader_watch.h - a watch on the shader text in a folder
  *
  * DOES NOT: notice a file that changed twice within one tick of the file system's clock, between which it was
  * looked at, and kept its size. */
@@ -18,7 +18,7 @@ typedef struct FolderWatch {
  * WATCH_FILES, but not where a name starts with a dot. Returns how many were made, changed or removed since
  * the last look; 0 where memory is short, and then this look counts for nothing. A folder that is not there
  * is empty. */
-int watch_look(FolderWatch *watch, const char *folder);
+int watch_poll(FolderWatch *watch, const char *folder);
 
 enum { WATCH_DEPTH = 8, WATCH_FILES = 1024 };
 

@@ -48,14 +48,14 @@ static Box smaller_box(const WeftScene *scene, float size, float *largest) {
 
 /* Returns the box that shadow maps cover: the scene without its stage, a mesh many times as large as all
  * others together, such as a floor to the horizon. */
-static Box find_subject(const WeftScene *scene) {
+static Box find_casters(const WeftScene *scene) {
     const float stage = 4.0f;
     float largest, next;
-    Box subject = smaller_box(scene, INFINITY, &largest);
+    Box casters = smaller_box(scene, INFINITY, &largest);
     for (;;) {
         Box rest = smaller_box(scene, largest, &next);
-        if (!(next > 0.0f) || largest <= stage * box_size(rest)) return subject;
-        subject = rest;
+        if (!(next > 0.0f) || largest <= stage * box_size(rest)) return casters;
+        casters = rest;
         largest = next;
     }
 }
@@ -67,9 +67,9 @@ static void across(Vec3 forward, Vec3 *right, Vec3 *up) {
     *up = vec3_cross(*right, forward);
 }
 
-static Shadow of_directional(const Light *light, Box subject) {
-    Vec3 right, up, middle = vec3_scale(vec3_add(subject.low, subject.high), 0.5f);
-    float radius = 0.5f * box_size(subject) + 1e-6f;
+static Shadow of_directional(const Light *light, Box casters) {
+    Vec3 right, up, middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
+    float radius = 0.5f * box_size(casters) + 1e-6f;
     across(light->direction, &right, &up);
     return (Shadow){.view = {.eye = middle,
                              .forward = light->direction,
@@ -115,24 +115,24 @@ static void add(Shadows *self, Shadow shadow, int light, int polygon) {
     self->all[self->count++] = shadow;
 }
 
-static void choose_lights(const WeftScene *scene, int most, Box subject, Shadows *self) {
+static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows *self) {
     for (int turn = 0, missed = 0; self->count < most && missed < 2; turn++) {
         LightKind kind = turn % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
         int k = strongest(scene, self, kind);
         missed = k < 0 ? missed + 1 : 0;
         if (k < 0) continue;
         const Light *light = &scene->lights[k];
-        add(self, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, subject), k, -1);
+        add(self, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k, -1);
     }
 }
 
-/* From the middle of the polygon towards the subject, all of which it sees unless it is within. */
-static Shadow of_polygon(const LightPolygon *polygon, Box subject) {
-    Vec3 eye = {0}, right, up, middle = vec3_scale(vec3_add(subject.low, subject.high), 0.5f);
+/* From the middle of the polygon towards the casters, all of which it sees unless it is within. */
+static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
+    Vec3 eye = {0}, right, up, middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
     for (int k = 0; k < polygon->count; k++)
         eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
     Vec3 to = vec3_sub(middle, eye);
-    float distance = vec3_length(to), radius = 0.5f * box_size(subject), most = 6.0f, half = most;
+    float distance = vec3_length(to), radius = 0.5f * box_size(casters), most = 6.0f, half = most;
     bool faces = polygon->two_sided || vec3_dot(to, polygon->normal) > 0.3f * distance;
     Vec3 forward = faces ? vec3_normal_or(to, polygon->normal) : polygon->normal;
     if (faces && distance > 1.05f * radius)
@@ -147,11 +147,11 @@ static Shadow of_polygon(const LightPolygon *polygon, Box subject) {
 }
 
 static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadows *self) {
-    Box subject = {self->low, self->high};
+    Box casters = {self->low, self->high};
     int half = SHADOWS_MOST / 2, wanted = polygons->count < half ? polygons->count : half;
-    choose_lights(scene, SHADOWS_MOST - wanted, subject, self);
+    choose_lights(scene, SHADOWS_MOST - wanted, casters, self);
     for (int k = 0; k < polygons->count && self->count < SHADOWS_MOST; k++)
-        add(self, of_polygon(&polygons->items[k], subject), -1, k);
+        add(self, of_polygon(&polygons->items[k], casters), -1, k);
 }
 
 static bool sees_the_same(const Shadow *a, const Shadow *b) {
@@ -191,8 +191,8 @@ static void make_objects(Shadows *self) {
 
 WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
                           WeftError *error) {
-    Box subject = find_subject(scene);
-    *out = (Shadows){.low = subject.low, .high = subject.high};
+    Box casters = find_casters(scene);
+    *out = (Shadows){.low = casters.low, .high = casters.high};
     return shadows_update(out, scene, polygons, error);
 }
 

@@ -95,7 +95,7 @@ void state_begin(GlPlace *place) {
     glGetIntegerv(GL_VIEWPORT, place->viewport);
     glGetIntegerv(GL_SCISSOR_BOX, place->scissor);
     reset(desktop);
-    if (desktop) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); /* which ES always has */
+    if (desktop) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); /* OpenGL ES always has it */
 }
 
 void state_end(const GlPlace *place) {

@@ -1,4 +1,4 @@
-/* state.h - what the calls of this folder rely on in a context that others use too
+/* state.h - the OpenGL state that this folder relies on, in a context that others use too
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_STATE_H

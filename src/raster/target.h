@@ -1,4 +1,5 @@
-/* target.h - what a picture is drawn into: linear colours of 16 bits, several samples a pixel, and their mean
+/* target.h - the render target of a picture: linear colours of 16 bits, several samples a pixel, and their
+ * mean
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_TARGET_H

@@ -31,11 +31,11 @@ typedef struct GlTextures {
     int group_count;
     TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
     unsigned *turns;      /* of each texture of the scene, when it was uploaded */
-    int texture_count;    /* that there were */
+    int texture_count;    /* textures of the scene at the upload */
     bool one_size;        /* images are scaled to that of their group */
 } GlTextures;
 
-/* Uploads what the materials that are worn look up, with smaller copies of it, made on `threads` threads (0:
+/* Uploads what the materials that are used look up, with smaller copies of it, made on `threads` threads (0:
  * all). Should a material need more than TEXTURE_SLOTS groups, images are scaled to one size, with a warning.
  * Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
 WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,

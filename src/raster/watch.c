@@ -75,7 +75,7 @@ static int count_changes(const FolderWatch *a, const FolderWatch *b) {
     return changes;
 }
 
-int watch_look(FolderWatch *watch, const char *folder) {
+int watch_poll(FolderWatch *watch, const char *folder) {
     FolderScan look = {0};
     look.seen.files = arena_array(&look.seen.arena, WATCH_FILES, sizeof *look.seen.files);
     if (!look.seen.files) return 0;

@@ -1,4 +1,4 @@
-/* dress.c - putting the material of a file, or a preset, on a scene */
+/* assign.c - assigning the material of a file, or a preset, in a scene */
 #include "scene/assign.h"
 #include "base/fail.h"
 #include "scene/material_file.h"
@@ -42,7 +42,7 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
 }
 
 /* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */
-static Material dressed(const Material *old, const MaterialFile *file) {
+static Material assigned(const Material *old, const MaterialFile *file) {
     static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
     Material fresh = file->material;
     fresh.name = old->name;
@@ -78,17 +78,17 @@ bool *materials_matching(WeftScene *scene, const char *material, WeftError *erro
 
 static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
     WeftError said = {.result = WEFT_RESOURCES};
-    const bool *wears = materials_matching(scene, material, &said);
-    if (!wears && error) *error = said;
-    if (!wears) return said.result;
+    const bool *selected = materials_matching(scene, material, &said);
+    if (!selected && error) *error = said;
+    if (!selected) return said.result;
     if (!adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
-        if (wears[k]) scene->materials[k] = dressed(&scene->materials[k], file);
+        if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
     return tangents_complete(scene, error);
 }
 
-static WeftResult dress_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,
-                             WeftError *error) {
+static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,
+                              WeftError *error) {
     WeftResult result = read == WEFT_OK ? put_on(scene, material, file, error) : read;
     material_file_free(file);
     return result;
@@ -99,12 +99,12 @@ WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *mater
                                              WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
-    return dress_from(scene, material, &file, read, error);
+    return assign_from(scene, material, &file, read, error);
 }
 
 WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
                                       const WeftLog *log, WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_load(path, &file, log, error);
-    return dress_from(scene, material, &file, read, error);
+    return assign_from(scene, material, &file, read, error);
 }

@@ -1,6 +1,6 @@
-/* dress.h - which materials a wish means */
-#ifndef WEFT_SCENE_DRESS_H
-#define WEFT_SCENE_DRESS_H
+/* assign.h - the materials that a name selects */
+#ifndef WEFT_SCENE_ASSIGN_H
+#define WEFT_SCENE_ASSIGN_H
 
 #include "scene/scene.h"
 

@@ -22,7 +22,7 @@ static const char *const suffixes[] = {"exr", "hdr", "png", "jpg", "jpeg", "tga"
 
 typedef struct Faces {
     char paths[FACES][NAME_SIZE];
-    bool shorter; /* which of both kinds of names */
+    bool shorter; /* true for the shorter kind of names */
 } Faces;
 
 /* The face that a file name without its folder is called like, or -1. */

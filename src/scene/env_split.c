@@ -231,7 +231,7 @@ static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres)
 
 /* Stuart Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on Information Theory 28(2), 1982. The
  * sum of energy times squared distance that is left. */
-static double settle(const Sparks *sparks, int count, Vec3 *centres, EnvLight *env_lights) {
+static double assign_texels(const Sparks *sparks, int count, Vec3 *centres, EnvLight *env_lights) {
     double left = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
         Vec3 sums[AMBIENT_LIGHTS_MAX] = {{0.0f, 0.0f, 0.0f}};
@@ -243,9 +243,9 @@ static double settle(const Sparks *sparks, int count, Vec3 *centres, EnvLight *e
             const Spark *spark = &sparks->list[n];
             int k = nearest(centres, count, spark->direction, &c);
             sums[k] = vec3_madd(sums[k], spark->direction, spark->energy);
-            float apart = spark->energy * (2.0f - 2.0f * c);
-            left += (double)apart;
-            env_lights[k].spread += apart;
+            float distance = spark->energy * (2.0f - 2.0f * c);
+            left += (double)distance;
+            env_lights[k].spread += distance;
             energy[k] += spark->energy;
             for (int j = 0; j < 3; j++) env_lights[k].color[j] += spark->color[j];
         }
@@ -265,7 +265,7 @@ static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
         Vec3 centres[AMBIENT_LIGHTS_MAX];
         EnvLight env_lights[AMBIENT_LIGHTS_MAX];
         seed(sparks, count, (uint64_t)start, centres);
-        double left = settle(sparks, count, centres, env_lights);
+        double left = assign_texels(sparks, count, centres, env_lights);
         if (left >= best) continue;
         best = left;
         parts->env_light_kappa = (float)log2(2.0 * sparks->energy / fmax(left, 1e-6 * sparks->energy));

@@ -1,4 +1,4 @@
-/* wear.c - putting pictures on the inputs of materials: one by name, or those of a folder by their names */
+/* map_folder.c - binding images on the inputs of materials: one by name, or those of a folder by their names */
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
@@ -108,16 +108,16 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     WeftError said = {0};
     WeftResult result = read_target(text, &target, error);
     if (result != WEFT_OK) return result;
-    const bool *wished = materials_matching(scene, target.material, &said);
-    if (!wished && error) *error = said;
-    if (!wished) return said.result;
+    const bool *selected = materials_matching(scene, target.material, &said);
+    if (!selected && error) *error = said;
+    if (!selected) return said.result;
     MapPicture picture = {.path = strdup(path)};
     result = picture.path ? weft_image_read(path, &picture.image, log, error)
                           : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK && !take_over(scene, &picture))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
-        if (wished[k])
+        if (selected[k])
             put_on_input(&scene->materials[k], target.input, picture.texture,
                          target.channel < 0 ? 0 : target.channel);
     weft_image_free(&picture.image);
@@ -203,25 +203,25 @@ static const char *map_of(const char *file) {
 }
 
 /* Pictures of a folder that have a meaning, each input's by the first in the order of names. */
-typedef struct Wardrobe {
+typedef struct MapSet {
     MapPicture pictures[FILES_MOST];
     const char *meaning[FILES_MOST];
     int count;
-    int of_input[INPUT_COUNT]; /* which picture, + 1 */
+    int of_input[INPUT_COUNT]; /* number of the picture, counted from 1 */
     int channel[INPUT_COUNT];
     char unknown[NAMES_ROOM]; /* pictures without a meaning, comma between */
-} Wardrobe;
+} MapSet;
 
-static void free_wardrobe(Wardrobe *wardrobe) {
-    for (int k = 0; k < wardrobe->count; k++) {
-        weft_image_free(&wardrobe->pictures[k].image);
-        free(wardrobe->pictures[k].path);
+static void free_map_set(MapSet *map_set) {
+    for (int k = 0; k < map_set->count; k++) {
+        weft_image_free(&map_set->pictures[k].image);
+        free(map_set->pictures[k].path);
     }
 }
 
 /* Notes a picture whose name says nothing. */
-static void note_unknown(Wardrobe *wardrobe, const char *file) {
-    char *names = wardrobe->unknown;
+static void note_unknown(MapSet *map_set, const char *file) {
+    char *names = map_set->unknown;
     size_t used = strlen(names);
     const char *comma = used ? ", " : "";
     if (used + strlen(comma) + strlen(file) + sizeof ", ..." <= NAMES_ROOM)
@@ -231,78 +231,78 @@ static void note_unknown(Wardrobe *wardrobe, const char *file) {
 }
 
 /* Takes a file in, unless all that it is for is taken. */
-static WeftResult take_file(Wardrobe *wardrobe, const char *folder, const char *file, const WeftLog *log,
+static WeftResult take_file(MapSet *map_set, const char *folder, const char *file, const WeftLog *log,
                             WeftError *error) {
     const char *meaning = map_of(file);
     bool needed = false;
     for (int k = 0; k < MAPS && meaning; k++)
-        if (strcmp(maps[k].name, meaning) == 0 && !wardrobe->of_input[maps[k].input]) {
-            wardrobe->of_input[maps[k].input] = wardrobe->count + 1;
-            wardrobe->channel[maps[k].input] = maps[k].channel;
+        if (strcmp(maps[k].name, meaning) == 0 && !map_set->of_input[maps[k].input]) {
+            map_set->of_input[maps[k].input] = map_set->count + 1;
+            map_set->channel[maps[k].input] = maps[k].channel;
             needed = true;
         }
-    if (!meaning && is_picture(file)) note_unknown(wardrobe, file);
+    if (!meaning && is_picture(file)) note_unknown(map_set, file);
     if (meaning && !needed)
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file, meaning);
     if (!needed) return WEFT_OK;
     size_t length = strlen(folder), size = length + strlen(file) + 2;
     bool slash = length && folder[length - 1] == '/';
-    MapPicture *picture = &wardrobe->pictures[wardrobe->count++]; /* of at most one an input */
+    MapPicture *picture = &map_set->pictures[map_set->count++]; /* of at most one an input */
     picture->path = malloc(size);
     if (!picture->path) return fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     snprintf(picture->path, size, "%s%s%s", folder, slash ? "" : "/", file);
     return weft_image_read(picture->path, &picture->image, log, error);
 }
 
-static WeftResult read_folder(const char *folder, Wardrobe *wardrobe, const WeftLog *log, WeftError *error) {
+static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog *log, WeftError *error) {
     struct dirent **entries;
     int count = scandir(folder, &entries, NULL, alphasort);
     WeftResult result = WEFT_OK;
     if (count < 0) return fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "%s", strerror(errno));
     for (int k = 0; k < count; k++) {
-        if (result == WEFT_OK) result = take_file(wardrobe, folder, entries[k]->d_name, log, error);
+        if (result == WEFT_OK) result = take_file(map_set, folder, entries[k]->d_name, log, error);
         free(entries[k]);
     }
     free(entries);
-    if (result == WEFT_OK && wardrobe->unknown[0])
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no map is called so: %s", wardrobe->unknown);
-    if (result == WEFT_OK && !wardrobe->count)
+    if (result == WEFT_OK && map_set->unknown[0])
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no map is called so: %s", map_set->unknown);
+    if (result == WEFT_OK && !map_set->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
     return result;
 }
 
-static void move_map(Wardrobe *wardrobe, InputId from, InputId to) {
-    if (wardrobe->of_input[to]) return;
-    wardrobe->of_input[to] = wardrobe->of_input[from];
-    wardrobe->of_input[from] = 0;
+static void move_map(MapSet *map_set, InputId from, InputId to) {
+    if (map_set->of_input[to]) return;
+    map_set->of_input[to] = map_set->of_input[from];
+    map_set->of_input[from] = 0;
 }
 
 /* A map of what workflow disney alone reads is of that workflow, in which specular and sheen are amounts. */
-static bool is_disney(Wardrobe *wardrobe) {
+static bool is_disney(MapSet *map_set) {
     static const InputId own[] = {INPUT_subsurface, INPUT_specular_tint, INPUT_sheen_tint,
                                   INPUT_clearcoat_gloss};
     bool any = false;
-    for (size_t k = 0; k < sizeof own / sizeof *own; k++) any |= wardrobe->of_input[own[k]] != 0;
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++) any |= map_set->of_input[own[k]] != 0;
     if (!any) return false;
-    move_map(wardrobe, INPUT_specular_color, INPUT_specular);
-    move_map(wardrobe, INPUT_sheen_color, INPUT_sheen);
+    move_map(map_set, INPUT_specular_color, INPUT_specular);
+    move_map(map_set, INPUT_sheen_color, INPUT_sheen);
     return true;
 }
 
 /* A specular colour without a metalness is the older workflow's. */
-static int workflow_of(Wardrobe *wardrobe) {
-    if (is_disney(wardrobe)) return choice_find(CHOICE_workflow, "disney");
-    return wardrobe->of_input[INPUT_specular_color] && !wardrobe->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR
-                                                                                           : -1;
+static int workflow_of(MapSet *map_set) {
+    if (is_disney(map_set)) return choice_find(CHOICE_workflow, "disney");
+    return map_set->of_input[INPUT_specular_color] && !map_set->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR
+                                                                                         : -1;
 }
 
 /* An input that has the map already keeps the number that it is multiplied by; a folder that holds nothing
  * new leaves the workflow too. */
-static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
+static void bind_map_set(Material *material, const MapSet *map_set, int workflow) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++) {
-        if (!wardrobe->of_input[k]) continue;
-        int texture = wardrobe->pictures[wardrobe->of_input[k] - 1].texture, channel = wardrobe->channel[k];
+        if (!map_set->of_input[k]) continue;
+        int texture = map_set->pictures[map_set->of_input[k] - 1].texture, channel = map_set->channel[k];
         const Input *input = &material->inputs[k];
         if (input->texture == texture && input->channel == channel) continue;
         put_on_input(material, (InputId)k, texture, channel);
@@ -313,20 +313,20 @@ static void wear(Material *material, const Wardrobe *wardrobe, int workflow) {
 
 WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder, int *count,
                                 const WeftLog *log, WeftError *error) {
-    Wardrobe wardrobe = {0};
+    MapSet map_set = {0};
     WeftError said = {0};
     if (count) *count = 0;
-    const bool *wished = materials_matching(scene, material, &said);
-    if (!wished && error) *error = said;
-    if (!wished) return said.result;
-    WeftResult result = read_folder(folder, &wardrobe, log, error);
-    for (int k = 0; k < wardrobe.count && result == WEFT_OK; k++)
-        if (!take_over(scene, &wardrobe.pictures[k]))
+    const bool *selected = materials_matching(scene, material, &said);
+    if (!selected && error) *error = said;
+    if (!selected) return said.result;
+    WeftResult result = read_folder(folder, &map_set, log, error);
+    for (int k = 0; k < map_set.count && result == WEFT_OK; k++)
+        if (!take_over(scene, &map_set.pictures[k]))
             result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    int workflow = workflow_of(&wardrobe);
+    int workflow = workflow_of(&map_set);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
-        if (wished[k]) wear(&scene->materials[k], &wardrobe, workflow);
-    if (count && result == WEFT_OK) *count = wardrobe.count;
-    free_wardrobe(&wardrobe);
+        if (selected[k]) bind_map_set(&scene->materials[k], &map_set, workflow);
+    if (count && result == WEFT_OK) *count = map_set.count;
+    free_map_set(&map_set);
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }

@@ -1,4 +1,4 @@
-/* material.h - what a surface is made of: each input of shading/inputs.h as a number or a texture times a
+/* material.h - the material of a surface: each input of shading/inputs.h as a number or a texture times a
  * number */
 #ifndef WEFT_SCENE_MATERIAL_H
 #define WEFT_SCENE_MATERIAL_H

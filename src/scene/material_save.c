@@ -20,7 +20,7 @@ typedef struct Writer {
     WeftResult result;
     Arena arena;
     json_t *root;
-    const char *files[INPUT_COUNT]; /* that hold an input's texture, as the file names them */
+    const char *files[INPUT_COUNT]; /* files with an input's texture, as the material file names them */
 } Writer;
 
 static void no_memory(Writer *w) {

@@ -1,4 +1,4 @@
-/* plausible.c - what real materials keep to, as data for warnings: reflectances and colours of the chart's
+/* plausible.c - limits of real materials, as data for warnings: reflectances and colours of the chart's
  * dielectrics and metals, no diffuse on a metal, no sheen out of nothing */
 #include <math.h>
 #include <stdio.h>

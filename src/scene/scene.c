@@ -88,7 +88,7 @@ const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftSc
 }
 
 /* From -1, none. */
-static void wear_variant(WeftScene *scene, int v) {
+static void use_variant(WeftScene *scene, int v) {
     scene->variant = v + 1;
     for (int m = 0; m < scene->mesh_count; m++) {
         Mesh *mesh = &scene->meshes[m];
@@ -105,7 +105,7 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
     if (name && v == scene->variant_count)
         return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s",
                     scene_names(scene, weft_scene_variant_name, names));
-    wear_variant(scene, v);
+    use_variant(scene, v);
     return WEFT_OK;
 }
 

@@ -1,4 +1,4 @@
-/* scene.h - what a file means once loaded: world-space triangles, materials, lights, cameras, environment
+/* scene.h - the contents of a loaded file: world-space triangles, materials, lights, cameras, environment
  *
  * World space is glTF's: right-handed, +y up, metres. A scene is made by gltf/ or builtin.c and read by the
  * renderers. All memory but the pixels is in one arena. */
@@ -97,7 +97,7 @@ struct WeftScene {
     Light *lights;
     Camera *cameras;
     const char **variants;
-    int variant; /* that was switched to, counted from 1; 0: none */
+    int variant; /* number of the active variant, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
     int light_room, polygon_light_count, polygon_light_room; /* room: as many as the lists have memory for */
     PolygonLight *polygon_lights;

@@ -90,14 +90,14 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     return WEFT_OK;
 }
 
-/* worn: by some mesh. */
-static WeftResult find_all(SheenTables *self, const SheenTables *before, const WeftScene *scene, bool *worn,
+/* used: by some mesh. */
+static WeftResult find_all(SheenTables *self, const SheenTables *before, const WeftScene *scene, bool *used,
                            int threads, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int m = 0; m < scene->mesh_count; m++) worn[scene->meshes[m].material] = true;
+    for (int m = 0; m < scene->mesh_count; m++) used[scene->meshes[m].material] = true;
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++) {
         self->index[k] = -1;
-        if (worn[k]) result = find_table(self, before, &scene->materials[k], threads, &self->index[k], error);
+        if (used[k]) result = find_table(self, before, &scene->materials[k], threads, &self->index[k], error);
     }
     return result;
 }
@@ -118,15 +118,15 @@ WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene,
                               SheenTables **out, WeftError *error) {
     size_t count = (size_t)scene->material_count;
     SheenTables *self = alloc_array(1, sizeof *self);
-    bool *worn = alloc_array(count, sizeof(bool));
+    bool *used = alloc_array(count, sizeof(bool));
     if (self) {
         self->tables = alloc_array(count, sizeof(AlbedoTable *));
         self->index = alloc_array(count, sizeof(int));
     }
-    bool held = worn && self && self->tables && self->index;
-    WeftResult result = held ? find_all(self, before, scene, worn, threads, error)
+    bool held = used && self && self->tables && self->index;
+    WeftResult result = held ? find_all(self, before, scene, used, threads, error)
                              : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    free(worn);
+    free(used);
     if (result != WEFT_OK) {
         sheen_tables_free_but(self, before);
         self = NULL;

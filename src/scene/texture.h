@@ -13,7 +13,7 @@ typedef struct Texture {
     TextureWrap wrap_u, wrap_v;
     bool nearest; /* no interpolation between texels */
     /* Properties of the image, equal for all textures of it: */
-    const char *path; /* its file; NULL where it is none of its own */
+    const char *path; /* path of its file; NULL if it is not a file of its own */
     unsigned turn;    /* another number for other pixels */
 } Texture;
 

@@ -50,7 +50,7 @@ enum {
 };
 
 typedef struct AlbedoTable {
-    Lobe lobe; /* its parameter 0 says nothing */
+    Lobe lobe; /* parameter 0 is not used */
     int rows;
     float low, high;           /* the range asked for */
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */

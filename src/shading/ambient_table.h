@@ -8,7 +8,7 @@ enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16, AMBIENT_SIDES = 3 };
 
 /* The planes of ambient.h over cos_o and one parameter. */
 typedef struct AmbientFit {
-    Lobe lobe; /* its parameter 0 says nothing */
+    Lobe lobe; /* parameter 0 is not used */
     int rows;
     float low, high; /* the range asked for */
     float root_low, root_high;

@@ -27,7 +27,7 @@
 STRUCT(AreaDensity) {
     Ltc m;
     float x, y;
-    bool narrow; /* it is not the cosine of w itself */
+    bool narrow; /* true unless the density is the cosine of w itself */
 };
 
 FN AreaDensity area_of(Ltc m, float x, float y, bool narrow) {

@@ -1,4 +1,4 @@
-/* choice.h - what each choice of inputs.h may be, by id, and by the other names that sources use */
+/* choice.h - the values of each choice of inputs.h, by id and by other names in use */
 #ifndef WEFT_SHADING_CHOICE_H
 #define WEFT_SHADING_CHOICE_H
 

@@ -1,4 +1,4 @@
-/* compose.h - from inputs and choices to a stack, what wo adds to it, and what it reflects
+/* compose.h - makes a stack from inputs and choices, its view for wo, and evaluates it
  *
  * A profile, or else a workflow, makes the stack; then come the choices that were made, in place of what it
  * says. */

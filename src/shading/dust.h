@@ -1,4 +1,4 @@
-/* dust - what has settled on a surface: nothing below, most where it looks up, in patches
+/* dust - dust accumulated on a surface: most where it faces up, none below, in patches
  *
  *   lies  = dust max(n . d, 0)^falloff (1 - noise + noise N(p))
  *   d     = (sin(tilt) cos(direction), cos(tilt), sin(tilt) sin(direction))
@@ -55,7 +55,7 @@ FN float dust_octave(Dir p) {
 /* Three octaves, turned so that no table or wall follows the lattice, with the middle of their range spread
  * over [0, 1]. */
 FN float dust_noise(Dir p, float scale) {
-    float k = 1.0f / max(3.0f * scale, 1e-6f); /* which a texture may make 0 */
+    float k = 1.0f / max(3.0f * scale, 1e-6f); /* a texture may make scale 0 */
     Dir q = dir((2.0f * p.x - p.y + 2.0f * p.z) * k, (2.0f * p.x + 2.0f * p.y - p.z) * k,
                 (2.0f * p.y - p.x + 2.0f * p.z) * k);
     float n = 4.0f * dust_octave(q) +

@@ -1,4 +1,4 @@
-/* dust_lobe.h - how dust scatters: as slabs of lobe ltc-fibre, whose flakes of alpha 1 are grains
+/* dust_lobe.h - scattering of dust: slabs of lobe ltc-fibre, whose flakes of alpha 1 are grains
  *
  *   E = E_1 R(t) / R(1),  R(t) = (3 t + (2 - 3 mu) (1 - exp(-t / mu))) / (4 + 3 t)
  *

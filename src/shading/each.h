@@ -10,7 +10,7 @@
 #include "shading/lobe.h"
 
 typedef struct Each {
-    Lobe lobe;                            /* its id, and its choices of terms */
+    Lobe lobe;                            /* the lobe's id and choices of terms */
     const float *params[LOBE_PARAMS_MAX]; /* clamped; of a choice it is not read */
     const float *f0[3], *f90[3];          /* colours, as WeftLobe has them */
     const float *o[3], *i[3], *u, *v;     /* u and v in [0, 1) */

@@ -1,4 +1,4 @@
-/* fresnel_weight.h - how much of a lobe is in its second colour */
+/* fresnel_weight.h - the Fresnel weight: the part of a lobe's f that its second colour scales */
 #ifndef WEFT_SHADING_FRESNEL_WEIGHT_H
 #define WEFT_SHADING_FRESNEL_WEIGHT_H
 

@@ -1,4 +1,4 @@
-/* inputs.h - what a material is described by
+/* inputs.h - the inputs and choices of a material
  *
  * SURFACE_INPUTS lists its numbers and textures, SURFACE_CHOICES what it is made from: records, --set,
  * material files, docs and (later) sliders and uniforms come from these two lists. */

@@ -1,4 +1,4 @@
-/* lobe_value.h - what a pair of directions gets from a lobe, and what its colours make of that */
+/* lobe_value.h - the value of a lobe for a pair of directions, and its product with the lobe's colours */
 #ifndef WEFT_LOBE_VALUE_H
 #define WEFT_LOBE_VALUE_H
 

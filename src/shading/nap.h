@@ -1,4 +1,4 @@
-/* nap.h - where the fibres of a sheen lean, as a viewer sees it
+/* nap.h - the direction in which the fibres of a sheen lean, relative to a viewer
  *
  *   heading = cos(phi),  phi: the azimuth of a direction about the normal, from where the fibres lean
  *

@@ -1,4 +1,4 @@
-/* punctual.h - how a punctual light falls off. Khronos Group, KHR_lights_punctual, 2018-2020 */
+/* punctual.h - falloff of punctual lights. Khronos Group, KHR_lights_punctual, 2018-2020 */
 #ifndef WEFT_SHADING_PUNCTUAL_H
 #define WEFT_SHADING_PUNCTUAL_H
 

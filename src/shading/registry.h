@@ -21,7 +21,7 @@ void lobe_tables_make_for(int id);
 /* The names of things in a lobe's text: "ggx", "Ggx" and "GGX". */
 typedef struct LobeNames {
     const char *prefix, *record, *macros;
-    bool strips; /* it has them: lobe.h */
+    bool strips; /* true if the lobe has strips (lobe.h) */
 } LobeNames;
 const LobeNames *lobe_names(int id);
 
@@ -30,7 +30,7 @@ typedef struct OutsideLobe {
     WeftLobeInfo info;
     LobeNames names;
     const struct Plugin *plugin;
-    const struct OutsideLobe *before; /* that it has taken the place of; outside_take sets it */
+    const struct OutsideLobe *before; /* the lobe that this one replaced; set by outside_take */
     const char *file, *text;          /* "shading/lobes/toy.h", as though it were there, and what is in it */
 } OutsideLobe;
 

@@ -1,4 +1,4 @@
-/* texel.h - what the channels of a texture say, once it has been looked up */
+/* texel.h - values of inputs from a texture's channels */
 #ifndef WEFT_SHADING_TEXEL_H
 #define WEFT_SHADING_TEXEL_H
 

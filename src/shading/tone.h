@@ -1,4 +1,4 @@
-/* tone.h - from linear radiance to what a display is sent
+/* tone.h - tone mapping: from linear radiance to display values
  *
  * One text for pictures in memory (image/tonemap.c) and for those that the GPU shows (raster/display.h). */
 #ifndef WEFT_TONE_H

@@ -1,4 +1,4 @@
-/* traits.h - what holds of a lobe over its whole parameter range; the tests check each claim */
+/* traits.h - properties of a lobe over its whole parameter range; tests check each claim */
 #ifndef WEFT_SHADING_TRAITS_H
 #define WEFT_SHADING_TRAITS_H
 

@@ -1,4 +1,4 @@
-/* workflow.h - what every workflow is made from: coat, sheen and base out of a surface's inputs */
+/* workflow.h - parts of all workflows: coat, sheen and base from a surface's inputs */
 #ifndef WEFT_SHADING_WORKFLOW_H
 #define WEFT_SHADING_WORKFLOW_H
 

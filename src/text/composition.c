@@ -74,7 +74,7 @@ static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
 }
 
 CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
-    CompositionSlots found = {.worn = true};
+    CompositionSlots found = {.used = true};
     for (int x = 0; x <= (whole_sheen ? 2 : 5); x++) {
         Stack m;
         Surface s = composition_surface(0.5f * (float)(x % 3), zero);
@@ -83,7 +83,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
         for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
         const Stack *made = &m;
-        found.worn &= !IS_BELOW_F(made);
+        found.used &= !IS_BELOW_F(made);
     }
     return found;
 }
@@ -102,7 +102,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_define(text, "SHEEN_TILTS(m)", tilts);
     for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
     text_define(text, "HAS_LAYERED_SHEEN(m)",
-                found->worn ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+                found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots);
 }

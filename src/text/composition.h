@@ -1,4 +1,4 @@
-/* composition.h - what a material's choices make of a surface, as text for that one composition alone */
+/* composition.h - a material's composition as text that is specialised to its choices */
 #ifndef WEFT_TEXT_COMPOSITION_H
 #define WEFT_TEXT_COMPOSITION_H
 
@@ -13,7 +13,7 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 typedef struct CompositionSlots {
     TextSlot slots[TEXT_SLOTS];
     Lobe lobes[TEXT_SLOTS];
-    bool worn; /* no layer rule could do without a sheen */
+    bool used; /* no layer rule could do without a sheen */
 } CompositionSlots;
 
 /* whole_sheen: input sheen is 1 everywhere. */

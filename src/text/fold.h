@@ -1,4 +1,4 @@
-/* fold.h - what is known of a text's conditions, put in their place: only the branch that is taken stays */
+/* fold.h - constant folding of a text's conditions: only the branch that is taken stays */
 #ifndef WEFT_TEXT_FOLD_H
 #define WEFT_TEXT_FOLD_H
 

@@ -10,7 +10,7 @@ typedef enum ItemKind { ITEM_RECORD, ITEM_FUNCTION, ITEM_CONSTANT } ItemKind;
 typedef struct Item {
     ItemKind kind;
     Token name;
-    const char *comment; /* its own, where it has one: [comment, code) */
+    const char *comment; /* the item's comment, if any: [comment, code) */
     const char *code, *end;
     int file; /* index into files, -1: none */
     bool kept;

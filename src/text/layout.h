@@ -1,5 +1,5 @@
-/* layout.h - how the flattened text looks: one blank line where there were some, records a member a line,
- * enumerations as constants; comments only where they are asked for */
+/* layout.h - layout of the flattened text: single blank lines, one member of a record a line, enumerations as
+ * constants, comments on request */
 #ifndef WEFT_TEXT_LAYOUT_H
 #define WEFT_TEXT_LAYOUT_H
 

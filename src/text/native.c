@@ -41,10 +41,10 @@ static Bond put_range(const char *c, const char *end, Buffer *out);
 /* An operand of something that binds so: in parentheses where it holds together less. */
 static void put_operand(Piece piece, Bond bond, Buffer *out) {
     Buffer words = {0};
-    bool apart = put_range(piece.at, piece.end, &words) < bond;
-    if (apart) buffer_put_text(out, "(");
+    bool bracketed = put_range(piece.at, piece.end, &words) < bond;
+    if (bracketed) buffer_put_text(out, "(");
     if (words.bytes) buffer_put(out, words.bytes, words.size);
-    if (apart) buffer_put_text(out, ")");
+    if (bracketed) buffer_put_text(out, ")");
     out->failed |= words.failed;
     buffer_free(&words);
 }
@@ -91,11 +91,11 @@ static Bond put_range(const char *c, const char *end, Buffer *out) {
         if (form) {
             List arguments = list_of(c, end);
             c = list_end(&arguments, end);
-            bool apart = form->bond < bond_between(before, token_peek(c, end));
-            if (apart) buffer_put_text(out, "(");
+            bool bracketed = form->bond < bond_between(before, token_peek(c, end));
+            if (bracketed) buffer_put_text(out, "(");
             put_form(form, &arguments, out);
-            if (apart) buffer_put_text(out, ")");
-            if (depth == 0 && !apart) bond = least(bond, form->bond);
+            if (bracketed) buffer_put_text(out, ")");
+            if (depth == 0 && !bracketed) bond = least(bond, form->bond);
             before = (Token){TOKEN_MARK, ")", 1};
             continue;
         }

@@ -9,7 +9,7 @@ typedef struct Filler {
     const Item *function;
     Parameter filled;
     int place;  /* of that among the parameters */
-    bool takes; /* it may read what was written before, and keeps its parameter */
+    bool takes; /* true if the function may read earlier contents and so keeps the parameter */
     List parameters;
     const char *body;
 } Filler;

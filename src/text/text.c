@@ -367,7 +367,7 @@ static void put_file(Text *text, const char *file, const Buffer *source) {
 }
 
 typedef struct Source {
-    const char *path; /* that a person finds it by */
+    const char *path; /* the path shown to people */
     const char *bytes, *end;
     unsigned char *own; /* to be freed */
 } Source;

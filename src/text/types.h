@@ -44,7 +44,8 @@ Token types_result(const Items *items, Token function);
 typedef struct Access {
     Token record; /* TOKEN_NONE: of which record is not known */
     Token member;
-    const char *statement, *statement_end; /* that writes to it or to a part of it; NULL: it is read */
+    const char *statement,
+        *statement_end; /* the statement that writes to the whole or a part; NULL: a read */
 } Access;
 
 /* Calls visit with each of them, in their order. */

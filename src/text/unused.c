@@ -219,7 +219,7 @@ static Use *find_use(Uses *uses, Token name) {
 typedef struct Statement {
     const char *at;
     Token type;
-    List names;         /* that it declares */
+    List names;         /* names that the statement declares */
     const char *stored; /* behind the path that it writes to, NULL: none */
 } Statement;
 

@@ -82,11 +82,11 @@ static void put_alternatives(const char *c, const char *end, Buffer *out) {
     bool several = bar < end;
     for (;;) {
         const char *first = blank_end(c, bar), *last = trimmed_end(first, bar);
-        bool apart = several && find_mark(first, last, "&") < last;
+        bool bracketed = several && find_mark(first, last, "&") < last;
         put(out, c, first);
-        if (apart) buffer_put_text(out, "(");
+        if (bracketed) buffer_put_text(out, "(");
         put_tokens(first, last, out);
-        if (apart) buffer_put_text(out, ")");
+        if (bracketed) buffer_put_text(out, ")");
         put(out, last, bar);
         if (bar == end) return;
         buffer_put_text(out, "||");

@@ -1,5 +1,4 @@
-/* catcher.h - what the floor catches along camera rays: the light that is kept from it, and the scene
- * mirrored
+/* catcher.h - the floor that catches shadow and reflection of the scene along camera rays
  *
  * With B the background behind a point of the floor, seen with coverage a, M what is mirrored at the share r
  * of the rays that meet the scene, c = r where one does, and V the part of the light that reaches the point,

@@ -28,7 +28,7 @@ typedef struct PathContext {
     int max_depth;
     WeftSampling sampling;
     bool roulette, shadows;
-    bool sky_in_parts; /* its factors ambient and reflection are not both 1 */
+    bool sky_in_parts; /* true unless the sky's factors ambient and reflection are both 1 */
 } PathContext;
 
 /* Radiance that comes back along a camera ray whose nearest hit is known; counts rays traced. */

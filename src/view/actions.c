@@ -18,7 +18,7 @@ void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int inpu
     renderer_add_task(v->renderer, &task);
 }
 
-/* The state is another one, of which history knows. */
+/* Accepts a state that history holds already. */
 void viewer_accept_state(Viewer *v) {
     scene_state_free(&v->before);
     scene_state_copy(&v->before, &v->state);

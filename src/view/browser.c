@@ -24,7 +24,7 @@ struct Browser {
     FolderEntry *entries;
     int count;
     bool more;      /* than are listed */
-    unsigned kinds; /* that are listed and chosen: bit k for PathKind k */
+    unsigned kinds; /* kinds listed and chosen: bit k for PathKind k */
     bool everything;
     char failure[200];
 };

@@ -36,11 +36,11 @@ static void put(WeftMaterial *m, const char *input, const float color[3], float 
 /* A metal is what it reflects: where that is a colour of its own its base is black. */
 static void put_base(WeftMaterial *m, const WeftChartEntry *e) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
-    bool metal = e->kind == WEFT_CHART_METAL, apart = strcmp(f0_input(m), "specular_color") == 0;
+    bool metal = e->kind == WEFT_CHART_METAL, separate_f0 = strcmp(f0_input(m), "specular_color") == 0;
     const float metallic[3] = {metal ? 1.0f : 0.0f, 0.0f, 0.0f};
-    put(m, "base_color", metal && apart ? black : e->base_color, 1.0f);
-    if (!apart) put(m, "metallic", metallic, 1.0f);
-    if (metal && apart) put(m, "specular_color", e->f0, 1.0f);
+    put(m, "base_color", metal && separate_f0 ? black : e->base_color, 1.0f);
+    if (!separate_f0) put(m, "metallic", metallic, 1.0f);
+    if (metal && separate_f0) put(m, "specular_color", e->f0, 1.0f);
 }
 
 static void put_f0(WeftMaterial *m, const WeftChartEntry *e, const char *input) {

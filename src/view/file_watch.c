@@ -14,7 +14,7 @@ typedef struct File {
     char *path;
     int id;
     unsigned long long told, seen; /* stamps: when it was last told of, and last looked at */
-    double since;                  /* it is as it was seen */
+    double since;                  /* when the stamp was last seen to change */
 } File;
 
 struct FileWatch {

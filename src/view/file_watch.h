@@ -1,4 +1,4 @@
-/* file_watch.h - files that somebody else writes: which of them is another one, and written to its end
+/* file_watch.h - a watch on files that other programs write: which have changed and are complete
  *
  * A file has changed once it is different from when it was last told of and has then stood still for a third
  * of a second: what is half written is waited for. */

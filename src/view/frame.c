@@ -13,7 +13,7 @@
 enum { COARSE_MOST = 8 };
 
 static const double smooth_most = 4.0;     /* s, that smooth edges may take */
-static const double frame_seconds = 0.036; /* that a picture may, while the hand moves */
+static const double frame_seconds = 0.036; /* s, for a picture while the mouse moves */
 
 /* One of the ring that is neither shown nor newest, of this size. */
 static int take_target(Renderer *self, int width, int height) {
@@ -72,7 +72,7 @@ static WeftResult apply_environment(Renderer *self, EnvironmentState *environmen
 WeftResult frame_apply_state(Renderer *self, const SceneState *wanted, WeftError *error) {
     const WeftLog log = renderer_log(self);
     unsigned changed = 0;
-    SceneState is, parts = *wanted, *state = &parts;                         /* its parts are borrowed */
+    SceneState is, parts = *wanted, *state = &parts;                         /* the parts are borrowed */
     if (state->material_count != self->is.material_count) return WEFT_INPUT; /* of another scene */
     if (frame_refusal(self, state)) environment_state_take_source(&state->environment, &self->is.environment);
     if (scene_state_same(state, &self->is)) return WEFT_OK;
@@ -178,7 +178,7 @@ static Effort effort_of(const Renderer *self, const FrameRequest *request) {
 }
 
 static FrameRequest with_effort(const Renderer *self, const FrameRequest *request, Effort effort) {
-    FrameRequest drawn = *request; /* its states are borrowed */
+    FrameRequest drawn = *request; /* frees the states are borrowed */
     int by = effort == EFFORT_COARSE ? self->coarse : 1;
     if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
     drawn.view.width = request->view.width / by > 16 ? request->view.width / by : 16;

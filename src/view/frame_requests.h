@@ -1,4 +1,4 @@
-/* requests.h - what the window wants to see, and what comes back */
+/* frame_requests.h - requests for frames, and their results */
 #ifndef WEFT_VIEW_FRAME_REQUESTS_H
 #define WEFT_VIEW_FRAME_REQUESTS_H
 

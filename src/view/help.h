@@ -1,4 +1,4 @@
-/* help.h - what the catalogue's own files say about a choice: what one sees, formula, source */
+/* help.h - help on a choice from the catalogue's own files: appearance, formula, source */
 #ifndef WEFT_VIEW_HELP_H
 #define WEFT_VIEW_HELP_H
 

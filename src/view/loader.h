@@ -17,9 +17,9 @@ typedef struct Facts {
     FactName *maps;                           /* files of textures, as it was read; owned */
     int map_count;
     WeftImage
-        thumbs; /* of those in the same request, FACTS_THUMB a side, one below the other: U8 RGB; owned */
-    float
-        *coverage; /* of the picture, by material, when it was last looked at: survey.h; owned, may be NULL */
+        thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
+    float *
+        coverage; /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
 
@@ -41,10 +41,10 @@ typedef struct Loaded {
     char failure[512];
     char *warnings;        /* warnings, one a line; owned, may be NULL */
     const char *camera;    /* through which it is seen first; a constant, or the command line's */
-    bool again;            /* it is the scene that was there, read anew */
-    Folders folders;       /* that it wears */
+    bool again;            /* the scene was read again from its file */
+    Folders folders;       /* folders of maps that are in use */
     char lobe[STATE_PATH]; /* file of a lobe that was to be taken before; "": none */
-    bool taken;            /* it was, whatever became of the scene */
+    bool taken;            /* the lobe was taken, even if the scene failed */
 } Loaded;
 
 /* A load as it is requested. */

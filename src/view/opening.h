@@ -1,5 +1,4 @@
-/* opening.h - what is read: scenes in the background, lights, materials, pictures, and what changes on disk
- */
+/* opening.h - loading of scenes, lights, materials, images, and of files that change on disk / */
 #ifndef WEFT_VIEW_OPENING_H
 #define WEFT_VIEW_OPENING_H
 
@@ -23,7 +22,7 @@ bool opening_watch(Viewer *v, double seconds);
 /* The renderer has taken a scene, or could not. */
 void opening_take(Viewer *v, const RenderEvent *event);
 
-/* Materials were changed by a variant: coverage, of the state's materials, are taken over. */
+/* Takes over the coverage of the state's materials after a variant has changed them. */
 void opening_varied(Viewer *v, float **coverage);
 
 /* Sets the centre of the scene, and its size: half the distance of the camera. */

@@ -22,7 +22,8 @@ bool orbit_at(Orbit *orbit, const WeftScene *scene, const char *camera, float as
 /* About the target; right and down are positive. */
 void orbit_turn(Orbit *orbit, float across, float down);
 
-/* Eye and target move with what is under the mouse: coverage of the picture's height. */
+/* Moves eye and target so that the point under the mouse stays there; dx, dy in fractions of the picture's
+ * height. */
 void orbit_pan(Orbit *orbit, float across, float down);
 
 /* Towards the target, so that the distance is multiplied. */
@@ -31,7 +32,7 @@ void orbit_dolly(Orbit *orbit, float factor);
 /* Looks elsewhere from where the eye is. */
 void orbit_look(Orbit *orbit, float across, float down);
 
-/* Moves the eye: along where it states, to the right, up the world; metres. */
+/* Moves the eye along its view direction, to the right, and up in the world; metres. */
 void orbit_fly(Orbit *orbit, float forward, float right, float up);
 
 /* Puts all of a box into a picture of that aspect, from where it is looked at now. */

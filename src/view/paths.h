@@ -1,4 +1,4 @@
-/* paths.h - what a file is to the window, by its name */
+/* paths.h - kinds of files, by their names */
 #ifndef WEFT_VIEW_PATHS_H
 #define WEFT_VIEW_PATHS_H
 

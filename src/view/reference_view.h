@@ -1,6 +1,6 @@
-/* reference.h - the thread that path traces what the window shows, sample upon sample
+/* reference_view.h - the thread that path traces the window's view (ground truth), sample upon sample
  *
- * The scene is the renderer's, which holds the reference still while it changes anything. */
+ * The scene belongs to the renderer, which pauses this thread while it changes anything. */
 #ifndef WEFT_VIEW_REFERENCE_VIEW_H
 #define WEFT_VIEW_REFERENCE_VIEW_H
 
@@ -13,7 +13,7 @@ typedef struct ReferenceView ReferenceView;
 
 typedef struct ReferenceRequest {
     bool wanted;
-    WeftRenderDesc desc; /* its camera is the text below */
+    WeftRenderDesc desc; /* the camera is the text below */
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;

@@ -32,7 +32,7 @@ void renderer_post(Renderer *self, RenderEvent *event) {
 
 /* ---- scenes ---- */
 
-enum { FOLDERS = 1 << 24 }; /* what the file_watch calls the first folder; below it are textures */
+enum { FOLDERS = 1 << 24 }; /* id of the first folder in the file watch; lower ids are textures */
 
 void renderer_watch_files(Renderer *self) {
     file_watch_clear(self->file_watch);
@@ -101,10 +101,10 @@ static bool reload_changed(Renderer *self) {
     int texture = self->started ? file_watch_poll(self->file_watch, now()) : -1;
     if (texture < 0) return false;
     if (texture >= FOLDERS) {
-        Task wear = {.kind = TASK_BIND_MAPS, .scene = self->scene_number};
-        wear.index = self->folders.materials[texture - FOLDERS];
-        snprintf(wear.path, sizeof wear.path, "%s", self->folders.paths[texture - FOLDERS]);
-        tasks_do(self, &wear, &self->drawn);
+        Task bind = {.kind = TASK_BIND_MAPS, .scene = self->scene_number};
+        bind.index = self->folders.materials[texture - FOLDERS];
+        snprintf(bind.path, sizeof bind.path, "%s", self->folders.paths[texture - FOLDERS]);
+        tasks_do(self, &bind, &self->drawn);
         return true;
     }
     WeftError error = {0};

@@ -25,25 +25,26 @@ typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
 /* A request for a picture. It holds only values that change the picture. */
 typedef struct FrameRequest {
-    unsigned scene;          /* that it is of: renderer_set_scene's number */
+    unsigned scene;          /* number of the scene (renderer_set_scene) */
     int edited;              /* tasks are done to `state` (0) or to `other` (1) */
     SceneState state, other; /* `other` on the right, where they share it; empty otherwise */
     Split split;
     float at;            /* SPLIT_LINE: share of the width that is left of it */
-    WeftRasterView view; /* size, background, part, ambient; its camera is the text below */
+    WeftRasterView view; /* size, background, part, ambient; the camera is the text below */
     char camera[ORBIT_TEXT];
     float behind[3];  /* light of the display, where the picture is transparent */
     bool laid_behind; /* also in pictures that are saved */
     WeftTonemap tonemap;
     float exposure;
-    Effort effort;  /* that is asked for at the least */
+    Effort effort;  /* the least that is asked for */
     bool reference; /* nothing is to be drawn: the path tracer does it */
     bool compare;   /* a linear copy is to be handed to the path tracer */
 } FrameRequest;
 
-/* A copy that coverage the parts of its states; false where memory is short, and then `copy` is as it was. */
+/* Copies a request; the copy shares the parts of its states. Returns false if memory is short, and leaves
+ * `copy` alone. */
 bool frame_request_copy(FrameRequest *copy, const FrameRequest *request);
-void frame_request_free(FrameRequest *request); /* its states */
+void frame_request_free(FrameRequest *request); /* frees its states */
 
 typedef enum TaskKind {
     TASK_SHOT,      /* a picture of `view`'s size to `path` */
@@ -54,13 +55,13 @@ typedef enum TaskKind {
     TASK_ASSIGN,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
     TASK_BIND_MAPS, /* the maps of folder `path` on material `index`, -1: the cloth */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that lights the scene from far away */
-    TASK_SCENE,     /* event alone: another scene was taken, or could not be */
-    TASK_SURVEY     /* event alone: a variant has others wear the scene's materials */
+    TASK_SCENE,     /* an event only: another scene was taken, or failed */
+    TASK_SURVEY     /* an event only: a variant has changed which meshes use the materials */
 } TaskKind;
 
 typedef struct Task {
     TaskKind kind;
-    unsigned scene; /* that it is of; tasks of another one are dropped */
+    unsigned scene; /* number of its scene; tasks of another scene are dropped */
     char path[STATE_PATH];
     int index, input;
     float x, y;
@@ -81,7 +82,7 @@ typedef struct Probe {
 
 typedef struct RenderEvent {
     TaskKind kind;
-    unsigned scene; /* that it is of */
+    unsigned scene; /* number of the scene this event is about */
     bool failed;
     WeftResult result;     /* TASK_SCENE */
     char text[512];        /* a line for people */
@@ -100,12 +101,12 @@ typedef struct RenderEvent {
 typedef struct RenderedFrame {
     unsigned texture; /* 0: nothing yet */
     int width, height;
-    unsigned scene;      /* that it shows */
+    unsigned scene;      /* number of the scene that is shown */
     unsigned number;     /* of the request it shows */
     bool focused;        /* `target` is what is in the middle of the picture */
     Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
-    float seconds;       /* that it took */
-    float whole_seconds; /* that one of all pixels takes */
+    float seconds;       /* s, for this picture */
+    float whole_seconds; /* s, for a picture with all pixels */
     float eye[3], target[3], fov;
     int programs, compiled;
     bool busy;           /* more is to come: shaders, or what the background looks for */
@@ -114,13 +115,14 @@ typedef struct RenderedFrame {
     char driver[128];
 } RenderedFrame;
 
-/* window must outlive it; reference too. shader_dir may be NULL. NULL where memory or a context is short. */
+/* window and reference must outlive the renderer. shader_dir may be NULL. NULL where memory or a context
+ * is short. */
 Renderer *renderer_start(Window *window, ReferenceView *reference, const char *shader_dir, int occlusion);
 void renderer_stop(Renderer *renderer);
 
-/* Takes the scene over, with the state it has; the old one is released once the new one can be drawn, and event
- * of TASK_SCENE tell. number is the scene's own: requests and tasks of another one are dropped. Folders that it
- * wears are watched. */
+/* Takes the scene over, with the state it has; the old one is released once the new one can be drawn, and an
+ * event of TASK_SCENE reports the outcome. number is the scene's own: requests and tasks of another one are
+ * dropped. Folders of maps in use are watched. */
 void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *state, const Folders *folders,
                         unsigned number);
 

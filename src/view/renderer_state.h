@@ -23,7 +23,7 @@ struct Renderer {
     FrameRequest request;
     unsigned number;
     bool requested, quit, working;
-    WeftScene *pending_scene;              /* that is to be taken over */
+    WeftScene *pending_scene;              /* the scene to be taken over */
     unsigned pending_number, scene_number; /* of it, and of the one at hand */
     SceneState pending_state;
     Folders pending_folders;
@@ -48,13 +48,13 @@ struct Renderer {
     unsigned drawn_number;
     bool stale; /* a picture of the same request would be another one */
     bool started;
-    Folders folders;       /* that are worn, and watched */
+    Folders folders;       /* folders of maps in use, and watched */
     int surveyed;          /* variant of which the window knows who wears what */
     FileWatch *file_watch; /* of the files of textures, and of those folders */
     int coarse;            /* pixels a side that become one while the hand moves */
-    double coarse_seconds, whole_seconds, smooth_seconds; /* that pictures take */
+    double coarse_seconds, whole_seconds, smooth_seconds; /* s, that pictures of each effort take */
     bool smooth_known, surprised;
-    Study study; /* that is under way */
+    Study study; /* the sheet under way */
     unsigned textures[RING], targets[RING];
     int widths[RING], heights[RING];
 };
@@ -65,19 +65,19 @@ void renderer_post(Renderer *renderer, RenderEvent *event); /* takes them over *
 void renderer_watch_files(
     Renderer *renderer); /* the files of the scene's textures, the folders worn, no others */
 
-/* frame.c: brings the scene to a state, and draws an request into the next texture. A light from a file that
- * cannot be had leaves the one before; frame_refusal then tells why, and the file is left alone until it
- * has changed. */
+/* frame.c: brings the scene to a state, and draws a request into the next texture. A light from a file that
+ * cannot be had leaves the one before; frame_refusal then tells why, and the file is left alone until it has
+ * changed. */
 WeftResult frame_apply_state(Renderer *renderer, const SceneState *state, WeftError *error);
 const char *frame_refusal(const Renderer *renderer, const SceneState *state); /* NULL: it does not */
-/* The state that the panels show. */
+/* The state shown in the panels. */
 const SceneState *frame_edited_state(const FrameRequest *request);
 void frame_draw(Renderer *renderer, const FrameRequest *request, unsigned number);
 
 /* tasks.c */
 void tasks_survey(Renderer *renderer, const FrameRequest *request); /* of who wears what, to the window */
 void tasks_do(Renderer *renderer, const Task *task, const FrameRequest *request);
-void tasks_study(Renderer *renderer); /* one more picture of the sheet that is under way */
+void tasks_study(Renderer *renderer); /* draws one more picture of the sheet under way */
 /* A file whose picture does not come whole leaves the one before, until it changes again. */
 WeftResult tasks_reload(Renderer *renderer, int texture, WeftError *error);
 

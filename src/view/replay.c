@@ -16,7 +16,7 @@ enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 typedef struct Motion {
     enum { DO_EVENT, DO_POINT, DO_NOTHING, DO_KEEP, DO_WRITE } kind;
     Event event;
-    char path[1024];  /* of the event */
+    char path[1024];  /* of the action's file */
     char control[96]; /* DO_POINT: moves the mouse to a share of this control's box */
     float x, y;
 } Motion;
@@ -26,7 +26,7 @@ struct Replay {
     int line;
     Motion motions[MOTIONS];
     int count, first;
-    int tries;    /* that an action has been put off */
+    int tries;    /* times an action was put off */
     double since; /* when a wait began; 0: none is on */
     bool stay;
 };

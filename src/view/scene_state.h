@@ -1,7 +1,7 @@
-/* state.h - what a scene is configured and lit as, as a value: to keep, to compare and to go back to
+/* scene_state.h - the edited state of a scene as a value, to keep, to compare and to restore
  *
- * A copy coverage its parts, which never change once they are made: so a history of states is small, and that
- * two are alike is told by pointers. Looks may be read, copied and released in any thread; one state is
+ * A copy shares its parts, which never change once they are made. So a history of states is small, and equal
+ * states are found by their pointers. States may be read, copied and released in any thread; one state is
  * changed by one thread. */
 #ifndef WEFT_VIEW_SCENE_STATE_H
 #define WEFT_VIEW_SCENE_STATE_H

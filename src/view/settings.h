@@ -1,4 +1,4 @@
-/* settings.h - what is remembered from one run to the next: a small JSON in the user's configuration */
+/* settings.h - settings that persist between runs: a small JSON in the user's configuration */
 #ifndef WEFT_VIEW_SETTINGS_H
 #define WEFT_VIEW_SETTINGS_H
 

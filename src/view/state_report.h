@@ -1,4 +1,4 @@
-/* state_report.h - what the window shows, as lines of JSON for a program that drives it */
+/* state_report.h - the window's contents, as lines of JSON for a program that drives it */
 #ifndef WEFT_VIEW_STATE_REPORT_H
 #define WEFT_VIEW_STATE_REPORT_H
 

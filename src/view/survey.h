@@ -1,4 +1,4 @@
-/* survey.h - how much of a picture each material has */
+/* survey.h - the coverage of a picture by each material */
 #ifndef WEFT_VIEW_SURVEY_H
 #define WEFT_VIEW_SURVEY_H
 

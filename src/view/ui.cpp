@@ -23,12 +23,12 @@ struct Ui {
     std::vector<size_t> scopes;
     std::vector<UiControl> shown, last;
     std::string reveal;
-    std::vector<std::string> panels;         /* of this frame, in their request */
-    std::string panel;                       /* that has the keyboard; "": none */
+    std::vector<std::string> panels;         /* of this frame, in their order */
+    std::string panel;                       /* panel with the keyboard; "": none */
     bool to_menus = false, to_panel = false; /* goes there with the next frame */
     bool navigates = false;
     bool noted = false;         /* the widget before is the last of those shown */
-    ImDrawList *list = nullptr; /* that is drawn on; NULL: the current window's */
+    ImDrawList *list = nullptr; /* target of drawing; NULL: the current window's */
     ImVec4 accent = ImVec4(0.86f, 0.55f, 0.30f, 1.0f);
 };
 
@@ -503,7 +503,7 @@ bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     }
     ui_scope_end();
     ImGui::EndCombo();
-    note_spoken(label); /* its rows tell */
+    note_spoken(label); /* the rows are recorded */
     return changed;
 }
 

@@ -146,7 +146,7 @@ typedef struct UiChoices {
 bool ui_choice(const char *label, const UiChoices *choices, int *chosen);
 
 typedef struct UiRange {
-    float low, high;  /* that the slider spans */
+    float low, high;  /* ends of the slider */
     float initial;    /* a double click goes there */
     const char *unit; /* NULL: none */
     bool logarithmic;
@@ -184,7 +184,7 @@ void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, 
 typedef struct UiControl {
     char name[96];
     UiBox box;
-    bool told; /* it has a tip, or needs none */
+    bool told; /* a tip exists or none is needed */
 } UiControl;
 int ui_control_count(void);
 const UiControl *ui_control(int index);

@@ -1,4 +1,4 @@
-/* view.h - the window: open a cloth asset, switch every term, see the reference behind it */
+/* view.h - the window: open a cloth asset, edit every term, and compare with the path-traced reference */
 #ifndef WEFT_VIEW_VIEW_H
 #define WEFT_VIEW_VIEW_H
 
@@ -12,8 +12,8 @@ typedef struct ViewDesc {
     const char *scene; /* NULL: the built-in cloth */
     const char
         *options; /* how the scene is configured, as a command line has it: for the copied one; may be NULL */
-    /* Dresses and lights a scene that was just loaded; `environment` receives the light from far away. May be
-     * NULL. */
+    /* Assigns materials and lights to a scene that was just loaded; `environment` receives the light from far
+     * away. May be NULL. */
     WeftResult (*configure)(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
                             WeftError *error);
     void *user;

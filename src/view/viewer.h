@@ -1,5 +1,4 @@
-/* viewer.h - what the window knows: one struct that panels, stage and replay share, one frame after another
- */
+/* viewer.h - the window's state, which panels, stage and replay share, one frame after another / */
 #ifndef WEFT_VIEW_VIEWER_H
 #define WEFT_VIEW_VIEWER_H
 
@@ -27,14 +26,14 @@ typedef struct Brush {
     float strength;     /* 0 .. 1, of a stroke */
     bool down;          /* a stroke is under way */
     bool known;         /* `at` is where it was last */
-    float at[3], uv[2]; /* that, in the world and on the map */
+    float at[3], uv[2]; /* last place, in the world and on the map */
     int material;
 } Brush;
 
 typedef struct Inspection Inspection;
 struct Examination;
 
-/* The panels at the side, in the request of their tabs. */
+/* The panels at the side, in the order of their tabs. */
 enum { PANEL_MATERIAL, PANEL_LIGHT, PANEL_VIEW, PANEL_INSPECT, PANEL_DOCTOR };
 
 typedef struct Viewer {
@@ -66,9 +65,9 @@ typedef struct Viewer {
     SceneState state, first, before,
         sent;         /* as it is edited; as it was read; a frame ago; as last requested */
     SceneState other; /* the other of A and B; empty without a comparison */
-    int side;         /* which of them `state` is: 0 is A */
+    int side;         /* side that `state` holds: 0 is A */
     History history, other_history;
-    int material, light; /* that the panels show */
+    int material, light; /* shown in the panels */
     Folders folders;     /* of maps that the scene wears */
     unsigned thumbs;     /* texture: the pictures of its maps */
     WeftMaterial copied;
@@ -93,13 +92,13 @@ typedef struct Viewer {
     Tool tool;
     Brush brush;
     UiBox stage; /* pixels of the window */
-    int panel;   /* that is open at the side: PANEL_MATERIAL ... */
+    int panel;   /* the open panel: PANEL_MATERIAL ... */
 
     /* what came back */
     RenderedFrame rendered;
     unsigned requested;   /* number of the last request */
-    FrameRequest request; /* that it was; its states are empty */
-    bool ask;             /* an request is due */
+    FrameRequest request; /* the last request; the states are empty */
+    bool ask;             /* a request is due */
     double changed;       /* when the last one was another than the one before, s */
     bool late;            /* the renderer is at something long: it is not waited for */
     unsigned reference_texture;
@@ -118,7 +117,7 @@ typedef struct Viewer {
     char message[MESSAGE_SIZE];
     bool message_grave;
     char warnings[8192];                      /* of scene and files, one a line */
-    char shader_complaint[512], failure[512]; /* that were told of */
+    char shader_complaint[512], failure[512]; /* last reported to the user */
 
     /* dialogs */
     struct Browser *browser;
@@ -152,7 +151,7 @@ void viewer_open(Viewer *v, const char *path);
 
 /* Actions of menus, keys and replays. */
 void viewer_accept_state(
-    Viewer *v); /* the state is as it is by undo or event: that is no change of its own */
+    Viewer *v); /* accepts a state that undo or an event has set: it makes no step of history */
 void viewer_undo(Viewer *v);
 void viewer_copy_material(Viewer *v);
 void viewer_paste_material(Viewer *v);
@@ -206,14 +205,14 @@ void light_panel(Viewer *v);
 void view_panel(Viewer *v);
 void inspect_panel(Viewer *v);
 void doctor_panel(Viewer *v);
-bool doctor_busy(const Viewer *v); /* it has more to show in a later frame */
+bool doctor_busy(const Viewer *v); /* returns true if more is to come in a later frame */
 void dialogs_draw(Viewer *v);
 void keys_input(Viewer *v);
 void inspection_free(Inspection *inspection);
-bool inspection_busy(const Inspection *inspection); /* it measures on in the next frame */
+bool inspection_busy(const Inspection *inspection); /* returns true if measuring goes on in the next frame */
 
 /* command.c: the command line that draws what the window shows. Release with free; NULL where memory is
- * short; `lost` (may be NULL) is set where a rendered nap is not in it. */
+ * short; `lost` (may be NULL) is set if a painted nap is not in it. */
 char *command_line(const Viewer *v, bool *lost);
 
 #endif

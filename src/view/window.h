@@ -22,7 +22,7 @@ typedef struct WindowDesc {
 Window *window_open(const WindowDesc *desc, char why[256]);
 void window_close(Window *window);
 
-/* A second context that coverage textures with the window's: makes it current in the thread that calls. */
+/* A second context that shares textures with the window's: makes it current in the thread that calls. */
 bool window_worker_begin(Window *window);
 void window_worker_end(Window *window);
 

@@ -8,7 +8,7 @@
 #include "measure/passport.h"
 #include "shading/warp.h"
 
-static inline void fake_look(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
+static inline void fake_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
 }
@@ -30,7 +30,7 @@ static inline Bsdf fake_lambert(void) {
                   .parameter = "",
                   .settings = 1,
                   .whole = true,
-                  .look = fake_look,
+                  .prepare = fake_prepare,
                   .f = fake_f,
                   .pdf = fake_pdf,
                   .sample = fake_sample};

@@ -205,7 +205,7 @@ static void variances_are_those_of_closed_forms(void **state) {
     Bsdf bsdf = fake_lambert();
     BsdfView view;
     bsdf.f = rising_f;
-    bsdf.look(&bsdf, 0, grid_direction(0.3, 1.0), &view);
+    bsdf.prepare(&bsdf, 0, grid_direction(0.3, 1.0), &view);
     Weight weight = weight_measure(&view, 200);
     assert_near(weight.albedo, 1.0, 1e-4);
     assert_near(weight.own, 1.0 / 8.0, 1e-4);

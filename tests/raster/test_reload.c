@@ -193,7 +193,7 @@ static void without_a_folder_nothing_changes(void **state) {
 
 static void in_folder(const char *name, char path[256]) { snprintf(path, 256, "%s/%s", folder, name); }
 
-static int look(FolderWatch *watch) { return watch_look(watch, folder); }
+static int look(FolderWatch *watch) { return watch_poll(watch, folder); }
 
 /* Only text counts; links and folders without end do no harm. */
 static void a_look_counts_changes(void **state) {

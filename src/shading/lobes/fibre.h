@@ -75,7 +75,8 @@ FN Ltc fibre_ltc(float a, float cos_o) {
  * is up, the angle is uniform as far as the horizon. */
 STRUCT(FibreDraw) {
     float nu, b, low, high; /* low .. high: of x / (b + |x|) */
-    float cone; /* its part of the samples: near grazing, and where enough of the circle is above */
+    float
+        cone; /* fraction of the samples from the cone: above 0 near grazing, if enough of the circle is above the horizon */
 };
 
 FN float fibre_place(float x, float b) { return x / (b + abs(x)); }

@@ -25,7 +25,8 @@ FN Dir facet_seen(Dir o, Dir h) {
 /* Density of the wi that mirrors wo about a facet_seen whose h has the density d_cos, D cos_h. The least a.d
  * that counts is 1e-6: below it both directions graze, and the density has no use but must be finite. */
 FN float facet_pdf(float d_cos, Angles a) {
-    bool twice = a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* its half turn is not seen */
+    bool twice =
+        a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* the direction on the other side is not visible */
     return d_cos * (twice ? 0.5f : 0.25f) / max(a.d, 1e-6f);
 }
 

@@ -1,4 +1,4 @@
-#include "staging.h"
+#include "scene_options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,13 +25,13 @@ static bool colors(const char *text, float color[3]) {
     return good;
 }
 
-static bool read_background(const Options *options, Staging *staging) {
+static bool read_background(const Options *options, SceneOptions *scene_options) {
     static const char *const names[] = {"auto",           "environment", "transparent",
                                         "a linear r,g,b", "blurred",     NULL};
     int choice = WEFT_BACKGROUND_COLOR;
-    bool good = colors(option_text(options, "--background"), staging->background_color) ||
+    bool good = colors(option_text(options, "--background"), scene_options->background_color) ||
                 (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);
-    staging->background = (WeftBackground)choice;
+    scene_options->background = (WeftBackground)choice;
     return good;
 }
 
@@ -72,19 +72,19 @@ static bool parse_light(const char *text, WeftLight *light) {
     return true;
 }
 
-static bool read_lights(const Options *options, Staging *staging) {
+static bool read_lights(const Options *options, SceneOptions *scene_options) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--light", &cursor));) {
         if (strcmp(text, "none") == 0) {
-            staging->light_count = 0;
-            staging->no_lights = true;
+            scene_options->light_count = 0;
+            scene_options->no_lights = true;
             continue;
         }
-        if (staging->light_count == STAGING_LIGHTS_MOST) {
-            report(WEFT_USAGE, "--light: more than %d", STAGING_LIGHTS_MOST);
+        if (scene_options->light_count == SCENE_LIGHTS_MOST) {
+            report(WEFT_USAGE, "--light: more than %d", SCENE_LIGHTS_MOST);
             return false;
         }
-        if (!parse_light(text, &staging->lights[staging->light_count++])) {
+        if (!parse_light(text, &scene_options->lights[scene_options->light_count++])) {
             report(WEFT_USAGE,
                    "--light: \"%.80s\" is not none, sun;x,y,z;r,g,b, point;x,y,z;r,g,b, "
                    "spot;x,y,z;x,y,z;r,g,b;inner,outer or polygon;x,y,z;x,y,z;w,h;r,g,b;corners,roll",
@@ -96,11 +96,11 @@ static bool read_lights(const Options *options, Staging *staging) {
 }
 
 /* A value that reads as a colour is a radiance and never the name of a file. */
-static bool read_env(const Options *options, Staging *staging) {
-    const char *text = staging->env = option_text(options, "--env");
+static bool read_env(const Options *options, SceneOptions *scene_options) {
+    const char *text = scene_options->env = option_text(options, "--env");
     double c[3];
-    staging->env_is_color = text && colors_parse(text, c);
-    if (!staging->env_is_color || colors(text, staging->env_color)) return true;
+    scene_options->env_is_color = text && colors_parse(text, c);
+    if (!scene_options->env_is_color || colors(text, scene_options->env_color)) return true;
     report(WEFT_USAGE, "--env: \"%.80s\" is not a radiance, which is from 0 to 1e30", text);
     return false;
 }
@@ -129,45 +129,48 @@ static bool needs_floor(const Options *options, const char *name) {
     return false;
 }
 
-static bool read_floor(const Options *options, Staging *staging) {
+static bool read_floor(const Options *options, SceneOptions *scene_options) {
     double reflection = 0.0, roughness = 0.0;
     bool good = needs_floor(options, "--floor-reflection") && needs_floor(options, "--floor-roughness") &&
                 option_number(options, "--floor-reflection", &reflection) &&
                 option_number(options, "--floor-roughness", &roughness);
-    staging->floor = (WeftFloor){option_given(options, "--floor"), (float)reflection, (float)roughness};
-    staging->hide_lights = option_given(options, "--hide-lights");
+    scene_options->floor = (WeftFloor){option_given(options, "--floor"), (float)reflection, (float)roughness};
+    scene_options->hide_lights = option_given(options, "--hide-lights");
     return good;
 }
 
-bool staging_read(const Options *options, const char *scene, Staging *staging) {
+bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
-    *staging = (Staging){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
-    return check_scene(scene) && read_background(options, staging) && read_env(options, staging) &&
-           option_number(options, "--exposure", &staging->exposure) &&
-           option_number(options, "--env-rotation", &staging->env_rotation) &&
-           option_number(options, "--env-strength", &staging->env_strength) &&
-           option_number(options, "--env-ambient", &staging->env_ambient) &&
-           option_number(options, "--env-reflection", &staging->env_reflection) &&
-           option_choice(options, "--tonemap", curves, &staging->tonemap) && read_floor(options, staging) &&
-           dress_read(options, &staging->dress) && read_lights(options, staging);
+    *scene_options =
+        (SceneOptions){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
+    return check_scene(scene) && read_background(options, scene_options) &&
+           read_env(options, scene_options) &&
+           option_number(options, "--exposure", &scene_options->exposure) &&
+           option_number(options, "--env-rotation", &scene_options->env_rotation) &&
+           option_number(options, "--env-strength", &scene_options->env_strength) &&
+           option_number(options, "--env-ambient", &scene_options->env_ambient) &&
+           option_number(options, "--env-reflection", &scene_options->env_reflection) &&
+           option_choice(options, "--tonemap", curves, &scene_options->tonemap) &&
+           read_floor(options, scene_options) && assign_read(options, &scene_options->assignment) &&
+           read_lights(options, scene_options);
 }
 
-WeftResult staging_apply(const Staging *staging, int k, WeftScene *scene, const WeftLog *log,
-                         WeftError *error) {
-    WeftResult result = dress_apply(&staging->dress, k, scene, log, error);
-    if (result == WEFT_OK && staging->env_is_color)
-        result = weft_scene_set_environment_color(scene, staging->env_color, error);
-    else if (result == WEFT_OK && staging->env)
-        result = weft_scene_set_environment_file(scene, staging->env, log, error);
+WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,
+                               WeftError *error) {
+    WeftResult result = assign_apply(&scene_options->assignment, k, scene, log, error);
+    if (result == WEFT_OK && scene_options->env_is_color)
+        result = weft_scene_set_environment_color(scene, scene_options->env_color, error);
+    else if (result == WEFT_OK && scene_options->env)
+        result = weft_scene_set_environment_file(scene, scene_options->env, log, error);
     if (result == WEFT_OK)
-        result = weft_scene_set_environment_placement(scene, (float)staging->env_rotation,
-                                                      (float)staging->env_strength, error);
+        result = weft_scene_set_environment_placement(scene, (float)scene_options->env_rotation,
+                                                      (float)scene_options->env_strength, error);
     if (result == WEFT_OK)
-        result = weft_scene_set_environment_parts(scene, (float)staging->env_ambient,
-                                                  (float)staging->env_reflection, error);
-    while (result == WEFT_OK && staging->no_lights && weft_scene_info(scene).light_count > 0)
+        result = weft_scene_set_environment_parts(scene, (float)scene_options->env_ambient,
+                                                  (float)scene_options->env_reflection, error);
+    while (result == WEFT_OK && scene_options->no_lights && weft_scene_info(scene).light_count > 0)
         result = weft_scene_remove_light(scene, 0, error);
-    for (int j = 0; j < staging->light_count && result == WEFT_OK; j++)
-        result = weft_scene_add_light(scene, &staging->lights[j], error);
+    for (int j = 0; j < scene_options->light_count && result == WEFT_OK; j++)
+        result = weft_scene_add_light(scene, &scene_options->lights[j], error);
     return result;
 }

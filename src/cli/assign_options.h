@@ -1,33 +1,33 @@
-/* dress.h - what the materials of a scene are to be: the options that say so, in their order
+/* assign_options.h - the options that assign materials, in their order
  *
  * An option with several values makes several pictures; two such options make a row for each value of the
  * first and a column for each of the second. */
-#ifndef WEFT_CLI_DRESS_H
-#define WEFT_CLI_DRESS_H
+#ifndef WEFT_CLI_ASSIGN_H
+#define WEFT_CLI_ASSIGN_H
 
 #include "lobes.h"
 #include "weft/scene.h"
 
-enum { DRESS_LABEL = 96, DRESS_VARIANTS_MOST = 64, DRESS_VARIED_MOST = 2 };
+enum { ASSIGN_LABEL = 96, ASSIGN_VARIANTS_MOST = 64, ASSIGN_VARIED_MOST = 2 };
 
 /* An option with several values. */
 typedef struct Varied {
-    const char *option;     /* "--profile" or "--set" */
-    char name[DRESS_LABEL]; /* of what varies: "profile", "*.subsurface" */
-    const char *values;     /* the list as it was typed */
-    char separator;         /* between them: ',' or ';' */
+    const char *option;      /* "--profile" or "--set" */
+    char name[ASSIGN_LABEL]; /* of what varies: "profile", "*.subsurface" */
+    const char *values;      /* the list as it was typed */
+    char separator;          /* between them: ',' or ';' */
     int count;
 } Varied;
 
-typedef struct Dress {
+typedef struct Assignments {
     const Options *options;
-    Varied varied[DRESS_VARIED_MOST]; /* the last one changes from picture to picture */
+    Varied varied[ASSIGN_VARIED_MOST]; /* the last one changes from picture to picture */
     int varied_count;
     int count; /* pictures, at least 1 */
-} Dress;
+} Assignments;
 
 /* The rows of the option table. */
-#define DRESS_OPTIONS                                                                                        \
+#define ASSIGN_OPTIONS                                                                                       \
     OPTION_HEADING("Materials, later ones win"), OPTION_LOBES,                                               \
         OPTION_TEXT("--variant", "NAME", NULL, "switch to a material variant of the file"),                  \
         OPTION_LIST("--preset", "[MAT=]NAME", "dress the cloth of the scene, or material MAT, in a preset"), \
@@ -53,15 +53,16 @@ typedef struct Dress {
                     "turn all materials from metallic to specular, or the other way, and say what is lost")
 
 /* Checks every id of these options. False after one line on standard error. */
-bool dress_read(const Options *options, Dress *dress);
+bool assign_read(const Options *options, Assignments *assignment);
 
 /* The value that picture number k has of varied number v. */
-void dress_value(const Dress *dress, int v, int k, char value[DRESS_LABEL]);
+void assign_value(const Assignments *assignment, int v, int k, char value[ASSIGN_LABEL]);
 
 /* Labels picture number k by what sets it apart from the rest, "" where there is but one. */
-void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]);
+void assign_label(const Assignments *assignment, int k, char label[ASSIGN_LABEL]);
 
 /* Does to a fresh scene what the options say of picture number k. log also hears what a conversion loses. */
-WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLog *log, WeftError *error);
+WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
+                        WeftError *error);
 
 #endif

@@ -1,4 +1,4 @@
-#include "dress.h"
+#include "assign_options.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static int item_count(const char *text, char separator) {
 
 /* Item k of a list, without blanks around it, or of a list of one that one; false where it is too long to be
  * a value. */
-static bool item_at(const char *text, char separator, int k, char item[DRESS_LABEL]) {
+static bool item_at(const char *text, char separator, int k, char item[ASSIGN_LABEL]) {
     const char *end = item_end(text, separator);
     while (k-- > 0 && *end) {
         text = end + 1;
@@ -49,7 +49,7 @@ static bool item_at(const char *text, char separator, int k, char item[DRESS_LAB
     }
     while (text < end && *text == ' ') text++;
     while (text < end && end[-1] == ' ') end--;
-    return snprintf(item, DRESS_LABEL, "%.*s", (int)(end - text), text) < DRESS_LABEL;
+    return snprintf(item, ASSIGN_LABEL, "%.*s", (int)(end - text), text) < ASSIGN_LABEL;
 }
 
 /* Cuts "RULE,by=channel" into rule and "channel"; NULL where there is no such end. */
@@ -63,7 +63,7 @@ static const char *split_by(char *item) {
 }
 
 static bool check_item(int axis, const char *text, int k) {
-    char item[DRESS_LABEL];
+    char item[ASSIGN_LABEL];
     if (!item_at(text, ',', k, item)) {
         report(WEFT_USAGE, "%s: \"%.80s\" is too long for an id", axes[axis].option, text);
         return false;
@@ -83,7 +83,7 @@ static bool check_item(int axis, const char *text, int k) {
 
 /* Returns true if item k differs from the items before it, which were checked already. */
 static bool check_once(const Varied *varied, int k) {
-    char item[DRESS_LABEL], other[DRESS_LABEL];
+    char item[ASSIGN_LABEL], other[ASSIGN_LABEL];
     item_at(varied->values, varied->separator, k, item);
     for (int j = 0; j < k; j++) {
         item_at(varied->values, varied->separator, j, other);
@@ -95,34 +95,34 @@ static bool check_once(const Varied *varied, int k) {
 }
 
 /* Takes in an option's list, unless it is of one value. */
-static bool add_varied(Dress *dress, Varied varied) {
+static bool add_varied(Assignments *assignment, Varied varied) {
     for (int k = 0; k < varied.count; k++)
         if (!check_once(&varied, k)) return false;
     if (varied.count < 2) return true;
-    if (dress->varied_count == DRESS_VARIED_MOST) {
+    if (assignment->varied_count == ASSIGN_VARIED_MOST) {
         report(WEFT_USAGE,
                "%s: has several values, and so have %s and %s: two options may, as rows and columns",
-               varied.option, dress->varied[0].option, dress->varied[1].option);
+               varied.option, assignment->varied[0].option, assignment->varied[1].option);
         return false;
     }
-    if (varied.count > DRESS_VARIANTS_MOST / dress->count) {
-        report(WEFT_USAGE, "%s: makes more than %d pictures", varied.option, DRESS_VARIANTS_MOST);
+    if (varied.count > ASSIGN_VARIANTS_MOST / assignment->count) {
+        report(WEFT_USAGE, "%s: makes more than %d pictures", varied.option, ASSIGN_VARIANTS_MOST);
         return false;
     }
-    dress->varied[dress->varied_count++] = varied;
-    dress->count *= varied.count;
+    assignment->varied[assignment->varied_count++] = varied;
+    assignment->count *= varied.count;
     return true;
 }
 
-static bool check_axis(int axis, Dress *dress) {
-    const char *text = option_text(dress->options, axes[axis].option);
+static bool check_axis(int axis, Assignments *assignment) {
+    const char *text = option_text(assignment->options, axes[axis].option);
     if (!text) return true;
     Varied varied = {
         .option = axes[axis].option, .values = text, .separator = ',', .count = item_count(text, ',')};
     for (int k = 0; k < varied.count; k++)
         if (!check_item(axis, text, k)) return false;
     snprintf(varied.name, sizeof varied.name, "%s", axes[axis].choice);
-    return add_varied(dress, varied);
+    return add_varied(assignment, varied);
 }
 
 /* Names of materials, and of what is set: */
@@ -130,29 +130,29 @@ enum { MATERIAL_SIZE = 256, TARGET_SIZE = 512 };
 
 /* "MAT=NAME": what is behind the '=', or all of it. A material's name and a file's may hold '=' too: the
  * longest that is a file is one, else the last '=' divides. */
-static const char *dressing_of(const char *text, bool is_file) {
+static const char *operand_of(const char *text, bool is_file) {
     const char *last = strrchr(text, '=');
     for (const char *file = text; is_file && file; file = strchr(file, '=') ? strchr(file, '=') + 1 : NULL)
         if (access(file, F_OK) == 0) return file;
     return last ? last + 1 : text;
 }
 
-static bool check_dressings(const Options *options, const char *option, bool is_file) {
+static bool check_operands(const Options *options, const char *option, bool is_file) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, option, &cursor));) {
-        const char *dressing = dressing_of(text, is_file);
-        if (dressing - text > MATERIAL_SIZE) {
+        const char *operand = operand_of(text, is_file);
+        if (operand - text > MATERIAL_SIZE) {
             report(WEFT_USAGE, "%s: \"%.80s\" is too long for the name of a material", option, text);
             return false;
         }
-        if (!is_file && kind_named(kind_of("preset"), dressing) < 0) return false;
+        if (!is_file && kind_named(kind_of("preset"), operand) < 0) return false;
     }
     return true;
 }
 
 /* The name in "MATERIAL.NAME=VALUE"; false after one line where it is not of that form, or too long. A
  * material's name may hold '=' and '.', so the last of each divides. */
-static bool setting_name(const char *text, char name[DRESS_LABEL]) {
+static bool setting_name(const char *text, char name[ASSIGN_LABEL]) {
     const char *equals = strrchr(text, '='), *point = equals;
     while (point && point > text && *point != '.') point--;
     if (!equals || *point != '.') {
@@ -163,7 +163,7 @@ static bool setting_name(const char *text, char name[DRESS_LABEL]) {
         report(WEFT_USAGE, "--set: \"%.80s\" is too long for the name of a material", text);
         return false;
     }
-    snprintf(name, DRESS_LABEL, "%.*s", (int)(equals - point - 1), point + 1);
+    snprintf(name, ASSIGN_LABEL, "%.*s", (int)(equals - point - 1), point + 1);
     return true;
 }
 
@@ -193,8 +193,8 @@ static char separator_of(int input, const char *values) {
 
 /* Returns true for text in the form of a setting of an input or a choice; the library judges its values.
  */
-static bool check_set(const char *text, Dress *dress) {
-    char name[DRESS_LABEL], item[DRESS_LABEL];
+static bool check_set(const char *text, Assignments *assignment) {
+    char name[ASSIGN_LABEL], item[ASSIGN_LABEL];
     if (!setting_name(text, name)) return false;
     int input = kind_find(kind_of("input"), name);
     if (input < 0 && kind_find(kind_of("choice"), name) < 0) return refuse_name(text, name);
@@ -208,20 +208,20 @@ static bool check_set(const char *text, Dress *dress) {
                varied.count);
         return false;
     }
-    return add_varied(dress, varied);
+    return add_varied(assignment, varied);
 }
 
-static bool check_sets(const Options *options, Dress *dress) {
+static bool check_sets(const Options *options, Assignments *assignment) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--set", &cursor));)
-        if (!check_set(text, dress)) return false;
+        if (!check_set(text, assignment)) return false;
     return true;
 }
 
 static bool check_textures(const Options *options) {
     int cursor = 0;
     for (const char *text; (text = option_next(options, "--texture", &cursor));) {
-        const char *file = dressing_of(text, true);
+        const char *file = operand_of(text, true);
         if (file > text && file - text <= TARGET_SIZE && memchr(text, '.', (size_t)(file - text))) continue;
         report(WEFT_USAGE, "--texture: \"%.80s\" is not MATERIAL.INPUT=FILE", text);
         return false;
@@ -229,52 +229,52 @@ static bool check_textures(const Options *options) {
     return true;
 }
 
-bool dress_read(const Options *options, Dress *dress) {
+bool assign_read(const Options *options, Assignments *assignment) {
     static const char *const targets[] = {"metallic", "specular", NULL};
     int target;
-    *dress = (Dress){.options = options, .count = 1};
+    *assignment = (Assignments){.options = options, .count = 1};
     for (int k = 0; k < AXES; k++)
-        if (!check_axis(k, dress)) return false;
+        if (!check_axis(k, assignment)) return false;
     if (option_given(options, "--workflow") && option_given(options, "--profile")) {
         report(WEFT_USAGE, "--workflow: a profile stands in its place; give --workflow or --profile");
         return false;
     }
-    return check_dressings(options, "--preset", false) && check_dressings(options, "--material", true) &&
-           check_dressings(options, "--materials", true) && check_textures(options) &&
-           check_sets(options, dress) &&
+    return check_operands(options, "--preset", false) && check_operands(options, "--material", true) &&
+           check_operands(options, "--materials", true) && check_textures(options) &&
+           check_sets(options, assignment) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
 /* Which of its values varied number v has in picture k. */
-static int value_index(const Dress *dress, int v, int k) {
-    for (int later = dress->varied_count - 1; later > v; later--) k /= dress->varied[later].count;
-    return k % dress->varied[v].count;
+static int value_index(const Assignments *assignment, int v, int k) {
+    for (int later = assignment->varied_count - 1; later > v; later--) k /= assignment->varied[later].count;
+    return k % assignment->varied[v].count;
 }
 
-void dress_value(const Dress *dress, int v, int k, char value[DRESS_LABEL]) {
-    const Varied *varied = &dress->varied[v];
-    item_at(varied->values, varied->separator, value_index(dress, v, k), value);
+void assign_value(const Assignments *assignment, int v, int k, char value[ASSIGN_LABEL]) {
+    const Varied *varied = &assignment->varied[v];
+    item_at(varied->values, varied->separator, value_index(assignment, v, k), value);
 }
 
-void dress_label(const Dress *dress, int k, char label[DRESS_LABEL]) {
-    char text[DRESS_VARIED_MOST * 3 * DRESS_LABEL] = "";
-    for (int v = 0; v < dress->varied_count; v++) {
-        char value[DRESS_LABEL];
+void assign_label(const Assignments *assignment, int k, char label[ASSIGN_LABEL]) {
+    char text[ASSIGN_VARIED_MOST * 3 * ASSIGN_LABEL] = "";
+    for (int v = 0; v < assignment->varied_count; v++) {
+        char value[ASSIGN_LABEL];
         size_t used = strlen(text);
-        const char *input = strrchr(dress->varied[v].name, '.');
-        dress_value(dress, v, k, value);
+        const char *input = strrchr(assignment->varied[v].name, '.');
+        assign_value(assignment, v, k, value);
         snprintf(text + used, sizeof text - used, "%s%s%s%s", used ? ", " : "", input ? input + 1 : "",
                  input ? " " : "", value);
     }
-    snprintf(label, DRESS_LABEL, "%.*s", DRESS_LABEL - 1, text);
+    snprintf(label, ASSIGN_LABEL, "%.*s", ASSIGN_LABEL - 1, text);
 }
 
 /* The value that what stands at `values` has in picture k: of a list one, else all of it; false where there
  * is no list. */
-static bool value_of(const Dress *dress, const char *values, int k, char value[DRESS_LABEL]) {
-    for (int v = 0; v < dress->varied_count; v++) {
-        if (dress->varied[v].values != values) continue;
-        dress_value(dress, v, k, value);
+static bool value_of(const Assignments *assignment, const char *values, int k, char value[ASSIGN_LABEL]) {
+    for (int v = 0; v < assignment->varied_count; v++) {
+        if (assignment->varied[v].values != values) continue;
+        assign_value(assignment, v, k, value);
         return true;
     }
     return false;
@@ -302,12 +302,12 @@ static WeftResult make_room(WeftScene *scene, const char *choice, const char *id
     return result;
 }
 
-static WeftResult apply_axis(const Dress *dress, int axis, int k, WeftScene *scene, const WeftLog *log,
-                             WeftError *error) {
-    char item[DRESS_LABEL];
-    const char *text = option_text(dress->options, axes[axis].option), *choice = axes[axis].choice;
+static WeftResult apply_axis(const Assignments *assignment, int axis, int k, WeftScene *scene,
+                             const WeftLog *log, WeftError *error) {
+    char item[ASSIGN_LABEL];
+    const char *text = option_text(assignment->options, axes[axis].option), *choice = axes[axis].choice;
     if (!text) return WEFT_OK;
-    if (!value_of(dress, text, k, item)) item_at(text, ',', 0, item);
+    if (!value_of(assignment, text, k, item)) item_at(text, ',', 0, item);
     const char *by = split_by(item);
     WeftResult result = make_room(scene, choice, item, error);
     if (result == WEFT_OK) result = choose(scene, choice, item, log, error);
@@ -333,39 +333,41 @@ static const struct {
     bool is_file;
     WeftResult (*put)(WeftScene *scene, const char *on, const char *name, const WeftLog *log,
                       WeftError *error);
-} dressings[] = {{"--preset", false, put_preset},
-                 {"--material", true, weft_scene_assign_material},
-                 {"--materials", true, put_folder},
-                 {"--texture", true, weft_scene_set_texture}};
-enum { DRESSINGS = sizeof dressings / sizeof *dressings };
+} operand_options[] = {{"--preset", false, put_preset},
+                       {"--material", true, weft_scene_assign_material},
+                       {"--materials", true, put_folder},
+                       {"--texture", true, weft_scene_set_texture}};
+enum { OPERAND_OPTIONS = sizeof operand_options / sizeof *operand_options };
 
-static WeftResult apply_dressings(const Dress *dress, WeftScene *scene, const WeftLog *log,
-                                  WeftError *error) {
+static WeftResult apply_operands(const Assignments *assignment, WeftScene *scene, const WeftLog *log,
+                                 WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int k = 0; k < DRESSINGS; k++) {
+    for (int k = 0; k < OPERAND_OPTIONS; k++) {
         int cursor = 0;
-        const char *option = dressings[k].option;
-        for (const char *text; result == WEFT_OK && (text = option_next(dress->options, option, &cursor));) {
+        const char *option = operand_options[k].option;
+        for (const char *text;
+             result == WEFT_OK && (text = option_next(assignment->options, option, &cursor));) {
             char on[TARGET_SIZE];
-            const char *name = dressing_of(text, dressings[k].is_file);
+            const char *name = operand_of(text, operand_options[k].is_file);
             bool named = name > text;
             if (named) snprintf(on, sizeof on, "%.*s", (int)(name - 1 - text), text);
-            result = dressings[k].put(scene, named ? on : NULL, name, log, error);
+            result = operand_options[k].put(scene, named ? on : NULL, name, log, error);
         }
     }
     return result;
 }
 
 /* Every --set as picture k has it. */
-static WeftResult apply_sets(const Dress *dress, int k, WeftScene *scene, const WeftLog *log,
+static WeftResult apply_sets(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
                              WeftError *error) {
     WeftResult result = WEFT_OK;
     int cursor = 0;
-    for (const char *text; result == WEFT_OK && (text = option_next(dress->options, "--set", &cursor));) {
-        char target[TARGET_SIZE], value[DRESS_LABEL];
+    for (const char *text;
+         result == WEFT_OK && (text = option_next(assignment->options, "--set", &cursor));) {
+        char target[TARGET_SIZE], value[ASSIGN_LABEL];
         const char *equals = strrchr(text, '=');
         snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
-        bool listed = value_of(dress, equals + 1, k, value);
+        bool listed = value_of(assignment, equals + 1, k, value);
         result = weft_scene_set(scene, target, listed ? value : equals + 1, log, error);
     }
     return result;
@@ -429,12 +431,13 @@ static void hear_once(void *user, WeftMessage message, const char *text) {
     if (heard->log && heard->log->fn) heard->log->fn(heard->log->user, message, text);
 }
 
-WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLog *log, WeftError *error) {
-    const char *variant = option_text(dress->options, "--variant"),
-               *workflow = option_text(dress->options, "--convert");
+WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
+                        WeftError *error) {
+    const char *variant = option_text(assignment->options, "--variant"),
+               *workflow = option_text(assignment->options, "--convert");
     WeftResult result = WEFT_OK;
     if (variant) result = weft_scene_set_variant(scene, variant, error);
-    if (result == WEFT_OK) result = apply_dressings(dress, scene, log, error);
+    if (result == WEFT_OK) result = apply_operands(assignment, scene, log, error);
     /* A setting warns of the material as it stands then. So all are applied twice, and the user hears the
      * second round alone, in which every other setting is in place. */
     Heard heard = {.log = log};
@@ -442,8 +445,8 @@ WeftResult dress_apply(const Dress *dress, int k, WeftScene *scene, const WeftLo
     for (int round = 0; round < 2; round++) {
         const WeftLog *to = round ? &once : NULL;
         for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
-            result = apply_axis(dress, axis, k, scene, to, error);
-        if (result == WEFT_OK) result = apply_sets(dress, k, scene, to, error);
+            result = apply_axis(assignment, axis, k, scene, to, error);
+        if (result == WEFT_OK) result = apply_sets(assignment, k, scene, to, error);
     }
     if (result == WEFT_OK && workflow) result = convert(workflow, scene, log, error);
     for (int m = 0; m < weft_scene_info(scene).material_count && result == WEFT_OK; m++) {

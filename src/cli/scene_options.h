@@ -1,15 +1,14 @@
-/* staging.h - what a scene is, how it is dressed and lit, and from where it is seen: what every verb that
- * shows one asks for */
-#ifndef WEFT_CLI_STAGING_H
-#define WEFT_CLI_STAGING_H
+/* scene_options.h - the options of every verb that shows a scene: scene, materials, lights, camera */
+#ifndef WEFT_CLI_SCENE_OPTIONS_H
+#define WEFT_CLI_SCENE_OPTIONS_H
 
-#include "dress.h"
+#include "assign_options.h"
 #include "weft/render.h"
 
-enum { STAGING_LIGHTS_MOST = 64 };
+enum { SCENE_LIGHTS_MOST = 64 };
 
 /* The rows of the option table. */
-#define STAGING_OPTIONS                                                                                      \
+#define SCENE_OPTIONS                                                                                        \
     OPTION_HEADING("View and light"),                                                                        \
         OPTION_TEXT("--camera", "CAMERA", NULL,                                                              \
                     "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "      \
@@ -41,12 +40,12 @@ enum { STAGING_LIGHTS_MOST = 64 };
         OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),               \
         OPTION_SWITCH("--hide-lights", "polygon lights shine, but the camera looks through them"),           \
                                                                                                              \
-        DRESS_OPTIONS
+        ASSIGN_OPTIONS
 
-typedef struct Staging {
+typedef struct SceneOptions {
     const Options *options;
     const char *scene;
-    Dress dress;
+    Assignments assignment;
     const char *camera, *env; /* NULL: none was named */
     double exposure, env_rotation, env_strength, env_ambient, env_reflection;
     int tonemap; /* WeftTonemap */
@@ -56,17 +55,17 @@ typedef struct Staging {
     float background_color[3];
     WeftFloor floor;
     bool hide_lights;
-    WeftLight lights[STAGING_LIGHTS_MOST];
+    WeftLight lights[SCENE_LIGHTS_MOST];
     int light_count;
     bool no_lights; /* not those of the file */
-} Staging;
+} SceneOptions;
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
-bool staging_read(const Options *options, const char *scene, Staging *staging);
+bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options);
 
 /* Does to a fresh scene what the options say of picture number k: the asset first, then ever more particular
  * wishes. */
-WeftResult staging_apply(const Staging *staging, int k, WeftScene *scene, const WeftLog *log,
-                         WeftError *error);
+WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,
+                               WeftError *error);
 
 #endif
