@@ -26,7 +26,7 @@ static Difference difference(LtcTarget *target, const WeftLtc *ltc, const Lobe *
     float second = lobe_second(lobe, f0, 1.0f);
     WeftLtcLobe at = weft_ltc_at(ltc, cos_o, lobe->params[0]);
     Ltc m = ltc_of(at.z, at.q, at.b, at.r, cos_o);
-    ltc_target_look(target, cos_o);
+    ltc_target_fill(target, cos_o);
     ltc_target_lobe(target, lobe, f0, second);
     Difference d = {.e = target->e};
     if (!(d.e >= 1e-3)) return d;

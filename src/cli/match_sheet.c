@@ -9,7 +9,7 @@
 enum { SIZE = 300, PICTURES = 3 };
 
 typedef struct Pictures {
-    WeftImage linear[PICTURES], shown[PICTURES], difference[PICTURES];
+    WeftImage linear[PICTURES], shown[PICTURES], delta[PICTURES];
     WeftDifference difference[PICTURES];
     float scale; /* of all pictures of differences */
 } Pictures;
@@ -37,8 +37,7 @@ static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
     }
     all->scale = round_up(fmaxf(all->difference[1].high, all->difference[2].high));
     for (int k = 1; k < PICTURES && result == WEFT_OK; k++)
-        result =
-            weft_difference_image(&all->linear[k], &all->linear[0], all->scale, &all->difference[k], error);
+        result = weft_difference_image(&all->linear[k], &all->linear[0], all->scale, &all->delta[k], error);
     return result;
 }
 
@@ -47,15 +46,15 @@ static WeftResult compose(const Pictures *all, const Match *match, WeftImage *sh
     const char *titles[PICTURES] = {match->from.words, "numbers copied", "matched"};
     const char *differences[PICTURES] = {"difference", "copied \xe2\x88\x92 original",
                                          "matched \xe2\x88\x92 original"};
-    const double difference[PICTURES] = {0.0, match->found.copied, match->found.matched};
+    const double distances[PICTURES] = {0.0, match->found.copied, match->found.matched};
     WeftPanel panels[2 * PICTURES] = {{0}};
     for (int k = 0; k < PICTURES; k++) {
-        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_brdf_metric_name(match->metric), difference[k]);
+        snprintf(notes[k], sizeof notes[k], "%s %.4f", weft_brdf_metric_name(match->metric), distances[k]);
         snprintf(figures[k], sizeof figures[k], "mean %.4f   relMSE %.4f", all->difference[k].mean,
                  all->difference[k].relmse);
         panels[k] = (WeftPanel){.image = &all->shown[k], .title = titles[k], .note = k ? notes[k] : NULL};
         panels[PICTURES + k] =
-            k ? (WeftPanel){.image = &all->difference[k], .title = differences[k], .note = figures[k]}
+            k ? (WeftPanel){.image = &all->delta[k], .title = differences[k], .note = figures[k]}
               : (WeftPanel){.scale = all->scale,
                             .title = differences[k],
                             .note = "of linear radiance, the channel that differs most"};
@@ -76,7 +75,7 @@ int match_sheet_write(const Match *match, const char *path) {
     for (int k = 0; k < PICTURES; k++) {
         weft_image_free(&all.linear[k]);
         weft_image_free(&all.shown[k]);
-        weft_image_free(&all.difference[k]);
+        weft_image_free(&all.delta[k]);
     }
     weft_image_free(&sheet);
     return result == WEFT_OK ? 0 : report_error(&error);

@@ -42,7 +42,7 @@ Lobe bsdf_lobe(const Bsdf *bsdf, int setting) {
     return lobe;
 }
 
-static void lobe_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
+static void lobe_view_from(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
     view->lobe = bsdf_lobe(bsdf, setting);
@@ -103,7 +103,7 @@ void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick) {
     *bsdf = (Bsdf){.lobe = *lobe,
                    .albedo = 1.0f,
                    .parameter = "",
-                   .prepare = lobe_prepare,
+                   .prepare = lobe_view_from,
                    .f = lobe_f,
                    .pdf = lobe_density,
                    .sample = lobe_draw};

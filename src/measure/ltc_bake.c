@@ -89,8 +89,8 @@ static bool bake_cell(WeftLtc *ltc, int row, int column) {
         if (column + 1 < ltc->columns) starts[count++] = entries(ltc, row, column + 1);
         if (row + 1 < ltc->rows) starts[count++] = entries(ltc, row + 1, column);
         coarse.level = fine.level = ltc->level;
-        ltc_target_look(&coarse, ltc_cos_o(ltc, column));
-        ltc_target_look(&fine, ltc_cos_o(ltc, column));
+        ltc_target_fill(&coarse, ltc_cos_o(ltc, column));
+        ltc_target_fill(&fine, ltc_cos_o(ltc, column));
         ltc_target_lobe(&coarse, &lobe, ltc->f0, ltc->second);
         ltc_target_lobe(&fine, &lobe, ltc->f0, ltc->second);
         LtcEntries found =

@@ -22,7 +22,7 @@ void ltc_target_free(LtcTarget *target) {
     *target = (LtcTarget){0};
 }
 
-void ltc_target_look(LtcTarget *target, float cos_o) {
+void ltc_target_fill(LtcTarget *target, float cos_o) {
     Grid grid;
     Ring ring;
     target->o = grid_direction((double)cos_o, 0.0);

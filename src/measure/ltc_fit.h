@@ -29,7 +29,7 @@ bool ltc_target_create(LtcTarget *target, int cells);
 void ltc_target_free(LtcTarget *target);
 
 /* Sets wo and the directions. */
-void ltc_target_look(LtcTarget *target, float cos_o);
+void ltc_target_fill(LtcTarget *target, float cos_o);
 
 /* Fills in a lobe of two colours, isotropic as it stands. e may be 0: then there is nothing to fit. */
 void ltc_target_lobe(LtcTarget *target, const Lobe *lobe, float f0, float second);

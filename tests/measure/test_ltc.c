@@ -38,7 +38,7 @@ static void a_transform_is_found(void **state) {
     assert_true(ltc_target_create(&target, 96));
     for (int k = 0; k < shapes; k++) {
         LtcEntries in = random_entries(&random);
-        ltc_target_prepare(&target, 0.05f + 0.9f * random_unit(&random));
+        ltc_target_fill(&target, 0.05f + 0.9f * random_unit(&random));
         Ltc m = ltc_of(in.z, in.q, in.b, in.r, target.o.z);
         for (int n = 0; n < target.rings * target.columns; n++)
             target.f[n] = 3.0f * ltc_pdf(m, target.o, dir(target.x[n], target.y[n], target.z[n]));
@@ -242,7 +242,7 @@ static void nothing_nearby_is_better(void **state) {
         for (int cell = 0; cell < ltc_cells(ltc); cell++) {
             if (cell % ltc->columns == ltc->columns - 1) continue; /* only z counts there */
             Lobe lobe = ltc_lobe(ltc, cell / ltc->columns);
-            ltc_target_prepare(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
+            ltc_target_fill(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
             ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(&lobe, 1.0f, 1.0f));
             if (!(target.e > 1e-3)) continue;
             LtcEntries at = node(ltc, cell);
@@ -275,7 +275,7 @@ static void no_other_start_finds_less(void **state) {
         for (int cell = 1; cell < ltc_cells(ltc); cell += test_long() ? 1 : test_short() ? 11 : 6) {
             if (cell % ltc->columns == ltc->columns - 1) continue;
             Lobe lobe = ltc_lobe(ltc, cell / ltc->columns);
-            ltc_target_prepare(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
+            ltc_target_fill(&target, weft_ltc_cos_o(ltc, cell % ltc->columns));
             ltc_target_lobe(&target, &lobe, 1.0f, lobe_second(&lobe, 1.0f, 1.0f));
             if (!(target.e > 1e-3)) continue;
             double error = ltc_error(&target, node(ltc, cell), 1);
@@ -389,7 +389,7 @@ static void mixing_costs_little(void **state) {
               x = ((float)(k * 4 % (SIDE - 1)) + 0.5f) / (SIDE - 1);
         float y = mix(sqrtf(ltc->low), sqrtf(ltc->high), row);
         lobe_set(&lobe, 0, y * y);
-        ltc_target_prepare(&target, x * x);
+        ltc_target_fill(&target, x * x);
         ltc_target_lobe(&target, &lobe, 1.0f, 1.0f);
         WeftLtcLobe mixed = weft_ltc_at(ltc, x * x, y * y);
         LtcEntries at = {mixed.z, mixed.q, mixed.b, mixed.r};
