@@ -49,9 +49,9 @@ typedef enum WeftSeverity {
     F(SHEEN_BLACK, "sheen-black", WARNING, 0, "a sheen is there whose colour is black")                      \
     F(SHEEN_TEXTURE_BLACK, "sheen-texture-black", ERROR, 0, "the texture of a sheen is black")               \
     F(SHEEN_ROUGHNESS_CHANNEL, "sheen-roughness-channel", ERROR, 1,                                          \
-      "the roughness of a sheen is in a channel that nobody reads")                                          \
+      "the roughness of a sheen is in a channel that no engine reads")                                       \
     F(SHEEN_ROUGHNESS_PLAIN, "sheen-roughness-plain", WARNING, 1,                                            \
-      "the texture of a sheen's roughness says nothing")                                                     \
+      "the texture of a sheen's roughness has no effect")                                                    \
     F(SHEEN_GAINS, "sheen-gains", WARNING, 1, "the sheen returns more light than arrives")                   \
     F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the sheen removes more light from the base than it adds")    \
     F(ENGINES_DIFFER, "engines-differ", NOTE, 0,                                                             \

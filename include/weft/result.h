@@ -17,7 +17,7 @@ typedef enum WeftResult {
     WEFT_FAILED = 1,       /* a check or a comparison did not hold */
     WEFT_USAGE = 2,        /* a name, number or descriptor makes no sense */
     WEFT_INPUT = 3,        /* an input could not be read or is invalid */
-    WEFT_RESOURCES = 4,    /* memory, disk or a device gave out */
+    WEFT_RESOURCES = 4,    /* out of memory or disk space, or a device failed */
     WEFT_INTERRUPTED = 130 /* stopped by the caller; what there is, is valid */
 } WeftResult;
 
@@ -32,7 +32,7 @@ typedef enum WeftResult {
     M(FILE_WRITE, RESOURCES, "cannot be written")                                                            \
     M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr .npy)")                \
     M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA HDR EXR NPY)")                   \
-    M(IMAGE_SIZE, INPUT, "claims more pixels than can be meant")                                             \
+    M(IMAGE_SIZE, INPUT, "is truncated, or its header is wrong")                                             \
     M(CUBEMAP, INPUT, "is not a cubemap whose six faces are named as posx or px")                            \
     M(IMAGE_DAMAGED, INPUT, "is damaged")                                                                    \
     M(IMAGE_UNSUPPORTED, INPUT, "uses an image feature that is not supported")                               \
@@ -41,13 +41,13 @@ typedef enum WeftResult {
     M(GLTF_CONTAINER, INPUT, "is not a valid GLB container")                                                 \
     M(GLTF_VERSION, INPUT, "is not glTF 2.x")                                                                \
     M(GLTF_SCHEMA, INPUT, "breaks the glTF 2.0 schema")                                                      \
-    M(GLTF_REFERENCE, INPUT, "refers to something that is not there")                                        \
+    M(GLTF_REFERENCE, INPUT, "refers to something that does not exist")                                      \
     M(GLTF_BOUNDS, INPUT, "reads outside its buffer")                                                        \
-    M(GLTF_URI, INPUT, "has a URI that cannot be used")                                                      \
+    M(GLTF_URI, INPUT, "has a URI that is not allowed")                                                      \
     M(GLTF_EXTENSION, INPUT, "requires an extension that is not supported")                                  \
     M(GLTF_CYCLE, INPUT, "has a node that is its own ancestor")                                              \
     M(GLTF_PARENTS, INPUT, "has a node with two parents")                                                    \
-    M(GLTF_TOO_LARGE, INPUT, "describes more than can be meant")                                             \
+    M(GLTF_TOO_LARGE, INPUT, "exceeds a limit")                                                              \
     M(GLTF_DECODE, INPUT, "has compressed data that does not decode")                                        \
     M(GLTF_WARN_EXTENSION, WARNING, "uses an extension that is ignored")                                     \
     M(GLTF_WARN_IGNORED, WARNING, "has a part that is ignored")                                              \
@@ -76,12 +76,12 @@ typedef enum WeftResult {
     M(BRDF_TABLE, INPUT, "is not a table of theta_o, phi_o, theta_i, phi_i, r, g, b")                        \
     M(BAKE_KIND, USAGE, "is not a kind of table")                                                            \
     M(TABLE_FORM, USAGE, "is not a form of table (gltf, filament and so on, or cos,roughness,centres)")      \
-    M(DESC, USAGE, "is not a value this descriptor takes")                                                   \
+    M(DESC, USAGE, "is invalid")                                                                             \
     M(RENDER_DEVICE, RESOURCES, "could not be built for ray tracing")                                        \
     M(TEXT_NAME, USAGE, "is not a file of the catalogue")                                                    \
     M(TEXT_DIALECT, INPUT, "is not shading text")                                                            \
     M(TEXTURES_SCALED, WARNING, "has textures of many sizes, which are scaled to one")                       \
-    M(GL_CONTEXT, RESOURCES, "has no OpenGL to draw with")                                                   \
+    M(GL_CONTEXT, RESOURCES, "cannot be used")                                                               \
     M(GL_COMPILE, INPUT, "does not compile for the GPU")                                                     \
     M(GL_MEMORY, RESOURCES, "does not fit the GPU")                                                          \
     M(DRAFT, INPUT, "is not a weaving draft that can be read")                                               \
@@ -89,7 +89,7 @@ typedef enum WeftResult {
     M(DRAFT_COMPLETED, WARNING, "was completed")                                                             \
     M(LOBE_FILE, INPUT, "is not a lobe that can be taken")                                                   \
     M(LOBE_COMPILE, INPUT, "does not compile")                                                               \
-    M(COMPILER, RESOURCES, "needs a C compiler, and there is none")
+    M(COMPILER, RESOURCES, "needs a C compiler; install gcc or clang")
 
 /* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK

@@ -68,7 +68,8 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
     } else if (written) {
         written = output_commit(&file, NULL) == WEFT_OK;
     }
-    if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written");
+    if (!written)
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
 }
 
 /* The head of a cache file. A checksum of everything follows the data. */

@@ -30,7 +30,8 @@ typedef struct Assignments {
 #define ASSIGN_OPTIONS                                                                                       \
     OPTION_HEADING("Materials, later ones win"), OPTION_LOBES,                                               \
         OPTION_TEXT("--variant", "NAME", NULL, "switch to a material variant of the file"),                  \
-        OPTION_LIST("--preset", "[MAT=]NAME", "dress the cloth of the scene, or material MAT, in a preset"), \
+        OPTION_LIST("--preset", "[MAT=]NAME",                                                                \
+                    "assign a preset to the cloth of the scene, or to material MAT"),                        \
         OPTION_LIST("--material", "[MAT=]FILE",                                                              \
                     "the same in a material file: a small JSON, see docs/materials.md"),                     \
         OPTION_LIST("--materials", "[MAT=]DIR",                                                              \

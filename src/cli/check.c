@@ -199,11 +199,11 @@ static const Option check_options[] = {
 const Verb verb_check = {
     .name = "check",
     .operands = "LOBE|PROFILE|all [options]",
-    .help = "measures what a lobe or an engine profile does with light: its passport",
+    .help = "validates a lobe or an engine profile: energy, reciprocity, sampling (a passport)",
     .operands_least = 1,
     .operands_most = 1,
     .options = check_options,
-    .notes = "The passport says where more light comes back than arrived, whether f is reciprocal,\n"
+    .notes = "The passport shows where more light comes back than arrived, whether f is reciprocal,\n"
              "what each layer rule makes of a white cloth, whether samples follow their pdf and how\n"
              "much their weights scatter, what hard directions and 16-bit floats do, and whether\n"
              "the GPU agrees. docs/check.md explains the numbers. Of `all`, a line each.\n\n"

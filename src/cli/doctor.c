@@ -301,12 +301,12 @@ static const Option doctor_options[] = {
 const Verb verb_doctor = {
     .name = "doctor",
     .operands = "ASSET [options]",
-    .help = "says what will go wrong with a cloth asset, in which engine, and mends it",
+    .help = "validates (lints) a cloth asset for each engine, and repairs it",
     .operands_least = 0,
     .operands_most = 1,
     .options = doctor_options,
     .lists = list_print,
-    .notes = "ASSET is a .gltf or .glb file. It is looked at as it is, before anything is clamped or\n"
+    .notes = "ASSET is a .gltf or .glb file. It is examined as it is, before anything is clamped or\n"
              "repaired; what is said of light is measured on the lobes of the engine profiles.\n"
              "An error breaks glTF or shows nothing of what is there, a warning looks wrong in\n"
              "some engine, a note looks otherwise than one may think. docs/doctor.md has each.\n\n"

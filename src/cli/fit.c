@@ -286,7 +286,7 @@ const Verb verb_fit = {
              "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"
              "  log      g = ln(1 + x / mean x)\n"
              "  cosine   g = x\n"
-             "Directions more than 80 degrees off the normal do not count. docs/fit.md tells\n"
+             "Directions more than 80 degrees off the normal do not count. docs/fit.md explains\n"
              "more.\n\n"
              "Examples\n"
              "  weft fit red-fabric.binary\n"

@@ -26,14 +26,14 @@ static const ExitCode codes[] = {{"0", "done"},
                                  {"1", "a check or a comparison did not hold"},
                                  {"2", "a name, a number or an option makes no sense"},
                                  {"3", "an input could not be read or is invalid"},
-                                 {"4", "memory, disk or a device gave out"},
+                                 {"4", "out of memory or disk space, or a device failed"},
                                  {"130", "interrupted; what there was has been written"},
                                  {NULL, NULL}};
 
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());
     for (int k = 0; verbs[k]; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
-    printf("\n`weft VERB --help` or `weft help VERB` tells all of a verb; `weft --version` the\n"
+    printf("\n`weft VERB --help` or `weft help VERB` explains a verb; `weft --version` prints the\n"
            "version.\n\nExit codes\n");
     for (const ExitCode *code = codes; code->code; code++) layout_entry(stdout, 12, code->code, code->words);
 }

@@ -128,7 +128,7 @@ void man_program(const Verb *const *verbs, const ExitCode *codes) {
         printf("; see\n.BR weft\\-%s (1)\n", verbs[k]->name);
     }
     item("help", "[VERB]");
-    printf("tell all of a verb\n.SH EXIT STATUS\n");
+    printf("explain a verb\n.SH EXIT STATUS\n");
     for (const ExitCode *code = codes; code->code; code++) {
         item(code->code, NULL);
         put_text(code->words);

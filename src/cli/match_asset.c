@@ -14,7 +14,7 @@
 
 static int needs(const Options *options, const char **out) {
     *out = option_text(options, "-o");
-    if (!*out) return report(WEFT_USAGE, "%.200s: -o says where it goes", options->operands[0]);
+    if (!*out) return report(WEFT_USAGE, "%.200s: -o OUT is required", options->operands[0]);
     if (!path_ends(*out, ".gltf") && !path_ends(*out, ".glb"))
         return report(WEFT_USAGE, "%.200s: an asset is written as .gltf or .glb", *out);
     return output_probe_other(options, *out);

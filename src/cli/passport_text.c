@@ -205,7 +205,7 @@ void passport_header(const WeftPassport *p) {
     printf("weight variance %s%.2f of the cosine's%s\n", p->variance_ratio < 0.01f ? "under " : "",
            fmax((double)p->variance_ratio, 0.01), p->half_measured || reference ? ";" : ".");
     if (reference)
-        printf(" *     half precision: not asked, since it is for the path tracer only.\n");
+        printf(" *     half precision: not measured, since the lobe is for the path tracer only.\n");
     else if (p->half_measured)
         header_half(p);
 }

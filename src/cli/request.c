@@ -15,9 +15,10 @@ const Option request_options[] = {
     OPTION_LIST("-o", "OUT",
                 "write OUT: .exr, .hdr and .npy linear, .png as displayed; of several pictures a sheet with "
                 "their differences, .png"),
-    OPTION_LIST("--save", "FILE",
-                "write the scene as it was dressed and lit, .glb or .gltf, or the cloth's material, .json; "
-                "without -o nothing else"),
+    OPTION_LIST(
+        "--save", "FILE",
+        "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json; "
+        "without -o nothing else"),
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
@@ -166,8 +167,7 @@ int request_outputs_check(const Request *request) {
         if (!weft_image_suffix_known(path))
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
         else if (request_count(request) > 1 && weft_image_suffix_linear(path))
-            return report(WEFT_USAGE, "%s: a sheet of several pictures is for looking at; write a .png",
-                          path);
+            return report(WEFT_USAGE, "%s: a sheet of several images must be a .png", path);
     for (cursor = 0; result == 0;) {
         const char *path = option_next(options, "-o", &cursor);
         if (!path) break;

@@ -26,9 +26,9 @@ static const Option view_options[] = {
     SCENE_OPTIONS,
 
     OPTION_HEADING("Automation"),
-    OPTION_TEXT("--script", "FILE", NULL, "do what FILE says, as if by hand: docs/view.md has its words"),
+    OPTION_TEXT("--script", "FILE", NULL, "replay the actions in FILE; docs/view.md lists them"),
     OPTION_NUMBER("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames"),
-    OPTION_SWITCH("--windowless", "draw where nobody sees it, for replays without a display"),
+    OPTION_SWITCH("--windowless", "run without a window, for replays without a display"),
     OPTION_SWITCH("--forget", "neither read nor write what is remembered from run to run"),
     OPTION_SWITCH("--json",
                   "print a line of JSON whenever the window comes to rest: what it shows, and where its "
@@ -111,13 +111,13 @@ static int view_verb_run(const Options *options) {
 const Verb verb_view = {
     .name = "view",
     .operands = "[SCENE] [options]",
-    .help = "opens a window on a scene: every term, its light, and the truth behind it",
+    .help = "opens a look-dev window: edit any term, input or light, and compare with the ground truth",
     .operands_least = 0,
     .operands_most = 1,
     .options = view_options,
     .notes = "SCENE is a .gltf or .glb file or builtin:NAME; without it, builtin:cloth. Files can be\n"
              "dropped on the window: scenes, light (.hdr .exr), materials (.json), lobes of your own (.h),\n"
-             "pictures. What changes on disk is read again. ? in the window tells keys and mouse.\n\n"
+             "pictures. Files that change on disk are reloaded. ? in the window lists keys and mouse.\n\n"
              "Examples\n"
              "  weft view SheenChair.glb\n"
              "  weft view builtin:cloth --preset velvet --light \"sun;-1,-2,-1;3,3,3\"\n"

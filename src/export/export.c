@@ -48,7 +48,7 @@ static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
     if (!desc || (desc->lobe != NULL) + (desc->profile != NULL || desc->material != NULL) != 1)
         return fail(error, WEFT_MESSAGE_DESC, model, "one of lobe, profile and material is needed");
     if ((unsigned)desc->target >= WEFT_EXPORT_TARGETS || (unsigned)desc->lut >= WEFT_EXPORT_LUTS)
-        return fail(error, WEFT_MESSAGE_DESC, model, "a target or lut that there is not");
+        return fail(error, WEFT_MESSAGE_DESC, model, "unknown target or lut");
     if (desc->prefix && !is_prefix(desc->prefix))
         return fail(error, WEFT_MESSAGE_DESC, model, "a prefix that begins no name");
     if (desc->right && (!desc->lobe || desc->target != WEFT_EXPORT_SHADERTOY))

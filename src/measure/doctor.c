@@ -154,8 +154,8 @@ static void hear(void *user, WeftMessage message, const char *text) {
         doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0,
                      (double)NAN, NULL, "%s", text);
         doctor_advise(doctor, "%s",
-                      absent   ? "put the file where the asset names it; what it would show was not looked at"
-                      : unread ? "write it as PNG or JPEG; what it would show was not looked at"
+                      absent   ? "put the file where the asset names it; its contents were not examined"
+                      : unread ? "write it as PNG or JPEG; its contents were not examined"
                                : "write the image again: other readers may refuse it");
     }
     if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);

@@ -57,8 +57,8 @@ void check_extensions(WeftDoctor *doctor) {
         if (!name || gltf_supports(name)) continue;
         doctor_found(doctor, WEFT_FINDING_EXTENSION_REQUIRED, (Place){WEFT_OF_ASSET, 0, "extensionsRequired"},
                      0, (double)NAN, NULL,
-                     "%.64s is required, which weft does not know: whatever it says of shape or pixels was "
-                     "not looked at",
+                     "%.64s is required, which weft does not support: any shape or pixels that it adds were "
+                     "not examined",
                      name);
         doctor_advise(doctor, "check that every engine you mean to use has it, or export without");
     }

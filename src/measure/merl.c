@@ -35,9 +35,8 @@ static WeftResult check_size(const unsigned char *bytes, size_t size, MerlShape 
     unsigned n[3];
     for (int k = 0; k < 3; k++) n[k] = (unsigned)little(bytes + (size_t)4 * (size_t)k, 4);
     if (n[0] != (unsigned)shape.theta_h || n[1] != (unsigned)shape.theta_d || n[2] != (unsigned)shape.phi_d)
-        return fail(error, WEFT_MESSAGE_MEASURED, name,
-                    "it says %u x %u x %u bins where %d x %d x %d are meant", n[0], n[1], n[2], shape.theta_h,
-                    shape.theta_d, shape.phi_d);
+        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %u x %u x %u bins; %d x %d x %d are expected",
+                    n[0], n[1], n[2], shape.theta_h, shape.theta_d, shape.phi_d);
     if (size != whole)
         return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes, and %s: %zu would be right", size,
                     size < whole ? "was cut short" : "goes on behind its end", whole);

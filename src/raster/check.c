@@ -10,7 +10,7 @@ WeftResult gl_check(WeftError *error, const char *what) {
     /* a driver may hold one of each kind; a lost context answers for ever */
     for (int k = 0; k < 8 && glGetError() != GL_NO_ERROR; k++) continue;
     if (code == GL_OUT_OF_MEMORY) return fail(error, WEFT_MESSAGE_GL_MEMORY, what, NULL);
-    return fail(error, WEFT_MESSAGE_GL_CONTEXT, what, "the driver says 0x%x", code);
+    return fail(error, WEFT_MESSAGE_GL_CONTEXT, what, "driver error 0x%x", code);
 }
 
 void texture_plain(unsigned target) {

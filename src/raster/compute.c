@@ -109,7 +109,7 @@ static WeftResult make_room(Compute *self, size_t n, WeftError *error) {
     if (result != WEFT_OK) return result;
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, "drawing floating-point numbers", "the driver says 0x%x",
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, "drawing floating-point numbers", "driver error 0x%x",
                     status);
     self->height = height;
     return WEFT_OK;

@@ -174,12 +174,15 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
     eglBindAPI(outer.api);
     if (!made) {
         free(self);
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "no driver offers it (EGL says 0x%x)",
-                    (unsigned)code);
+        return fail(
+            error, WEFT_MESSAGE_GL_CONTEXT, version,
+            "no driver offers it (EGL error 0x%x); install a driver such as Mesa, or use --engine trace",
+            (unsigned)code);
     }
     if (!context_enter(self, &outer)) {
         context_destroy(self);
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version, "its context cannot be used");
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version,
+                    "its context is unusable; install another driver, or use --engine trace");
     }
     bool floats = take_driver(self);
     context_leave(self, &outer);
@@ -225,7 +228,7 @@ WeftResult context_adopt(GlContext **out, WeftError *error) {
     *out = NULL;
     Current adopted = epoxy_has_egl() && egl_current() ? egl_current : glx_current();
     if (!adopted || !adopted())
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "there is none in this thread");
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "no context is current in this thread");
     bool desktop = epoxy_is_desktop_gl();
     int version = epoxy_gl_version();
     if (version < (desktop ? 33 : 30))

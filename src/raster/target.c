@@ -55,8 +55,8 @@ WeftResult target_resize(Target *self, int width, int height, int samples, WeftE
     WeftResult result = gl_check(error, "a picture");
     GLenum status = result == WEFT_OK ? glCheckFramebufferStatus(GL_FRAMEBUFFER) : GL_FRAMEBUFFER_COMPLETE;
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        result = fail(error, WEFT_MESSAGE_GL_CONTEXT, "a picture of 16-bit floats", "the driver says 0x%x",
-                      status);
+        result =
+            fail(error, WEFT_MESSAGE_GL_CONTEXT, "a picture of 16-bit floats", "driver error 0x%x", status);
     if (result != WEFT_OK) target_destroy(self);
     return result;
 }

@@ -73,7 +73,7 @@ WeftImage weft_scene_texture(const WeftScene *scene, int index) {
 
 WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image, WeftError *error) {
     if (!is_texture(scene, index))
-        return fail(error, WEFT_MESSAGE_DESC, "texture", "there is none of number %d", index);
+        return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d does not exist", index);
     WeftResult result = check_image(image, error);
     if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, image, NULL);
     return result;

@@ -88,7 +88,7 @@ void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log) {
     float taken = fibre_nap_of(p[0], p[2], p[3]).alpha;
     if (taken > p[0])
         warn(log, WEFT_MESSAGE_PARAM_FITTED, name,
-             "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk knows no such bound",
+             "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk has no such bound",
              (double)p[0], (double)taken);
 }
 

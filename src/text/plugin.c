@@ -31,7 +31,7 @@ static void put_file(Flat *flat, const char *file, const char *bytes);
 static void put_included(Flat *flat, const char *file) {
     CatalogueFile found;
     if (!catalogue_find(file, &found) || flat->count == INCLUDED_MAX) {
-        buffer_print(&flat->text, "#error includes %s, which is not there\n", file);
+        buffer_print(&flat->text, "#error includes %s, which does not exist\n", file);
         return;
     }
     for (int k = 0; k < flat->count; k++)

@@ -374,7 +374,7 @@ typedef struct Source {
 
 static void fail_missing(Text *text, const char *file) {
     char what[300];
-    snprintf(what, sizeof what, "includes %s, which is not there", file);
+    snprintf(what, sizeof what, "includes %s, which does not exist", file);
     if (text->depth)
         fail_dialect(text, what);
     else

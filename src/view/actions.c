@@ -28,13 +28,13 @@ void viewer_accept_state(Viewer *v) {
 void viewer_undo(Viewer *v) {
     bool done = history_undo(&v->history, &v->state);
     if (done) viewer_accept_state(v);
-    viewer_say(v, false, done ? "undone" : "there is nothing to undo");
+    viewer_say(v, false, done ? "undone" : "nothing to undo");
 }
 
 void viewer_redo(Viewer *v) {
     bool done = history_redo(&v->history, &v->state);
     if (done) viewer_accept_state(v);
-    viewer_say(v, false, done ? "done again" : "there is nothing to do again");
+    viewer_say(v, false, done ? "redone" : "nothing to redo");
 }
 
 void viewer_mode(Viewer *v, Mode mode) { v->mode = v->mode == mode ? MODE_LIVE : mode; }
@@ -66,7 +66,7 @@ void viewer_make_fibre(Viewer *v) {
     if (black) color->given = 1;
     if (!(rough->value[0] > 0.0f)) rough->value[0] = 0.6f, rough->given = 1;
     viewer_set_material(v, v->material, &m);
-    viewer_say(v, false, "%s has a sheen of fibres now: stroke it", v->facts.materials[v->material]);
+    viewer_say(v, false, "%s now has a sheen of fibres to brush", v->facts.materials[v->material]);
 }
 
 /* The state that is not edited is kept while the comparison is off. */

@@ -51,7 +51,7 @@ static void list(Browser *self) {
     self->failure[0] = '\0';
     snprintf(self->typed, sizeof self->typed, "%s", self->folder);
     if (!dir) {
-        snprintf(self->failure, sizeof self->failure, "this folder cannot be opened");
+        snprintf(self->failure, sizeof self->failure, "cannot open this folder");
         return;
     }
     for (const struct dirent *d; (d = readdir(dir));) {
@@ -101,7 +101,7 @@ static const char *choose(Browser *self, const char *path) {
     struct stat s;
     bool there = stat(path, &s) == 0, catalogue = !there && strchr(path, ':'); /* builtin:, preset: */
     if (there && S_ISDIR(s.st_mode)) {
-        if (!enter(self, path)) snprintf(self->failure, sizeof self->failure, "this folder cannot be opened");
+        if (!enter(self, path)) snprintf(self->failure, sizeof self->failure, "cannot open this folder");
         return NULL;
     }
     self->failure[0] = '\0';

@@ -42,7 +42,7 @@ const char *help_choice(int choice, int value) {
     const char *name = weft_material_choice_name(choice), *id = weft_material_choice_value(choice, value);
     text[0] = '\0';
     if (value < 0) {
-        snprintf(text, sizeof text, "auto: what the workflow or the profile says.\n%s",
+        snprintf(text, sizeof text, "auto: the choice of the workflow or the profile.\n%s",
                  weft_material_choice_help(choice));
         return text;
     }

@@ -123,7 +123,7 @@ static void draw_lights(Viewer *v) {
         ui_tip(kind_helps[k]);
     }
     if (!v->state.light_count) {
-        ui_dim("No light of its own: what is seen is lit from far away alone.");
+        ui_dim("No light of its own: only the environment lights the scene.");
         return;
     }
     if (v->light >= v->state.light_count) v->light = v->state.light_count - 1;
@@ -178,7 +178,7 @@ static void draw_environment(Viewer *v) {
     ui_slider("rotation", &turn, &a->rotation);
     ui_tip("About the vertical. Ctrl-drag on the picture does it, too.");
     ui_slider("strength", &strength, &a->strength);
-    ui_tip("A factor on all that comes from far away.");
+    ui_tip("A factor on the environment's light.");
     ui_slider("ambient", &strength, &a->ambient);
     ui_tip(
         "A factor on what the diffuse lobe and dust reflect of it: 0 leaves reflections alone. In the path "
@@ -200,13 +200,14 @@ static const char *ambient_help(const void *user, int k) {
         "For each lobe the one that is nearest to the path tracer.",
         "Irradiance times albedo: the cheapest, and for many engines all there is.",
         "One look-up where a mirror would look, as engines do.",
-        "Lights for what is bright, and a few look-ups fitted to the lobe.", "No light from far away."};
+        "Lights for what is bright, and a few look-ups fitted to the lobe.",
+        "No light from the environment."};
     return helps[k];
 }
 
 void light_panel(Viewer *v) {
     if (ui_section("Lights", true)) draw_lights(v);
-    if (ui_section("Environment: light from far away###Environment", true)) {
+    if (ui_section("Environment (HDRI, IBL)###Environment", true)) {
         draw_environment(v);
         const UiChoices rows = {5, ambient_name, ambient_help, NULL};
         int ambient = (int)v->ambient;

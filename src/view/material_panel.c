@@ -203,7 +203,7 @@ static const char *material_name(const void *user, int k) {
     static char text[FACTS_NAME + 16];
     const Facts *facts = &((const Viewer *)user)->facts;
     bool unused = facts->coverage && facts->coverage[k] < 0.0f;
-    snprintf(text, sizeof text, "%s%s", facts->materials[k], unused ? " (not worn)" : "");
+    snprintf(text, sizeof text, "%s%s", facts->materials[k], unused ? " (unused)" : "");
     return text;
 }
 static const char *material_help(const void *user, int k) {
@@ -211,7 +211,7 @@ static const char *material_help(const void *user, int k) {
     const Facts *facts = &((const Viewer *)user)->facts;
     float coverage = facts->coverage ? facts->coverage[k] : 0.0f;
     snprintf(text, sizeof text, "The material that is edited; a click on the picture chooses what is there.");
-    if (coverage < 0.0f) snprintf(text, sizeof text, "Nothing wears it now: it is there for a variant.");
+    if (coverage < 0.0f) snprintf(text, sizeof text, "Nothing uses it now: it is there for a variant.");
     if (coverage > 0.0f) {
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "\n%.1f %% of the picture, at first.",
@@ -224,7 +224,7 @@ static const char *variant_name(const void *user, int k) {
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
 static const char *preset_help(const void *user, int k) {
-    return k ? weft_preset_help(k - 1) : "Dresses the material in one that is ready made.";
+    return k ? weft_preset_help(k - 1) : "Replaces the material by a preset.";
 }
 
 static void draw_which(Viewer *v) {
@@ -258,7 +258,7 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
         *m = *scene_state_material(&v->first, v->material);
         scene_state_set_preset(&v->state, v->material, 0);
     }
-    ui_tip("Back to what the file says.");
+    ui_tip("Back to the value of the file.");
     ui_same_line();
     if (ui_button("Profiles ...")) viewer_profiles(v);
     ui_tip("A sheet of the scene with this material under every engine's profile.");

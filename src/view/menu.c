@@ -115,7 +115,7 @@ static void draw_modes(Viewer *v) {
         v->tool = probe ? TOOL_PROBE : TOOL_ORBIT;
         if (probe) v->panel = PANEL_INSPECT;
     }
-    ui_tip("A click tells what a pixel is made of (P).");
+    ui_tip("A click shows what a pixel is made of (P).");
     ui_same_line();
     if (ui_checkbox("Brush", &brush)) v->tool = brush ? TOOL_BRUSH : TOOL_ORBIT;
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
@@ -152,9 +152,9 @@ static int lines_of(const char *text) {
 static const char *goes_on(const Viewer *v) {
     bool instead = v->mode == MODE_LIVE && viewer_shows(v) == SHOWS_TRACED;
     return v->has_pending     ? "preparing"
-           : instead          ? "compiling, path traced meanwhile"
-           : v->late          ? "compiling, picture of before"
-           : v->rendered.busy ? "looking"
+           : instead          ? "compiling, path tracing meanwhile"
+           : v->late          ? "compiling, showing the previous picture"
+           : v->rendered.busy ? "preparing shaders and occlusion"
                               : "ready";
 }
 

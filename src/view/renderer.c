@@ -113,7 +113,7 @@ static bool reload_changed(Renderer *self) {
     if (event.failed)
         snprintf(event.text, sizeof event.text, "%s", error.text);
     else
-        snprintf(event.text, sizeof event.text, "read again: %.400s",
+        snprintf(event.text, sizeof event.text, "reloaded: %.400s",
                  weft_scene_texture_path(self->scene, texture));
     if (!event.failed) facts_read_maps(&event.maps, self->scene);
     renderer_post(self, &event);
@@ -201,7 +201,7 @@ static void *work(void *user) {
     pthread_mutex_lock(&self->lock);
     if (!good)
         snprintf(self->rendered.failure, sizeof self->rendered.failure,
-                 "a second OpenGL context cannot be had");
+                 "cannot create a second OpenGL context");
     while (!self->quit && good) {
         if (step(self)) continue;
         wait_a_little(self);

@@ -45,7 +45,7 @@ Replay *replay_open(const char *path, char why[512]) {
         self->next = self->text;
         return self;
     }
-    snprintf(why, 512, "%.300s: %s", path, file ? "is no script, or too long a one" : "cannot be opened");
+    snprintf(why, 512, "%.300s: %s", path, file ? "is not a script, or is too long" : "cannot be opened");
     replay_close(self);
     return NULL;
 }
@@ -365,8 +365,7 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
             if (self->count) return do_motion(self, v, why);
             return true;
         }
-        snprintf(why, 512, "%.200s:%d: \"%.100s\" is not an action, or cannot be done", self->path,
-                 self->line, word);
+        snprintf(why, 512, "%.200s:%d: \"%.100s\" is not an action, or failed", self->path, self->line, word);
         return false;
     }
     return true;

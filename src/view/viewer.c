@@ -90,8 +90,7 @@ static void lay_out(Viewer *v) {
 static void draw_side(Viewer *v) {
     static const char *const names[] = {"Material", "Light", "View", "Inspect", "Doctor", NULL};
     static const char *const tips[] = {"What surfaces are made of: models and numbers.",
-                                       "Lights, and what shines from far away.",
-                                       "Camera, exposure, comparison, tools.",
+                                       "Lights, and the environment.", "Camera, exposure, comparison, tools.",
                                        "What a material does with light, and what a pixel is made of.",
                                        "What will go wrong with the file that is open, and in which engine."};
     static void (*const panels[])(Viewer * v) = {material_panel, light_panel, view_panel, inspect_panel,

@@ -150,7 +150,7 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     if (self->seen) self->worker = glfwCreateWindow(16, 16, desc->title, NULL, self->seen);
     if (!self->worker) {
         glfwGetError(&reason);
-        snprintf(why, 256, "no window with OpenGL 3.3 can be had%s%.120s; `weft render` needs none",
+        snprintf(why, 256, "cannot open a window with OpenGL 3.3%s%.120s; `weft render` needs none",
                  reason ? ": " : "", reason ? reason : "");
         return false;
     }

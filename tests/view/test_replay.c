@@ -11,7 +11,7 @@ static void what_is_typed_into_a_slider_is_undone(void **state) {
         "set \"Material/roughness\" 0.337\nwait rest\npicture 1.png\nwait message wrote 1.png\nwait rest\n"
         "key control+z\nwait message undone\nwait rest\npicture 2.png\nwait message wrote 2.png\nwait rest\n"
         "key control+z\nwait message nothing\n"
-        "key control+shift+z\nwait message again\nwait rest\npicture 3.png\nwait message wrote 3.png\nwait "
+        "key control+shift+z\nwait message redone\nwait rest\npicture 3.png\nwait message wrote 3.png\nwait "
         "rest\n",
         LIST(UNSEEN, CHEAP));
     json_t *states[4];

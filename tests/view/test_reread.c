@@ -21,11 +21,11 @@ static void a_texture_is_read_again(void **state) {
     write_texture("map.png", 220, 60);
     script_begin();
     say_picture("1.png");
-    say("wait message read again\n");
+    say("wait message reloaded\n");
     say_picture("2.png");
     say("wait message map.png\n");
     say_picture("3.png");
-    say("wait message read again\n");
+    say("wait message reloaded\n");
     say_picture("4.png");
     say("wait rest\n");
     Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--texture", "Cloth.base_color=map.png"));

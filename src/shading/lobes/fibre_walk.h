@@ -21,7 +21,7 @@
  *   Not for: the GPU, arrays and 16-bit floats. E is known to 0.0025 in the tables of layer rules.
  *   measured by weft check fibre-walk: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.31 of the cosine's;
- *     half precision: not asked, since it is for the path tracer only. */
+ *     half precision: not measured, since the lobe is for the path tracer only. */
 #ifndef WEFT_LOBES_FIBRE_WALK_H
 #define WEFT_LOBES_FIBRE_WALK_H
 
