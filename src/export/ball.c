@@ -63,7 +63,7 @@ void draft_ball(const Draft *draft, Buffer *out) {
     char record[SPELL_NAME], make[SPELL_NAME], shade[SPELL_NAME];
     bool halves = desc->right && desc->right->lobe != desc->lobe->lobe;
     put_line(out, "\n/* Here the picture begins. */\n");
-    put_line(out, "const vec3 cloth = vec3(0.82, 0.3, 0.24); /* its colour */");
+    put_line(out, "const vec3 cloth = vec3(0.82, 0.3, 0.24); /* colour of the cloth */");
     put_line(out, "const vec3 sun = vec3(%s);", desc->fold_pi ? "1.0" : "3.14159265");
     put_line(out, "const bool halves = %s;", halves ? "true" : "false");
     put_line(out, "\n/* What is shown: the left or the right half's model. */");

@@ -60,16 +60,16 @@ static Material assigned(const Material *old, const MaterialFile *file) {
 
 bool *materials_matching(WeftScene *scene, const char *material, WeftError *error) {
     int matched = 0;
-    bool *wished = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *wished);
-    if (!wished) {
+    bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
+    if (!selected) {
         fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
         return NULL;
     }
     for (int k = 0; k < scene_own_materials(scene); k++) {
-        wished[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
-        matched += wished[k];
+        selected[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
+        matched += selected[k];
     }
-    if (!material || matched) return wished;
+    if (!material || matched) return selected;
     char names[NAMES_SIZE];
     fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
          scene_names(scene, weft_scene_material_name, names));

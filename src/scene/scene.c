@@ -77,7 +77,7 @@ const char *weft_scene_variant_name(const WeftScene *scene, int index) {
 const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
                         char text[NAMES_SIZE]) {
     enum { LISTED = 5 };
-    int used = snprintf(text, NAMES_SIZE, name(scene, 0) ? "there is " : "there is none");
+    int used = snprintf(text, NAMES_SIZE, name(scene, 0) ? "available: " : "the scene has none");
     for (int k = 0; k <= LISTED && name(scene, k) && used < NAMES_SIZE; k++) {
         char index[16];
         snprintf(index, sizeof index, "%d", k);

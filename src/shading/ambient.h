@@ -1,4 +1,4 @@
-/* ambient.h - what a material reflects of an environment
+/* ambient.h - image-based lighting (IBL): the light of an environment map (HDRI) that a material reflects
  *
  * Of a lobe with colour 1, f cos_i against the light L of all directions, by one of four strategies:
  *
@@ -97,18 +97,19 @@ STRUCT(AmbientTable) {
     float low, high;   /* roots of the parameter in the first and the last row */
     bool focus;        /* somewhere it is not broad */
     bool narrow;       /* and somewhere too narrow for the lights */
-    bool second;       /* it has a second colour */
+    bool second;       /* the lobe has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has its normals in strips */
-    bool turning; /* it knows an azimuth: planes for wo along it, across and against it, below each other */
+    bool
+        turning; /* the lobe depends on azimuth: planes for wo along, across and against the nap, below each other */
     int strategy;
-    int baked; /* its first polynomial; below 0: it is a table */
+    int baked; /* place of the first polynomial; below 0: not baked */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
 
-/* Where a cosine and a parameter fall, and of a lobe that turns the heading (nap.h): between across, and
- * along or against, by its square. */
+/* The place of a cosine and a parameter in a table, and for a lobe that depends on azimuth of the heading
+ * (nap.h): between across, and along or against, by its square. */
 STRUCT(AmbientCoord) {
     int row, column, side; /* side: the first plane of along or of against */
     float x, y, z, t;      /* t: of polynomials */
@@ -252,7 +253,7 @@ FN AmbientLobe ambient_lobe(AmbientTable t, AmbientSource s, AmbientCoord at, fl
 STRUCT(AmbientView) {
     Dir o;         /* in the lobe's frame */
     float tx, ty;  /* the azimuth of wo */
-    float heading; /* from that of the lobe */
+    float heading; /* azimuth of wo from that of the lobe, as a cosine (nap.h) */
     Dir x, y, z;   /* the lobe's frame */
     float occlusion;
 };
@@ -289,10 +290,10 @@ FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kap
     return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
 
-/* What the two colours of a lobe are multiplied by. */
+/* The light that the two colours of a lobe scale. */
 STRUCT(LobeLight) { Rgb first, second; };
 
-/* What the lights leave, as the four weights look it up: the same for all lobes of a frame. */
+/* The look-ups of the residual, one for each weight: the same for all lobes of a frame. */
 STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 
 FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
@@ -347,8 +348,8 @@ FN Rgb ambient_radiance_with_tail(AmbientSource s, Dir w, float kappa, float tai
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
 }
 
-/* What is seen of the mean `all` about w: of what the lights leave as much as is open, and of the residual of it,
- * which the nearest light stands for, as much as is seen of that, times `part`. */
+/* Returns the visible part of the mean `all` about w: the residual times `open`, plus the rest, which the
+ * nearest light stands for, times the visibility of that light and `part`. */
 FN Rgb ambient_visible_mean(AmbientSource s, Dir w, Rgb all, float kappa, float part, float open) {
     Rgb residual = ambient_residual(s, w, kappa);
     residual = rgb(min(residual.r, all.r), min(residual.g, all.g), min(residual.b, all.b));
@@ -367,10 +368,10 @@ FN float ambient_kappa_blend(float log2_kappa, float edge) {
  * power heuristic. */
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
-/* What samples of the lobe find: the residual, and of the lights the part that is theirs, `lights` being the
- * density at which a light stands for its light. A sample stands for the solid angle 1 / (n pdf); exp(kappa
- * (mu - 1)) has that of 2 pi / kappa, and twice it, by the paper, keeps neighbours together. The sum is made
- * E, which the table knows better. */
+/* Returns the light that samples of the lobe find: the residual, and their part of the lights. env_lights is
+ * the density with which a light stands for its solid angle. A sample stands for the solid angle 1 / (n pdf);
+ * exp(kappa (mu - 1)) has that of 2 pi / kappa, and twice it, by the paper, keeps neighbours together. The
+ * sum is made E, which the table knows better. */
 FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float env_lights,
                                  float albedo) {
     LobeLight p;
@@ -405,7 +406,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
     return p;
 }
 
-/* What lights find: theirs of the lights. */
+/* Returns the part of the lights that is sampled by the lights themselves. */
 FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, float env_lights) {
     LobeLight p;
     p.first = rgb_grey(0.0f);
@@ -425,7 +426,8 @@ FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, fl
     return p;
 }
 
-/* Of one slot: what its colours are multiplied by, and the part of it that the lights are to light. */
+/* One slot, lit by the environment. light_fraction: weight of the lights still to be added, 0 if
+ * `reflected` contains them. */
 STRUCT(SlotLight) {
     LobeLight reflected;
     float light_fraction;
@@ -500,13 +502,13 @@ FN float ambient_schlick_least(float cos_o) {
     return q5 * (1.0f - cos_o * cos_o) + 2.0f * ((1.0f - q5 * q) / 6.0f - (1.0f - q5 * q2) / 7.0f);
 }
 
-/* The same at wi . h: own fit, within 0.001. */
+/* Returns the cosine average of schlick_s at wi . h: own fit, within 0.001. */
 FN float ambient_schlick_half(float cos_o) {
     float q2 = (1.0f - cos_o) * (1.0f - cos_o);
     return q2 * (0.02f + 0.008f * q2);
 }
 
-/* What the interface leaves for the diffuse lobe, on cosine average over wi. */
+/* Returns the transmittance of the interface for the diffuse lobe, on cosine average over wi. */
 FN Rgb ambient_base_transmittance(const Stack *m, const StackView *w) {
     float cos_o = w->o.z;
     Rgb f = rgb_grey(0.0f);
@@ -540,7 +542,7 @@ FN Rgb ambient_reflect_lights(const Stack *m, const StackView *lit, Slots only, 
     return sum;
 }
 
-/* What a stack reflects towards wo, its tables being those of its lobes. occlusion: the part of the
+/* Returns the light that a stack reflects towards wo. t: the tables of its lobes. occlusion: the part of the
  * cosine-weighted sky that is seen, in [0, 1]. */
 FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f), over = rgb_grey(1.0f);

@@ -42,7 +42,7 @@ typedef struct Choice {
     float rest; /* what is left of u, uniform in [0, 1) again */
 } Choice;
 
-/* How many of the children begin at or before u. */
+/* Returns the number of children that begin at or before u. */
 static inline int distribution_count(const float *children, float u) {
     int count = 0;
     for (int k = 0; k < DISTRIBUTION_FAN; k++) count += children[k] <= u;

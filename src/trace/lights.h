@@ -16,7 +16,7 @@ typedef enum LightGroup { LIGHTS_SKY, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL, LIGHT_GR
 WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error);
 void lights_free(Lights *lights);
 
-/* Whether there is any light of that group. */
+/* Returns true if the group has a light. */
 bool lights_shine(const Lights *lights, LightGroup group);
 
 typedef struct LightSample {
@@ -28,7 +28,7 @@ typedef struct LightSample {
     bool sky;       /* from the environment */
 } LightSample;
 
-/* Of a group that shines, for (u, v) in [0, 1)^2. */
+/* Samples a group that has light, for (u, v) in [0, 1)^2. */
 LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v);
 
 /* Returns the light from a direction in which nothing is hit, and the density with which lights_sample

@@ -56,10 +56,10 @@ static json_t *controls_json(void) {
     return object;
 }
 
-void report_state(Viewer *v, bool settled) {
+void report_state(Viewer *v, bool idle) {
     static const char *const modes[] = {"live", "truth", "difference"};
     char camera[ORBIT_TEXT];
-    if (!settled) return;
+    if (!idle) return;
     json_t *materials = json_array();
     for (int k = 0; k < v->state.material_count; k++) json_array_append_new(materials, material_json(v, k));
     bool lost = false;

@@ -15,7 +15,7 @@ struct StateMaterial {
     int preset;
 };
 
-struct Nap {
+struct BrushedNap {
     atomic_int users;
     int material;
     WeftImage image;
@@ -25,7 +25,7 @@ static void material_drop(StateMaterial *m) {
     if (m && atomic_fetch_sub(&m->users, 1) == 1) free(m);
 }
 
-void nap_free(Nap *nap) {
+void nap_free(BrushedNap *nap) {
     if (!nap || atomic_fetch_sub(&nap->users, 1) != 1) return;
     weft_image_free(&nap->image);
     free(nap);
@@ -166,14 +166,14 @@ bool scene_state_take_presets(SceneState *state, const SceneState *from) {
     return all;
 }
 
-static Nap *find_nap(const SceneState *state, int material) {
+static BrushedNap *find_nap(const SceneState *state, int material) {
     for (int k = 0; k < STATE_NAPS; k++)
         if (state->naps[k] && state->naps[k]->material == material) return state->naps[k];
     return NULL;
 }
 
 const WeftImage *scene_state_nap(const SceneState *state, int material) {
-    const Nap *nap = find_nap(state, material);
+    const BrushedNap *nap = find_nap(state, material);
     return nap ? &nap->image : NULL;
 }
 
@@ -223,10 +223,10 @@ bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *ou
     return true;
 }
 
-Nap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image) {
-    const Nap *old = find_nap(state, material);
+BrushedNap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image) {
+    const BrushedNap *old = find_nap(state, material);
     const WeftImage *from = old ? &old->image : own;
-    Nap *nap = from ? calloc(1, sizeof *nap) : NULL;
+    BrushedNap *nap = from ? calloc(1, sizeof *nap) : NULL;
     if (!nap || weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, &nap->image, NULL) != WEFT_OK) {
         free(nap);
         return NULL;
@@ -238,7 +238,7 @@ Nap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftI
     return nap;
 }
 
-bool scene_state_set_nap(SceneState *state, Nap *nap) {
+bool scene_state_set_nap(SceneState *state, BrushedNap *nap) {
     for (int pass = 0; pass < 2; pass++) /* where it has one already, else where there is room */
         for (int k = 0; k < STATE_NAPS; k++) {
             bool its = state->naps[k] && state->naps[k]->material == nap->material;
@@ -268,7 +268,7 @@ static int texture_of(const BoundNaps *naps, int material) {
     return 0;
 }
 
-static WeftResult bind_nap(const Nap *nap, BoundNaps *naps, WeftScene *scene, WeftError *error) {
+static WeftResult bind_nap(const BrushedNap *nap, BoundNaps *naps, WeftScene *scene, WeftError *error) {
     WeftImage copy;
     WeftResult result = weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, &copy, error);
     if (result != WEFT_OK) return result;
@@ -298,7 +298,7 @@ static WeftResult apply_materials(const SceneState *state, const SceneState *is,
             *changed |= WEFT_CHANGED_MATERIALS;
         }
     for (int k = 0; k < state->material_count && result == WEFT_OK; k++) {
-        const Nap *nap = find_nap(state, k), *was = find_nap(is, k);
+        const BrushedNap *nap = find_nap(state, k), *was = find_nap(is, k);
         if (scene_state_same_material(state, is, k) && !nap == !was) continue;
         WeftMaterial m = state->materials[k]->is;
         if (nap) {

@@ -46,7 +46,7 @@ typedef struct StateMaterial StateMaterial; /* shared */
 
 /* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction, blue how
  * much of its angle it leans there. Shared. */
-typedef struct Nap Nap;
+typedef struct BrushedNap BrushedNap;
 
 typedef struct SceneState {
     StateMaterial **materials;
@@ -55,7 +55,7 @@ typedef struct SceneState {
     int light_count;
     int variant; /* of the scene's; -1: none */
     EnvironmentState environment;
-    Nap *naps[STATE_NAPS]; /* NULL: none */
+    BrushedNap *naps[STATE_NAPS]; /* NULL: none */
 } SceneState;
 
 /* Takes the place of the one that the material wore. */
@@ -91,14 +91,14 @@ bool scene_state_take_presets(SceneState *state, const SceneState *from);
 const WeftImage *scene_state_nap(const SceneState *state, int material);
 /* A copy of it, or of `own` where there is none yet: to be changed and then taken over by scene_state_set_nap. NULL
  * where there is neither, or memory is short. */
-Nap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image);
+BrushedNap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image);
 /* The nap that a material has by its numbers and maps, before anything was brushed; maps of the second UV set
  * are not in it. Release with weft_image_free; false where memory is short. */
 bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out);
-bool scene_state_set_nap(SceneState *state, Nap *nap);
+bool scene_state_set_nap(SceneState *state, BrushedNap *nap);
 /* Shares the naps of another state of the same scene. */
 void scene_state_take_naps(SceneState *state, const SceneState *from);
-void nap_free(Nap *nap);
+void nap_free(BrushedNap *nap);
 
 /* The textures of naps in a scene. */
 typedef struct BoundNaps {

@@ -151,7 +151,7 @@ static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     }
     bool moved = goes_on && hypotf(d[0], d[1]) > 0.05f * brush->radius;
     WeftImage *image;
-    Nap *nap = moved ? nap_copy(&v->state, at->material, own->pixels ? own : NULL, &image) : NULL;
+    BrushedNap *nap = moved ? nap_copy(&v->state, at->material, own->pixels ? own : NULL, &image) : NULL;
     if (nap) {
         lay_along(brush, image, at, d);
         begin_nap(v, at->material);

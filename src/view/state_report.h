@@ -7,6 +7,6 @@
 /* Prints an object in one line on standard output where the window has come to rest since the last one:
  * scene, camera, materials, lights, message, rates, memory, and every control that is shown with its place.
  */
-void report_state(Viewer *v, bool settled);
+void report_state(Viewer *v, bool idle);
 
 #endif

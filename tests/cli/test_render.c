@@ -299,7 +299,8 @@ static void failures_keep_the_old_picture(void **state) {
                      "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
                      "back: is not a camera of this scene: there is front; else write auto");
-    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2, "there is none");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2,
+                     "the scene has none");
     assert_complaint(NULL, LIST("render", "builtin:spheres", "-o", "a.png", "--set", "x.roughness=1"), 2,
                      "there is dark-0, dark-1, dark-2, dark-3, dark-4, ...");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--env=none.hdr"), 3,

@@ -267,7 +267,7 @@ static void looks_share_and_part(void **state) {
     WeftImage own, *image;
     assert_null(nap_copy(&b, 0, NULL, &image));
     assert_true(nap_own(NULL, scene_state_material(&b, 0), &own));
-    Nap *nap = nap_copy(&b, 0, &own, &image);
+    BrushedNap *nap = nap_copy(&b, 0, &own, &image);
     assert_non_null(nap);
     assert_true(scene_state_set_nap(&b, nap));
     assert_false(scene_state_same(&a, &b));

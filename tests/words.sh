@@ -1,0 +1,62 @@
+#!/bin/sh
+# The glossary's rules that a program can check: no retired word in an identifier of the sources or in a symbol of what
+# was built, comments and headings that are sentences, and no header or type name that stands for two things.
+# Arguments: source folder, then files with symbols.
+set -eu
+cd "$1"
+shift
+bad=0
+found() {
+    echo "$1"
+    bad=1
+}
+
+# Words of the list that are ordinary words too may stand in identifiers with their ordinary meaning.
+ordinary='^(order|rest|look|tell|settle|house|mend|far away|closed form)$'
+retired=$(sed -n '/^## Retired words/,$p' docs/glossary.md | sed -n '/^```text/,/^```$/{/^```/d; s/ *|.*//; p;}' |
+    grep -vE "$ordinary" | paste -sd '|')
+[ -n "$retired" ] || found "docs/glossary.md: no list of retired words"
+
+sources() { find src include \( -name '*.c' -o -name '*.h' -o -name '*.cpp' \) ! -path '*/tables/*'; }
+
+# The words of identifiers, one identifier a line: painter_start and PainterStart are "painter start".
+words() { sed -E 's/([a-z0-9])([A-Z])/\1 \2/g; s/_/ /g' | tr '[:upper:]' '[:lower:]'; }
+code() { # without comments and texts
+    perl -0777 -pe 's{/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"}{ }gs' "$@"
+}
+identifiers() { grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u; }
+
+names=$(mktemp)
+trap 'rm -f "$names"' EXIT
+sources | xargs cat | code | identifiers >"$names"
+for file; do nm "$file" 2>/dev/null | awk '{ print $NF }' | identifiers >>"$names"; done
+hits=$(words <"$names" | grep -nwE "($retired)(s|es|ed|ing)?" | cut -d: -f1 || true)
+for line in $hits; do found "retired word in the identifier $(sed -n "${line}p" "$names")"; done
+
+# Comments are sentences; the opening comment of a file is a noun.
+check() { # message, pattern
+    hit=$(sources | xargs grep -nE "$2" | head -5 || true)
+    [ -z "$hit" ] || found "$1
+$hit"
+}
+check 'a comment that is no sentence' '^ */\* (What|Whether|Where|How|Of|As|The same)\b'
+check 'the opening comment of a file is no noun' '^/\* [a-z0-9_.-]+ - (what|how|where|of|that|from|whether)\b'
+check 'a pronoun without its noun' '[;,] +/\* (it|its|that|which|from that)\b'
+check 'a message that is no plain English' \
+    '"[^"]*(can(not)? be (had|meant)|in vain|that there is not|not asked for|gave out|tells all|there is none)[^"]*"'
+
+# A header has a name of its own, but for a lobe or model beside its table of numbers.
+twice=$(find src -name '*.h' ! -path '*/tables/*' -exec basename {} \; | sort | uniq -d)
+[ -z "$twice" ] || found "two headers of one name: $twice"
+
+# So has a type: a typedef or a record of the dialect, whichever file it is in.
+types=$(sources | while read -r file; do
+    code "$file" | sed -nE 's/^typedef (struct|enum|union) [A-Za-z0-9_]+ \{.*/&/; s/^typedef (struct|enum|union) ([A-Za-z0-9_]+).*/\2/p; s/^STRUCT\(([A-Za-z0-9_]+)\).*/\1/p' |
+        sort -u
+done | sort | uniq -d)
+for type in $types; do
+    # A handle is declared in one file and defined in another.
+    defined=$(sources | xargs grep -lE "^(typedef )?struct $type \{|^typedef (enum|union) $type \{|^STRUCT\($type\)" | wc -l)
+    [ "$defined" -le 1 ] || found "two types of one name: $type"
+done
+exit $bad
