@@ -67,7 +67,7 @@ static int render_run(const Options *options) {
 const Verb verb_render = {
     .name = "render",
     .operands = "SCENE -o OUT [options]",
-    .help = "renders a scene into images: path traced ground truth, or real-time OpenGL",
+    .help = "renders images: path traced ground truth, or real-time OpenGL",
     .operands_least = 1,
     .operands_most = 1,
     .options = request_options,

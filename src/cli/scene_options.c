@@ -118,7 +118,7 @@ static bool check_scene(const char *scene) {
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "",
                  weft_builtin_name(k));
     }
-    report(WEFT_USAGE, "%.200s: %s: there is %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
+    report(WEFT_USAGE, "%.200s: %s: available: %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
            nearest_hint(&nearest, hint, sizeof hint));
     return false;
 }

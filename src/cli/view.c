@@ -111,7 +111,7 @@ static int view_verb_run(const Options *options) {
 const Verb verb_view = {
     .name = "view",
     .operands = "[SCENE] [options]",
-    .help = "opens a look-dev window: edit any term, input or light, and compare with the ground truth",
+    .help = "opens a look-dev window: edit a scene, compare with ground truth",
     .operands_least = 0,
     .operands_most = 1,
     .options = view_options,

@@ -23,7 +23,7 @@ static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *sce
         return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), scene,
                                  watcher.progress, watcher.user, NULL, error);
     }
-    return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "there is %s%s", builtin_prefix, builtin_at(0)->name);
+    return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
 }
 
 static WeftResult load(const char *path, const void *data, size_t size, Watcher watcher, WeftScene **out,

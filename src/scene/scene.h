@@ -117,7 +117,7 @@ static inline int scene_own_materials(const WeftScene *scene) {
 /* An empty scene with the studio environment, or NULL when memory is short. */
 WeftScene *scene_create(const char *name);
 
-/* "there is a, b, c" for people who mistyped one: the first few names that `name` gives, an unnamed thing by
+/* "available: a, b, c" for people who mistyped one: the first few names that `name` gives, an unnamed thing by
  * its index. Returns text. */
 enum { NAMES_SIZE = 256 };
 const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),

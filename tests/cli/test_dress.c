@@ -172,7 +172,7 @@ static void mistakes_are_named(void **state) {
             2, "--set: makes more than 64 pictures");
     refused(LIST("--set=*.base_color=1,0,0,1"), 2, "a number or r,g,b");
     refused(LIST("--preset=velvt"), 2, "did you mean velvet?");
-    refused(LIST("--preset=wool=velvet"), 2, "there is cloth");
+    refused(LIST("--preset=wool=velvet"), 2, "available: cloth");
     refused(LIST("--material=none.json"), 3, "none.json: ");
     refused(LIST("--material=bad.json"), 3, "bad.json: is not a valid material file: line 1: duplicate");
     refused(LIST("--convert=disney"), 2, "metallic");

@@ -292,13 +292,13 @@ static void failures_keep_the_old_picture(void **state) {
     file_make("a.png", "old", 3);
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
     assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
-                     "builtin:none: is not a built-in scene: there is ball, cloth, sewing, spheres\n");
+                     "builtin:none: is not a built-in scene: available: ball, cloth, sewing, spheres\n");
     assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
-                     "there is ball, cloth, sewing, spheres; did you mean spheres?");
+                     "available: ball, cloth, sewing, spheres; did you mean spheres?");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2,
                      "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
-                     "back: is not a camera of this scene: there is front; else write auto");
+                     "back: is not a camera of this scene: available: front; else write auto");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2,
                      "the scene has none");
     assert_complaint(NULL, LIST("render", "builtin:spheres", "-o", "a.png", "--set", "x.roughness=1"), 2,
