@@ -481,8 +481,8 @@ static void what_is_no_shading_text_is_refused(void **state) {
         int line;
     } wrong[] = {
         {"#include <math.h>\n", "includes a header of C", 1},
-        {"/* one\n * two */\n\n#include \"shading/none.h\"\n", "includes shading/none.h, which does not exist",
-         4},
+        {"/* one\n * two */\n\n#include \"shading/none.h\"\n",
+         "includes shading/none.h, which does not exist", 4},
         {"const char *s =\n    \"text\";\n", "a string", 2},
         {"float a;\n#if 1 + 1\n#endif\n", "an #if of more", 2},
         {"\n#if 1\nfloat a;\n", "an #if without its #endif", 2},
