@@ -302,7 +302,7 @@ static void failures_keep_the_old_picture(void **state) {
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2,
                      "the scene has none");
     assert_complaint(NULL, LIST("render", "builtin:spheres", "-o", "a.png", "--set", "x.roughness=1"), 2,
-                     "there is dark-0, dark-1, dark-2, dark-3, dark-4, ...");
+                     "available: dark-0, dark-1, dark-2, dark-3, dark-4, ...");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--env=none.hdr"), 3,
                      "none.hdr: cannot be opened");
     assert_complaint(NULL, LIST("render", "stdin", "-o", "a.png"), 3, "stdin: ");
