@@ -34,7 +34,7 @@ typedef struct ExportModel {
 /* The ids of a list as a choice has them. */
 static WeftResult find_profile(const char *id, Material *out, WeftError *error) {
     int profile = choice_find(CHOICE_profile, id), workflow = choice_find(CHOICE_workflow, id);
-    *out = material_default(id);
+    *out = material_default();
     if (profile > 0)
         material_choose(out, CHOICE_profile, profile);
     else if (workflow >= 0)
@@ -50,9 +50,10 @@ static bool is_walk(int lobe) { return lobe >= 0 && weft_lobe_info(lobe)->traits
 static void find_zeros(const Draft *draft, ExportModel *model) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input *input = &model->material.inputs[k];
-        bool number = input_infos[k].kind == INPUT_SCALAR || input_infos[k].kind == INPUT_COLOR;
+        bool number = input_infos[k].kind == WEFT_INPUT_SCALAR || input_infos[k].kind == WEFT_INPUT_COLOR;
         bool some = input->texture != 0 || draft->desc->profile != NULL;
-        for (int c = 0; c < (input_infos[k].kind == INPUT_COLOR ? 3 : 1); c++) some |= input->value[c] > 0.0f;
+        for (int c = 0; c < (input_infos[k].kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
+            some |= input->value[c] > 0.0f;
         model->zero[k] = number && !some;
     }
     if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has it */
@@ -101,7 +102,7 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
     WeftResult result = WEFT_OK;
     if (desc->profile) result = find_profile(desc->profile, &model->material, error);
     if (desc->material && result == WEFT_OK) result = numbers_sound(desc->material, error);
-    if (desc->material && result == WEFT_OK) model->material = material_of_numbers(desc->material);
+    if (desc->material && result == WEFT_OK) model->material = material_sound(desc->material);
     if (result != WEFT_OK) return result;
     model->surface = material_plain(&model->material);
     model->choices = material_choices(&model->material);

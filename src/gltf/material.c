@@ -23,7 +23,7 @@ static void transform_read(const Field *field, Input *input) {
     float c = cosf(angle), s = sinf(angle);
     const float m[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
     memcpy(input->transform, m, sizeof m);
-    input->texcoord = (uint8_t)field_size(&texcoord, input->texcoord, 0, UINT8_MAX);
+    input->texcoord = (int)field_size(&texcoord, (size_t)input->texcoord, 0, UINT8_MAX);
 }
 
 /* A textureInfo, where there is one; channel matters to scalars only. */
@@ -33,7 +33,7 @@ static void texture_read(const Field *field, Input *input, uint8_t channel) {
     Field transform = field_extension(field, "KHR_texture_transform");
     input->texture = field_needed_index(&index, field->asset->texture_count) + 1;
     input->channel = channel;
-    input->texcoord = (uint8_t)field_size(&texcoord, 0, 0, UINT8_MAX);
+    input->texcoord = (int)field_size(&texcoord, 0, 0, UINT8_MAX);
     if (transform.json) transform_read(&transform, input);
     if (input->texcoord > 1) {
         field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read",
@@ -136,15 +136,15 @@ static void sheen_read(const Field *material, Input *inputs) {
 
 /* An input that extras.weft has as a number or, of a colour, as three: radians where it is an angle. */
 static void own_read(const Field *weft, Input *inputs, const char *key, InputId id) {
-    const InputInfo *info = &input_infos[id];
-    bool angle = info->kind == INPUT_ANGLE || info->kind == INPUT_DIRECTION;
+    const WeftInputInfo *info = &input_infos[id];
+    bool angle = info->kind == WEFT_INPUT_ANGLE || info->kind == WEFT_INPUT_DIRECTION;
     float unit = angle ? 0.0174532925f : 1.0f;
     Field field = field_member(weft, key);
     float low = info->hard_low * unit, high = info->hard_high * unit;
-    if (info->kind == INPUT_COLOR)
+    if (info->kind == WEFT_INPUT_COLOR)
         field_floats(&field, inputs[id].value, 3, low, high);
     else
-        inputs[id].value[0] = (float)field_number(&field, (double)info->def, (double)low, (double)high);
+        inputs[id].value[0] = (float)field_number(&field, (double)info->initial, (double)low, (double)high);
 }
 
 static const struct {
@@ -163,13 +163,13 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     Field value = field_member(field, "value"), texture = field_member(field, "texture"),
           texcoord = field_member(field, "texCoord"), channel = field_member(field, "channel"),
           transform = field_member(field, "transform"), given = field_member(field, "given");
-    const int count = input_infos[id].kind == INPUT_COLOR ? 3 : 1;
-    *input = material_default("").inputs[id];
+    const int count = input_infos[id].kind == WEFT_INPUT_COLOR ? 3 : 1;
+    *input = material_default().inputs[id];
     field_floats(&value, input->value, (size_t)count, -most, most);
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
     field_floats(&transform, input->transform, 6, -most, most);
     input->texture = field_index(&texture, field->asset->texture_count) + 1;
-    input->texcoord = (uint8_t)field_size(&texcoord, 0, 0, 1);
+    input->texcoord = (int)field_size(&texcoord, 0, 0, 1);
     input->channel = (uint8_t)field_size(&channel, 0, 0, 3);
     input->given = field_bool(&given, false);
 }
@@ -226,25 +226,25 @@ static void extras_read(const Field *field, Material *material) {
     }
 }
 
-static AlphaMode alpha_mode_read(const Field *field) {
+static WeftAlphaMode alpha_mode_read(const Field *field) {
     static const char *const names[] = {"OPAQUE", "MASK", "BLEND"};
     const char *text = field_text(field, "OPAQUE");
     for (int i = 0; i < 3; i++)
-        if (strcmp(text, names[i]) == 0) return (AlphaMode)i;
+        if (strcmp(text, names[i]) == 0) return (WeftAlphaMode)i;
     field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected OPAQUE, MASK or BLEND");
-    return ALPHA_OPAQUE;
+    return WEFT_ALPHA_OPAQUE;
 }
 
 /* Reads an object of "materials"; an absent field gives the default material. */
 static Material material_read(const Field *field) {
-    Field name = field_member(field, "name"), alpha = field_member(field, "alphaMode"),
-          cutoff = field_member(field, "alphaCutoff"), sided = field_member(field, "doubleSided");
-    Material material = material_default(asset_text(field->asset, field_text(&name, "")));
+    Field alpha = field_member(field, "alphaMode"), cutoff = field_member(field, "alphaCutoff"),
+          sided = field_member(field, "doubleSided");
+    Material material = material_default();
     Input *inputs = material.inputs;
     material.alpha_mode = alpha_mode_read(&alpha);
     material.alpha_cutoff = (float)field_number(&cutoff, 0.5, 0.0, (double)FLT_MAX);
     material.double_sided = field_bool(&sided, false);
-    material.unlit = field_extension(field, "KHR_materials_unlit").json;
+    material.unlit = field_extension(field, "KHR_materials_unlit").json != NULL;
     metallic_roughness_read(field, inputs);
     normal_read(field, &inputs[INPUT_normal], "normalTexture");
     Field occlusion = field_member(field, "occlusionTexture");
@@ -264,12 +264,15 @@ void materials_read(Asset *asset) {
     Field root = field_root(asset), list = field_member(&root, "materials");
     asset->material_count = field_count(&list);
     scene->materials = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(Material));
+    scene->material_names = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(char *));
     asset->material_shown = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(bool));
     for (size_t i = 0; i <= asset->material_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i);
         if (i < asset->material_count && !json_is_object(field.json))
             field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an object");
+        Field name = field_member(&field, "name");
         scene->materials[i] = material_read(&field);
+        scene->material_names[i] = asset_text(asset, field_text(&name, ""));
     }
     scene->material_count = (int)asset->material_count;
 }

@@ -160,17 +160,17 @@ static void sheen_save(Saving *saving, json_t *object, const Material *material)
     saving_extend(saving, object, "KHR_materials_sheen", extension);
 }
 
-static json_t *material_save(Saving *saving, const Material *material) {
-    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND"}; /* as AlphaMode */
+static json_t *material_save(Saving *saving, const char *name, const Material *material) {
+    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND"}; /* as WeftAlphaMode */
     json_t *object = json_object();
-    saving_name(saving, object, material->name);
+    saving_name(saving, object, name);
     base_save(saving, object, material);
     scaled_save(saving, object, "normalTexture", "scale", material, INPUT_normal);
     scaled_save(saving, object, "occlusionTexture", "strength", material, INPUT_occlusion);
     emission_save(saving, object, material);
-    if (material->alpha_mode != ALPHA_OPAQUE)
+    if (material->alpha_mode != WEFT_ALPHA_OPAQUE)
         saving_put(saving, object, "alphaMode", json_string(modes[material->alpha_mode]));
-    if (material->alpha_mode == ALPHA_MASK)
+    if (material->alpha_mode == WEFT_ALPHA_MASK)
         number_put(saving, object, "alphaCutoff", fmaxf(material->alpha_cutoff, 0.0f));
     if (material->double_sided) saving_put(saving, object, "doubleSided", json_true());
     if (material->unlit) saving_extend(saving, object, "KHR_materials_unlit", json_object());
@@ -219,7 +219,7 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
                        json_string(choice_id((ChoiceId)k, material->choices[k])));
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input wanted = numbered(saving, &material->inputs[k]);
-        int count = input_infos[k].kind == INPUT_COLOR ? 3 : 1;
+        int count = input_infos[k].kind == WEFT_INPUT_COLOR ? 3 : 1;
         if (!is_same(&wanted, &read->inputs[k], count))
             saving_put(saving, inputs, input_infos[k].name, input_save(saving, &wanted, count));
     }
@@ -238,12 +238,18 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
     }
 }
 
+/* Returns the name of a material, which a light of the scene's has none of. */
+static const char *name_of(const WeftScene *scene, int material) {
+    const char *name = weft_scene_material_name(scene, material);
+    return name ? name : "light";
+}
+
 void materials_save(Saving *saving) {
     const WeftScene *scene = saving->scene;
     if (!scene->material_count) return;
     json_t *list = saving_list(saving, "materials");
     for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
-        saving_append(saving, list, material_save(saving, &scene->materials[k]));
+        saving_append(saving, list, material_save(saving, name_of(scene, k), &scene->materials[k]));
     WeftScene read = {0};
     Asset asset = {.name = saving->path,
                    .scene = &read,

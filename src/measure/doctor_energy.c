@@ -148,7 +148,7 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
     plain.choices[CHOICE_profile] = numbers.choices[CHOICE_profile];
     memcpy(numbers.choices, plain.choices, sizeof numbers.choices);
     if (numbers_sound(&numbers, &error) != WEFT_OK) return false;
-    const Material material = material_of_numbers(&numbers);
+    const Material material = material_sound(&numbers);
     const Surface surface = material_plain(&material);
     *self = (Case){.bare = frame_surface(surface),
                    .choices = material_choices(&material),

@@ -85,7 +85,7 @@ static void widest(const Whole *self, float *low, float *high) {
 
 void reflection_change(WeftReflection *self, const WeftMaterial *material, AlbedoTable *shared) {
     Stack stack;
-    const Material taken = material_of_numbers(material);
+    const Material taken = material_sound(material);
     whole_set(&self->whole, &taken);
     if (!asks_for_table(&self->whole, &stack) || stack.layer == LAYER_ADDITIVE) return;
     float low = stack.albedo_coord, high = stack.albedo_coord;
@@ -118,7 +118,7 @@ WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection *
     WeftResult result = numbers_sound(material, error);
     if (result != WEFT_OK) return result;
     if (!reflection_of_kind(REFLECTION_WHOLE, out, error)) return WEFT_RESOURCES;
-    const Material taken = material_of_numbers(material);
+    const Material taken = material_sound(material);
     if (!whole_make(&(*out)->whole, &taken)) result = fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
     return finish(out, result);
 }

@@ -26,12 +26,13 @@ static bool is_all(const Input *input, int count, float x) {
     return all;
 }
 
-static InputState state_of(const Input *input, InputKind kind) {
-    int count = kind == INPUT_COLOR ? 3 : 1;
+static InputState state_of(const Input *input, WeftInputKind kind) {
+    int count = kind == WEFT_INPUT_COLOR ? 3 : 1;
     if (input->texture) return INPUT_MAP;
     if (is_all(input, count, 0.0f)) return INPUT_ZERO;
-    return kind != INPUT_ANGLE && kind != INPUT_DIRECTION && is_all(input, count, 1.0f) ? INPUT_ONE
-                                                                                        : INPUT_VALUE;
+    return kind != WEFT_INPUT_ANGLE && kind != WEFT_INPUT_DIRECTION && is_all(input, count, 1.0f)
+               ? INPUT_ONE
+               : INPUT_VALUE;
 }
 
 static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
@@ -49,11 +50,11 @@ static void add_map(GlMaterial *self, const GlTextures *textures, const Material
 static void add_input(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
                       Uniforms *uniforms) {
     const Input *input = &material->inputs[k];
-    InputKind kind = input_infos[k].kind;
+    WeftInputKind kind = input_infos[k].kind;
     self->key.inputs[k].state = (int16_t)state_of(input, kind);
     self->key.inputs[k].like = -1;
     for (int c = 0; c < 3; c++) uniforms->inputs[k][c] = input->value[c];
-    if (kind == INPUT_DIRECTION) {
+    if (kind == WEFT_INPUT_DIRECTION) {
         uniforms->inputs[k][0] = cos(input->value[0]);
         uniforms->inputs[k][1] = sin(input->value[0]);
     }
@@ -73,7 +74,7 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
 static Surface middle_surface(const Material *material) {
     Material middle = *material;
     for (int k = 0; k < INPUT_COUNT; k++)
-        for (int c = 0; c < 3 && input_infos[k].kind != INPUT_DIRECTION; c++)
+        for (int c = 0; c < 3 && input_infos[k].kind != WEFT_INPUT_DIRECTION; c++)
             if (middle.inputs[k].texture) middle.inputs[k].value[c] *= 0.5f;
     return material_plain(&middle);
 }
@@ -158,7 +159,8 @@ static bool is_same(const GlMaterial *a, const GlMaterial *b) {
 }
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
-    change->coverage |= old->key.alpha_mode != ALPHA_OPAQUE || fresh->key.alpha_mode != ALPHA_OPAQUE ||
+    change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
+                        fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
                         old->key.double_sided != fresh->key.double_sided;
     change->emission |= old->emits || fresh->emits;
 }

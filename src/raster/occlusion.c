@@ -169,7 +169,7 @@ static void look(void *user, int item, int thread) {
 static bool is_opaque(const WeftScene *scene) {
     bool opaque = true;
     for (int m = 0; m < scene_own_meshes(scene); m++)
-        opaque &= scene->materials[scene->meshes[m].material].alpha_mode == ALPHA_OPAQUE;
+        opaque &= scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_OPAQUE;
     return opaque;
 }
 
@@ -185,7 +185,7 @@ static uint64_t values_key(const Occlusion *self) {
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const uint32_t what[] = {mesh->vertex_count, mesh->triangle_count, mesh->normal != NULL,
-                                 scene->materials[mesh->material].double_sided};
+                                 scene->materials[mesh->material].double_sided != 0};
         size_t corners = 3 * (size_t)mesh->vertex_count * sizeof(float);
         hash = cache_hash(hash, what, sizeof what);
         hash = cache_hash(hash, mesh->position, corners);

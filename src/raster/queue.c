@@ -18,7 +18,7 @@ static void measure(Queue *self, const WeftScene *scene, int m) {
 }
 
 static bool blends(const WeftScene *scene, int m) {
-    return scene->materials[scene->meshes[m].material].alpha_mode == ALPHA_BLEND;
+    return scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_BLEND;
 }
 
 WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {

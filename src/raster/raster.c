@@ -386,7 +386,7 @@ static ShaderKey depth_key(const ShaderKey *key) {
     depth.alpha_mode = key->alpha_mode;
     for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].like = -1;
     for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].state = INPUT_ZERO;
-    if (key->alpha_mode == ALPHA_OPAQUE) return depth;
+    if (key->alpha_mode == WEFT_ALPHA_OPAQUE) return depth;
     depth.colored = key->colored;
     depth.inputs[INPUT_opacity] = key->inputs[INPUT_opacity];
     depth.inputs[INPUT_opacity].like = -1;
@@ -568,7 +568,7 @@ WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
 static void add_stale(const WeftRaster *self, const Material *material, MaterialsChange *change) {
     const int opacity = material->inputs[INPUT_opacity].texture,
               emission = material->inputs[INPUT_emission].texture;
-    change->coverage |= material->alpha_mode != ALPHA_OPAQUE && opacity &&
+    change->coverage |= material->alpha_mode != WEFT_ALPHA_OPAQUE && opacity &&
                         textures_stale(&self->textures, self->scene, opacity - 1);
     change->emission |= emission && textures_stale(&self->textures, self->scene, emission - 1);
 }

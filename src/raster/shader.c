@@ -91,8 +91,9 @@ static void put_table(Text *text, const ShaderKey *key) {
 
 /* The texel that changes nothing. */
 static const char *rest_of(int input) {
-    InputKind kind = input_infos[input].kind;
-    return kind == INPUT_NORMAL || kind == INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)" : "vec4(1.0)";
+    WeftInputKind kind = input_infos[input].kind;
+    return kind == WEFT_INPUT_NORMAL || kind == WEFT_INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)"
+                                                                     : "vec4(1.0)";
 }
 
 bool shader_same_rest(int input, int other) { return strcmp(rest_of(input), rest_of(other)) == 0; }
@@ -126,8 +127,8 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
         return;
     }
     switch (input_infos[k].kind) {
-    case INPUT_SCALAR:
-    case INPUT_ANGLE:
+    case WEFT_INPUT_SCALAR:
+    case WEFT_INPUT_ANGLE:
         if (mapped)
             text_line(text, "    s.%s = %s.x * %s.%c;", name, value, map, "rgba"[input->channel]);
         else if (input->state == INPUT_VALUE)
@@ -135,7 +136,7 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
         else
             text_line(text, "    s.%s = %s;", name, input->state == INPUT_ONE ? "1.0" : "0.0");
         break;
-    case INPUT_COLOR:
+    case WEFT_INPUT_COLOR:
         if (mapped)
             text_line(text, "    s.%s = rgb(%s.x * %s.r, %s.y * %s.g, %s.z * %s.b);", name, value, map, value,
                       map, value, map);
@@ -144,13 +145,13 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
         else
             text_line(text, "    s.%s = rgb_grey(%s);", name, input->state == INPUT_ONE ? "1.0" : "0.0");
         break;
-    case INPUT_NORMAL:
+    case WEFT_INPUT_NORMAL:
         if (mapped)
             text_line(text, "    s.%s = texel_normal(%s.r, %s.g, %s.b, %s.x);", name, map, map, map, value);
         else
             text_line(text, "    s.%s = dir(0.0, 0.0, 1.0);", name);
         break;
-    case INPUT_DIRECTION:
+    case WEFT_INPUT_DIRECTION:
         if (mapped)
             text_line(text, "    s.%s = texel_direction(%s.r, %s.g, %s.x, %s.y);", name, map, map, value,
                       value);
@@ -174,11 +175,11 @@ static void put_surface(Text *text, const ShaderKey *key) {
     text_line(text, "    return s;\n}");
     text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
               key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
-    static const char *const coverage[] = {[ALPHA_OPAQUE] = "1.0",
-                                           [ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
-                                           [ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
+    static const char *const coverage[] = {[WEFT_ALPHA_OPAQUE] = "1.0",
+                                           [WEFT_ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
+                                           [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
     text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
-    if (key->alpha_mode == ALPHA_MASK) text_define(text, "MASKED", "1");
+    if (key->alpha_mode == WEFT_ALPHA_MASK) text_define(text, "MASKED", "1");
 }
 
 static void put_lights(Text *text, const ShaderKey *key) {
@@ -208,7 +209,7 @@ static bool turns(const ShaderKey *key, const CompositionSlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
         const ShaderInput *input = &key->inputs[turning[k]];
-        bool number = input_infos[turning[k]].kind != INPUT_NORMAL;
+        bool number = input_infos[turning[k]].kind != WEFT_INPUT_NORMAL;
         if (is_mapped(input) || (number && input->state != INPUT_ZERO)) return true;
     }
     return found->slots[2].count && weft_lobe_info(found->lobes[2].id)->traits & TRAIT_ANISOTROPIC;

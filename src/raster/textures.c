@@ -24,7 +24,7 @@ typedef struct Plan {
 bool textures_color(const Material *material, int input) {
     const Input *i = &material->inputs[input];
     /* opacity is the alpha of a colour texture: the same texels, and alpha is never decoded */
-    return input_infos[input].kind == INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
+    return input_infos[input].kind == WEFT_INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
 }
 
 static GLenum format_of(const WeftImage *image, bool color) {

@@ -45,7 +45,6 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
 static Material assigned(const Material *old, const MaterialFile *file) {
     static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
     Material fresh = file->material;
-    fresh.name = old->name;
     for (size_t k = 0; k < sizeof shape / sizeof *shape; k++)
         if (!file->named[shape[k]]) fresh.inputs[shape[k]] = old->inputs[shape[k]];
     for (int k = 0; k < INPUT_COUNT; k++)

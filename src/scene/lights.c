@@ -89,7 +89,7 @@ static bool find_corners(const WeftLight *l, Vec3 corners[LIGHT_CORNERS]) {
 
 /* Black, and shines from its front alone. */
 static Material shining(const float color[3]) {
-    Material material = material_default("light");
+    Material material = material_default();
     for (int c = 0; c < 3; c++) {
         material.inputs[INPUT_base_color].value[c] = 0.0f;
         material.inputs[INPUT_emission].value[c] = color[c];

@@ -56,18 +56,13 @@ static bool take_over(WeftScene *scene, MapPicture *picture) {
     return picture->texture != 0;
 }
 
-/* The picture alone counts; an angle's is the greatest. */
 static void put_on_input(Material *material, InputId id, int texture, int channel) {
-    const InputInfo *info = &input_infos[id];
     Input *input = &material->inputs[id];
-    float value = info->kind == INPUT_DIRECTION ? 0.0f
-                  : info->kind == INPUT_ANGLE   ? info->high * (3.14159265f / 180.0f)
-                                                : 1.0f;
     *input = (Input){.texture = texture, .channel = (uint8_t)channel, .given = true};
-    for (int c = 0; c < 3; c++) input->value[c] = value;
+    input_set_map_factor(input, id);
     input->transform[0] = input->transform[4] = 1.0f;
-    if (id == INPUT_opacity && material->alpha_mode == ALPHA_OPAQUE)
-        material->alpha_mode = ALPHA_BLEND; /* else it would say nothing */
+    if (id == INPUT_opacity && material->alpha_mode == WEFT_ALPHA_OPAQUE)
+        material->alpha_mode = WEFT_ALPHA_BLEND; /* else it would say nothing */
 }
 
 /* "MATERIAL.INPUT" or "MATERIAL.INPUT.g", cut in three. */
@@ -96,8 +91,8 @@ static WeftResult read_target(const char *text, MapTarget *target, WeftError *er
     int input = material_input(point + 1);
     if (input < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, point + 1, "`weft models` lists inputs");
     target->input = (InputId)input;
-    InputKind kind = input_infos[input].kind;
-    if (target->channel >= 0 && kind != INPUT_SCALAR && kind != INPUT_ANGLE)
+    WeftInputKind kind = input_infos[input].kind;
+    if (target->channel >= 0 && kind != WEFT_INPUT_SCALAR && kind != WEFT_INPUT_ANGLE)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, text, "%s takes the whole picture", point + 1);
     return WEFT_OK;
 }

@@ -7,9 +7,9 @@
 #include "shading/choice.h"
 #include "shading/texel.h"
 
-const InputInfo input_infos[INPUT_COUNT] = {
+const WeftInputInfo input_infos[INPUT_COUNT] = {
 #define INPUT_INFO(kind, name, def, low, high, hard_low, hard_high, help)                                    \
-    {#name, help, INPUT_##kind, def, low, high, hard_low, hard_high},
+    {#name, help, WEFT_INPUT_##kind, def, low, high, hard_low, hard_high},
     SURFACE_INPUTS(INPUT_INFO)
 #undef INPUT_INFO
 };
@@ -20,15 +20,32 @@ int material_input(const char *name) {
     return -1;
 }
 
-Material material_default(const char *name) {
-    Material material = {.name = name, .alpha_cutoff = 0.5f};
+int input_value_count(InputId input) { return input_infos[input].kind == WEFT_INPUT_COLOR ? 3 : 1; }
+
+int weft_material_input_info(int index, WeftInputInfo *out) {
+    *out = (WeftInputInfo){0};
+    if (index < 0 || index >= INPUT_COUNT) return 0;
+    *out = input_infos[index];
+    return 1;
+}
+
+Material material_default(void) {
+    Material material = {.alpha_cutoff = 0.5f};
     for (int k = 0; k < CHOICE_COUNT; k++) material.choices[k] = CHOICE_AUTO;
     for (int k = 0; k < INPUT_COUNT; k++) {
         Input *input = &material.inputs[k];
-        for (int c = 0; c < 3; c++) input->value[c] = input_infos[k].def;
+        for (int c = 0; c < input_value_count((InputId)k); c++) input->value[c] = input_infos[k].initial;
         input->transform[0] = input->transform[4] = 1.0f;
     }
     return material;
+}
+
+void input_set_map_factor(Input *input, InputId id) {
+    const WeftInputInfo *info = &input_infos[id];
+    float factor = info->kind == WEFT_INPUT_DIRECTION ? 0.0f
+                   : info->kind == WEFT_INPUT_ANGLE   ? info->high * (3.14159265f / 180.0f)
+                                                      : 1.0f;
+    for (int c = 0; c < input_value_count(id); c++) input->value[c] = factor;
 }
 
 /* Inputs for which some have a default of their own: the principled BRDF a fainter highlight and no sheen,
@@ -49,14 +66,14 @@ static float input_default(const Material *material, InputId id) {
     if (disney && id == INPUT_sheen) return 0.0f;
     bool bare = chosen(material, CHOICE_workflow, "specular") || chosen(material, CHOICE_workflow, "free");
     if (!engine && bare && id == INPUT_specular_color) return 0.03f;
-    return input_infos[id].def;
+    return input_infos[id].initial;
 }
 
 static bool is_default(const Material *material, InputId id) {
     const Input *input = &material->inputs[id];
     float def = input_default(material, id);
     bool same = !input->texture && !input->given;
-    for (int c = 0; c < (input_infos[id].kind == INPUT_COLOR ? 3 : 1); c++)
+    for (int c = 0; c < input_value_count(id); c++)
         same &= !(input->value[c] < def) && !(input->value[c] > def);
     return same;
 }
@@ -66,7 +83,7 @@ void material_choose(Material *material, ChoiceId choice, int value) {
     for (int k = 0; k < REDEFAULTED; k++) moves[k] = is_default(material, redefaulted[k]);
     material->choices[choice] = value;
     for (int k = 0; k < REDEFAULTED; k++)
-        for (int c = 0; moves[k] && c < 3; c++)
+        for (int c = 0; moves[k] && c < input_value_count(redefaulted[k]); c++)
             material->inputs[redefaulted[k]].value[c] = input_default(material, redefaulted[k]);
 }
 
@@ -155,10 +172,10 @@ void material_textures(const WeftScene *scene, const Material *material, float u
 }
 
 float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha) {
-    if (material->alpha_mode == ALPHA_OPAQUE) return 1.0f;
+    if (material->alpha_mode == WEFT_ALPHA_OPAQUE) return 1.0f;
     Lookup lookup = {.scene = scene, .uv = uv};
     const Input *input = &material->inputs[INPUT_opacity];
     float opacity = (input->texture ? read_SCALAR(&lookup, input) : plain_SCALAR(input)) * vertex_alpha;
-    if (material->alpha_mode == ALPHA_MASK) return opacity >= material->alpha_cutoff ? 1.0f : 0.0f;
+    if (material->alpha_mode == WEFT_ALPHA_MASK) return opacity >= material->alpha_cutoff ? 1.0f : 0.0f;
     return clamp(opacity, 0.0f, 1.0f);
 }

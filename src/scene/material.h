@@ -3,53 +3,29 @@
 #ifndef WEFT_SCENE_MATERIAL_H
 #define WEFT_SCENE_MATERIAL_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "scene/texture.h"
 #include "shading/input_ids.h"
+#include "weft/material.h"
 
-/* The rule by which an input's value and texture give the number or direction at a point. SCALAR, ANGLE
- * (radians): value[0] times one channel.  COLOR: linear RGB times the sRGB-decoded texture. NORMAL: value[0]
- * scales x and y of 2 t - 1; without a texture the surface is smooth. DIRECTION: value[0] is an angle
- * (radians, from the tangent towards the bitangent) added to that of 2 t.rg - 1. */
-typedef enum InputKind { INPUT_SCALAR, INPUT_COLOR, INPUT_NORMAL, INPUT_DIRECTION, INPUT_ANGLE } InputKind;
+/* The material of the public header is the scene's own: its inputs are indexed by InputId, its choices by ChoiceId.
+ * Past the last of either, and where an input has no number, all is zero, so that equal materials are equal bytes. */
+typedef WeftMaterial Material;
+typedef WeftInput Input;
 
-typedef struct InputInfo {
-    const char *name, *help;
-    InputKind kind;
-    float def;
-    float low, high;           /* plausible; angles in degrees */
-    float hard_low, hard_high; /* values are clamped to this */
-} InputInfo;
+_Static_assert((int)INPUT_COUNT <= (int)WEFT_INPUTS_MAX && (int)CHOICE_COUNT <= (int)WEFT_CHOICES_MAX,
+               "weft/material.h has room for all");
 
-extern const InputInfo input_infos[INPUT_COUNT];
+extern const WeftInputInfo input_infos[INPUT_COUNT];
 
-typedef struct Input {
-    float value[3];
-    int texture;      /* index into the scene's textures + 1; 0 is none */
-    uint8_t texcoord; /* UV set, 0 or 1 */
-    uint8_t channel;  /* of the texture, for SCALAR and ANGLE: 0 r, 1 g, 2 b, 3 a */
-    bool given;       /* by the user: no workflow has a default of its own for it */
-    /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
-    float transform[6];
-} Input;
+/* Returns how many numbers the value of an input has: 3 for a colour, else 1. */
+int input_value_count(InputId input);
 
-typedef enum AlphaMode { ALPHA_OPAQUE = 0, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
-
-typedef struct Material {
-    const char *name; /* never NULL, may be empty */
-    AlphaMode alpha_mode;
-    float alpha_cutoff;        /* MASK: opacity below it is nothing, from it on everything */
-    bool double_sided;         /* else seen only from the front */
-    bool unlit;                /* base_color is shown as it is */
-    int choices[CHOICE_COUNT]; /* indices into the catalogue (shading/choice.h) or CHOICE_AUTO */
-    Input inputs[INPUT_COUNT];
-} Material;
-
-/* A material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
+/* Returns a material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
  * chosen. */
-Material material_default(const char *name);
+Material material_default(void);
+
+/* Sets the factor beside a texture that alone counts: 1, the greatest angle, or 0 added to a direction. */
+void input_set_map_factor(Input *input, InputId id);
 
 /* Index of an input by name, or -1. */
 int material_input(const char *name);

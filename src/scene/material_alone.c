@@ -39,10 +39,7 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
     return result;
 }
 
-void weft_material_default(WeftMaterial *out) {
-    const Material material = material_default("");
-    numbers_of_material(&material, out);
-}
+void weft_material_default(WeftMaterial *out) { *out = material_default(); }
 
 WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log, WeftError *error) {
     MaterialFile file;
@@ -51,24 +48,17 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     if (result == WEFT_OK) {
         if (file.texture_count)
             warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its textures are left out: only its numbers count here");
-        numbers_of_material(&file.material, out);
+        *out = file.material;
         for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
     }
     material_file_free(&file);
     return result;
 }
 
-WeftResult weft_material_set(WeftMaterial *numbers, const char *name, const char *value, const WeftLog *log,
+WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value, const WeftLog *log,
                              WeftError *error) {
     Setting setting;
     WeftResult result = setting_read(name, value, name, &setting, log, error);
-    if (result != WEFT_OK) return result;
-    if (setting.input < 0) {
-        weft_material_choose(numbers, setting.choice, setting.value);
-        return WEFT_OK;
-    }
-    Material material = material_of_numbers(numbers);
-    material_set(&material, &setting);
-    numbers_of_material(&material, numbers);
-    return WEFT_OK;
+    if (result == WEFT_OK) material_set(material, &setting);
+    return result;
 }

@@ -70,14 +70,15 @@ static void hex_color(Reader *r, const char *text, float v[3]) {
 
 /* A value without a texture: a number and, for a color, [r, g, b] or "#rrggbb". */
 static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
-    const InputInfo *info = &input_infos[id];
-    bool color = info->kind == INPUT_COLOR;
+    const WeftInputInfo *info = &input_infos[id];
+    bool color = info->kind == WEFT_INPUT_COLOR;
     if (color && json_is_string(json)) {
         hex_color(r, json_string_value(json), v);
     } else if (color && json_is_array(json) && json_array_size(json) == 3) {
         for (size_t c = 0; c < 3; c++) v[c] = number(r, json_array_get(json, c), "an element");
     } else if (json_is_number(json)) {
-        v[0] = v[1] = v[2] = number(r, json, "it");
+        v[0] = number(r, json, "it");
+        if (color) v[1] = v[2] = v[0];
     } else {
         refuse(r, color ? "expected a number, [r, g, b], \"#rrggbb\" or an object with a texture"
                         : "expected a number or an object with a texture");
@@ -202,7 +203,7 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
         } else if (strcmp(key, "factor") == 0) {
             read_value(r, value, id, input->value);
         } else if (strcmp(key, "channel") == 0 &&
-                   (input_infos[id].kind == INPUT_SCALAR || input_infos[id].kind == INPUT_ANGLE)) {
+                   (input_infos[id].kind == WEFT_INPUT_SCALAR || input_infos[id].kind == WEFT_INPUT_ANGLE)) {
             input->channel = (uint8_t)one_of(r, value, key, channels);
         } else if (strcmp(key, "texcoord") == 0) {
             float set = number(r, value, key);
@@ -230,17 +231,13 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
 
 static void read_input(Reader *r, json_t *json, InputId id) {
     Input *input = &r->out->material.inputs[id];
-    r->out->named[id] = input->given = true;
+    r->out->named[id] = true;
+    input->given = true;
     if (!json_is_object(json)) {
         read_value(r, json, id, input->value);
         return;
     }
-    /* the texture alone counts, unless there is a factor; a direction is added, an angle is the greatest */
-    const InputInfo *info = &input_infos[id];
-    float factor = info->kind == INPUT_DIRECTION ? 0.0f
-                   : info->kind == INPUT_ANGLE   ? info->high * (3.14159265f / 180.0f)
-                                                 : 1.0f;
-    for (int c = 0; c < 3; c++) input->value[c] = factor;
+    input_set_map_factor(input, id); /* unless there is a factor */
     read_texture(r, json, id, input);
 }
 
@@ -270,7 +267,7 @@ static void read_keep(Reader *r, const json_t *json) {
 
 /* Reads the members of a material that are neither inputs nor choices. */
 static void read_rest(Reader *r, const json_t *json) {
-    static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as AlphaMode */
+    static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
     MaterialFile *out = r->out;
     const char *key = r->key;
     if (strcmp(key, "name") == 0 || strcmp(key, "help") == 0) {
@@ -278,7 +275,7 @@ static void read_rest(Reader *r, const json_t *json) {
     } else if (strcmp(key, "keep") == 0) {
         read_keep(r, json);
     } else if (strcmp(key, "alpha_mode") == 0) {
-        out->material.alpha_mode = (AlphaMode)one_of(r, json, "it", modes);
+        out->material.alpha_mode = (WeftAlphaMode)one_of(r, json, "it", modes);
         out->alpha_named = true;
     } else if (strcmp(key, "alpha_cutoff") == 0) {
         out->material.alpha_cutoff = number(r, json, "it");
@@ -325,7 +322,7 @@ static void read_object(Reader *r, json_t *root) {
 
 WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
                               MaterialFile *out, const WeftLog *log, WeftError *error) {
-    *out = (MaterialFile){.material = material_default("")};
+    *out = (MaterialFile){.material = material_default()};
     Reader reader = {.name = name, .folder = folder, .key = "", .out = out, .log = log, .error = error};
     const char *text = data;
     size_t mark = mark_size(text, size), blank = mark;

@@ -1,22 +1,18 @@
-/* material_numbers.h - a Material as the plain numbers of weft/material.h, and back */
+/* material_numbers.h - checking a material that a caller hands over */
 #ifndef WEFT_SCENE_MATERIAL_NUMBERS_H
 #define WEFT_SCENE_MATERIAL_NUMBERS_H
 
 #include "scene/scene.h"
 #include "weft/material.h"
 
-/* Sanitises a caller's numbers: they become finite and are clamped to their hard range. Unknown choices
- * become auto, unknown modes opaque. The name becomes "". Textures are ignored. */
-Material material_of_numbers(const WeftMaterial *numbers);
+/* Returns a material as the library may use it: numbers are finite and within their hard ranges, choices and modes
+ * that do not exist are auto and opaque. Textures are not looked at. */
+Material material_sound(const WeftMaterial *numbers);
 
-/* The numbers of a material: byte by byte equal for equal materials, since there is no padding and nothing
- * where an input has no number. */
-void numbers_of_material(const Material *material, WeftMaterial *out);
-
-/* Fails with WEFT_MESSAGE_PARAM_VALUE if a choice does not exist or a value is not finite. */
+/* Fails with WEFT_MESSAGE_PARAM_VALUE unless all choices exist and all values are finite. */
 WeftResult numbers_sound(const WeftMaterial *numbers, WeftError *error);
 
-/* A value clamped to the hard range of an input, angles in radians; NaN becomes its lower end. */
+/* Returns a value clamped to the hard range of an input, angles in radians; NaN becomes the lower end. */
 float input_clamped(InputId input, float value);
 
 #endif

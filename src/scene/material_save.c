@@ -60,11 +60,11 @@ static json_t *numbers(Writer *w, const float *values, int count) {
     return array;
 }
 
-static json_t *value_json(Writer *w, const Input *input, InputKind kind) {
+static json_t *value_json(Writer *w, const Input *input, WeftInputKind kind) {
     const float *v = input->value;
     bool grey = !(v[0] < v[1] || v[0] > v[1] || v[0] < v[2] || v[0] > v[2]);
-    if (kind == INPUT_COLOR && !grey) return numbers(w, v, 3);
-    bool angle = kind == INPUT_ANGLE || kind == INPUT_DIRECTION;
+    if (kind == WEFT_INPUT_COLOR && !grey) return numbers(w, v, 3);
+    bool angle = kind == WEFT_INPUT_ANGLE || kind == WEFT_INPUT_DIRECTION;
     return number(angle ? degrees(v[0]) : v[0]);
 }
 
@@ -145,12 +145,12 @@ static json_t *texture_json(Writer *w, const Material *material, InputId id) {
                                                                     "clamp"}; /* as TextureWrap */
     const Input *input = &material->inputs[id];
     const Texture *texture = &w->scene->textures[input->texture - 1];
-    InputKind kind = input_infos[id].kind;
+    WeftInputKind kind = input_infos[id].kind;
     json_t *object = json_object();
     const char *file = w->files[id] = file_of(w, material, id);
     put(w, object, "texture", json_string(file ? file : ""));
     put(w, object, "factor", value_json(w, input, kind));
-    if (input->channel && (kind == INPUT_SCALAR || kind == INPUT_ANGLE))
+    if (input->channel && (kind == WEFT_INPUT_SCALAR || kind == WEFT_INPUT_ANGLE))
         put(w, object, "channel", json_string(channels[input->channel]));
     if (input->texcoord) put(w, object, "texcoord", json_integer(input->texcoord));
     place_put(w, object, input->transform);
@@ -164,7 +164,7 @@ static json_t *texture_json(Writer *w, const Material *material, InputId id) {
 static bool is_of_shape(int id) { return id == INPUT_normal || id == INPUT_occlusion || id == INPUT_opacity; }
 
 static void write_inputs(Writer *w, const Material *material) {
-    Material fresh = material_default("");
+    Material fresh = material_default();
     for (int k = 0; k < CHOICE_COUNT; k++) {
         const char *id = choice_id((ChoiceId)k, material->choices[k]);
         if (!id) continue;
@@ -173,8 +173,8 @@ static void write_inputs(Writer *w, const Material *material) {
     }
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input *input = &material->inputs[k];
-        InputKind kind = input_infos[k].kind;
-        size_t size = (kind == INPUT_COLOR ? 3 : 1) * sizeof *input->value;
+        WeftInputKind kind = input_infos[k].kind;
+        size_t size = (kind == WEFT_INPUT_COLOR ? 3 : 1) * sizeof *input->value;
         bool same = memcmp(input->value, fresh.inputs[k].value, size) == 0 && !input->given;
         if (input->texture)
             put(w, w->root, input_infos[k].name, texture_json(w, material, (InputId)k));
@@ -184,7 +184,7 @@ static void write_inputs(Writer *w, const Material *material) {
 }
 
 static void write_rest(Writer *w, const Material *material) {
-    static const char *const modes[] = {"opaque", "mask", "blend"}; /* as AlphaMode */
+    static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     put(w, w->root, "alpha_mode", json_string(modes[material->alpha_mode]));
     put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());

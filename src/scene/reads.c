@@ -82,11 +82,11 @@ static bool differ(const MaterialAnswer *a, const MaterialAnswer *b) {
 
 /* An input somewhere in its plausible range: of a colour each channel elsewhere. */
 static void move(Material *material, int input, float t) {
-    const InputInfo *info = &input_infos[input];
-    bool angle = info->kind == INPUT_DIRECTION || info->kind == INPUT_ANGLE;
+    const WeftInputInfo *info = &input_infos[input];
+    bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
     float unit = angle ? PI / 180.0f : 1.0f;
     for (int c = 0; c < 3; c++) {
-        float share = info->kind == INPUT_COLOR ? t * (1.0f - 0.3f * (float)c) : t;
+        float share = info->kind == WEFT_INPUT_COLOR ? t * (1.0f - 0.3f * (float)c) : t;
         material->inputs[input].value[c] = unit * mix(info->low, info->high, share);
     }
 }
@@ -100,7 +100,7 @@ static Surface middle_of(const Material *material) {
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++)
         middle.inputs[widths[k]].value[0] = max(middle.inputs[widths[k]].value[0], 0.5f);
     for (int k = 0; k < INPUT_COUNT; k++)
-        for (int c = 0; c < 3 && input_infos[k].kind != INPUT_DIRECTION; c++)
+        for (int c = 0; c < 3 && input_infos[k].kind != WEFT_INPUT_DIRECTION; c++)
             if (middle.inputs[k].texture) middle.inputs[k].value[c] *= 0.5f;
     return material_plain(&middle);
 }
@@ -128,8 +128,8 @@ static bool is_black(const Input *input) {
 
 int weft_material_reads(const WeftMaterial *numbers, int input) {
     if (input < 0 || input >= INPUT_COUNT) return 0;
-    const Material material = material_of_numbers(numbers);
-    if (input == INPUT_opacity) return material.alpha_mode != ALPHA_OPAQUE;
+    const Material material = material_sound(numbers);
+    if (input == INPUT_opacity) return material.alpha_mode != WEFT_ALPHA_OPAQUE;
     if (material.unlit) return input == INPUT_base_color;
     switch ((InputId)input) {
     case INPUT_normal:

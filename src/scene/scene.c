@@ -63,7 +63,7 @@ int weft_scene_material_used(const WeftScene *scene, int index) {
 }
 
 const char *weft_scene_material_name(const WeftScene *scene, int index) {
-    return index >= 0 && index < scene_own_materials(scene) ? scene->materials[index].name : NULL;
+    return index >= 0 && index < scene_own_materials(scene) ? scene->material_names[index] : NULL;
 }
 
 const char *weft_scene_camera_name(const WeftScene *scene, int index) {

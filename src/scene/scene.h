@@ -93,6 +93,7 @@ struct WeftScene {
     WeftImage *images;
     Texture *textures;
     Material *materials;
+    const char **material_names; /* of its own materials: never NULL, may be empty */
     Mesh *meshes;
     Light *lights;
     Camera *cameras;

@@ -64,24 +64,24 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
 bool material_matches(const WeftScene *scene, int k, const char *name) {
     char index[16];
     snprintf(index, sizeof index, "%d", k);
-    return strcmp(name, "*") == 0 || strcmp(scene->materials[k].name, name) == 0 || strcmp(index, name) == 0;
+    return strcmp(name, "*") == 0 || strcmp(scene->material_names[k], name) == 0 || strcmp(index, name) == 0;
 }
 
-static bool parse_input(const InputInfo *info, const char *text, float value[3]) {
-    if (info->kind == INPUT_COLOR) return parse_color(text, value);
+static bool parse_input(const WeftInputInfo *info, const char *text, float value[3]) {
+    if (info->kind == WEFT_INPUT_COLOR) return parse_color(text, value);
     return parse_number(text, value);
 }
 
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log) {
-    const InputInfo *info = &input_infos[input];
+    const WeftInputInfo *info = &input_infos[input];
     float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
     if (taken < value || taken > value)
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is beyond the limit, %g, which is used",
              (double)value, (double)taken);
-    else if (info->kind != INPUT_DIRECTION && (value < info->low || value > info->high))
+    else if (info->kind != WEFT_INPUT_DIRECTION && (value < info->low || value > info->high))
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is taken; plausible is %g .. %g", (double)value,
              (double)info->low, (double)info->high);
-    bool angle = info->kind == INPUT_DIRECTION || info->kind == INPUT_ANGLE;
+    bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
     return angle ? taken * (3.14159265f / 180.0f) : taken;
 }
 
@@ -91,11 +91,11 @@ WeftResult setting_read(const char *name, const char *value, const char *target,
     if (setting->input < 0 && setting->choice < 0)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
     if (setting->input < 0) return choice_value((ChoiceId)setting->choice, value, &setting->value, error);
-    const InputInfo *info = &input_infos[setting->input];
+    const WeftInputInfo *info = &input_infos[setting->input];
     if (!parse_input(info, value, setting->v))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
-                    info->kind == INPUT_COLOR ? "a number or r,g,b" : "a number");
-    int count = info->kind == INPUT_COLOR ? 3 : 1;
+                    info->kind == WEFT_INPUT_COLOR ? "a number or r,g,b" : "a number");
+    int count = info->kind == WEFT_INPUT_COLOR ? 3 : 1;
     for (int c = 0; c < count; c++)
         setting->v[c] = input_ranged((InputId)setting->input, setting->v[c], target, log);
     return WEFT_OK;
@@ -109,9 +109,9 @@ void material_set(Material *material, const Setting *setting) {
     Input *slot = &material->inputs[setting->input];
     memcpy(slot->value, setting->v, sizeof setting->v);
     slot->given = true;
-    if (setting->input == INPUT_opacity && material->alpha_mode == ALPHA_OPAQUE)
-        material->alpha_mode = ALPHA_BLEND; /* else it would say nothing */
-    if (input_infos[setting->input].kind != INPUT_NORMAL) slot->texture = 0;
+    if (setting->input == INPUT_opacity && material->alpha_mode == WEFT_ALPHA_OPAQUE)
+        material->alpha_mode = WEFT_ALPHA_BLEND; /* else it would say nothing */
+    if (input_infos[setting->input].kind != WEFT_INPUT_NORMAL) slot->texture = 0;
 }
 
 static bool has_sheen(const Material *material) {

@@ -83,7 +83,7 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     if (*index >= 0) return WEFT_OK;
     int kept = before ? table_that_serves(before, &lobe, low, high, scaled) : -1;
     AlbedoTable *table = kept >= 0 ? before->tables[kept] : alloc_array(1, sizeof(AlbedoTable));
-    if (!table) return fail(error, WEFT_MESSAGE_MEMORY, material->name, NULL);
+    if (!table) return fail(error, WEFT_MESSAGE_MEMORY, "a sheen's table", NULL);
     if (kept < 0) (scaled ? albedo_table_fill_tilts : albedo_table_fill)(table, &lobe, low, high, threads);
     *index = self->table_count;
     self->tables[self->table_count++] = table;

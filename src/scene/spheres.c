@@ -61,8 +61,8 @@ static void set_color(Material *material, InputId input, float r, float g, float
     value[0] = r, value[1] = g, value[2] = b;
 }
 
-static Material sphere_material(const char *name, bool light, float sheen_roughness) {
-    Material material = material_default(name);
+static Material sphere_material(bool light, float sheen_roughness) {
+    Material material = material_default();
     set_color(&material, INPUT_base_color, light ? 0.55f : 0.02f, light ? 0.10f : 0.03f,
               light ? 0.09f : 0.08f);
     set_color(&material, INPUT_sheen_color, light ? 0.9f : 0.35f, light ? 0.75f : 0.55f, light ? 0.7f : 0.9f);
@@ -84,7 +84,7 @@ static Camera camera_of(float height, float distance, float pitch, float yfov) {
 typedef struct Arrangement {
     int count;
     Vec3 (*centre)(int k);
-    Material (*material)(int k, const char *name);
+    Material (*material)(int k);
     const char *(*name)(int k, char text[16]);
     Camera camera;
 } Arrangement;
@@ -94,18 +94,21 @@ static WeftResult arrange(WeftScene *scene, const Arrangement *balls, WeftError 
     int count = balls->count;
     scene->meshes = arena_array(arena, (size_t)count + 1, sizeof(Mesh));
     scene->materials = arena_array(arena, (size_t)count + 1, sizeof(Material));
+    scene->material_names = arena_array(arena, (size_t)count + 1, sizeof(char *));
     scene->cameras = arena_array(arena, 1, sizeof(Camera));
-    bool made = scene->meshes && scene->materials && scene->cameras;
+    bool made = scene->meshes && scene->materials && scene->material_names && scene->cameras;
     for (int k = 0; made && k < count; k++) {
         char text[16], *kept = arena_text(arena, balls->name(k, text));
         scene->meshes[k] = (Mesh){.name = kept, .material = k};
         made = kept && sphere(arena, &scene->meshes[k], balls->centre(k));
-        if (made) scene->materials[k] = balls->material(k, kept);
+        if (made) scene->materials[k] = balls->material(k);
+        if (made) scene->material_names[k] = kept;
     }
     if (made) {
         scene->meshes[count] = (Mesh){.name = "floor", .material = count};
         made = floor_quad(arena, &scene->meshes[count], 40.0f);
-        scene->materials[count] = material_default("floor");
+        scene->materials[count] = material_default();
+        scene->material_names[count] = "floor";
         set_color(&scene->materials[count], INPUT_base_color, 0.42f, 0.41f, 0.40f);
         scene->materials[count].inputs[INPUT_roughness].value[0] = 1.0f;
         scene->mesh_count = scene->material_count = count + 1;
@@ -127,8 +130,8 @@ static Vec3 sphere_centre(int k) {
     return (Vec3){((float)(k % COLUMNS) - 2.0f) * spacing, radius, row * spacing};
 }
 
-static Material sphere_of(int k, const char *name) {
-    return sphere_material(name, k / COLUMNS == 1, 0.1f + 0.225f * (float)(k % COLUMNS));
+static Material sphere_of(int k) {
+    return sphere_material(k / COLUMNS == 1, 0.1f + 0.225f * (float)(k % COLUMNS));
 }
 
 WeftResult spheres_make(WeftScene *scene, WeftError *error) {
@@ -148,9 +151,9 @@ static Vec3 ball_centre(int k) {
     return (Vec3){0.0f, radius, 0.0f};
 }
 
-static Material ball_of(int k, const char *name) {
+static Material ball_of(int k) {
     (void)k;
-    return sphere_material(name, true, 0.5f);
+    return sphere_material(true, 0.5f);
 }
 
 WeftResult ball_make(WeftScene *scene, WeftError *error) {

@@ -45,7 +45,7 @@ static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
     SURFACE_INPUTS(LEAVE_OUT)}
 
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
-    const Material material = material_default("");
+    const Material material = material_default();
     Surface s = material_plain(&material);
     s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
     s.clearcoat = s.dust = 1.0f;

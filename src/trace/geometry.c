@@ -51,7 +51,7 @@ static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint
     const Mesh *mesh = &scene->meshes[hit->mesh];
     const Material *material = &scene->materials[mesh->material];
     if (!material->double_sided && vec3_dot(hit->facing, direction) > 0.0f) return false;
-    if (material->alpha_mode == ALPHA_OPAQUE) return true;
+    if (material->alpha_mode == WEFT_ALPHA_OPAQUE) return true;
     Attributes at = geometry_attributes(mesh, hit);
     float opacity = material_opacity(scene, material, at.uv, at.color[3]);
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
@@ -82,7 +82,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
 /* Returns true if a shadow ray must examine its hits on this mesh. */
 static bool is_asked(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];
-    return !material->double_sided || material->alpha_mode != ALPHA_OPAQUE;
+    return !material->double_sided || material->alpha_mode != WEFT_ALPHA_OPAQUE;
 }
 
 bool geometry_serves(const Geometry *geometry) {

@@ -55,12 +55,12 @@ static inline int models_profiles(Exported *out) {
     int count = 0;
     for (int k = 0; weft_workflow_id(k); k++) {
         out[count] = (Exported){.id = weft_workflow_id(k), .profile = true};
-        out[count].material = material_default("");
+        out[count].material = material_default();
         material_choose(&out[count++].material, CHOICE_workflow, k);
     }
     for (int k = 1; weft_profile_id(k); k++) {
         out[count] = (Exported){.id = weft_profile_id(k), .profile = true};
-        out[count].material = material_default("");
+        out[count].material = material_default();
         material_choose(&out[count++].material, CHOICE_profile, k);
     }
     return count;
@@ -95,7 +95,7 @@ static inline int models_choices(Exported *out) {
         }
         out[k] = (Exported){.id = rows[k].id, .fixed = true};
         assert_int_equal(weft_scene_material(scene, 0, &out[k].numbers, NULL), WEFT_OK);
-        out[k].material = material_of_numbers(&out[k].numbers);
+        out[k].material = material_sound(&out[k].numbers);
         weft_scene_free(scene);
     }
     return ROWS;
@@ -111,7 +111,7 @@ static inline int models_presets(Exported *out) {
         assert_int_equal(weft_scene_assign_material(scene, "*", path, NULL, NULL), WEFT_OK);
         out[count] = (Exported){.id = weft_preset_name(count), .fixed = true};
         assert_int_equal(weft_scene_material(scene, 0, &out[count].numbers, NULL), WEFT_OK);
-        out[count].material = material_of_numbers(&out[count].numbers);
+        out[count].material = material_sound(&out[count].numbers);
     }
     weft_scene_free(scene);
     return count;

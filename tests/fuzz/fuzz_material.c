@@ -20,9 +20,9 @@ static void demand(int condition) {
 static void check(const MaterialFile *file) {
     const Material *material = &file->material;
     for (int k = 0; k < INPUT_COUNT; k++) {
-        const InputInfo *info = &input_infos[k];
+        const WeftInputInfo *info = &input_infos[k];
         const Input *input = &material->inputs[k];
-        for (int c = 0; c < (info->kind == INPUT_COLOR ? 3 : 1); c++)
+        for (int c = 0; c < (info->kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
             demand(isfinite(input->value[c]) && input->value[c] >= info->hard_low &&
                    input->value[c] <= info->hard_high);
         demand(input->texture == 0 && input->texcoord <= 1 && input->channel <= 3);

@@ -23,7 +23,7 @@
 static WeftMaterial plain(void) {
     WeftMaterial m;
     memset(&m, 0, sizeof m);
-    const Material from = material_default("");
+    const Material from = material_default();
     for (int k = 0; k < INPUT_COUNT; k++)
         memcpy(m.inputs[k].value, from.inputs[k].value, sizeof m.inputs[k].value);
     for (int k = 0; k < CHOICE_COUNT; k++) m.choices[k] = -1;

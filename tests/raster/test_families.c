@@ -180,7 +180,8 @@ static void threads_make_no_difference(void **state) {
     WeftScene *scene = squares(-1);
     int programs;
     test_environment(scene, 0.0f);
-    for (int k = 0; k < KINDS; k++) scene->materials[k].alpha_mode = k % 2 ? ALPHA_MASK : ALPHA_OPAQUE;
+    for (int k = 0; k < KINDS; k++)
+        scene->materials[k].alpha_mode = k % 2 ? WEFT_ALPHA_MASK : WEFT_ALPHA_OPAQUE;
     for (int k = 0; k < KINDS; k++) scene->materials[k].double_sided = k % 4 < 2;
     WeftImage one = picture_of(scene, WEFT_GL_DESKTOP, 1, &programs);
     assert_int_equal(programs, 6);

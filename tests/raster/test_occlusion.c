@@ -20,7 +20,7 @@ static void count(void *user, WeftMessage message, const char *text) {
 }
 
 /* A small floor before a wall so large that it hides half of the sky. */
-static WeftScene *corner(AlphaMode mode) {
+static WeftScene *corner(WeftAlphaMode mode) {
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f)->alpha_mode = mode;
     Mesh *floor =
@@ -57,7 +57,7 @@ static int files(void) {
 
 static void half_of_the_sky_is_found_again(void **state) {
     (void)state;
-    WeftScene *scene = corner(ALPHA_OPAQUE);
+    WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
     float first[ALL], again[ALL];
     int warnings = 0;
     look(scene, true, first, &warnings);
@@ -95,7 +95,7 @@ static void only_opaque_scenes_are_kept(void **state) {
     char command[96];
     snprintf(command, sizeof command, "rm -rf %s/weft", folder);
     assert_int_equal(system(command), 0);
-    WeftScene *scene = corner(ALPHA_BLEND);
+    WeftScene *scene = corner(WEFT_ALPHA_BLEND);
     float values[ALL];
     int warnings = 0;
     look(scene, false, values, &warnings);

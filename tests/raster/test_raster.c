@@ -49,7 +49,7 @@ static const float *pixel(const WeftImage *image, int x, int y) {
 }
 
 /* A square of one unlit colour in the left half of the picture, one behind it that fills all of it. */
-static WeftScene *two_squares(AlphaMode mode, float opacity) {
+static WeftScene *two_squares(WeftAlphaMode mode, float opacity) {
     WeftScene *scene = test_scene();
     Material *front = test_material(scene, 1.0f);
     front->unlit = true;
@@ -70,12 +70,12 @@ static void alpha_is_as_told(void **state) {
     (void)state;
     need_gl();
     const struct {
-        AlphaMode mode;
+        WeftAlphaMode mode;
         float opacity, left;
-    } cases[] = {{ALPHA_OPAQUE, 0.25f, 1.0f},
-                 {ALPHA_MASK, 0.25f, 0.25f},
-                 {ALPHA_MASK, 0.75f, 1.0f},
-                 {ALPHA_BLEND, 0.25f, 0.25f + 0.25f * 0.75f}};
+    } cases[] = {{WEFT_ALPHA_OPAQUE, 0.25f, 1.0f},
+                 {WEFT_ALPHA_MASK, 0.25f, 0.25f},
+                 {WEFT_ALPHA_MASK, 0.75f, 1.0f},
+                 {WEFT_ALPHA_BLEND, 0.25f, 0.25f + 0.25f * 0.75f}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         WeftScene *scene = two_squares(cases[k].mode, cases[k].opacity);
         WeftImage image = picture_of(scene, k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP, &front_view);
@@ -271,7 +271,7 @@ static void steady_frames_make_nothing(void **state) {
 static void descriptors_are_checked(void **state) {
     (void)state;
     need_gl();
-    WeftScene *scene = two_squares(ALPHA_OPAQUE, 1.0f);
+    WeftScene *scene = two_squares(WEFT_ALPHA_OPAQUE, 1.0f);
     WeftRaster *raster = raster_of(scene, WEFT_GL_DESKTOP), *none;
     WeftError error;
     WeftImage image;

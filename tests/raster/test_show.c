@@ -83,7 +83,7 @@ static WeftScene *gradients(void) {
     WeftScene *scene = test_scene();
     Material *material = test_material(scene, 1.0f);
     material->unlit = true;
-    material->alpha_mode = ALPHA_BLEND;
+    material->alpha_mode = WEFT_ALPHA_BLEND;
     Mesh *mesh = test_quad(scene, vec3(-0.9f, -0.6f, 0.0f), vec3(1.8f, 0.0f, 0.0f), vec3(0.0f, 1.2f, 0.0f));
     mesh->color = arena_array(&scene->arena, 4, sizeof corners[0]);
     memcpy(mesh->color, corners, sizeof corners);

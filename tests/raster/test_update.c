@@ -317,7 +317,7 @@ static void pixels_are_as_new(void **state) {
         assert_null(image.pixels);
         scene->materials[k == 2 ? 2 : 1].inputs[inputs[k]].texture = k + 1;
     }
-    scene->materials[1].alpha_mode = ALPHA_MASK;
+    scene->materials[1].alpha_mode = WEFT_ALPHA_MASK;
     WeftRaster *raster = raster_of(scene);
     WeftImage before = drawn(raster);
     for (size_t k = 0; k < sizeof puts_of / sizeof *puts_of; k++) {

@@ -55,7 +55,7 @@ static float uniform(void) { return unit_float(hash32(++counter)); }
 static Rgb random_color(void) { return rgb(uniform(), uniform(), uniform()); }
 
 static Surface random_surface(void) {
-    Material material = material_default("");
+    Material material = material_default();
     Surface s = material_plain(&material);
     s.base_color = random_color();
     s.metallic = uniform();

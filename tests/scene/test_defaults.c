@@ -17,7 +17,7 @@ static float value(const Material *material, InputId id) { return material->inpu
 
 static void defaults_come_and_go(void **state) {
     (void)state;
-    Material m = material_default("");
+    Material m = material_default();
     choose(&m, CHOICE_workflow, "disney");
     assert_float_equal(value(&m, INPUT_specular), 0.5f, 0.0f);
     assert_float_equal(value(&m, INPUT_sheen), 0.0f, 0.0f);
@@ -36,7 +36,7 @@ static void defaults_come_and_go(void **state) {
 
 static void what_was_given_stays(void **state) {
     (void)state;
-    Material m = material_default("");
+    Material m = material_default();
     m.inputs[INPUT_sheen].given = true;       /* the default itself, but meant */
     m.inputs[INPUT_specular].value[0] = 0.7f; /* an asset's */
     m.inputs[INPUT_specular_color].texture = 1;

@@ -31,7 +31,7 @@ static WeftMaterial plain(void) {
     WeftScene *scene = load("builtin:spheres");
     WeftMaterial material;
     WeftError error;
-    scene->materials[0] = material_default("");
+    scene->materials[0] = material_default();
     assert_int_equal(weft_scene_material(scene, 0, &material, &error), WEFT_OK);
     weft_scene_free(scene);
     return material;

@@ -22,7 +22,7 @@ typedef struct Stage {
 static void stage_set(Stage *stage, const float *position, uint32_t vertices, const uint32_t *index,
                       uint32_t triangles) {
     static const float radiance[3] = {3.0f, 2.0f, 1.0f};
-    *stage = (Stage){.material = material_default("lamp")};
+    *stage = (Stage){.material = material_default()};
     memcpy(stage->material.inputs[INPUT_emission].value, radiance, sizeof radiance);
     stage->mesh = (Mesh){.name = "lamp",
                          .vertex_count = vertices,

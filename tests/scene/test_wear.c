@@ -63,7 +63,7 @@ static void draw(const char *name, int side, int value) {
 
 static const Material *named(const WeftScene *scene, const char *name) {
     for (int k = 0; k < scene->material_count; k++)
-        if (strcmp(scene->materials[k].name, name) == 0) return &scene->materials[k];
+        if (strcmp(scene->material_names[k], name) == 0) return &scene->materials[k];
     fail_msg("%s", name);
     return NULL;
 }
@@ -95,7 +95,7 @@ static void a_picture_is_put_on_an_input(void **state) {
     assert_int_equal(scene->textures[input->texture - 1].turn, turn + 1);
     assert_int_equal(weft_scene_set_texture(scene, "dark-1.opacity", in_folder("a.png"), NULL, &error),
                      WEFT_OK);
-    assert_int_equal(named(scene, "dark-1")->alpha_mode, ALPHA_BLEND);
+    assert_int_equal(named(scene, "dark-1")->alpha_mode, WEFT_ALPHA_BLEND);
     weft_scene_free(scene);
 }
 

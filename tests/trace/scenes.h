@@ -31,7 +31,7 @@ static inline void test_color(Material *material, InputId input, float value) {
 static inline Material *test_material(WeftScene *scene, float base_color) {
     int k = scene->material_count++;
     Material *material = &scene->materials[k];
-    *material = material_default("matt");
+    *material = material_default();
     material->double_sided = true;
     test_color(material, INPUT_base_color, base_color);
     test_color(material, INPUT_specular, 0.0f);

@@ -136,7 +136,7 @@ static void transparency_is_a_fair_coin(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     Material *veil = test_material(scene, 0.5f);
-    veil->alpha_mode = ALPHA_BLEND;
+    veil->alpha_mode = WEFT_ALPHA_BLEND;
     veil->inputs[INPUT_opacity].value[0] = 0.3f;
     test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
     Geometry *geometry = build(scene);
@@ -153,7 +153,7 @@ static void transparency_is_a_fair_coin(void **state) {
     double sigma = sqrt(0.3 * 0.7 * N);
     assert_true(fabs(hits - 0.3 * N) < 4.0 * sigma);
     assert_int_equal(blocked, N);
-    veil->alpha_mode = ALPHA_MASK;
+    veil->alpha_mode = WEFT_ALPHA_MASK;
     Hit hit;
     assert_false(geometry_hit(geometry, down(0.3f, 0.1f), &hit));
     veil->alpha_cutoff = 0.25f;
@@ -167,7 +167,7 @@ static void stacked_sheets_end(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     Material *glass = test_material(scene, 0.5f);
-    glass->alpha_mode = ALPHA_MASK;
+    glass->alpha_mode = WEFT_ALPHA_MASK;
     glass->inputs[INPUT_opacity].value[0] = 0.0f;
     for (int k = 0; k < 12; k++) test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
     Geometry *geometry = build(scene);

@@ -83,10 +83,10 @@ static void what_is_cut_out_is_not_there(void **state) {
     for (int k = 0; k < 8; k++) assert_int_equal(weft_scene_add_light(scene, &panel, NULL), WEFT_OK);
     assert_int_equal(at(pick, 50.0f, 50.0f).mesh, 0);
     Material *front = &scene->materials[0];
-    front->alpha_mode = ALPHA_MASK;
+    front->alpha_mode = WEFT_ALPHA_MASK;
     front->inputs[INPUT_opacity].value[0] = 0.3f;
     assert_int_equal(at(pick, 50.0f, 50.0f).mesh, 1);
-    front->alpha_mode = ALPHA_BLEND;
+    front->alpha_mode = WEFT_ALPHA_BLEND;
     assert_int_equal(at(pick, 50.0f, 50.0f).mesh, 0);
     front->inputs[INPUT_opacity].value[0] = 0.0f;
     assert_int_equal(at(pick, 50.0f, 50.0f).mesh, 1);

@@ -106,7 +106,7 @@ static void transparent_emitters_shine_less(void **state) {
         test_quad(scene, vec3(-2, 0, 2), vec3(4, 0, 0), vec3(0, 0, -4));
         Material *lamp = test_material(scene, 0.0f);
         test_color(lamp, INPUT_emission, 5.0f);
-        lamp->alpha_mode = ALPHA_BLEND;
+        lamp->alpha_mode = WEFT_ALPHA_BLEND;
         lamp->inputs[INPUT_opacity].value[0] = 0.25f;
         test_quad(scene, vec3(-1, 1.5f, -1), vec3(2, 0, 0), vec3(0, 0, 2));
         scene_bounds(scene);
