@@ -84,7 +84,7 @@ static void print_solver(void) {
 static const char *const models[] = {"fibre", "fibre-table", "ltc-fibre"};
 
 static void set(Lobe *lobe, const char *name, double value) {
-    int k = lobe_param(lobe->id, name);
+    int k = weft_lobe_param_find(lobe->id, name);
     if (k >= 0) lobe_set(lobe, k, (float)value);
 }
 

@@ -53,6 +53,9 @@ WEFT_API const WeftLobeInfo *weft_lobe_info(int lobe);
 /* The index of an id, or -1. */
 WEFT_API int weft_lobe_find(const char *id);
 
+/* Returns the index of a lobe's parameter by name, which is its place in WeftLobe.params; or -1. */
+WEFT_API int weft_lobe_param_find(int lobe, const char *name);
+
 /* Takes a lobe of the user's own, in the dialect of docs/adding-a-lobe.md, from a file NAME.h: from here on
  * it is a lobe as any other, with the index *lobe (may be NULL) and the id NAME, "-" for "_". The file runs
  * as native code: the machine's C compiler ($CC, or cc) makes a library of it, which the user's cache keeps.

@@ -76,6 +76,13 @@ WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, cons
 WEFT_API WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value,
                                       const WeftLog *log, WeftError *error);
 
+/* Sets the value of an input by its index, as weft_scene_set does by name: values points to one number, of a
+ * COLOR to three; angles are in radians. Values are clamped to the hard range. Fails with
+ * WEFT_MESSAGE_PARAM_NAME if there is no such input, or _PARAM_VALUE if a value is not finite; the material is
+ * then as it was. */
+WEFT_API WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values,
+                                             WeftError *error);
+
 /* Material index as it is; what is past the last choice and input is zero. Fails with
  * WEFT_MESSAGE_MATERIAL_NAME where there is no such. */
 WEFT_API WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out,

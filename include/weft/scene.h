@@ -98,12 +98,14 @@ WEFT_API const char *weft_preset_text(int index);
 WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
                                        WeftError *error);
 
-/* The material inputs weft_scene_set takes: name and help; NULL past the end. */
+/* The material inputs weft_scene_set takes: name and help, NULL past the end; and the index of a name, or -1. */
 WEFT_API const char *weft_material_input_name(int index);
 WEFT_API const char *weft_material_input_help(int index);
+WEFT_API int weft_material_input_find(const char *name);
 
 /* Its choices likewise, and the ids that a choice may take; NULL past the end. */
 WEFT_API const char *weft_material_choice_name(int index);
+WEFT_API int weft_material_choice_find(const char *name);
 WEFT_API const char *weft_material_choice_help(int index);
 WEFT_API const char *weft_material_choice_value(int index, int value);
 

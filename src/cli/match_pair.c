@@ -38,12 +38,6 @@ static void copy_material(const WeftMaterial *from, WeftMaterial *to) {
     *to = copy;
 }
 
-static int input_named(const char *name) {
-    for (int k = 0; weft_material_input_name(k); k++)
-        if (strcmp(weft_material_input_name(k), name) == 0) return k;
-    return -1;
-}
-
 /* A bit for each parameter of --hold, which keeps the number it was typed with. */
 static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy, unsigned *hold) {
     const WeftLobeInfo *info = weft_lobe_info(typed->lobe);
@@ -72,7 +66,7 @@ static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy
 static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMaterial *copy, int *held) {
     const char *name;
     for (int cursor = 0; (name = option_next(match->options, "--hold", &cursor));) {
-        int k = input_named(name);
+        int k = weft_material_input_find(name);
         if (k < 0) return report(WEFT_USAGE, "%.80s: is not an input; `weft models inputs` lists them", name);
         held[k] = 1;
         copy->inputs[k] = typed->inputs[k];

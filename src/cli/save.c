@@ -20,9 +20,7 @@ int save_check(const Options *options) {
 }
 
 static bool shows(const WeftMaterial *material, const char *name) {
-    int k = 0;
-    while (weft_material_input_name(k) && strcmp(weft_material_input_name(k), name) != 0) k++;
-    const float *v = material->inputs[k].value;
+    const float *v = material->inputs[weft_material_input_find(name)].value;
     return v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f;
 }
 

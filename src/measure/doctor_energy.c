@@ -42,27 +42,15 @@ struct Energy {
     float least; /* the roughness from which no engine gains, as least_roughness has it */
 };
 
-static int input_of(const char *name) {
-    int k = 0;
-    while (weft_material_input_name(k) && strcmp(weft_material_input_name(k), name) != 0) k++;
-    return k;
-}
-
-static void set_input(WeftMaterial *material, const char *name, const float *value, int count) {
-    WeftInput *input = &material->inputs[input_of(name)];
-    for (int c = 0; c < 3; c++) input->value[c] = value[count == 1 ? 0 : c];
-    input->texture = 0;
-}
-
 /* The material as numbers; color: of the sheen. */
 static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float color[3], float roughness,
                        const char *profile, WeftMaterial *out) {
     WeftError error;
     if (weft_scene_material(doctor->scene, cloth->index, out, &error) != WEFT_OK) return false;
-    set_input(out, "base_color", cloth->base, 3);
-    set_input(out, "metallic", &cloth->metallic, 1);
-    set_input(out, "sheen_color", color, 3);
-    set_input(out, "sheen_roughness", &roughness, 1);
+    weft_material_set_number(out, INPUT_base_color, cloth->base, NULL);
+    weft_material_set_number(out, INPUT_metallic, &cloth->metallic, NULL);
+    weft_material_set_number(out, INPUT_sheen_color, color, NULL);
+    weft_material_set_number(out, INPUT_sheen_roughness, &roughness, NULL);
     out->choices[CHOICE_profile] = choice_find(CHOICE_profile, profile);
     return true;
 }

@@ -441,7 +441,7 @@ static float roughness_of(const WeftLobe *lobe) {
 }
 
 static float param_or(const WeftLobe *lobe, const char *name, float none) {
-    int k = lobe_param(lobe->lobe, name);
+    int k = weft_lobe_param_find(lobe->lobe, name);
     return k >= 0 ? lobe->params[k] : none;
 }
 
@@ -457,7 +457,7 @@ static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
         ChoiceId choice;
     } terms[] = {{"d", CHOICE_sheen_d}, {"v", CHOICE_sheen_v}, {"f", CHOICE_sheen_f}};
     for (size_t t = 0; t < sizeof terms / sizeof *terms; t++) {
-        int k = lobe_param(lobe->lobe, terms[t].param);
+        int k = weft_lobe_param_find(lobe->lobe, terms[t].param);
         if (k >= 0) weft_material_choose(out, (int)terms[t].choice, (int)lobe->params[k]);
     }
 }

@@ -62,7 +62,7 @@ Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const Albe
                        .sheen_density = 1.0f,
                        .normal = {0.0f, 0.0f, 1.0f},
                        .clearcoat_normal = {0.0f, 0.0f, 1.0f}};
-    int tilt = lobe_param(lobe->id, "tilt"), azimuth = lobe_param(lobe->id, "azimuth");
+    int tilt = weft_lobe_param_find(lobe->id, "tilt"), azimuth = weft_lobe_param_find(lobe->id, "azimuth");
     if (tilt > 0 && azimuth > 0) {
         surface.nap = lobe->params[tilt];
         surface.nap_direction = dir(cos(lobe->params[azimuth]), sin(lobe->params[azimuth]), 0.0f);

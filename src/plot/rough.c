@@ -1,20 +1,12 @@
 /* rough.c - the same cloth, rougher or smoother */
-#include <stdio.h>
-#include <string.h>
-
 #include "plot/making.h"
 #include "shading/registry.h"
 
 static bool rough_material(const WeftMaterial *given, float roughness, WeftReflection **out) {
     WeftMaterial material = *given;
-    char number[32];
-    const char *name = "roughness";
-    WeftInputInfo info;
-    for (int k = 0; weft_material_input_info(k, &info); k++)
-        if (strcmp(info.name, "sheen_roughness") == 0 && weft_material_reads(&material, k))
-            name = "sheen_roughness";
-    snprintf(number, sizeof number, "%.4f", (double)roughness);
-    return weft_material_set(&material, name, number, NULL, NULL) == WEFT_OK &&
+    int sheen = weft_material_input_find("sheen_roughness");
+    int input = weft_material_reads(&material, sheen) ? sheen : weft_material_input_find("roughness");
+    return weft_material_set_number(&material, input, &roughness, NULL) == WEFT_OK &&
            weft_reflection_create(&material, out, NULL) == WEFT_OK;
 }
 

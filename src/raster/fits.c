@@ -18,7 +18,7 @@ enum { FITS = 3 };
 /* All that a table depends on: see ambient_fit_serves. */
 static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    int azimuth = lobe_param(lobe->id, "azimuth");
+    int azimuth = weft_lobe_param_find(lobe->id, "azimuth");
     const int sizes[] = {FITS, AMBIENT_COLUMNS, AMBIENT_ROWS, AMBIENT_PLANES, info->param_count};
     const float range[] = {low, high};
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);

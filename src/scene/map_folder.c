@@ -88,7 +88,7 @@ static WeftResult read_target(const char *text, MapTarget *target, WeftError *er
         return fail(error, WEFT_MESSAGE_PARAM_NAME, text, "write MATERIAL.INPUT");
     *point = '\0';
     memcpy(target->material, copy, (size_t)(point - copy) + 1);
-    int input = material_input(point + 1);
+    int input = weft_material_input_find(point + 1);
     if (input < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, point + 1, "`weft models` lists inputs");
     target->input = (InputId)input;
     WeftInputKind kind = input_infos[input].kind;

@@ -14,7 +14,7 @@ const WeftInputInfo input_infos[INPUT_COUNT] = {
 #undef INPUT_INFO
 };
 
-int material_input(const char *name) {
+int weft_material_input_find(const char *name) {
     for (int k = 0; k < INPUT_COUNT; k++)
         if (strcmp(input_infos[k].name, name) == 0) return k;
     return -1;

@@ -27,9 +27,6 @@ Material material_default(void);
 /* Sets the factor beside a texture that alone counts: 1, the greatest angle, or 0 added to a direction. */
 void input_set_map_factor(Input *input, InputId id);
 
-/* Index of an input by name, or -1. */
-int material_input(const char *name);
-
 /* Makes a choice. Inputs that mean something else to a workflow (disney, and profile disney-2012: specular
  * 0.5, sheen 0; specular and free: specular_color 0.03) move from default to default, unless they are given,
  * hold a texture or another value. */

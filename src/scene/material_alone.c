@@ -1,4 +1,6 @@
 /* material_alone.c - a material without a scene: the default, that of a file or a preset, set by name */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +55,21 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     }
     material_file_free(&file);
     return result;
+}
+
+WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values,
+                                    WeftError *error) {
+    char number[16];
+    snprintf(number, sizeof number, "%d", input);
+    if (input < 0 || input >= INPUT_COUNT) return fail(error, WEFT_MESSAGE_PARAM_NAME, number, NULL);
+    Setting setting = {.input = input};
+    for (int c = 0; c < input_value_count((InputId)input); c++) {
+        if (!isfinite(values[c]))
+            return fail(error, WEFT_MESSAGE_PARAM_VALUE, input_infos[input].name, "its value is not finite");
+        setting.v[c] = input_clamped((InputId)input, values[c]);
+    }
+    material_set(material, &setting);
+    return WEFT_OK;
 }
 
 WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value, const WeftLog *log,

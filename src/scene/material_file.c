@@ -257,7 +257,7 @@ static void read_keep(Reader *r, const json_t *json) {
     if (!json_is_array(json)) refuse(r, "expected an array of inputs");
     for (size_t k = 0; k < json_array_size(json); k++) {
         const char *name = json_string_value(json_array_get(json, k));
-        int id = name ? material_input(name) : -1;
+        int id = name ? weft_material_input_find(name) : -1;
         if (id < 0)
             refuse(r, "\"%.40s\" is not an input", name ? name : "");
         else
@@ -299,14 +299,14 @@ static void read_object(Reader *r, json_t *root) {
     json_t *value;
     json_object_foreach(root, key, value) {
         r->key = key;
-        if (r->result == WEFT_OK && material_choice(key) >= 0)
-            read_choice(r, value, (ChoiceId)material_choice(key));
+        if (r->result == WEFT_OK && weft_material_choice_find(key) >= 0)
+            read_choice(r, value, (ChoiceId)weft_material_choice_find(key));
     }
     json_object_foreach(root, key, value) {
         r->key = key;
-        if (r->result != WEFT_OK || material_choice(key) >= 0) continue;
-        if (material_input(key) >= 0)
-            read_input(r, value, (InputId)material_input(key));
+        if (r->result != WEFT_OK || weft_material_choice_find(key) >= 0) continue;
+        if (weft_material_input_find(key) >= 0)
+            read_input(r, value, (InputId)weft_material_input_find(key));
         else
             read_rest(r, value);
     }

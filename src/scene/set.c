@@ -41,7 +41,7 @@ int weft_material_choice_fits(int choice, int value) {
     return weft_material_choice_value(choice, value) && choice_fits((ChoiceId)choice, value);
 }
 
-int material_choice(const char *name) {
+int weft_material_choice_find(const char *name) {
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (strcmp(choice_texts[k][0], name) == 0) return k;
     return -1;
@@ -87,7 +87,7 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
 
 WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
                         const WeftLog *log, WeftError *error) {
-    *setting = (Setting){.input = material_input(name), .choice = material_choice(name)};
+    *setting = (Setting){.input = weft_material_input_find(name), .choice = weft_material_choice_find(name)};
     if (setting->input < 0 && setting->choice < 0)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
     if (setting->input < 0) return choice_value((ChoiceId)setting->choice, value, &setting->value, error);

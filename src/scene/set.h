@@ -7,9 +7,6 @@
 /* Returns true if name is that of material k, its decimal index, or "*". */
 bool material_matches(const WeftScene *scene, int k, const char *name);
 
-/* A choice by name, or -1. */
-int material_choice(const char *name);
-
 /* The value of a choice from an id, an alias or "auto". Fails with PARAM_VALUE. */
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 

@@ -189,8 +189,8 @@ static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
 /* Returns the tilt of the lobe's fibres; 0 for a lobe without one. */
 static float tilt_of(const Lobe *lobe) {
-    int tilt = lobe_param(lobe->id, "tilt");
-    return tilt > 0 && lobe_param(lobe->id, "azimuth") > 0 ? lobe->params[tilt] : 0.0f;
+    int tilt = weft_lobe_param_find(lobe->id, "tilt");
+    return tilt > 0 && weft_lobe_param_find(lobe->id, "azimuth") > 0 ? lobe->params[tilt] : 0.0f;
 }
 
 /* Returns the number of tilts that have maps. */
@@ -210,7 +210,7 @@ static float towards(const Lobe *lobe, float heading, float cos_o, double tolera
 
 /* One texel of all maps by heading. A lobe that takes walks takes as many for them together as for one E. */
 static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, float cos_o) {
-    int tilt = lobe_param(lobe.id, "tilt"), map = table->maps - table->tilts * TABLE_HEADINGS;
+    int tilt = weft_lobe_param_find(lobe.id, "tilt"), map = table->maps - table->tilts * TABLE_HEADINGS;
     float most = lobe.params[tilt];
     double tolerance = 1e-4 * table->tilts * TABLE_HEADINGS;
     for (int t = 0; t < table->tilts; t++) {
@@ -302,7 +302,7 @@ static void table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
     bool tinted = (info->traits & TRAIT_TINTED) != 0;
     table->lobe = *lobe;
     table->tilts = tilts_of(lobe, scaled);
-    if (table->tilts) lobe_set(&table->lobe, lobe_param(lobe->id, "azimuth"), 0.0f);
+    if (table->tilts) lobe_set(&table->lobe, weft_lobe_param_find(lobe->id, "azimuth"), 0.0f);
     table->low = low;
     table->high = high;
     if (info->param_count > 0) {
@@ -340,7 +340,7 @@ static bool same(float a, float b) { return !(a < b) && !(a > b); }
 
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled) {
     if (table->lobe.id != lobe->id) return false;
-    int azimuth = lobe_param(lobe->id, "tilt") > 0 ? lobe_param(lobe->id, "azimuth") : -1;
+    int azimuth = weft_lobe_param_find(lobe->id, "tilt") > 0 ? weft_lobe_param_find(lobe->id, "azimuth") : -1;
     for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
         if (k != azimuth && !same(table->lobe.params[k], lobe->params[k])) return false;
     return table->tilts == tilts_of(lobe, scaled) && same(table->low, low) && same(table->high, high);

@@ -230,14 +230,14 @@ static void fit_column(void *user, int column, int thread) {
 
 /* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
 static bool turns(const Lobe *lobe) {
-    int tilt = lobe_param(lobe->id, "tilt"), brushed = lobe_param(lobe->id, "anisotropy");
+    int tilt = weft_lobe_param_find(lobe->id, "tilt"), brushed = weft_lobe_param_find(lobe->id, "anisotropy");
     int by = tilt < 0 ? brushed : tilt;
     return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || fabsf(lobe->params[by]) > 0.0f);
 }
 
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    int azimuth = lobe_param(lobe->id, "azimuth");
+    int azimuth = weft_lobe_param_find(lobe->id, "azimuth");
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
     fit->turning = turns(lobe);
@@ -286,7 +286,7 @@ static bool same(float a, float b) { return !(a < b) && !(a > b); }
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
-        if (k != lobe_param(a->id, "azimuth") && !same(a->params[k], b->params[k])) return false;
+        if (k != weft_lobe_param_find(a->id, "azimuth") && !same(a->params[k], b->params[k])) return false;
     return true;
 }
 

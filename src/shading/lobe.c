@@ -65,7 +65,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
         for (int c = 0; c < 3; c++) (f90 ? lobe->f90 : lobe->f0)[c] = ranged(v[c], &color_info, param, log);
         return WEFT_OK;
     }
-    int k = lobe_param(lobe->lobe, param);
+    int k = weft_lobe_param_find(lobe->lobe, param);
     if (k < 0 && strcmp(param, "roughness") == 0) return set_roughness(lobe, value, log, error);
     if (k < 0) return fail(error, WEFT_MESSAGE_PARAM_NAME, param, "`weft models %s` lists them", info->id);
     const WeftParamInfo *row = &info->params[k];

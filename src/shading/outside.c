@@ -59,7 +59,7 @@ void outside_fibres(Lobe *m, float density, float tilt, float azimuth) {
     static const char *const names[] = {"density", "tilt", "azimuth"};
     const float values[] = {density, tilt, azimuth};
     for (int k = 0; outside_lobe(m->id) && k < 3; k++) {
-        int at = lobe_param(m->id, names[k]);
+        int at = weft_lobe_param_find(m->id, names[k]);
         if (at > 0) lobe_set(m, at, values[k]);
     }
 }

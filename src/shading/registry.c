@@ -56,9 +56,9 @@ int weft_lobe_find(const char *id) {
 
 const LobeNames *lobe_names(int id) { return id < LOBE_COUNT ? &own_names[id] : &outside_lobe(id)->names; }
 
-int lobe_param(int id, const char *name) {
-    const WeftLobeInfo *info = weft_lobe_info(id);
-    for (int k = 0; k < info->param_count; k++)
+int weft_lobe_param_find(int lobe, const char *name) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe);
+    for (int k = 0; info && k < info->param_count; k++)
         if (strcmp(info->params[k].name, name) == 0) return k;
     return -1;
 }

@@ -60,9 +60,6 @@ static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lob
  * other types. */
 const char *const *lobe_choices(const char *type);
 
-/* Index of a parameter by name, or -1. */
-int lobe_param(int id, const char *name);
-
 /* Sets parameter k, clamped to its hard range. */
 void lobe_set(Lobe *lobe, int k, float value);
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "view/browser.h"
-#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
@@ -54,13 +53,13 @@ void viewer_next_material(Viewer *v, int by) {
 void viewer_make_fibre(Viewer *v) {
     if (v->material >= v->state.material_count) return;
     WeftMaterial m = *scene_state_material(&v->state, v->material);
-    int lobe = choice_number("sheen_lobe"), value = 0;
+    int lobe = weft_material_choice_find("sheen_lobe"), value = 0;
     while (weft_material_choice_value(lobe, value) &&
            strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
         value++;
     weft_material_choose(&m, lobe, value);
-    WeftInput *color = &m.inputs[input_number("sheen_color")],
-              *rough = &m.inputs[input_number("sheen_roughness")];
+    WeftInput *color = &m.inputs[weft_material_input_find("sheen_color")],
+              *rough = &m.inputs[weft_material_input_find("sheen_roughness")];
     bool black = !(color->value[0] + color->value[1] + color->value[2] > 0.0f);
     for (int c = 0; c < 3 && black; c++) color->value[c] = 0.5f;
     if (black) color->given = 1;

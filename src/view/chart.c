@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/input_names.h"
 #include "view/ui.h"
 #include "weft/chart.h"
 #include "weft/reflection.h"
@@ -16,7 +15,7 @@ static const struct {
     {"disney", "specular"}, {"specular", "specular_color"}, {"free", "specular_color"}, {NULL, "ior"}};
 
 static const char *workflow_of(const WeftMaterial *m) {
-    int choice = choice_number("workflow"), value = m->choices[choice];
+    int choice = weft_material_choice_find("workflow"), value = m->choices[choice];
     return value < 0 ? "" : weft_material_choice_value(choice, value);
 }
 
@@ -28,7 +27,7 @@ static const char *f0_input(const WeftMaterial *m) {
 }
 
 static void put(WeftMaterial *m, const char *input, const float color[3], float scale) {
-    WeftInput *to = &m->inputs[input_number(input)];
+    WeftInput *to = &m->inputs[weft_material_input_find(input)];
     for (int c = 0; c < 3; c++) to->value[c] = scale * color[c];
     to->given = 1;
 }

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/input_names.h"
 #include "view/viewer.h"
 
 typedef struct Line {
@@ -79,8 +78,9 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
         weft_material_choose(&was, k, is->choices[k]);
     }
-    *lost |= is->alpha_mode != was.alpha_mode && !differs(is->inputs[input_number("opacity")].value[0],
-                                                          was.inputs[input_number("opacity")].value[0]);
+    *lost |= is->alpha_mode != was.alpha_mode &&
+             !differs(is->inputs[weft_material_input_find("opacity")].value[0],
+                      was.inputs[weft_material_input_find("opacity")].value[0]);
     *lost |= is->unlit != was.unlit || is->double_sided != was.double_sided ||
              differs(is->alpha_cutoff, was.alpha_cutoff);
     for (int k = 0; weft_material_input_name(k); k++) {

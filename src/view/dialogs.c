@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "view/browser.h"
-#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 

@@ -5,7 +5,6 @@
 
 #include "view/chart.h"
 #include "view/help.h"
-#include "view/input_names.h"
 #include "view/viewer.h"
 
 static const float degrees = 57.29577951f;
@@ -331,7 +330,7 @@ void material_panel(Viewer *v) {
     for (int g = 0; g < GROUPS; g++) {
         if (g == MODELS_BEFORE && ui_section("Models", false)) draw_models(&m);
         if (!ui_section(groups[g].heading, groups[g].unfolded)) continue;
-        if (g == SHEEN) draw_choice(&m, choice_number(sheen_choice));
+        if (g == SHEEN) draw_choice(&m, weft_material_choice_find(sheen_choice));
         draw_inputs(v, &m, g);
     }
     viewer_set_material(v, v->material, &m);

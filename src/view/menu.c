@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
@@ -120,7 +119,8 @@ static void draw_modes(Viewer *v) {
     if (ui_checkbox("Brush", &brush)) v->tool = brush ? TOOL_BRUSH : TOOL_ORBIT;
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
     if (v->tool != TOOL_BRUSH || v->material >= v->state.material_count) return;
-    if (weft_material_reads(scene_state_material(&v->state, v->material), input_number("nap"))) return;
+    if (weft_material_reads(scene_state_material(&v->state, v->material), weft_material_input_find("nap")))
+        return;
     ui_same_line();
     if (ui_button("Make it fibre")) viewer_make_fibre(v);
     ui_tip("The sheen of this material has no nap: gives it the lobe fibre, which has one.");

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "view/examine.h"
-#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/survey.h"
 
@@ -94,8 +93,8 @@ static int guess_input(const char *path) {
                                            {"emissi", "emission"},   {"opacity", "opacity"},
                                            {"nap", "nap_direction"}, {"occlusion", "occlusion"}};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (path_contains(path, words[k][0])) return input_number(words[k][1]);
-    return input_number("base_color");
+        if (path_contains(path, words[k][0])) return weft_material_input_find(words[k][1]);
+    return weft_material_input_find("base_color");
 }
 
 void viewer_open(Viewer *v, const char *path) {
@@ -180,8 +179,8 @@ static int largest_seen(const SceneState *state, const float *coverage) {
     int count = state->material_count, largest = -1;
     char *sheens = calloc((size_t)count + 1, 1);
     for (int k = 0; k < count && sheens; k++)
-        sheens[k] =
-            (char)(weft_material_reads(scene_state_material(state, k), input_number("sheen_roughness")) != 0);
+        sheens[k] = (char)(weft_material_reads(scene_state_material(state, k),
+                                               weft_material_input_find("sheen_roughness")) != 0);
     if (sheens && coverage) largest = survey_largest(coverage, count, sheens);
     if (largest < 0 && coverage) largest = survey_largest(coverage, count, NULL);
     free(sheens);

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/input_names.h"
-
 struct StateMaterial {
     atomic_int users;
     WeftMaterial is;
@@ -198,8 +196,8 @@ static WeftImage map_of(const WeftScene *scene, const WeftInput *input) {
 static unsigned char coded(float x) { return (unsigned char)(fminf(fmaxf(x, 0.0f), 1.0f) * 255.0f + 0.5f); }
 
 bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out) {
-    const WeftInput *way = &material->inputs[input_number("nap_direction")],
-                    *lean = &material->inputs[input_number("nap")];
+    const WeftInput *way = &material->inputs[weft_material_input_find("nap_direction")],
+                    *lean = &material->inputs[weft_material_input_find("nap")];
     const WeftImage ways = map_of(scene, way), leans = map_of(scene, lean);
     if (weft_image_create(NAP_SIDE, NAP_SIDE, 3, WEFT_PIXEL_U8, out, NULL) != WEFT_OK) return false;
     unsigned char *p = out->pixels;
@@ -302,8 +300,8 @@ static WeftResult apply_materials(const SceneState *state, const SceneState *is,
         if (scene_state_same_material(state, is, k) && !nap == !was) continue;
         WeftMaterial m = state->materials[k]->is;
         if (nap) {
-            WeftInput *direction = &m.inputs[input_number("nap_direction")],
-                      *angle = &m.inputs[input_number("nap")];
+            WeftInput *direction = &m.inputs[weft_material_input_find("nap_direction")],
+                      *angle = &m.inputs[weft_material_input_find("nap")];
             static const float plain[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
             direction->texture = angle->texture = texture_of(naps, k);
             direction->texcoord = angle->texcoord = 0;

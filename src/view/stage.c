@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "view/brush.h"
-#include "view/input_names.h"
 #include "view/viewer.h"
 
 enum { LEFT, RIGHT, MIDDLE };
@@ -109,7 +108,7 @@ static void ask(Viewer *v, TaskKind kind, unsigned why) {
 /* Gives a material without a nap an angle, so that the brushed map shows. */
 static void begin_nap(Viewer *v, int material) {
     WeftMaterial m = *scene_state_material(&v->state, material);
-    int nap = input_number("nap");
+    int nap = weft_material_input_find("nap");
     if (m.inputs[nap].value[0] > 0.0f) return;
     m.inputs[nap].value[0] = 0.436332f; /* 25 degrees */
     m.inputs[nap].given = 1;
@@ -118,7 +117,8 @@ static void begin_nap(Viewer *v, int material) {
 
 /* Returns true if the material has a nap to brush; otherwise explains what to do. */
 static bool takes_strokes(Viewer *v, int material) {
-    if (weft_material_reads(scene_state_material(&v->state, material), input_number("nap"))) return true;
+    if (weft_material_reads(scene_state_material(&v->state, material), weft_material_input_find("nap")))
+        return true;
     viewer_say(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",
                v->facts.materials[material]);
     v->brush.down = false;

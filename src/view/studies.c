@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/input_names.h"
 #include "weft/sheet.h"
 
 enum { WIDTH = 300, COLUMNS = 4 };
@@ -38,7 +37,7 @@ bool study_state(const Study *self, SceneState *state) {
         return false;
     }
     WeftMaterial m = *scene_state_material(state, self->material);
-    weft_material_choose(&m, choice_number("profile"), self->next - 1);
+    weft_material_choose(&m, weft_material_choice_find("profile"), self->next - 1);
     return scene_state_set_material(state, self->material, &m);
 }
 
@@ -54,14 +53,17 @@ void study_add(Study *self, WeftImage *linear) {
 }
 
 bool study_done(const Study *self) {
-    return self->next == STUDY_MOST || self->next > choice_values(choice_number("profile"));
+    int profile = weft_material_choice_find("profile");
+    return self->next == STUDY_MOST ||
+           (self->next > 0 && !weft_material_choice_value(profile, self->next - 1));
 }
 
 bool study_sheet(const Study *self, WeftImage *sheet) {
     WeftPanel panels[STUDY_MOST] = {0};
     for (int k = 0; k < self->next; k++) {
         panels[k].image = self->pictures[k].pixels ? &self->pictures[k] : NULL;
-        panels[k].title = k ? weft_material_choice_value(choice_number("profile"), k - 1) : "weft";
+        panels[k].title =
+            k ? weft_material_choice_value(weft_material_choice_find("profile"), k - 1) : "weft";
     }
     const WeftSheetDesc desc = {.panels = panels, .count = self->next, .columns = COLUMNS};
     return weft_sheet_compose(&desc, sheet, NULL) == WEFT_OK;

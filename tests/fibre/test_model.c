@@ -18,7 +18,7 @@
 #include "shading/registry.h"
 
 static void set(Lobe *lobe, const char *name, double value) {
-    lobe_set(lobe, lobe_param(lobe->id, name), (float)value);
+    lobe_set(lobe, weft_lobe_param_find(lobe->id, name), (float)value);
 }
 
 static Dir dir_of(const double w[3]) { return dir((float)w[0], (float)w[1], (float)w[2]); }

@@ -414,7 +414,7 @@ static void roughness_moves_to_alpha(void **state) {
     WeftScene *scene;
     assert_int_equal(weft_doctor_fix(doctor, "alpha.glb", &error), WEFT_OK);
     assert_int_equal(weft_scene_load("alpha.glb", &scene, NULL, &error), WEFT_OK);
-    int input = material_input("sheen_roughness");
+    int input = weft_material_input_find("sheen_roughness");
     const Input *roughness = &scene->materials[0].inputs[input];
     assert_int_equal(roughness->channel, 3);
     const WeftImage *image = &scene->images[scene->textures[roughness->texture - 1].image];

@@ -22,7 +22,7 @@ static WeftScene *load(const char *name) {
 }
 
 static int input_of(const char *name) {
-    int k = material_input(name);
+    int k = weft_material_input_find(name);
     assert_true(k >= 0);
     return k;
 }

@@ -146,7 +146,7 @@ static void lobes_have_their_integrals(void **state) {
         for (int s = 0; s < SPREAD; s++) {
             WeftLobe lobe;
             assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
-            int shape = lobe_param(id, "alpha");
+            int shape = weft_lobe_param_find(id, "alpha");
             if (shape < 0) shape = 0;
             if ((info->param_count == 0 || info->params[shape].choices) && s > 0) continue;
             if (info->param_count > 0 && !info->params[shape].choices) {

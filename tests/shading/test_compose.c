@@ -330,9 +330,9 @@ static void fibres_find_their_parameters(void **state) {
     surface.nap_direction = dir(0.0f, -1.0f, 0.0f);
     SeenStack stack = made(&surface, test_choices(LOBE_FIBRE_WALK, LAYER_ADDITIVE), direction_cos(0.5, 0.0));
     const float *params = stack.stack.sheen.lobe.params;
-    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "density")], 2.0f, 0.0f);
-    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "tilt")], 0.6f, 0.0f);
-    assert_float_equal(params[lobe_param(LOBE_FIBRE_WALK, "azimuth")], 1.5f * PI, 1e-6f);
+    assert_float_equal(params[weft_lobe_param_find(LOBE_FIBRE_WALK, "density")], 2.0f, 0.0f);
+    assert_float_equal(params[weft_lobe_param_find(LOBE_FIBRE_WALK, "tilt")], 0.6f, 0.0f);
+    assert_float_equal(params[weft_lobe_param_find(LOBE_FIBRE_WALK, "azimuth")], 1.5f * PI, 1e-6f);
 }
 
 /* A stack holds nothing of the direction that it was last seen from. */

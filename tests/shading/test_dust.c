@@ -234,7 +234,7 @@ static void white_under_white_stays_white(void **state) {
 /* Amounts as slabs of fibres of other densities have them, solved without the law of dust_lobe.h. */
 static void amounts_are_slabs(void **state) {
     (void)state;
-    int density = lobe_param(LOBE_FIBRE, "density");
+    int density = weft_lobe_param_find(LOBE_FIBRE, "density");
     double worst = 0.0;
     for (int n = 0; n < 5; n++)
         for (int c = 0; c < 6; c++) {

@@ -48,7 +48,7 @@ static Estimate sampled_albedo(const Lobe *lobe, Dir o, bool by_cosine, int coun
 
 /* A ridge much thinner than it is long is what no product grid resolves: sampling alone checks it. */
 static bool is_ridge(const Lobe *lobe) {
-    int k = lobe_param(lobe->id, "anisotropy");
+    int k = weft_lobe_param_find(lobe->id, "anisotropy");
     float a = k >= 0 ? fabsf(lobe->params[k]) : 0.0f;
     return a > 0.0f && (lobe->params[0] < 0.05f || (lobe->id == LOBE_SILK && a > 0.75f));
 }

@@ -17,7 +17,7 @@ static void reciprocal_lobes_are(void **state) {
         Random random = {2};
         for (int n = 0; n < PAIRS; n++) {
             Lobe lobe = case_lobe(id, n % case_count(id));
-            int shadow = lobe_param(id, "v"); /* the help of a term says where it is not */
+            int shadow = weft_lobe_param_find(id, "v"); /* the help of a term says where it is not */
             if (shadow >= 0 &&
                 strstr(weft_term_help(WEFT_TERM_V, (int)lobe.params[shadow]), "not reciprocal"))
                 continue;
@@ -45,7 +45,7 @@ static void isotropic_lobes_do_not_see_azimuth(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         bool anisotropic = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
-        int k = lobe_param(id, "anisotropy");
+        int k = weft_lobe_param_find(id, "anisotropy");
         if (anisotropic && k < 0) continue; /* no parameter makes it round */
         assert_true(anisotropic || k < 0);
         Random random = {4};
@@ -70,8 +70,8 @@ static void anisotropic_lobes_see_azimuth(void **state) {
         bool seen = false;
         for (int k = 0; k < case_count(id); k++) { /* by some of its choices */
             Lobe lobe = case_lobe(id, k);
-            int how = lobe_param(id, "anisotropy"), stretch = lobe_param(id, "stretch"),
-                tilt = lobe_param(id, "tilt");
+            int how = weft_lobe_param_find(id, "anisotropy"), stretch = weft_lobe_param_find(id, "stretch"),
+                tilt = weft_lobe_param_find(id, "tilt");
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
             if (tilt >= 0) lobe_set(&lobe, tilt, 0.7f);

@@ -567,7 +567,7 @@ static void the_lobe_offers_every_term(void **state) {
     (void)state;
     static const char *const names[] = {"d", "v", "f"};
     for (int kind = 0; kind < 3; kind++) {
-        int param = lobe_param(LOBE_COOK_TORRANCE, names[kind]);
+        int param = weft_lobe_param_find(LOBE_COOK_TORRANCE, names[kind]);
         assert_true(param >= 0);
         const WeftParamInfo *row = &weft_lobe_info(LOBE_COOK_TORRANCE)->params[param];
         assert_non_null(row->choices);
@@ -583,7 +583,7 @@ static Lobe composed(int d, int v, int f, float alpha, float stretch) {
     const float values[] = {alpha, (float)d, (float)v, (float)f, stretch};
     Lobe lobe = lobe_default((int)LOBE_COOK_TORRANCE);
     for (int k = 0; k < 5; k++) {
-        int param = lobe_param(LOBE_COOK_TORRANCE, names[k]);
+        int param = weft_lobe_param_find(LOBE_COOK_TORRANCE, names[k]);
         assert_true(param >= 0);
         lobe_set(&lobe, param, values[k]);
     }

@@ -14,7 +14,6 @@
 #include <cmocka.h>
 
 #include "view/brush.h"
-#include "view/input_names.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
@@ -254,9 +253,9 @@ static void looks_share_and_part(void **state) {
     weft_scene_free(scene);
     assert_true(scene_state_same(&a, &b));
     WeftMaterial m = *scene_state_material(&a, 0);
-    int roughness = input_number("roughness");
+    int roughness = weft_material_input_find("roughness");
     assert_true(roughness >= 0);
-    assert_int_equal(input_number("nonsense"), -1);
+    assert_int_equal(weft_material_input_find("nonsense"), -1);
     m.inputs[roughness].value[0] = 0.123f;
     assert_true(scene_state_set_material(&b, 0, &m));
     assert_false(scene_state_same(&a, &b));
@@ -293,7 +292,7 @@ static void a_preset_goes_with_its_look(void **state) {
     assert_int_equal(scene_state_preset(&b, 0), 3);
     assert_true(scene_state_same(&a, &b));
     WeftMaterial m = *scene_state_material(&b, 0);
-    m.inputs[input_number("roughness")].value[0] = 0.123f;
+    m.inputs[weft_material_input_find("roughness")].value[0] = 0.123f;
     assert_true(scene_state_set_material(&b, 0, &m));
     assert_int_equal(scene_state_preset(&b, 0), 3);
     assert_true(scene_state_take_presets(&read, &b));
@@ -338,7 +337,8 @@ static void the_nap_begins_with_the_materials_own_map(void **state) {
     WeftImage nap;
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
-    WeftInput *way = &m.inputs[input_number("nap_direction")], *lean = &m.inputs[input_number("nap")];
+    WeftInput *way = &m.inputs[weft_material_input_find("nap_direction")],
+              *lean = &m.inputs[weft_material_input_find("nap")];
     way->texture = lean->texture = add_own_map(scene);
     lean->channel = 2, lean->value[0] = 0.4f, way->value[0] = 1.5707963f; /* a quarter turn more */
     assert_true(nap_own(scene, &m, &nap));
@@ -634,13 +634,13 @@ static void a_map_over_a_folders_is_no_part_of_the_line(void **state) {
     v->orbit = cameras[1];
     WeftMaterial m;
     assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
-    m.inputs[input_number("roughness")].texture = add_own_map(scene);
+    m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
     assert_int_equal(weft_scene_put_material(scene, 0, &m, NULL), WEFT_OK);
     assert_true(scene_state_read(&v->first, scene) && scene_state_copy(&v->state, &v->first));
     for (int k = 0; k < 3; k++) {
         bool lost = false;
-        if (k == 1) m.inputs[input_number("roughness")].texture = add_own_map(scene);
-        if (k == 2) m.inputs[input_number("roughness")].texture = 0;
+        if (k == 1) m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
+        if (k == 2) m.inputs[weft_material_input_find("roughness")].texture = 0;
         assert_true(scene_state_set_material(&v->state, 0, &m));
         char *line = command_line(v, &lost);
         assert_non_null(strstr(line, " --materials maps "));
