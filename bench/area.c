@@ -83,8 +83,8 @@ static void print_lobes(const char *only) {
         WeftLobe lobe;
         WeftLtc *ltc = NULL;
         WeftError error;
-        if (weft_lobe_create(info->id, &lobe, &error) == WEFT_OK &&
-            weft_ltc_make(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error) != WEFT_OK)
+        if (weft_lobe_init(info->id, &lobe, &error) == WEFT_OK &&
+            weft_ltc_create(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error) != WEFT_OK)
             ltc = NULL; /* it turns with the tangent */
         for (int k = sharp ? 0 : 1; k < 5; k++) {
             print_lobe(lobe_rough(id, sqrt(alphas[k])), ltc);
@@ -129,7 +129,7 @@ static void print_layers(void) {
                 seen += polygon_clip(p).count > 0;
             }
         }
-        printf("%-12s %6.3f  %5.1f\n", weft_layer_id(rules[k]), 100.0 * off / all, (double)points / seen);
+        printf("%-12s %6.3f  %5.1f\n", weft_layer_name(rules[k]), 100.0 * off / all, (double)points / seen);
     }
 }
 

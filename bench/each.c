@@ -94,8 +94,7 @@ int main(int argc, char **argv) {
            "each");
     for (int id = 0; weft_lobe_info(id); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
-        if (info->traits & WEFT_LOBE_REFERENCE || weft_lobe_create(info->id, &lobe, NULL) != WEFT_OK)
-            continue;
+        if (info->traits & WEFT_LOBE_REFERENCE || weft_lobe_init(info->id, &lobe, NULL) != WEFT_OK) continue;
         inputs_make(info);
         double best[COLUMNS];
         for (int r = 0; r < rounds; r++)

@@ -300,7 +300,7 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
     char lines[256], name[64];
     Text text;
     snprintf(lines, sizeof lines, ANGLES "    f = term_%c(%d, %s);\n", "dvf"[kind], term, arguments[kind]);
-    snprintf(name, sizeof name, "%c %s", "DVF"[kind], weft_term_id(kind, term));
+    snprintf(name, sizeof name, "%c %s", "DVF"[kind], weft_term_name(kind, term));
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450});
     text_include(&text, "shading/terms.h");
     put_row(gpu, name, &text, 8, lines);
@@ -401,7 +401,7 @@ int main(void) {
         if (!(weft_lobe_info(id)->traits & WEFT_LOBE_REFERENCE)) lobe_row(&gpu, id);
     printf("\n| term | instructions | cycles | registers |\n|---|---|---|---|\n");
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
-        for (int term = 0; weft_term_id((WeftTermKind)kind, term); term++)
+        for (int term = 0; weft_term_name((WeftTermKind)kind, term); term++)
             term_row(&gpu, (WeftTermKind)kind, term);
     printf(
         "\n"

@@ -70,8 +70,8 @@ static WeftLtc *make(int id, WeftLtcDesc desc) {
     WeftLtc *ltc;
     WeftError error;
     desc.no_cache = 1;
-    if (weft_lobe_create(weft_lobe_info(id)->id, &lobe, &error) == WEFT_OK &&
-        weft_ltc_make(&lobe, &desc, &ltc, NULL, &error) == WEFT_OK)
+    if (weft_lobe_init(weft_lobe_info(id)->id, &lobe, &error) == WEFT_OK &&
+        weft_ltc_create(&lobe, &desc, &ltc, NULL, &error) == WEFT_OK)
         return ltc;
     printf("%s\n", error.text);
     return NULL;

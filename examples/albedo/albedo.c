@@ -7,7 +7,7 @@
 int main(void) {
     WeftError error;
     WeftLobe lobe;
-    if (weft_lobe_create("charlie-neubelt", &lobe, &error) != WEFT_OK ||
+    if (weft_lobe_init("charlie-neubelt", &lobe, &error) != WEFT_OK ||
         weft_lobe_set(&lobe, "alpha", "0.25", NULL, &error) != WEFT_OK) {
         fprintf(stderr, "albedo: %s\n", error.text);
         return error.result;

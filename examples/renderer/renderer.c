@@ -180,11 +180,11 @@ static Vec radiance(const Lamp *l, const Cloth *velvet, const Cloth *floor, Vec 
 static bool cloth_make(Cloth *cloth, const char *base, const char *sheen, const char *alpha,
                        const char *color, WeftError *error) {
     cloth->has_sheen = sheen != NULL;
-    if (weft_lobe_create("lambert", &cloth->base, error) != WEFT_OK ||
+    if (weft_lobe_init("lambert", &cloth->base, error) != WEFT_OK ||
         weft_lobe_set(&cloth->base, "color", base, NULL, error) != WEFT_OK)
         return false;
     if (!sheen) return true;
-    if (weft_lobe_create(sheen, &cloth->sheen, error) != WEFT_OK ||
+    if (weft_lobe_init(sheen, &cloth->sheen, error) != WEFT_OK ||
         weft_lobe_set(&cloth->sheen, "alpha", alpha, NULL, error) != WEFT_OK ||
         weft_lobe_set(&cloth->sheen, "color", color, NULL, error) != WEFT_OK)
         return false;

@@ -75,7 +75,7 @@ int main(int count, char **arguments) {
     }
     WeftError error = {0};
     Work work = {.cosines = malloc((size_t)size * sizeof(float))};
-    WeftResult result = work.cosines ? weft_lobe_create(arguments[1], &work.lobe, &error) : WEFT_RESOURCES;
+    WeftResult result = work.cosines ? weft_lobe_init(arguments[1], &work.lobe, &error) : WEFT_RESOURCES;
     if (result == WEFT_OK) result = table_make(&work, arguments[2], size, &error);
     if (result != WEFT_OK) fprintf(stderr, "table: %s\n", error.text[0] ? error.text : "out of memory");
     weft_image_free(&work.table);

@@ -8,7 +8,7 @@
 
 #include "weft/image.h"
 #include "weft/lobe.h"
-#include "weft/render.h"
+#include "weft/progress.h"
 
 #ifdef __cplusplus
 extern "C" {

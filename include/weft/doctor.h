@@ -3,7 +3,7 @@
  *   weft_doctor_open("chair.gltf", &doctor, NULL, &error);
  *   for (int k = 0; k < weft_doctor_count(doctor); k++) puts(weft_doctor_finding(doctor, k)->words);
  *   weft_doctor_fix(doctor, "mended.glb", &error);
- *   weft_doctor_free(doctor);
+ *   weft_doctor_close(doctor);
  *
  * It looks at the file as it is, before a reader clamps or repairs anything. What it says of light is
  * measured on the lobes that render, at the numbers of the material; docs/doctor.md says of each finding what
@@ -99,7 +99,7 @@ typedef struct WeftFinding {
     WeftFindingOf of;      /* where */
     int index;             /* in the list of that name in the file; 0 of the asset */
     char subject[96];      /* name of the object, or its place, such as "materials[3]", if it has none */
-    unsigned engines;      /* bit k: weft_profile_id(k) is hurt; 0: whatever reads the file */
+    unsigned engines;      /* bit k: weft_profile_name(k) is hurt; 0: whatever reads the file */
     char words[400];       /* what is wrong, with figures: a sentence without a full stop */
     char fix[280];         /* what to do */
     int fixable;           /* weft_doctor_fix does it */
@@ -113,7 +113,7 @@ typedef struct WeftDoctor WeftDoctor;
 /* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, but for
  * an extension that is required and not known and an image that is missing or cannot be read, which are
  * findings. log (may be NULL) receives the reader's
- * warnings. On success *out is owned by the caller: release it with weft_doctor_free. */
+ * warnings. On success *out is owned by the caller: release it with weft_doctor_close. */
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);
 
@@ -127,7 +127,7 @@ WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress prog
 WEFT_API WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
                                             const WeftLog *log, WeftError *error);
 
-WEFT_API void weft_doctor_free(WeftDoctor *doctor); /* may be NULL */
+WEFT_API void weft_doctor_close(WeftDoctor *doctor); /* may be NULL */
 
 /* The findings: of the asset first, then material by material, mesh by mesh, image by image. NULL out of
  * range. */

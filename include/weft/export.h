@@ -37,7 +37,7 @@ typedef enum WeftExportTarget {
 } WeftExportTarget;
 
 /* "glsl", "essl", "hlsl", "c", "shadertoy", "wgsl" and a line on each; NULL past the end. */
-WEFT_API const char *weft_export_target(int target);
+WEFT_API const char *weft_export_target_name(int target);
 WEFT_API const char *weft_export_target_help(int target);
 
 /* The form in which tables reach the program. Only PNG16 changes their numbers. */
@@ -52,7 +52,7 @@ typedef enum WeftExportLut {
 } WeftExportLut;
 
 /* "c", "png16", "exr", "dds", "npy"; NULL past the end. */
-WEFT_API const char *weft_export_lut(int lut);
+WEFT_API const char *weft_export_lut_name(int lut);
 
 /* Zero means default, in every member. Of lobe, profile and material exactly one is given, or profile and
  * material: then the text is that of a profile, for any numbers, and has the material's choices and numbers

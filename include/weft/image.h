@@ -92,10 +92,6 @@ WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tone
 WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                             const float behind[3], WeftImage *out, WeftError *error);
 
-/* Mean over pixels and channels of (a - b)^2 / (b^2 + 1e-2), b being the reference: relMSE, lower is closer.
- * Both F32 and of one size, else a negative number. */
-WEFT_API double weft_image_relmse(const WeftImage *a, const WeftImage *b);
-
 #ifdef __cplusplus
 }
 #endif

@@ -66,16 +66,16 @@ WEFT_API int weft_lobe_param_find(int lobe, const char *name);
 WEFT_API WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error);
 
 /* The layer rules by index, and a line on what each does; NULL past the end. */
-WEFT_API const char *weft_layer_id(int layer);
+WEFT_API const char *weft_layer_name(int layer);
 WEFT_API const char *weft_layer_help(int layer);
 
 /* Likewise the terms a Cook-Torrance lobe is composed of, the workflows and the engine profiles. */
 typedef enum WeftTermKind { WEFT_TERM_D, WEFT_TERM_V, WEFT_TERM_F } WeftTermKind;
-WEFT_API const char *weft_term_id(WeftTermKind kind, int term);
+WEFT_API const char *weft_term_name(WeftTermKind kind, int term);
 WEFT_API const char *weft_term_help(WeftTermKind kind, int term);
-WEFT_API const char *weft_workflow_id(int workflow);
+WEFT_API const char *weft_workflow_name(int workflow);
 WEFT_API const char *weft_workflow_help(int workflow);
-WEFT_API const char *weft_profile_id(int profile);
+WEFT_API const char *weft_profile_name(int profile);
 WEFT_API const char *weft_profile_help(int profile);
 
 /* The names that sources use for some terms ("charlie-v"), taken wherever the id is, and the kind and id that
@@ -100,7 +100,7 @@ typedef struct WeftLobe {
 } WeftLobe;
 
 /* The lobe with its default parameters, white. Fails with WEFT_MESSAGE_LOBE_NAME. */
-WEFT_API WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error);
+WEFT_API WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error);
 
 /* Sets a parameter by name: one number, the id or alias of a choice, or "color" ("f0") and "f90" as "r,g,b"
  * or one number for all three. "roughness" is an artist's, 0 to 1, and sets the first parameter as that of a

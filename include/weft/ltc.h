@@ -58,8 +58,8 @@ typedef struct WeftLtc WeftLtc;
  * cannot be written, is a warning (WEFT_MESSAGE_CACHE_IGNORED). The same numbers on any number of threads.
  * Fails with WEFT_MESSAGE_LOBE_NAME, _LTC_LOBE (the lobe turns with the tangent, or is WEFT_LOBE_REFERENCE),
  * _DESC or _MEMORY, or is WEFT_INTERRUPTED. Release with weft_ltc_free. */
-WEFT_API WeftResult weft_ltc_make(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out,
-                                  const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_ltc_create(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out,
+                                    const WeftLog *log, WeftError *error);
 
 /* ltc may be NULL. */
 WEFT_API void weft_ltc_free(WeftLtc *ltc);

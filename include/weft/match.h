@@ -108,7 +108,7 @@ typedef struct WeftAssetMatch {
 
 /* Writes the glTF file at `path` again for another engine, as `out`: the factors base_color, roughness,
  * sheen_color, sheen_roughness and specular of materials that have a sheen, so that under profile `to` they
- * come closest to what they are under profile `from` (indices of weft_profile_id); all else stays as it is,
+ * come closest to what they are under profile `from` (indices of weft_profile_name); all else stays as it is,
  * byte for byte. Materials that are the same on average share one search; these run on all processors.
  * progress (may be NULL) is told how many are done, reading being none of it, and can stop it, in the midst
  * of a search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of

@@ -54,7 +54,7 @@ typedef struct WeftPassport {
     WeftPlace reciprocity_place;
 
     /* For a lobe: the light that a white Lambert base under it as a white sheen returns of uniform light, for
-     * each layer rule (weft_layer_id), roughness of the sheen and view; and the standard error of that, which
+     * each layer rule (weft_layer_name), roughness of the sheen and view; and the standard error of that, which
      * is 0 but of the rule that walks at random. A profile's own E says that already. */
     float views[WEFT_PASSPORT_VIEWS]; /* cos_o, from 1 downwards */
     int layers;                       /* 0 of a profile */
@@ -122,7 +122,7 @@ typedef struct WeftPassportDesc {
 } WeftPassportDesc;
 
 /* Fails with WEFT_MESSAGE_CHECK_NAME, _DESC or _MEMORY. */
-WEFT_API WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error);
+WEFT_API WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error);
 
 /* The chance that the least p value of so many tests is at most p, were all samplers right (Zbynek Sidak,
  * "Rectangular Confidence Regions for the Means of Multivariate Normal Distributions", 1967). */

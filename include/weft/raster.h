@@ -26,6 +26,7 @@
 #define WEFT_RASTER_H
 
 #include "weft/image.h"
+#include "weft/part.h"
 #include "weft/render.h"
 
 #ifdef __cplusplus
@@ -89,27 +90,6 @@ typedef enum WeftAmbient {
     WEFT_AMBIENT_FITTED,     /* lights for what is bright, and a few look-ups fitted to the lobe */
     WEFT_AMBIENT_NONE        /* no light from the environment */
 } WeftAmbient;
-
-/* The content of an image: all light; one part of it, where the parts of a material's lobes sum up to all but
- * emission; or one property of the surface, as plain numbers. */
-typedef enum WeftPart {
-    WEFT_PART_ALL = 0,
-    WEFT_PART_DIFFUSE,
-    WEFT_PART_SPECULAR,
-    WEFT_PART_SHEEN,
-    WEFT_PART_COAT,
-    WEFT_PART_DUST,
-    WEFT_PART_BASE_COLOR,
-    WEFT_PART_NORMAL,    /* in the world, (n + 1) / 2 */
-    WEFT_PART_ROUGHNESS, /* of the base */
-    WEFT_PART_SHEEN_COLOR,
-    WEFT_PART_SHEEN_ROUGHNESS,
-    WEFT_PART_TEXCOORD, /* UV set 0, less its whole part */
-    WEFT_PART_COUNT
-} WeftPart;
-
-/* "all", "diffuse" and so on; NULL out of range. */
-WEFT_API const char *weft_part_name(int part);
 
 /* Zero means default, in every member. */
 typedef struct WeftRasterView {

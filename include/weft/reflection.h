@@ -8,7 +8,7 @@
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/material.h"
-#include "weft/raster.h"
+#include "weft/part.h"
 
 #ifdef __cplusplus
 extern "C" {

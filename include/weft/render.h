@@ -39,9 +39,6 @@ typedef struct WeftFloor {
 /* Which strategy finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
-/* The most threads of any call. */
-enum { WEFT_THREADS_MAX = 256 };
-
 /* Zero means default, in every member. */
 typedef struct WeftRenderDesc {
     int width, height; /* pixels, 1 .. 65536; 0: 960 x 720 */

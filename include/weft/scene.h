@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 
+#include "weft/progress.h"
 #include "weft/result.h"
 
 #ifdef __cplusplus
@@ -19,10 +20,6 @@ typedef struct WeftScene WeftScene;
 /* Loads path: a .gltf or .glb file, or "builtin:NAME". log (may be NULL) receives warnings. On success *out
  * is owned by the caller: release it with weft_scene_free. */
 WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error);
-
-/* Called now and then from the thread that made the call it was given to, with the finished share in [0, 1].
- * A result other than 0 stops the work soon. */
-typedef int (*WeftProgress)(void *user, double fraction);
 
 /* weft_scene_load, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
 WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user,

@@ -6,16 +6,18 @@
  *
  *     WeftLobe lobe;
  *     float f[3];
- *     if (weft_lobe_create("charlie-neubelt", &lobe, &error) != WEFT_OK) return error.result;
+ *     if (weft_lobe_init("charlie-neubelt", &lobe, &error) != WEFT_OK) return error.result;
  *     weft_lobe_eval(&lobe, wo, wi, f);
  *
- * A header tells of one noun, and of its shapes, units, ranges, ownership and failures. What holds of all:
+ * A header is about one noun and gives shapes, units, ranges, ownership and failures. These rules hold for all:
  *
  * - A call that can fail returns a WeftResult and fills a WeftError; result.h has all reasons.
  * - Descriptors are structs where zero means default: name what differs, as in (WeftRenderDesc){.width =
  * 640}.
- * - What a call named _create, _load or _make gives is released with the _free beside it.
- * - There is no global state. Different objects may be used from different threads at once.
+ * - A call named _create, _load or _read fills a handle, which the _free beside it releases; _open has a _close.
+ *   A call named _init fills a value that owns nothing.
+ * - The only global state is the lobes that weft_lobe_load added. Different objects may be used from different
+ *   threads at once.
  * - Directions, units and colours are those that lobe.h states; world space that of scene.h. */
 #ifndef WEFT_H
 #define WEFT_H
@@ -33,8 +35,10 @@
 #include "weft/match.h"
 #include "weft/material.h"
 #include "weft/measure.h"
+#include "weft/part.h"
 #include "weft/pick.h"
 #include "weft/plot.h"
+#include "weft/progress.h"
 #include "weft/raster.h"
 #include "weft/reflection.h"
 #include "weft/render.h"

@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "weft/render.h"
+#include "weft/progress.h"
 
 int thread_count(void) {
     cpu_set_t set;

@@ -86,7 +86,7 @@ static int add(Check *check, const char *id, int of) {
     WeftPassport *p = &check->passports[check->count];
     if (check->watched) fprintf(stderr, "\rchecking %s (%d of %d)\033[K", id, check->count + 1, of);
     check->desc.id = id;
-    WeftResult result = weft_passport_make(&check->desc, p, &error);
+    WeftResult result = weft_passport_measure(&check->desc, p, &error);
     if (check->watched) fprintf(stderr, "\r\033[K");
     if (result != WEFT_OK) return report_error(&error);
     check->count++;
@@ -98,12 +98,13 @@ static int add(Check *check, const char *id, int of) {
 
 static int add_all(Check *check) {
     int lobes = weft_lobe_count(), profiles = 0, result = 0;
-    while (!check->header && weft_profile_id(profiles)) profiles++;
+    while (!check->header && weft_profile_name(profiles)) profiles++;
     check->passports = calloc((size_t)lobes + (size_t)profiles, sizeof *check->passports);
     if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
     if (check->lines && !check->json && !check->header) passport_line_heading();
     for (int k = 0; k < lobes + profiles && result == 0; k++)
-        result = add(check, k < lobes ? weft_lobe_info(k)->id : weft_profile_id(k - lobes), lobes + profiles);
+        result =
+            add(check, k < lobes ? weft_lobe_info(k)->id : weft_profile_name(k - lobes), lobes + profiles);
     return result;
 }
 
@@ -111,7 +112,7 @@ static int unknown(const char *id) {
     char hint[96];
     Nearest nearest = {.typed = id};
     for (int k = 0; k < weft_lobe_count(); k++) nearest_offer(&nearest, weft_lobe_info(k)->id);
-    for (int k = 0; weft_profile_id(k); k++) nearest_offer(&nearest, weft_profile_id(k));
+    for (int k = 0; weft_profile_name(k); k++) nearest_offer(&nearest, weft_profile_name(k));
     return report(WEFT_USAGE, "%.200s: %s%s", id, weft_message_text(WEFT_MESSAGE_CHECK_NAME),
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }

@@ -29,10 +29,10 @@ typedef struct Visit {
 /* The engines of a mask by name, "three, babylon"; "" for whatever reads the file. */
 static const char *engines_text(unsigned engines, char *text, size_t size) {
     text[0] = '\0';
-    for (int k = 0; k < 32 && weft_profile_id(k); k++) {
+    for (int k = 0; k < 32 && weft_profile_name(k); k++) {
         if (!(engines >> k & 1u)) continue;
         size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s%s", used ? ", " : "", weft_profile_id(k));
+        snprintf(text + used, size - used, "%s%s", used ? ", " : "", weft_profile_name(k));
     }
     return text;
 }
@@ -66,7 +66,7 @@ static WeftResult fix(Visit *visit, WeftError *error) {
     visit->left = 0;
     for (int k = 0; k < weft_doctor_count(again); k++)
         visit->left += weft_doctor_finding(again, k)->severity != WEFT_SEVERITY_NOTE;
-    weft_doctor_free(again);
+    weft_doctor_close(again);
     return WEFT_OK;
 }
 
@@ -171,8 +171,8 @@ static void finding_json(Json *json, const WeftFinding *finding) {
     json_text(json, "subject", finding->subject);
     json_text(json, "place", finding->place);
     json_open(json, "engines", '[');
-    for (int k = 0; k < 32 && weft_profile_id(k); k++)
-        if (finding->engines >> k & 1u) json_text(json, NULL, weft_profile_id(k));
+    for (int k = 0; k < 32 && weft_profile_name(k); k++)
+        if (finding->engines >> k & 1u) json_text(json, NULL, weft_profile_name(k));
     json_close(json, ']');
     json_text(json, "words", finding->words);
     json_text(json, "fix", finding->fix);
@@ -284,7 +284,7 @@ static int doctor_run(const Options *options) {
     }
     if (!visit.path) return report(WEFT_USAGE, "doctor: lacks an operand; weft doctor ASSET [options]");
     int result = visit_make(&visit);
-    weft_doctor_free(visit.doctor);
+    weft_doctor_close(visit.doctor);
     return result;
 }
 

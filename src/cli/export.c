@@ -76,8 +76,8 @@ static int export_read(const Options *options, Export *self) {
     int target, lut = 0, pi;
     self->options = options;
     self->quiet = option_given(options, "--quiet");
-    for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target(k);
-    for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut(k);
+    for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target_name(k);
+    for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut_name(k);
     if (!option_text(options, "--target"))
         return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, wgsl, c or shadertoy");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
@@ -156,7 +156,7 @@ static int files_write(const Export *self) {
         result = tables_write(self, NULL);
     } else {
         json_open(&json, NULL, '{');
-        json_text(&json, "target", weft_export_target((int)self->descs->target));
+        json_text(&json, "target", weft_export_target_name((int)self->descs->target));
         json_text(&json, "output", option_text(self->options, "-o"));
         json_whole(&json, "bytes", (long long)self->made.size);
         json_open(&json, "tables", '[');
@@ -183,8 +183,8 @@ static int export_run(const Options *options) {
 
 static void lists(void) {
     printf("\nTargets\n");
-    for (int k = 0; weft_export_target(k); k++)
-        layout_entry(stdout, 14, weft_export_target(k), weft_export_target_help(k));
+    for (int k = 0; weft_export_target_name(k); k++)
+        layout_entry(stdout, 14, weft_export_target_name(k), weft_export_target_help(k));
 }
 
 static const Option export_options[] = {

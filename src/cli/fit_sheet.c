@@ -49,7 +49,7 @@ static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftErr
 /* A fit as two things to be added. */
 static WeftResult drawn_of(const WeftFitted *fitted, const char *base, Drawn *drawn,
                            WeftReflection **reflection, WeftError *error) {
-    WeftResult result = weft_lobe_create(base, &drawn->base, error);
+    WeftResult result = weft_lobe_init(base, &drawn->base, error);
     for (int c = 0; c < 3; c++) drawn->base.f0[c] = drawn->base.f90[c] = fitted->base[c];
     drawn->has_base = 1;
     if (result == WEFT_OK) result = weft_reflection_of_lobe(&fitted->lobe, reflection, error);

@@ -30,7 +30,7 @@ static int set_param(WeftLobe *lobe, const char *text, const char *taken) {
 int given_lobe(const Options *options, const char *id, bool rows_run, WeftLobe *lobe) {
     WeftError error;
     if (kind_named(kind_of("lobe"), id) < 0) return WEFT_USAGE;
-    if (weft_lobe_create(id, lobe, &error) != WEFT_OK) return report_error(&error);
+    if (weft_lobe_init(id, lobe, &error) != WEFT_OK) return report_error(&error);
     const WeftParamInfo *first = weft_lobe_info(lobe->lobe)->params;
     const char *taken = rows_run && first->name && !first->choices ? first->name : NULL;
     int cursor = 0, result = 0;

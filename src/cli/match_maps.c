@@ -52,7 +52,7 @@ static int prepare(Maps *maps) {
         for (int k = 0; k < SWEEP; k++) {
             WeftLobe *lobe = &maps->source[n][k];
             const WeftParamInfo *p = weft_lobe_info(maps->lobes[n])->params;
-            if (weft_lobe_create(weft_lobe_info(maps->lobes[n])->id, lobe, &error) != WEFT_OK)
+            if (weft_lobe_init(weft_lobe_info(maps->lobes[n])->id, lobe, &error) != WEFT_OK)
                 return report_error(&error);
             lobe->params[0] = p->low + (float)places[k] * (p->high - p->low);
             for (int c = 0; c < 3; c++) lobe->f0[c] = 0.8f;

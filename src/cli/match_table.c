@@ -21,8 +21,8 @@ typedef struct MatchTable {
 static int prepare(MatchTable *table) {
     char typed[64];
     int result = 0;
-    for (; result == 0 && weft_profile_id(table->count) && table->count < PROFILES_MOST; table->count++) {
-        snprintf(typed, sizeof typed, "profile:%s", weft_profile_id(table->count));
+    for (; result == 0 && weft_profile_name(table->count) && table->count < PROFILES_MOST; table->count++) {
+        snprintf(typed, sizeof typed, "profile:%s", weft_profile_name(table->count));
         result = model_read(typed, &table->from[table->count]);
     }
     if (result != 0) return result;
@@ -34,7 +34,7 @@ static int prepare(MatchTable *table) {
             WeftMatchJob *job = &table->jobs[from * table->count + to];
             job->from = table->from[from].reflection;
             job->material = table->from[from].material;
-            if (weft_material_set(&job->material, "profile", weft_profile_id(to), NULL, &error) != WEFT_OK)
+            if (weft_material_set(&job->material, "profile", weft_profile_name(to), NULL, &error) != WEFT_OK)
                 return report_error(&error);
         }
     return 0;
@@ -63,8 +63,8 @@ static void text_write(const MatchTable *table, WeftBrdfMetric metric) {
         const WeftMatchJob *job = &table->jobs[k];
         if (from == to) continue;
         changes_text(table, from, job, text, sizeof text);
-        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_id(from), weft_profile_id(to), job->found.copied,
-               job->found.matched, text);
+        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_name(from), weft_profile_name(to),
+               job->found.copied, job->found.matched, text);
     }
 }
 
@@ -77,8 +77,8 @@ static void json_write(const MatchTable *table, WeftBrdfMetric metric) {
     for (int k = 0; k < table->count * table->count; k++) {
         const WeftMatchJob *job = &table->jobs[k];
         json_open(&json, NULL, '{');
-        json_text(&json, "from", weft_profile_id(k / table->count));
-        json_text(&json, "to", weft_profile_id(k % table->count));
+        json_text(&json, "from", weft_profile_name(k / table->count));
+        json_text(&json, "to", weft_profile_name(k % table->count));
         json_number(&json, "copied", job->found.copied);
         json_number(&json, "matched", job->found.matched);
         json_open(&json, "inputs", '{');

@@ -80,7 +80,7 @@ static int set_all(Model *model, char *settings) {
 static int of_lobe(Model *model, const char *id) {
     WeftError error;
     model->kind = MODEL_LOBE;
-    return weft_lobe_create(id, &model->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
+    return weft_lobe_init(id, &model->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* A choice, "profile" or "workflow", on a grey cloth unless it is to be bare. */

@@ -49,11 +49,11 @@ const char *nearest_hint(const Nearest *nearest, char *buffer, int size) {
     return buffer;
 }
 
-static const char *d_name(int k) { return weft_term_id(WEFT_TERM_D, k); }
+static const char *d_name(int k) { return weft_term_name(WEFT_TERM_D, k); }
 static const char *d_help(int k) { return weft_term_help(WEFT_TERM_D, k); }
-static const char *v_name(int k) { return weft_term_id(WEFT_TERM_V, k); }
+static const char *v_name(int k) { return weft_term_name(WEFT_TERM_V, k); }
 static const char *v_help(int k) { return weft_term_help(WEFT_TERM_V, k); }
-static const char *f_name(int k) { return weft_term_id(WEFT_TERM_F, k); }
+static const char *f_name(int k) { return weft_term_name(WEFT_TERM_F, k); }
 static const char *f_help(int k) { return weft_term_help(WEFT_TERM_F, k); }
 
 static const char *lobe_name(int k) { return weft_lobe_info(k) ? weft_lobe_info(k)->id : NULL; }
@@ -84,10 +84,10 @@ const Kind kinds[] = {
     {"lobe", "a", "lobes", "Lobes", lobe_name, no_help, false, "lobes/"},
     {"other lobe", "a", "others", "Lobes", other_name, no_help, true, "lobes/"},
     {"layer rule", "a", "layers", "Layer rules: how a sheen sits on its base; each by=max or by=channel",
-     weft_layer_id, weft_layer_help, true, "layers/"},
-    {"workflow", "a", "workflows", "Workflows: what the inputs mean", weft_workflow_id, weft_workflow_help,
+     weft_layer_name, weft_layer_help, true, "layers/"},
+    {"workflow", "a", "workflows", "Workflows: what the inputs mean", weft_workflow_name, weft_workflow_help,
      true, "workflows/"},
-    {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_id,
+    {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_name,
      weft_profile_help, true, "profiles/"},
     {"input", "an", "inputs", "Material inputs: render --set MATERIAL.INPUT=VALUE", weft_material_input_name,
      weft_material_input_help, true, NULL},

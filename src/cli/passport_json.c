@@ -34,7 +34,7 @@ static void json_layers(Json *json, const char *key, int layers,
                         const float cells[][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS]) {
     json_open(json, key, '{');
     for (int layer = 0; layer < layers; layer++) {
-        json_open(json, weft_layer_id(layer), '[');
+        json_open(json, weft_layer_name(layer), '[');
         for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++)
             json_floats(json, NULL, cells[layer][k], WEFT_PASSPORT_VIEWS);
         json_close(json, ']');

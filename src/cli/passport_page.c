@@ -95,7 +95,7 @@ static void draw_furnace(FILE *f, const WeftPassport *p) {
              (double)p->sheens[middle]);
     PassportPlot plot = plot_open(f, title, "cos_o", (double)most, p->layers);
     for (int layer = 0; layer < p->layers; layer++)
-        plot_curve(&plot, p->views, p->furnace[layer][middle], WEFT_PASSPORT_VIEWS, weft_layer_id(layer));
+        plot_curve(&plot, p->views, p->furnace[layer][middle], WEFT_PASSPORT_VIEWS, weft_layer_name(layer));
     plot_close(&plot);
 }
 

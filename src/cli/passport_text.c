@@ -66,7 +66,7 @@ static void print_furnace(const WeftPassport *p) {
     for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++) printf("  %-14g", (double)p->sheens[k]);
     printf("\n");
     for (int layer = 0; layer < p->layers; layer++) {
-        printf("  %-16s", weft_layer_id(layer));
+        printf("  %-16s", weft_layer_name(layer));
         for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++) {
             float least = p->furnace[layer][k][0], most = least;
             bool above = false; /* and not by noise */

@@ -19,7 +19,7 @@ static const char *const helps[WEFT_EXPORT_TARGETS] = {
 };
 static const char *const luts[WEFT_EXPORT_LUTS + 1] = {"c", "png16", "exr", "dds", "npy", NULL};
 
-const char *weft_export_target(int target) {
+const char *weft_export_target_name(int target) {
     return target >= 0 && target < WEFT_EXPORT_TARGETS ? targets[target] : NULL;
 }
 
@@ -27,7 +27,7 @@ const char *weft_export_target_help(int target) {
     return target >= 0 && target < WEFT_EXPORT_TARGETS ? helps[target] : NULL;
 }
 
-const char *weft_export_lut(int lut) { return lut >= 0 && lut < WEFT_EXPORT_LUTS ? luts[lut] : NULL; }
+const char *weft_export_lut_name(int lut) { return lut >= 0 && lut < WEFT_EXPORT_LUTS ? luts[lut] : NULL; }
 
 static bool is_prefix(const char *prefix) {
     size_t size = strlen(prefix);

@@ -9,24 +9,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "image/srgb.h"
-#include "weft/render.h"
-
-/* (a - b)^2 / (b^2 + 1e-2) */
-static double relative_square(float image, float reference) {
-    const double b = (double)reference, off = (double)image - b;
-    return off * off / (b * b + 1e-2);
-}
-
-double weft_image_relmse(const WeftImage *a, const WeftImage *b) {
-    if (a->type != WEFT_PIXEL_F32 || b->type != WEFT_PIXEL_F32 || a->width != b->width ||
-        a->height != b->height || a->channels != b->channels || !a->pixels || !b->pixels)
-        return -1.0;
-    const float *image = a->pixels, *reference = b->pixels;
-    size_t count = (size_t)a->width * (size_t)a->height * (size_t)a->channels;
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++) sum += relative_square(image[i], reference[i]);
-    return sum / (double)count;
-}
+#include "weft/progress.h"
 
 static void relmse_map(const Pair *pair, float *map) {
     float *const *a = pair->linear[0], *const *b = pair->linear[1];

@@ -6,6 +6,12 @@
 
 #include "weft/diff.h"
 
+/* Returns (a - b)^2 / (b^2 + 1e-2), whose mean over pixels and channels is relMSE. */
+static inline double relative_square(float a, float b) {
+    const double reference = (double)b, off = (double)a - reference;
+    return off * off / (reference * reference + 1e-2);
+}
+
 /* Both over black, as planes of linear r, g, b: finite, row after row. */
 typedef struct Pair {
     int width, height;

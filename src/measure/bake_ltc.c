@@ -17,7 +17,7 @@ static WeftResult bake(const WeftBakeDesc *desc, const int *channels, int count,
                        .threads = desc->threads,
                        .progress = desc->progress,
                        .user = desc->user};
-    WeftResult result = weft_ltc_make(desc->lobe, &fit, &ltc, desc->log, error);
+    WeftResult result = weft_ltc_create(desc->lobe, &fit, &ltc, desc->log, error);
     if (result != WEFT_OK) return result;
     WeftLtcInfo made = weft_ltc_info(ltc);
     result = weft_image_create(made.columns, made.rows, count, WEFT_PIXEL_F32, out, error);

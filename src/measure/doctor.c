@@ -255,7 +255,7 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
     }
     WeftResult result = doctor->asset.result;
     if (error) *error = doctor->error;
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
     return result;
 }
 
@@ -273,7 +273,7 @@ WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *na
     return open_any(name, data ? data : "", data ? size : 0, NULL, NULL, out, log, error);
 }
 
-void weft_doctor_free(WeftDoctor *doctor) {
+void weft_doctor_close(WeftDoctor *doctor) {
     if (!doctor) return;
     gltf_close(&doctor->asset);
     weft_scene_free(doctor->scene);
@@ -329,7 +329,7 @@ WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError
         if (result != WEFT_OK) break;
         more = can_fix(again);
         if (more) result = fix_once(again, path, error);
-        weft_doctor_free(again);
+        weft_doctor_close(again);
     }
     return result;
 }

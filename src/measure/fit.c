@@ -343,11 +343,11 @@ static int by_error(const void *a, const void *b) {
 
 static WeftResult candidates(FitWork *work, WeftError *error) {
     const WeftFitDesc *desc = work->desc;
-    WeftResult result = weft_lobe_create(desc->base ? desc->base : "lambert", &work->base, error);
-    if (result == WEFT_OK) result = weft_lobe_create("lambert", &work->lambert, error);
-    if (result == WEFT_OK) result = weft_lobe_create("ggx", &work->ggx, error);
+    WeftResult result = weft_lobe_init(desc->base ? desc->base : "lambert", &work->base, error);
+    if (result == WEFT_OK) result = weft_lobe_init("lambert", &work->lambert, error);
+    if (result == WEFT_OK) result = weft_lobe_init("ggx", &work->ggx, error);
     WeftLobe only = {.lobe = -1};
-    if (result == WEFT_OK && desc->only) result = weft_lobe_create(desc->only, &only, error);
+    if (result == WEFT_OK && desc->only) result = weft_lobe_init(desc->only, &only, error);
     if (result != WEFT_OK) return result;
     if (!(weft_lobe_info(work->base.lobe)->traits & WEFT_LOBE_DIFFUSE))
         return fail(error, WEFT_MESSAGE_DESC, desc->base, "is no diffuse lobe");
@@ -355,7 +355,7 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
         if (only.lobe < 0 || only.lobe == k)
-            result = weft_lobe_create(info->id, &work->lobes[work->count++], error);
+            result = weft_lobe_init(info->id, &work->lobes[work->count++], error);
     }
     if (result != WEFT_OK) return result;
     return work->count ? WEFT_OK

@@ -68,8 +68,8 @@ static WeftResult make(WeftLtc *ltc, const WeftLtcDesc *desc, const WeftLog *log
     return result;
 }
 
-WeftResult weft_ltc_make(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out, const WeftLog *log,
-                         WeftError *error) {
+WeftResult weft_ltc_create(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out, const WeftLog *log,
+                           WeftError *error) {
     *out = NULL;
     WeftLtc *ltc = alloc_array(1, sizeof *ltc);
     if (!ltc) return fail(error, WEFT_MESSAGE_MEMORY, "an LTC table", NULL);

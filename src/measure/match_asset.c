@@ -325,7 +325,8 @@ WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
     *count = 0;
     if (report) *report = NULL;
     snprintf(number, sizeof number, "%d, %d", from, to);
-    if (!weft_profile_id(from) || !weft_profile_id(to)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
+    if (!weft_profile_name(from) || !weft_profile_name(to))
+        return fail(error, WEFT_MESSAGE_DESC, number, NULL);
     WeftResult result = asset_rewrite(&self, path, out, log, error);
     *count = self.count;
     if (result == WEFT_OK && report) {

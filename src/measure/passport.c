@@ -15,7 +15,7 @@
 #include "measure/sweep.h"
 #include "measure/weight.h"
 #include "shading/choice.h"
-#include "weft/render.h"
+#include "weft/progress.h"
 
 static const float cosines[WEFT_PASSPORT_COSINES] = {1.0f, 0.95f, 0.9f,  0.85f, 0.8f,  0.7f,   0.6f,
                                                      0.5f, 0.4f,  0.35f, 0.3f,  0.25f, 0.2f,   0.15f,
@@ -135,7 +135,7 @@ static void find_furnace(PassportWork *work) {
     if (work->bsdf->whole) return;
     memcpy(work->out->sheens, sheens, sizeof sheens);
     int layers = 0;
-    while (layers < WEFT_PASSPORT_LAYERS && weft_layer_id(layers)) layers++;
+    while (layers < WEFT_PASSPORT_LAYERS && weft_layer_name(layers)) layers++;
     work->out->layers = layers;
     parallel_for(work->desc->threads, WEFT_PASSPORT_SHEENS, fill_sheen, work);
     parallel_for(work->desc->threads, layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS, measure_furnace,
@@ -284,7 +284,7 @@ bool passport_measure(const Bsdf *bsdf, const WeftPassportDesc *desc, WeftPasspo
     return held;
 }
 
-WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
+WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
     const WeftLobe *given = desc->lobe;
     int lobe = given ? given->lobe : desc->id ? weft_lobe_find(desc->id) : -1;
     int profile = !given && lobe < 0 && desc->id ? choice_find(CHOICE_profile, desc->id) : -1;
@@ -294,7 +294,7 @@ WeftResult weft_passport_make(const WeftPassportDesc *desc, WeftPassport *out, W
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
     *out = (WeftPassport){.profile = profile >= 0};
     snprintf(out->id, sizeof out->id, "%s",
-             profile >= 0 ? weft_profile_id(profile) : weft_lobe_info(lobe)->id);
+             profile >= 0 ? weft_profile_name(profile) : weft_lobe_info(lobe)->id);
     Bsdf *bsdf = calloc(1, sizeof *bsdf);
     bool held = bsdf != NULL;
     if (held && profile >= 0) {

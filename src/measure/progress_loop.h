@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#include "weft/scene.h"
+#include "weft/progress.h"
 
 typedef struct LoopWatch {
     atomic_bool stopped; /* items that have not begun do nothing, and those that have end soon */

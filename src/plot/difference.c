@@ -3,6 +3,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "image/difference.h"
 #include "plot/scale.h"
 #include "weft/sheet.h"
 
@@ -59,9 +60,9 @@ WeftResult weft_difference(const WeftImage *image, const WeftImage *reference, W
     for (size_t k = 0; k < count; k++) {
         sizes[k] = fabsf(pixel_difference(image, reference, k));
         for (int c = 0; c < 3; c++) {
-            double expected = (double)shown(reference, k, c), off = (double)shown(image, k, c) - expected;
-            sum += fabs(off);
-            squares += off * off / (expected * expected + 1e-2);
+            float a = shown(image, k, c), b = shown(reference, k, c);
+            sum += fabs((double)a - (double)b);
+            squares += relative_square(a, b);
         }
     }
     qsort(sizes, count, sizeof *sizes, compare_floats);

@@ -121,7 +121,7 @@ WeftResult kind_furnace(Making *making) {
     for (int n = 0; n < desc->count; n++) lobes += desc->models[n].lobe != NULL;
     wholes = desc->count - lobes;
     if (!making_panels(making, lobes + (wholes > 0), 2)) return making_short(making);
-    for (int layer = 0; lobes && layer < LAYER_COUNT; layer++) making_legend(making, weft_layer_id(layer));
+    for (int layer = 0; lobes && layer < LAYER_COUNT; layer++) making_legend(making, weft_layer_name(layer));
     for (int n = 0; n < desc->count; n++)
         if (desc->models[n].lobe &&
             !of_lobe(making, one_panel(making, making_label(making, n)), desc->models[n].lobe, 0))

@@ -3,7 +3,7 @@
 #define WEFT_RASTER_PART_H
 
 #include "text/text.h"
-#include "weft/raster.h"
+#include "weft/part.h"
 
 /* Returns true if the part is a property and not light. */
 bool part_is_property(int part);

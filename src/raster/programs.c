@@ -11,7 +11,7 @@
 #include "base/thread.h"
 #include "raster/gl_tables.h"
 #include "raster/program.h"
-#include "weft/render.h"
+#include "weft/progress.h"
 
 typedef struct TextureSampler {
     const char *name;

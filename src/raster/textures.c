@@ -9,7 +9,7 @@
 #include "base/thread.h"
 #include "image/halve.h"
 #include "raster/check.h"
-#include "weft/render.h"
+#include "weft/progress.h"
 
 typedef struct Plan {
     const WeftScene *scene;

@@ -8,17 +8,17 @@
 
 const char *choice_id(ChoiceId choice, int k) {
     switch (choice) {
-    case CHOICE_workflow: return weft_workflow_id(k);
-    case CHOICE_profile: return weft_profile_id(k);
+    case CHOICE_workflow: return weft_workflow_name(k);
+    case CHOICE_profile: return weft_profile_name(k);
     case CHOICE_diffuse:
     case CHOICE_sheen_lobe: return weft_lobe_info(k) ? weft_lobe_info(k)->id : NULL;
     case CHOICE_sheen_d:
-    case CHOICE_d: return weft_term_id(WEFT_TERM_D, k);
+    case CHOICE_d: return weft_term_name(WEFT_TERM_D, k);
     case CHOICE_sheen_v:
-    case CHOICE_v: return weft_term_id(WEFT_TERM_V, k);
+    case CHOICE_v: return weft_term_name(WEFT_TERM_V, k);
     case CHOICE_sheen_f:
-    case CHOICE_f: return weft_term_id(WEFT_TERM_F, k);
-    case CHOICE_layer: return weft_layer_id(k);
+    case CHOICE_f: return weft_term_name(WEFT_TERM_F, k);
+    case CHOICE_layer: return weft_layer_name(k);
     case CHOICE_layer_by: return k == LAYER_BY_MAX ? "max" : k == LAYER_BY_CHANNEL ? "channel" : NULL;
     case CHOICE_convert:
         return k == CONVERT_METALLIC ? "metallic" : k == CONVERT_SPECULAR ? "specular" : NULL;
@@ -77,7 +77,7 @@ static const char *const workflows[][2] = {WEFT_WORKFLOWS(LISTED)};
 static const char *const profiles[][2] = {WEFT_PROFILES(LISTED)};
 enum { WORKFLOWS = sizeof workflows / sizeof *workflows, PROFILES = sizeof profiles / sizeof *profiles };
 
-const char *weft_workflow_id(int k) { return k >= 0 && k < WORKFLOWS ? workflows[k][0] : NULL; }
+const char *weft_workflow_name(int k) { return k >= 0 && k < WORKFLOWS ? workflows[k][0] : NULL; }
 const char *weft_workflow_help(int k) { return k >= 0 && k < WORKFLOWS ? workflows[k][1] : NULL; }
-const char *weft_profile_id(int k) { return k >= 0 && k < PROFILES ? profiles[k][0] : NULL; }
+const char *weft_profile_name(int k) { return k >= 0 && k < PROFILES ? profiles[k][0] : NULL; }
 const char *weft_profile_help(int k) { return k >= 0 && k < PROFILES ? profiles[k][1] : NULL; }

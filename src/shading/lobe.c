@@ -13,7 +13,7 @@ bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     return true;
 }
 
-WeftResult weft_lobe_create(const char *id, WeftLobe *out, WeftError *error) {
+WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error) {
     int k = weft_lobe_find(id);
     char text[SEVERAL_SIZE];
     const char *several = choice_several(CHOICE_sheen_lobe, id, text);

@@ -27,7 +27,7 @@ static const TermText *text_of(WeftTermKind kind, int k) {
     return NULL;
 }
 
-const char *weft_term_id(WeftTermKind kind, int k) {
+const char *weft_term_name(WeftTermKind kind, int k) {
     const TermText *text = text_of(kind, k);
     return text ? text->id : NULL;
 }

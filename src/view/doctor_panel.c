@@ -10,9 +10,9 @@
 static void name_engines(unsigned engines, char *text, size_t size) {
     size_t used = 0;
     text[0] = '\0';
-    for (int k = 0; weft_profile_id(k) && k < 32; k++) {
+    for (int k = 0; weft_profile_name(k) && k < 32; k++) {
         if (!(engines >> k & 1u) || used >= size) continue;
-        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", weft_profile_id(k));
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", weft_profile_name(k));
     }
 }
 

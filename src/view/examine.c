@@ -29,7 +29,7 @@ static void *work(void *user) {
 }
 
 static void drop(Examination *self) {
-    weft_doctor_free(self->doctor);
+    weft_doctor_close(self->doctor);
     free(self->path);
     free(self);
 }

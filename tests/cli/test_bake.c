@@ -272,7 +272,7 @@ static void pictures_are_tables_too(void **state) {
     WeftImage grey;
     WeftLobe lobe;
     WeftImage table;
-    assert_int_equal(weft_lobe_create("ashikhmin-conty-kulla", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ashikhmin-conty-kulla", &lobe, NULL), WEFT_OK);
     const WeftBakeDesc desc = {
         .kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form, .tolerance = 1e-4};
     assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);

@@ -106,7 +106,7 @@ static void all_has_a_line_each(void **state) {
     const char *wish = getenv("WEFT_TEST_SHORT");
     if (wish && wish[0] == '1') skip();
     int profiles = 0, lines = 0;
-    while (weft_profile_id(profiles)) profiles++;
+    while (weft_profile_name(profiles)) profiles++;
     Ran ran = RUN("check", "all", "--quick", "--no-gpu");
     assert_int_equal(ran.code, 0);
     assert_string_equal(ran.err, "");

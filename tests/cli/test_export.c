@@ -19,8 +19,9 @@ static void finish(Ran ran) { ran_free(&ran); }
 static void help_is_complete(void **state) {
     (void)state;
     Ran ran = done(LIST("export", "--help"));
-    for (int k = 0; weft_export_target(k); k++) assert_non_null(strstr(ran.out, weft_export_target(k)));
-    for (int k = 0; weft_export_lut(k); k++) assert_non_null(strstr(ran.out, weft_export_lut(k)));
+    for (int k = 0; weft_export_target_name(k); k++)
+        assert_non_null(strstr(ran.out, weft_export_target_name(k)));
+    for (int k = 0; weft_export_lut_name(k); k++) assert_non_null(strstr(ran.out, weft_export_lut_name(k)));
     for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
         if (strcspn(line, "\n") > 80) fail_msg("over 80 columns: %.100s", line);
     ran_free(&ran);
@@ -106,16 +107,16 @@ static void tables_are_read_back(void **state) {
     enum { HEADER = 148 };
     WeftLobe lobe;
     WeftExport made;
-    assert_int_equal(weft_lobe_create("ltc-fibre", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ltc-fibre", &lobe, NULL), WEFT_OK);
     assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL),
                      WEFT_OK);
     assert_int_equal(made.table_count, 1);
     const WeftImage *own = &made.tables[0].texels;
     const float *texels = own->pixels;
     size_t count = (size_t)own->width * (size_t)own->height, size;
-    for (int k = 0; weft_export_lut(k); k++)
-        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut(k), "--quiet",
-                         "-o", "t.glsl")));
+    for (int k = 0; weft_export_lut_name(k); k++)
+        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut_name(k),
+                         "--quiet", "-o", "t.glsl")));
     static const char *const floats[] = {"t.weft_texels_ltc_fibre.exr", "t.weft_texels_ltc_fibre.npy"};
     for (int f = 0; f < 2; f++) {
         WeftImage image = image_of(floats[f]);
@@ -161,7 +162,7 @@ static void png_is_scaled(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftExport plain, scaled;
-    assert_int_equal(weft_lobe_create("charlie-neubelt", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("charlie-neubelt", &lobe, NULL), WEFT_OK);
     WeftExportDesc desc = {.lobe = &lobe, .albedo = 1, .lut = WEFT_EXPORT_LUT_EXR};
     assert_int_equal(weft_export(&desc, &plain, NULL), WEFT_OK);
     desc.lut = WEFT_EXPORT_LUT_PNG16;

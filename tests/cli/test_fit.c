@@ -43,7 +43,7 @@ static void a_lobe_is_found(void **state) {
     WeftError error;
     if (weft_material_read("m.json", &material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(weft_reflection_create(&material, &of, NULL), WEFT_OK);
-    assert_int_equal(weft_lobe_create("ashikhmin-neubelt", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ashikhmin-neubelt", &lobe, NULL), WEFT_OK);
     lobe.params[0] = 0.3f;
     const float wo[3] = {0.6f, 0.0f, 0.8f}, wi[1][3] = {{-0.28f, 0.0f, 0.96f}};
     float f[1][3], g[3];

@@ -17,7 +17,7 @@ static void text_names_everything(void **state) {
     Ran ran = RUN("models");
     assert_int_equal(ran.code, 0);
     for (int k = 0; k < weft_lobe_count(); k++) assert_non_null(strstr(ran.out, weft_lobe_info(k)->id));
-    for (int k = 0; weft_layer_id(k); k++) assert_non_null(strstr(ran.out, weft_layer_id(k)));
+    for (int k = 0; weft_layer_name(k); k++) assert_non_null(strstr(ran.out, weft_layer_name(k)));
     for (int k = 0; weft_material_input_name(k); k++)
         assert_non_null(strstr(ran.out, weft_material_input_name(k)));
     for (int k = 0; weft_builtin_name(k); k++) assert_non_null(strstr(ran.out, weft_builtin_name(k)));
@@ -33,8 +33,8 @@ static void json_names_everything(void **state) {
     for (int k = 0; k < weft_lobe_count(); k++)
         assert_string_equal(json_string_value(json_object_get(json_array_get(lobes, (size_t)k), "id")),
                             weft_lobe_info(k)->id);
-    assert_non_null(weft_layer_id((int)json_array_size(json_object_get(all, "layers")) - 1));
-    assert_null(weft_layer_id((int)json_array_size(json_object_get(all, "layers"))));
+    assert_non_null(weft_layer_name((int)json_array_size(json_object_get(all, "layers")) - 1));
+    assert_null(weft_layer_name((int)json_array_size(json_object_get(all, "layers"))));
     assert_null(weft_material_input_name((int)json_array_size(json_object_get(all, "inputs"))));
     assert_null(weft_builtin_name((int)json_array_size(json_object_get(all, "scenes"))));
     json_decref(all);

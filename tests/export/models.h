@@ -45,7 +45,7 @@ static inline int models_lobes(Exported *out) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         if (info->traits & WEFT_LOBE_REFERENCE) continue;
         out[count] = (Exported){.id = info->id, .is_lobe = true};
-        assert_int_equal(weft_lobe_create(info->id, &out[count].lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(info->id, &out[count].lobe, NULL), WEFT_OK);
         count++;
     }
     return count;
@@ -53,13 +53,13 @@ static inline int models_lobes(Exported *out) {
 
 static inline int models_profiles(Exported *out) {
     int count = 0;
-    for (int k = 0; weft_workflow_id(k); k++) {
-        out[count] = (Exported){.id = weft_workflow_id(k), .profile = true};
+    for (int k = 0; weft_workflow_name(k); k++) {
+        out[count] = (Exported){.id = weft_workflow_name(k), .profile = true};
         out[count].material = material_default();
         material_choose(&out[count++].material, CHOICE_workflow, k);
     }
-    for (int k = 1; weft_profile_id(k); k++) {
-        out[count] = (Exported){.id = weft_profile_id(k), .profile = true};
+    for (int k = 1; weft_profile_name(k); k++) {
+        out[count] = (Exported){.id = weft_profile_name(k), .profile = true};
         out[count].material = material_default();
         material_choose(&out[count++].material, CHOICE_profile, k);
     }

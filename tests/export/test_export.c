@@ -40,7 +40,7 @@ static void texts_are_clean(void **state) {
             desc.albedo = 0;
             WeftExport made = model_export(&desc);
             assert_int_equal(made.size, strlen(made.text));
-            assert_text(s, weft_export_target(t), made.text);
+            assert_text(s, weft_export_target_name(t), made.text);
             if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made.text, "Example"));
             if (t == WEFT_EXPORT_SHADERTOY)
                 assert_non_null(strstr(made.text, "void mainImage(out vec4 pixel"));
@@ -368,8 +368,8 @@ static void nonsense_is_refused(void **state) {
     WeftMaterial material;
     WeftExport out;
     WeftError error;
-    assert_int_equal(weft_lobe_create("ggx", &ggx, NULL), WEFT_OK);
-    assert_int_equal(weft_lobe_create("fibre-walk", &walk, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &ggx, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("fibre-walk", &walk, NULL), WEFT_OK);
     memset(&material, 0, sizeof material);
     material.inputs[0].value[0] = (float)NAN;
     const struct {

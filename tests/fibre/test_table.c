@@ -110,7 +110,7 @@ static void the_file_is_what_its_command_makes(void **state) {
     lobe_tables_make();
     TableRef t = lobe_table_refs[1];
     int rows = t.rows / 4, cells = rows * t.columns;
-    assert_int_equal(weft_lobe_create("fibre", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("fibre", &lobe, NULL), WEFT_OK);
     WeftImage again = baked("ltc-level", &lobe, t.columns, rows, 0);
     const float *texels = again.pixels;
     for (int c = 0; c < 4; c++)

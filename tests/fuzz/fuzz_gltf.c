@@ -78,7 +78,7 @@ static void check_doctor(const uint8_t *data, size_t size) {
         const WeftFinding *finding = weft_doctor_finding(doctor, k);
         demand(finding->words[0] && finding->subject[0] && strchr(finding->words, '\n') == NULL);
     }
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

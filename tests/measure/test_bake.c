@@ -28,7 +28,7 @@ static WeftTableForm form_of(const char *text) {
 
 static WeftLobe lobe_of_id(const char *id) {
     WeftLobe lobe;
-    assert_int_equal(weft_lobe_create(id, &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init(id, &lobe, NULL), WEFT_OK);
     return lobe;
 }
 

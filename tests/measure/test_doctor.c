@@ -271,7 +271,7 @@ static void paint_beside_chrome_is_no_dark_metal(void **state) {
         for (int k = 0; k < weft_doctor_count(doctor); k++)
             found += weft_doctor_finding(doctor, k)->kind == WEFT_FINDING_METAL_DARK;
         assert_int_equal(found, dark);
-        weft_doctor_free(doctor);
+        weft_doctor_close(doctor);
         free(text);
     }
     free(chrome);
@@ -300,7 +300,7 @@ static void each_finds_its_own(void **state) {
         }
         if ((count > 0) != (cases[k].kind >= 0))
             fail_msg("case %d: %d findings, not %s", k, count, weft_finding_name(cases[k].kind));
-        weft_doctor_free(doctor);
+        weft_doctor_close(doctor);
         free(text);
     }
 }
@@ -393,8 +393,8 @@ static void what_is_fixed_stays_fixed(void **state) {
             fail_msg("case %d: %d values differ, %d fixed", k, different, fixable);
         json_decref(was);
         json_decref(now);
-        weft_doctor_free(doctor);
-        weft_doctor_free(again);
+        weft_doctor_close(doctor);
+        weft_doctor_close(again);
         free(text);
     }
 }
@@ -421,7 +421,7 @@ static void roughness_moves_to_alpha(void **state) {
     assert_int_equal(image->channels, 2);
     for (int k = 0; k < 16; k++) assert_int_equal(((uint8_t *)image->pixels)[2 * k + 1], 180 + 4 * k);
     weft_scene_free(scene);
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
     free(text);
 }
 
@@ -452,7 +452,7 @@ static void shared_roughness_stays_shared(void **state) {
         assert_int_equal(json_integer_value(info), expected[k]);
     }
     json_decref(now);
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
     free(text);
 }
 
@@ -499,8 +499,8 @@ static void like_materials_are_measured_once(void **state) {
     assert_int_equal(together->energy_count, KINDS);
     for (int k = 0; k < 2 * KINDS; k++)
         assert_same_words(weft_doctor_finding(together, k), weft_doctor_finding(alone[k % KINDS], 0));
-    for (int k = 0; k < KINDS; k++) weft_doctor_free(alone[k]);
-    weft_doctor_free(together);
+    for (int k = 0; k < KINDS; k++) weft_doctor_close(alone[k]);
+    weft_doctor_close(together);
     free(text);
 }
 
@@ -532,7 +532,7 @@ static void a_thousand_sheens_take_seconds(void **state) {
     print_message("%d sheens: %.2f s\n", SHEENS, seconds);
     assert_true(weft_doctor_count(doctor) > 10);
     if (!shorter) assert_true(seconds < 6.0); /* sanitizers have no say in it */
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
     free(text);
     free(all);
 }
@@ -570,7 +570,7 @@ static void parts_make_the_whole(void **state) {
                                  coat ? ", coat" : "", (double)cosines[c], (double)got, (double)most);
                     weft_reflection_free(reflection);
                 }
-            weft_doctor_free(doctor);
+            weft_doctor_close(doctor);
             free(text);
         }
 }
@@ -583,7 +583,7 @@ static void gain_is_measured(void **state) {
     assert_int_equal(finding->engines, 1u << choice_find(CHOICE_profile, "three"));
     assert_true(finding->figure > 1.1 && finding->figure < 1.3);
     assert_string_equal(finding->place, "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor");
-    weft_doctor_free(doctor);
+    weft_doctor_close(doctor);
     free(text);
 }
 
@@ -603,7 +603,7 @@ static void built_in_scenes_have_no_errors(void **state) {
             const WeftFinding *finding = weft_doctor_finding(doctor, f);
             if (finding->severity == WEFT_SEVERITY_ERROR) fail_msg("%s: %s", name, finding->words);
         }
-        weft_doctor_free(doctor);
+        weft_doctor_close(doctor);
         weft_scene_free(scene);
     }
 }
@@ -626,7 +626,7 @@ static void examine_folder(const char *path, int depth, int *files) {
             continue;
         }
         for (int f = 0; f < weft_doctor_count(doctor); f++) whole_words(weft_doctor_finding(doctor, f));
-        weft_doctor_free(doctor);
+        weft_doctor_close(doctor);
     }
     if (listing) closedir(listing);
 }

@@ -53,7 +53,7 @@ static double normal(void) {
 static WeftLobe coloured(int index) {
     const WeftLobeInfo *info = weft_lobe_info(index);
     WeftLobe lobe;
-    assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
     const float color[3] = {0.8f, 0.5f, 0.3f}, second[3] = {0.9f, 0.6f, 0.7f};
     for (int k = 0; k < info->param_count; k++)
         if (!info->params[k].choices)
@@ -177,7 +177,7 @@ static void free_terms_are_found(void **state) {
     WeftFit fit;
     static const char *const terms[][2] = {
         {"d", "inverse-ggx"}, {"v", "neubelt"}, {"f", "schlick"}, {"alpha", "0.3"}};
-    assert_int_equal(weft_lobe_create("cook-torrance", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("cook-torrance", &lobe, NULL), WEFT_OK);
     for (int k = 0; k < 4; k++)
         assert_int_equal(weft_lobe_set(&lobe, terms[k][0], terms[k][1], NULL, &error), WEFT_OK);
     const float f0[3] = {0.4f, 0.2f, 0.1f}, f90[3] = {0.9f, 0.6f, 0.7f};

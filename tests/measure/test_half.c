@@ -114,7 +114,7 @@ static void small_floors_vanish(void **state) {
     SKIP_WITHOUT_HALF()
     WeftLobe lobe;
     float up[3] = {0.0f, 0.0f, 1.0f}, f[3];
-    assert_int_equal(weft_lobe_create("ashikhmin-neubelt", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ashikhmin-neubelt", &lobe, NULL), WEFT_OK);
     weft_lobe_eval(&lobe, up, up, f);
     assert_true(sweep_finite(f[0]));
     assert_false(sweep_finite(ask("ashikhmin-neubelt", lobe.params, pair(1.0, 1.0, 0.0))));

@@ -12,13 +12,13 @@
 static WeftLtc *make_of(const WeftLobe *lobe, WeftLtcDesc desc) {
     WeftLtc *ltc;
     WeftError error = {0};
-    if (weft_ltc_make(lobe, &desc, &ltc, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_ltc_create(lobe, &desc, &ltc, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     return ltc;
 }
 
 static WeftLtc *make(const char *id, int rows, int columns) {
     WeftLobe lobe;
-    assert_int_equal(weft_lobe_create(id, &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init(id, &lobe, NULL), WEFT_OK);
     return make_of(&lobe, (WeftLtcDesc){.rows = rows, .columns = columns, .no_cache = 1});
 }
 
@@ -153,8 +153,8 @@ static void every_lobe_is_fitted_or_refused(void **state) {
             WeftLobe lobe;
             WeftLtc *ltc;
             WeftError error = {0};
-            assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
-            assert_int_equal(weft_ltc_make(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error),
+            assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
+            assert_int_equal(weft_ltc_create(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error),
                              WEFT_USAGE);
             assert_int_equal(error.message, WEFT_MESSAGE_LTC_LOBE);
             assert_non_null(strstr(error.text, info->id));
@@ -186,7 +186,7 @@ static void parameters_are_looked_at(void **state) {
     WeftLobe lobe;
     WeftLtc *ltc;
     WeftError error = {0};
-    assert_int_equal(weft_lobe_create("ggx", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &lobe, NULL), WEFT_OK);
     WeftLtc *white = make_of(&lobe, (WeftLtcDesc){.rows = 3, .columns = 4, .no_cache = 1});
     WeftLtc *dielectric =
         make_of(&lobe, (WeftLtcDesc){.rows = 3, .columns = 4, .f0 = 0.04f, .f90 = 1.0f, .no_cache = 1});
@@ -201,7 +201,7 @@ static void parameters_are_looked_at(void **state) {
     weft_ltc_free(dielectric);
 
     assert_int_equal(weft_lobe_set(&lobe, "anisotropy", "0.5", NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_ltc_make(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error), WEFT_USAGE);
+    assert_int_equal(weft_ltc_create(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LTC_LOBE);
     const WeftLtcDesc wrong[] = {{.rows = 1},
                                  {.rows = 257},
@@ -213,14 +213,14 @@ static void parameters_are_looked_at(void **state) {
                                  {.high = NAN},
                                  {.f0 = -1.0f},
                                  {.f90 = NAN}};
-    assert_int_equal(weft_lobe_create("ggx", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &lobe, NULL), WEFT_OK);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        assert_int_equal(weft_ltc_make(&lobe, &wrong[k], &ltc, NULL, &error), WEFT_USAGE);
+        assert_int_equal(weft_ltc_create(&lobe, &wrong[k], &ltc, NULL, &error), WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_DESC);
         assert_null(ltc);
     }
     lobe.lobe = -1;
-    assert_int_equal(weft_ltc_make(&lobe, &(WeftLtcDesc){0}, &ltc, NULL, &error), WEFT_USAGE);
+    assert_int_equal(weft_ltc_create(&lobe, &(WeftLtcDesc){0}, &ltc, NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     assert_null(weft_ltc_channel_name(WEFT_LTC_CHANNELS));
     assert_string_equal(weft_ltc_channel_name(WEFT_LTC_AMPLITUDE_F90), "amplitude_f90");
@@ -406,7 +406,7 @@ static void mixing_costs_little(void **state) {
 static void threads_change_nothing(void **state) {
     (void)state;
     WeftLobe lobe;
-    assert_int_equal(weft_lobe_create("charlie-neubelt", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("charlie-neubelt", &lobe, NULL), WEFT_OK);
     WeftLtc *one = make_of(&lobe, (WeftLtcDesc){.rows = 5, .columns = 7, .threads = 1, .no_cache = 1});
     for (int threads = 2; threads <= 5; threads += 3) {
         WeftLtc *many =
@@ -429,9 +429,9 @@ static void progress_can_stop_it(void **state) {
     WeftLobe lobe;
     WeftLtc *ltc;
     double last = 0.0;
-    assert_int_equal(weft_lobe_create("ggx", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &lobe, NULL), WEFT_OK);
     WeftLtcDesc desc = {.rows = 4, .columns = 4, .progress = stop_at_half, .user = &last, .no_cache = 1};
-    assert_int_equal(weft_ltc_make(&lobe, &desc, &ltc, NULL, NULL), WEFT_INTERRUPTED);
+    assert_int_equal(weft_ltc_create(&lobe, &desc, &ltc, NULL, NULL), WEFT_INTERRUPTED);
     assert_null(ltc);
     assert_true(last > 0.5 && last < 1.0);
 }
@@ -463,11 +463,11 @@ static WeftLtc *make_cached(const char *alpha, int columns, int *ignored) {
     WeftLobe lobe;
     WeftLtc *ltc;
     WeftError error = {0};
-    assert_int_equal(weft_lobe_create("patry", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("patry", &lobe, NULL), WEFT_OK);
     assert_int_equal(weft_lobe_set(&lobe, "density", alpha, NULL, NULL), WEFT_OK);
     WeftLtcDesc desc = {.rows = 2, .columns = columns};
     *ignored = 0;
-    if (weft_ltc_make(&lobe, &desc, &ltc, &(WeftLog){count_ignored, ignored}, &error) != WEFT_OK)
+    if (weft_ltc_create(&lobe, &desc, &ltc, &(WeftLog){count_ignored, ignored}, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return ltc;
 }

@@ -32,7 +32,7 @@ static WeftReflection *of_material(const WeftMaterial *material) {
 static WeftLobe lobe_named(const char *id) {
     WeftLobe lobe;
     WeftError error;
-    if (weft_lobe_create(id, &lobe, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_lobe_init(id, &lobe, &error) != WEFT_OK) fail_msg("%s", error.text);
     return lobe;
 }
 
@@ -61,7 +61,7 @@ static WeftMaterial cloth(int profile) {
     weft_material_default(&material);
     for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++)
         assert_int_equal(weft_material_set(&material, inputs[k][0], inputs[k][1], NULL, &error), WEFT_OK);
-    assert_int_equal(weft_material_set(&material, "profile", weft_profile_id(profile), NULL, &error),
+    assert_int_equal(weft_material_set(&material, "profile", weft_profile_name(profile), NULL, &error),
                      WEFT_OK);
     return material;
 }
@@ -146,7 +146,7 @@ static void itself_stays(void **state) {
         }
         weft_reflection_free(from);
     }
-    for (int profile = 0; weft_profile_id(profile); profile++) {
+    for (int profile = 0; weft_profile_name(profile); profile++) {
         WeftMaterial material = cloth(profile), found = material;
         WeftReflection *from = of_material(&material);
         WeftMatch match;
@@ -251,7 +251,7 @@ static void what_is_held_stays(void **state) {
 static void never_worse_than_the_copy(void **state) {
     (void)state;
     int count = 0, step = getenv("WEFT_TEST_LONG") ? 1 : 23, jobs = 0;
-    while (weft_profile_id(count)) count++;
+    while (weft_profile_name(count)) count++;
     WeftMatchJob *all = calloc((size_t)(count * count), sizeof *all);
     WeftReflection **from = calloc((size_t)count, sizeof *from);
     assert_non_null(all);
@@ -272,8 +272,8 @@ static void never_worse_than_the_copy(void **state) {
         assert_int_equal(
             weft_brdf_distance(to, all[j].from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &again, NULL),
             WEFT_OK);
-        print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_id(k / count), weft_profile_id(k % count),
-                      all[j].found.copied, all[j].found.matched);
+        print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_name(k / count),
+                      weft_profile_name(k % count), all[j].found.copied, all[j].found.matched);
         assert_true(all[j].found.matched <= all[j].found.copied);
         assert_true(fabs(again - all[j].found.matched) < 1e-9); /* what is said of it is so */
         weft_reflection_free(to);
@@ -379,7 +379,7 @@ static const char textured[] =
 
 static int profile_named(const char *id) {
     int k = 0;
-    while (weft_profile_id(k) && strcmp(weft_profile_id(k), id) != 0) k++;
+    while (weft_profile_name(k) && strcmp(weft_profile_name(k), id) != 0) k++;
     return k;
 }
 

@@ -261,8 +261,8 @@ static void the_furnace_of_no_sheen_is_one(void **state) {
     sheen.params[0] = 0.01f;
     albedo_table_fill(&table, &sheen, 0.01f, 0.01f, 1);
     Dir o = dir(0.0f, 0.0f, 1.0f); /* where the thin rim is nothing */
-    for (int layer = 0; weft_layer_id(layer); layer++)
-        if (!strstr("seed side-by-side albedo-max", weft_layer_id(layer)))
+    for (int layer = 0; weft_layer_name(layer); layer++)
+        if (!strstr("seed side-by-side albedo-max", weft_layer_name(layer)))
             assert_near(furnace_measure(&sheen, 0.1f, layer, &table, o, 100, 10000).e, 1.0, 0.02);
     Lobe lambert = lobe_default(weft_lobe_find("lambert"));
     albedo_table_fill(&table, &lambert, 0.0f, 0.0f, 1);

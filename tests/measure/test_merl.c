@@ -68,7 +68,7 @@ static void synthesise(const WeftLobe *lobe) {
 static WeftLobe velvet(void) {
     WeftLobe lobe;
     WeftError error;
-    assert_int_equal(weft_lobe_create("ashikhmin-neubelt", &lobe, &error), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ashikhmin-neubelt", &lobe, &error), WEFT_OK);
     lobe.f0[0] = 0.9f, lobe.f0[1] = 0.5f, lobe.f0[2] = 0.1f;
     return lobe;
 }

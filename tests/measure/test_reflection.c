@@ -112,7 +112,7 @@ static void parts_sum_up(void **state) {
     }
 }
 
-/* White velvet under profiles, as weft_passport_make has it. */
+/* White velvet under profiles, as weft_passport_measure has it. */
 static void albedo_is_the_passports(void **state) {
     (void)state;
     static const char *const profiles[] = {"khronos", "filament-cloth", "unreal4"};
@@ -128,8 +128,8 @@ static void albedo_is_the_passports(void **state) {
         set(&m, INPUT_roughness, 1.0f);
         set(&m, INPUT_ior, 1.5f);
         assert_int_equal(
-            weft_passport_make(&(WeftPassportDesc){.id = profiles[k], .quick = 1, .no_gpu = 1, .brief = 1},
-                               &passport, &error),
+            weft_passport_measure(&(WeftPassportDesc){.id = profiles[k], .quick = 1, .no_gpu = 1, .brief = 1},
+                                  &passport, &error),
             WEFT_OK);
         set(&m, INPUT_sheen_roughness, passport.values[passport.row_default]);
         WeftReflection *r = made(&m);

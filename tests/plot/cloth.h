@@ -26,7 +26,7 @@ typedef struct Cloth {
 
 static inline void cloth_of_lobe(Cloth *cloth, const char *id, const char *param, const char *value) {
     WeftError error;
-    assert_int_equal(weft_lobe_create(id, &cloth->lobe, &error), WEFT_OK);
+    assert_int_equal(weft_lobe_init(id, &cloth->lobe, &error), WEFT_OK);
     if (param) assert_int_equal(weft_lobe_set(&cloth->lobe, param, value, NULL, &error), WEFT_OK);
     assert_int_equal(weft_reflection_of_lobe(&cloth->lobe, &cloth->reflection, &error), WEFT_OK);
     cloth->model = (WeftPlotModel){.reflection = cloth->reflection, .lobe = &cloth->lobe, .label = id};

@@ -104,12 +104,12 @@ static void every_kind_of_every_profile_is_drawn(void **state) {
     (void)state;
     Cloth ggx = {.reflection = NULL};
     int profiles = 0;
-    while (weft_profile_id(profiles)) profiles++;
+    while (weft_profile_name(profiles)) profiles++;
     cloth_of_lobe(&ggx, "ggx", NULL, NULL);
     for (int k = 0; k < profiles; k += stride()) {
         Cloth cloth = {.reflection = NULL};
-        cloth_of_profile(&cloth, weft_profile_id(k));
-        every_kind(&cloth, &ggx, weft_profile_id(k));
+        cloth_of_profile(&cloth, weft_profile_name(k));
+        every_kind(&cloth, &ggx, weft_profile_name(k));
         cloth_free(&cloth);
     }
     cloth_free(&ggx);

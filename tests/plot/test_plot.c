@@ -145,7 +145,7 @@ static void albedo_and_furnace_are_the_library_s(void **state) {
     desc.kind = WEFT_PLOT_FURNACE;
     data = data_of(&desc);
     int rules = 0;
-    while (weft_layer_id(rules)) rules++;
+    while (weft_layer_name(rules)) rules++;
     assert_int_equal(data.panels[0].series_count, rules);
     for (int s = 0; s < rules; s++) {
         const WeftPlotSeries *series = &data.panels[0].series[s];

@@ -396,8 +396,8 @@ static void terms_agree(void **state) {
     bool good = true;
     char name[64];
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
-        for (int k = 0; weft_term_id((WeftTermKind)kind, k); k++) {
-            snprintf(name, sizeof name, "%c %s", "dvf"[kind], weft_term_id((WeftTermKind)kind, k));
+        for (int k = 0; weft_term_name((WeftTermKind)kind, k); k++) {
+            snprintf(name, sizeof name, "%c %s", "dvf"[kind], weft_term_name((WeftTermKind)kind, k));
             good &= agree(models[kind], k, name);
         }
     assert_true(good);
@@ -430,7 +430,7 @@ static void layers_agree(void **state) {
     };
     need_gpu();
     bool good = true;
-    for (int k = 0; weft_layer_id(k); k++) good &= agree(&model, k, weft_layer_id(k));
+    for (int k = 0; weft_layer_name(k); k++) good &= agree(&model, k, weft_layer_name(k));
     assert_true(good);
 }
 
@@ -460,15 +460,15 @@ static void put_readers(Text *text) {
 
 static int workflow_count(void) {
     int count = 0;
-    while (weft_workflow_id(count)) count++;
+    while (weft_workflow_name(count)) count++;
     return count;
 }
 
 /* The choice that is made for stacks of that number: a workflow, behind them a profile, behind them any. */
 static const char *stack_name(int which) {
     int workflows = workflow_count();
-    if (which < workflows) return weft_workflow_id(which);
-    return weft_profile_id(which - workflows + 1); /* profile 0 is none */
+    if (which < workflows) return weft_workflow_name(which);
+    return weft_profile_name(which - workflows + 1); /* profile 0 is none */
 }
 
 static void put_stack(Text *text, int which) {

@@ -268,13 +268,13 @@ static void profiles_read_their_own(void **state) {
     set_value(&m, "anisotropy", 0.0f);
     set_value(&m, "sheen_color", 0.5f);
     /* whatever a profile reads, all of them read something of a sheen and of a base */
-    for (int k = 1; weft_profile_id(k); k++) {
+    for (int k = 1; weft_profile_name(k); k++) {
         WeftMaterial p = m;
-        set_choice(&p, "profile", weft_profile_id(k));
+        set_choice(&p, "profile", weft_profile_name(k));
         int count = 0;
         for (int i = 0; i < INPUT_COUNT; i++) count += weft_material_reads(&p, i) != 0;
         if (count < 6 || count > 25 || !weft_material_reads(&p, INPUT_base_color))
-            fail_msg("%s reads %d", weft_profile_id(k), count);
+            fail_msg("%s reads %d", weft_profile_name(k), count);
     }
     m.unlit = 1;
     assert_reads(&m, "base_color -roughness -emission -normal -sheen_color -dust");

@@ -145,7 +145,7 @@ static void lobes_have_their_integrals(void **state) {
         double lobe_worst = 0.0;
         for (int s = 0; s < SPREAD; s++) {
             WeftLobe lobe;
-            assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+            assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
             int shape = weft_lobe_param_find(id, "alpha");
             if (shape < 0) shape = 0;
             if ((info->param_count == 0 || info->params[shape].choices) && s > 0) continue;
@@ -189,7 +189,7 @@ static void many_are_as_one(void **state) {
     const float cos_o[N] = {1.0f, 0.3f, 1e-3f, 0.0f, -1.0f, NAN, 2.0f};
     float r[N], g[N], b[N], one[3];
     WeftLobe lobe;
-    weft_lobe_create("ggx", &lobe, NULL);
+    weft_lobe_init("ggx", &lobe, NULL);
     lobe.f0[0] = 0.04f, lobe.f0[1] = 0.5f;
     lobe.f90[2] = 0.25f;
     assert_int_equal(weft_albedo_n(&lobe, N, cos_o, (WeftColors){r, g, b}, NULL), WEFT_OK);

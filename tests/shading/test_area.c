@@ -112,7 +112,7 @@ static void layers_are_honoured(void **state) {
         w.surface.specular = 1.0f;
         w.surface.specular_color = rgb_grey(1.0f);
         double error = error_of(whole, &w, 3);
-        print_message("%-12s %6.3f %%\n", weft_layer_id(rules[k]), 100.0 * error);
+        print_message("%-12s %6.3f %%\n", weft_layer_name(rules[k]), 100.0 * error);
         assert_true(error < 0.02);
     }
 }

@@ -78,7 +78,7 @@ static void *ask_all(void *user) {
     Asker *asker = user;
     for (int id = 0; id < weft_lobe_count(); id++) {
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
         ask(&lobe, &questions, 0, N, asker->shift, &asker->answers[id]);
     }
     return NULL;
@@ -166,7 +166,7 @@ static void channels_are_optional(void **state) {
     static Answers a;
     float red[N];
     WeftLobe lobe;
-    weft_lobe_create("ggx", &lobe, NULL);
+    weft_lobe_init("ggx", &lobe, NULL);
     lobe.f0[1] = 0.25f;
     ask(&lobe, &questions, 0, N, 0, &a);
     assert_int_equal(
@@ -185,7 +185,7 @@ static void no_direction_gives_nothing(void **state) {
     static Questions q;
     for (int id = 0; id < weft_lobe_count(); id++) {
         WeftLobe lobe;
-        weft_lobe_create(weft_lobe_info(id)->id, &lobe, NULL);
+        weft_lobe_init(weft_lobe_info(id)->id, &lobe, NULL);
         ask(&lobe, &questions, 0, N, 0, &right);
         q = questions;
         /* every third pair is spoilt, each component in turn */
@@ -230,7 +230,7 @@ static void errors_are_told(void **state) {
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     assert_true(is_zero(x[0]));
 
-    weft_lobe_create("ggx", &lobe, NULL);
+    weft_lobe_init("ggx", &lobe, NULL);
     assert_int_equal(weft_eval_n(&lobe, 1, none, i, f, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
     assert_int_equal(weft_eval_n(&lobe, 1, o, none, f, &error), WEFT_USAGE);

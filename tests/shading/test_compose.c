@@ -270,13 +270,13 @@ static void brushed_metal_stays_brushed(void **state) {
             assert_float_equal(seen_eval(&b, i, 0).f_cos.g, f, 1e-3f * f);
         }
     }
-    assert_string_equal(weft_profile_id(3), "hdrp-silk");
+    assert_string_equal(weft_profile_name(3), "hdrp-silk");
 }
 
 /* A rule that asks for more than an engine's own E gets the table of the lobe. */
 static void reciprocal_asks_the_table(void **state) {
     (void)state;
-    for (int profile = 1; weft_profile_id(profile); profile++)
+    for (int profile = 1; weft_profile_name(profile); profile++)
         for (int layer = 0; layer < 2; layer++) {
             Surface surface = plain();
             surface.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
@@ -343,7 +343,7 @@ static void one_stack_serves_all_directions(void **state) {
         Surface s = random_surface(&random, true);
         if (n % 4 == 0) s = dusted(s, random_unit(&random));
         Choices c = test_choices(CHOICE_AUTO, n % 3 ? CHOICE_AUTO : n / 3 % LAYER_COUNT);
-        if (n % 2 && weft_profile_id(n / 2 % 15)) c.profile = n / 2 % 15;
+        if (n % 2 && weft_profile_name(n / 2 % 15)) c.profile = n / 2 % 15;
         SeenStack kept = made(&s, c, random_direction(&random));
         for (int k = 0; k < 3; k++) {
             Dir o = random_direction(&random), i = random_direction(&random);

@@ -14,13 +14,13 @@ static Surface dusty(Random *random, float dust) {
 /* Every workflow, then every profile; false behind the last. */
 static bool stack_choices(int k, Choices *choices) {
     int workflows = 0;
-    while (weft_workflow_id(workflows)) workflows++;
+    while (weft_workflow_name(workflows)) workflows++;
     *choices = choices_unmade();
     if (k < workflows)
         choices->workflow = k;
     else
         choices->profile = k - workflows + 1;
-    return k < workflows || weft_profile_id(k - workflows + 1);
+    return k < workflows || weft_profile_name(k - workflows + 1);
 }
 
 static const AlbedoTable *table(void) {

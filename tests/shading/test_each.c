@@ -122,7 +122,7 @@ static void near_the_calls_for_one_pair(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
         inputs_make(id);
         for (int turn = 0; choice_of(info, turn, &lobe); turn++) {
             ask(&lobe, 0, N, out);
@@ -137,7 +137,7 @@ static void an_element_depends_on_itself_alone(void **state) {
     Random random = {23};
     for (int id = 0; id < weft_lobe_count(); id++) {
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
         inputs_make(id);
         ask(&lobe, 0, N, out);
         for (size_t first = 0, n; first < N; first += n) {
@@ -159,7 +159,7 @@ static void arrays_are_optional(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
         inputs_make(id);
         for (int c = 0; c < 3; c++) lobe.f0[c] = 0.25f, lobe.f90[c] = 0.75f;
         for (int k = 0; k < N; k++) {
@@ -190,7 +190,7 @@ static void errors_are_told(void **state) {
     assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], out[5], out[6], out[7], &error),
                      WEFT_USAGE);
     assert_true(out[4][1] < 1.0f);
-    assert_int_equal(weft_lobe_create("cook-torrance", &lobes.lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("cook-torrance", &lobes.lobe, NULL), WEFT_OK);
     lobes.params[1] = in[14]; /* a choice */
     assert_int_equal(weft_eval_each(&lobes, 3, o, i, f, NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);

@@ -120,7 +120,7 @@ static void traits_about_energy_hold(void **state) {
 static double albedo(const char *id, const char *alpha, float cos_o) {
     WeftLobe lobe;
     float e[3];
-    assert_int_equal(weft_lobe_create(id, &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init(id, &lobe, NULL), WEFT_OK);
     assert_int_equal(weft_lobe_set(&lobe, "alpha", alpha, NULL, NULL), WEFT_OK);
     weft_lobe_albedo(&lobe, cos_o, e);
     return (double)e[0];
@@ -158,7 +158,7 @@ static void known_values_come_out(void **state) {
     /* GGX of alpha 1 at normal incidence: the integral of c / (1 + c) is 1 - ln 2 */
     WeftLobe ggx;
     float e[3], black[3] = {0}, white[3] = {1.0f, 1.0f, 1.0f};
-    weft_lobe_create("ggx", &ggx, NULL);
+    weft_lobe_init("ggx", &ggx, NULL);
     weft_lobe_set(&ggx, "alpha", "1", NULL, NULL);
     weft_lobe_albedo(&ggx, 1.0f, e);
     assert_float_equal(e[0], (1.0f - 0.693147181f), 1e-4f);

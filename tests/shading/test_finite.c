@@ -93,7 +93,7 @@ static void public_calls_stay_finite(void **state) {
     for (int n = 0; n < 20000; n++) {
         const WeftLobeInfo *info = weft_lobe_info(n % weft_lobe_count());
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
         for (int p = 0; p < info->param_count; p++) {
             const WeftParamInfo *row = &info->params[p];
             uint32_t choices = row->choices ? (uint32_t)row->hard_high + 1 : 9;
@@ -118,7 +118,7 @@ static void nothing_comes_from_below(void **state) {
     float u[2] = {0.5f, 0.5f}, f[3], wi[3];
     for (int id = 0; id < weft_lobe_count(); id++) {
         WeftLobe lobe;
-        weft_lobe_create(weft_lobe_info(id)->id, &lobe, NULL);
+        weft_lobe_init(weft_lobe_info(id)->id, &lobe, NULL);
         const float *pairs[4][2] = {{up, down}, {down, up}, {up, level}, {level, up}};
         for (int k = 0; k < 4; k++) {
             weft_lobe_eval(&lobe, pairs[k][0], pairs[k][1], f);

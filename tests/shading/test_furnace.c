@@ -38,8 +38,8 @@ static double sampled_furnace(const SeenStack *stack, Dir o, int count, double *
 
 static int layer_named(const char *id) {
     int k = 0;
-    while (weft_layer_id(k) && strcmp(weft_layer_id(k), id) != 0) k++;
-    assert_non_null(weft_layer_id(k));
+    while (weft_layer_name(k) && strcmp(weft_layer_name(k), id) != 0) k++;
+    assert_non_null(weft_layer_name(k));
     return k;
 }
 

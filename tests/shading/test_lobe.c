@@ -26,7 +26,7 @@ static void parameters_are_clamped(void **state) {
     for (int k = 0; k < weft_lobe_count(); k++)
         for (size_t w = 0; w < sizeof wild / sizeof wild[0]; w++) {
             WeftLobe lobe;
-            assert_int_equal(weft_lobe_create(weft_lobe_info(k)->id, &lobe, NULL), WEFT_OK);
+            assert_int_equal(weft_lobe_init(weft_lobe_info(k)->id, &lobe, NULL), WEFT_OK);
             for (int p = 0; p < WEFT_LOBE_PARAMS_MAX; p++) lobe.params[p] = wild[w];
             float f[3], e[3], wi[3];
             weft_lobe_eval(&lobe, aside, up, f);
@@ -48,7 +48,7 @@ static void roughness_sets_what_a_material_sets(void **state) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         WeftLobe lobe;
         WeftError error;
-        assert_int_equal(weft_lobe_create(info->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
         WeftResult result = weft_lobe_set(&lobe, "roughness", "0.6", NULL, &error);
         if (info->param_count) {
             assert_int_equal(result, WEFT_OK);
@@ -63,7 +63,7 @@ static void roughness_sets_what_a_material_sets(void **state) {
     }
     assert_int_equal(refused, 2); /* lambert and burley-sheen */
     WeftLobe silk;
-    assert_int_equal(weft_lobe_create("silk", &silk, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("silk", &silk, NULL), WEFT_OK);
     assert_int_equal(weft_lobe_set(&silk, "roughness", "0.6", NULL, NULL), WEFT_OK);
     assert_float_equal(silk.params[0], 0.36f, 1e-7f);
 }

@@ -464,14 +464,14 @@ static void profiles_are_their_engines(void **state) {
                     fmax(fabs(got.c[k] - want.c[k]) - tolerance, 0.0) / fmax(fabs(want.c[k]), 1e-4);
                 worst[profile] = fmax(worst[profile], error);
                 if (!(error <= 1e-5))
-                    fail_msg("%s, surface %d, channel %d: %.7g and not %.7g", weft_profile_id(profile), n, k,
-                             got.c[k], want.c[k]);
+                    fail_msg("%s, surface %d, channel %d: %.7g and not %.7g", weft_profile_name(profile), n,
+                             k, got.c[k], want.c[k]);
             }
         }
     }
     for (int profile = 1; profile < PROFILES; profile++)
-        print_message("%-15s off by %.1e at most\n", weft_profile_id(profile), worst[profile]);
-    assert_null(weft_profile_id(PROFILES));
+        print_message("%-15s off by %.1e at most\n", weft_profile_name(profile), worst[profile]);
+    assert_null(weft_profile_name(PROFILES));
 }
 
 static float hard(Random *random, float low, float high) {
@@ -509,7 +509,7 @@ static void nothing_is_infinite_or_negative(void **state) {
             Rgb f = value.f_cos;
             if (!(isfinite(f.r) && isfinite(f.g) && isfinite(f.b) && isfinite(value.pdf) && f.r >= 0.0f &&
                   f.g >= 0.0f && f.b >= 0.0f && value.pdf >= 0.0f))
-                fail_msg("%s, surface %d: %g %g %g, pdf %g", weft_profile_id(profile), n, (double)f.r,
+                fail_msg("%s, surface %d: %g %g %g, pdf %g", weft_profile_name(profile), n, (double)f.r,
                          (double)f.g, (double)f.b, (double)value.pdf);
             Dir w = seen_sample(&stack, random_unit(&random), random_unit(&random));
             assert_true(isfinite(w.x) && isfinite(w.y) && isfinite(w.z));
@@ -552,7 +552,7 @@ static void sheens_reflect_what_their_engines_do(void **state) {
         double got =
             (double)stack.stack.sheen.f0.g * (double)e.f0 + (double)stack.stack.sheen.f90.g * (double)e.f90;
         if (!(fabs(got - known[k].e) < 0.004 * known[k].e + 5e-4))
-            fail_msg("%s at %g, cos_o %g: %.5f and not %g", weft_profile_id(known[k].profile),
+            fail_msg("%s at %g, cos_o %g: %.5f and not %g", weft_profile_name(known[k].profile),
                      (double)known[k].r, known[k].v, got, known[k].e);
     }
 }
@@ -679,7 +679,7 @@ static void no_two_are_the_same(void **state) {
     }
     for (int j = 0; j < PROFILES; j++)
         for (int k = 0; k < j; k++)
-            if (!(apart[j][k] > 0.05)) fail_msg("%s is %s", weft_profile_id(j), weft_profile_id(k));
+            if (!(apart[j][k] > 0.05)) fail_msg("%s is %s", weft_profile_name(j), weft_profile_name(k));
 }
 
 int main(void) {

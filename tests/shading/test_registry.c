@@ -63,24 +63,24 @@ static void every_layer_file_is_listed(void **state) {
     (void)state;
     DIR *folder = open_folder("layers");
     int files = 0, layers = 0;
-    while (weft_layer_id(layers)) layers++;
+    while (weft_layer_name(layers)) layers++;
     for (struct dirent *entry; (entry = readdir(folder));) {
         char id[64];
         if (!id_of_file(entry->d_name, id)) continue;
         files++;
         int k = 0;
-        while (k < layers && strcmp(weft_layer_id(k), id) != 0) k++;
+        while (k < layers && strcmp(weft_layer_name(k), id) != 0) k++;
         if (k == layers) fail_msg("layers/%s has no line in layer.h", entry->d_name);
     }
     closedir(folder);
     assert_int_equal(files, layers);
     assert_int_equal(layers, LAYER_COUNT);
     for (int k = 0; k < layers; k++) {
-        assert_true(is_kebab(weft_layer_id(k)));
+        assert_true(is_kebab(weft_layer_name(k)));
         assert_true(strlen(weft_layer_help(k)) > 10);
-        for (int j = 0; j < k; j++) assert_string_not_equal(weft_layer_id(k), weft_layer_id(j));
+        for (int j = 0; j < k; j++) assert_string_not_equal(weft_layer_name(k), weft_layer_name(j));
     }
-    assert_null(weft_layer_id(-1));
+    assert_null(weft_layer_name(-1));
     assert_null(weft_layer_help(layers));
 }
 
@@ -190,12 +190,12 @@ static void a_name_that_is_none_is_refused(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftError error;
-    assert_int_equal(weft_lobe_create("velvet", &lobe, &error), WEFT_USAGE);
+    assert_int_equal(weft_lobe_init("velvet", &lobe, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
-    assert_int_equal(weft_lobe_create("ggx", &lobe, &error), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &lobe, &error), WEFT_OK);
     assert_int_equal(weft_lobe_set(&lobe, "shininess", "0.5", NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_NAME);
-    assert_int_equal(weft_lobe_create("lambert", &lobe, &error), WEFT_OK);
+    assert_int_equal(weft_lobe_init("lambert", &lobe, &error), WEFT_OK);
     assert_int_equal(weft_lobe_set(&lobe, "f90", "1", NULL, &error), WEFT_USAGE); /* it has no Fresnel term */
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_NAME);
 }
@@ -206,7 +206,7 @@ static void a_value_that_is_none_is_refused(void **state) {
     for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
         WeftLobe lobe;
         WeftError error;
-        weft_lobe_create("ggx", &lobe, NULL);
+        weft_lobe_init("ggx", &lobe, NULL);
         float before = lobe.params[0];
         assert_int_equal(weft_lobe_set(&lobe, "alpha", values[k], NULL, &error), WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_PARAM_VALUE);
@@ -223,7 +223,7 @@ static void values_beyond_the_ranges_warn(void **state) {
     Seen seen = {0};
     WeftLog log = {see, &seen};
     WeftLobe lobe;
-    weft_lobe_create("ggx", &lobe, NULL);
+    weft_lobe_init("ggx", &lobe, NULL);
     assert_int_equal(weft_lobe_set(&lobe, "alpha", "0.5", &log, NULL), WEFT_OK);
     assert_int_equal(seen.count, 0);
     assert_int_equal(weft_lobe_set(&lobe, "alpha", "2", &log, NULL), WEFT_OK); /* beyond the slider */

@@ -79,8 +79,8 @@ static void distributions_are_those_of_the_papers(void **state) {
             if (fabs(ax / wide(alpha) - 1.0) > 1e-7) fail_msg("alpha_x is not %g", wide(alpha));
             worst = fmax(worst, distance((double)spread(d, alpha, h), paper_d(d, alpha, h), 1e-5));
         }
-        print_message("D %-20s within %.1e of the formula\n", weft_term_id(WEFT_TERM_D, d), worst);
-        if (!(worst < 2e-5)) fail_msg("D %s is off by %g", weft_term_id(WEFT_TERM_D, d), worst);
+        print_message("D %-20s within %.1e of the formula\n", weft_term_name(WEFT_TERM_D, d), worst);
+        if (!(worst < 2e-5)) fail_msg("D %s is off by %g", weft_term_name(WEFT_TERM_D, d), worst);
     }
     /* and one that is not it would be found */
     Dir h = direction(0.3, 0.4);
@@ -111,7 +111,7 @@ static void distributions_are_normalised(void **state) {
             double off = fabs(norm(d, alphas[k], alphas[k]) - 1.0);
             worst = fmax(worst, off);
             if (!(off < 1e-3))
-                fail_msg("D %s alpha %g: the norm is off by %g", weft_term_id(WEFT_TERM_D, d), alphas[k],
+                fail_msg("D %s alpha %g: the norm is off by %g", weft_term_name(WEFT_TERM_D, d), alphas[k],
                          off);
         }
     print_message("integrals of D cos_h are 1 to %.1e\n", worst);
@@ -159,8 +159,8 @@ static Cells cells_seen(int d, double alpha, int count, bool regular) {
         Dir h = term_facet(d, (float)alpha, (float)wide(alpha), (float)alpha, u, v);
         float length = h.x * h.x + h.y * h.y + h.z * h.z;
         if (!(fabsf(length - 1.0f) < 1e-5f && h.z >= 0.0f))
-            fail_msg("D %s alpha %g u %g: a facet (%g %g %g)", weft_term_id(WEFT_TERM_D, d), alpha, (double)u,
-                     (double)h.x, (double)h.y, (double)h.z);
+            fail_msg("D %s alpha %g u %g: a facet (%g %g %g)", weft_term_name(WEFT_TERM_D, d), alpha,
+                     (double)u, (double)h.x, (double)h.y, (double)h.z);
         double theta = atan2(hypot((double)h.x, (double)h.y), (double)h.z);
         double turn = atan2((double)h.y, (double)h.x) / (2.0 * TEST_PI);
         int j = (int)(unstretch(theta / (TEST_PI / 2.0)) * RINGS);
@@ -205,7 +205,7 @@ static void samplers_follow_their_distributions(void **state) {
     (void)state;
     const double significance = 1.0 - power(1.0 - 0.01, 1.0 / (D_COUNT * (ALPHAS + 1)));
     for (int d = 0; d < D_COUNT; d++) {
-        const char *id = weft_term_id(WEFT_TERM_D, d);
+        const char *id = weft_term_name(WEFT_TERM_D, d);
         bool by_u = d != D_GGX_ANISO;
         double least = 1.0, apart = 0.0;
         for (int k = 0; k <= ALPHAS; k++) {
@@ -319,10 +319,10 @@ static void visibilities_are_those_of_the_papers(void **state) {
         }
         bool reciprocal = !strstr(weft_term_help(WEFT_TERM_V, v), "not reciprocal");
         if (reciprocal != (other_way < 1e-6))
-            fail_msg("V %s is %g off the other way round", weft_term_id(WEFT_TERM_V, v), other_way);
-        print_message("V %-20s within %.1e of the formula, G at most %.5f\n", weft_term_id(WEFT_TERM_V, v),
+            fail_msg("V %s is %g off the other way round", weft_term_name(WEFT_TERM_V, v), other_way);
+        print_message("V %-20s within %.1e of the formula, G at most %.5f\n", weft_term_name(WEFT_TERM_V, v),
                       worst, highest);
-        if (!(worst < 2e-5)) fail_msg("V %s is off by %g", weft_term_id(WEFT_TERM_V, v), worst);
+        if (!(worst < 2e-5)) fail_msg("V %s is off by %g", weft_term_name(WEFT_TERM_V, v), worst);
         /* none passes more than there is; Walter's fit does, by 6e-5 for each direction; urp has F inside */
         if (v != V_URP) assert_true(highest < (v == V_SMITH_BECKMANN ? 1.0 + 1.3e-4 : 1.0 + 1e-6));
     }
@@ -345,14 +345,14 @@ static void visibilities_are_finite(void **state) {
             Dir o = direction_cos(low[n % 5], 0.0), i = direction_cos(low[n / 5 % 5], turns[n / 25 % 5]);
             double value = (double)shadow(v, alpha, angles_between(o, i));
             if (!(value >= 0.0 && value <= 1e12))
-                fail_msg("V %s of %g and %g is %g", weft_term_id(WEFT_TERM_V, v), (double)o.z, (double)i.z,
+                fail_msg("V %s of %g and %g is %g", weft_term_name(WEFT_TERM_V, v), (double)o.z, (double)i.z,
                          value);
             highest = fmax(highest, value);
             o = dir(1.0f, 0.0f, 1e-30f);
             value = (double)shadow(v, alpha, angles_between(o, i.z < 0.5f ? dir(i.x, i.y, 1e-30f) : i));
             assert_true(value >= 0.0 && value <= 1e20);
         }
-        print_message("V %-20s at most %.1e\n", weft_term_id(WEFT_TERM_V, v), highest);
+        print_message("V %-20s at most %.1e\n", weft_term_name(WEFT_TERM_V, v), highest);
     }
 }
 
@@ -387,8 +387,8 @@ static void smith_masking_belongs_to_its_distribution(void **state) {
             double alpha = alphas[1 + 2 * (k % 3)];
             worst = fmax(worst, fabs(seen_share(pairs[p][0], pairs[p][1], alpha, cosines[k / 3]) - 1.0));
         }
-        print_message("masking %-20s of D %-10s is exact to %.1e\n", weft_term_id(WEFT_TERM_V, pairs[p][1]),
-                      weft_term_id(WEFT_TERM_D, pairs[p][0]), worst);
+        print_message("masking %-20s of D %-10s is exact to %.1e\n", weft_term_name(WEFT_TERM_V, pairs[p][1]),
+                      weft_term_name(WEFT_TERM_D, pairs[p][0]), worst);
         assert_true(worst < (p == 3 ? 4e-3 : 1e-3)); /* Walter's is a fit */
     }
     assert_true(fabs(seen_share(D_BLINN_PHONG, V_SMITH_GGX, 0.5, 0.1) - 1.0) > 0.01);
@@ -437,8 +437,8 @@ static void reflectances_are_those_of_the_papers(void **state) {
             float grazing = term_f(f, ior, k, 1e-12f);
             if (f != F_NONE && fabsf(ior - 1.0f) > 0.1f) assert_true(grazing > 0.999f);
         }
-        print_message("F %-14s share within %.1e of the formula\n", weft_term_id(WEFT_TERM_F, f), worst);
-        if (!(worst < 2e-5)) fail_msg("F %s is off by %g", weft_term_id(WEFT_TERM_F, f), worst);
+        print_message("F %-14s share within %.1e of the formula\n", weft_term_name(WEFT_TERM_F, f), worst);
+        if (!(worst < 2e-5)) fail_msg("F %s is off by %g", weft_term_name(WEFT_TERM_F, f), worst);
     }
     assert_true(fabs((double)term_f(F_DIELECTRIC, 1.5f, 0.0f, 0.3f) -
                      paper_share(F_DIELECTRIC, 1.501, 0, 0.3)) > 2e-5);
@@ -541,25 +541,25 @@ static void every_term_has_a_file_and_a_row(void **state) {
         for (size_t k = 2; k < length - 2; k++) id[k - 2] = entry->d_name[k] == '_' ? '-' : entry->d_name[k];
         WeftTermKind kind = (WeftTermKind)(letter - kind_letters);
         int term = 0;
-        while (weft_term_id(kind, term) && strcmp(weft_term_id(kind, term), id) != 0) term++;
-        if (!weft_term_id(kind, term)) fail_msg("terms/%s has no row in terms.h", entry->d_name);
+        while (weft_term_name(kind, term) && strcmp(weft_term_name(kind, term), id) != 0) term++;
+        if (!weft_term_name(kind, term)) fail_msg("terms/%s has no row in terms.h", entry->d_name);
         files++;
     }
     closedir(folder);
     for (int kind = 0; kind < 3; kind++) {
         for (int k = 0; k < counts[kind]; k++) {
-            const char *id = weft_term_id((WeftTermKind)kind, k),
+            const char *id = weft_term_name((WeftTermKind)kind, k),
                        *help = weft_term_help((WeftTermKind)kind, k);
             assert_non_null(id);
             assert_true(islower((unsigned char)id[0]) && strlen(help) > 10 && strlen(help) < 70);
-            for (int j = 0; j < k; j++) assert_string_not_equal(id, weft_term_id((WeftTermKind)kind, j));
+            for (int j = 0; j < k; j++) assert_string_not_equal(id, weft_term_name((WeftTermKind)kind, j));
             rows += !has_no_file(id);
         }
-        assert_null(weft_term_id((WeftTermKind)kind, counts[kind]));
+        assert_null(weft_term_name((WeftTermKind)kind, counts[kind]));
         assert_null(weft_term_help((WeftTermKind)kind, -1));
     }
     assert_int_equal(files, rows);
-    assert_null(weft_term_id((WeftTermKind)3, 0));
+    assert_null(weft_term_name((WeftTermKind)3, 0));
 }
 
 /* The choices of the lobe are these lists, in this order. */
@@ -573,7 +573,7 @@ static void the_lobe_offers_every_term(void **state) {
         assert_non_null(row->choices);
         assert_int_equal((int)row->hard_high, counts[kind] - 1);
         for (int k = 0; k < counts[kind]; k++)
-            assert_string_equal(row->choices[k], weft_term_id((WeftTermKind)kind, k));
+            assert_string_equal(row->choices[k], weft_term_name((WeftTermKind)kind, k));
         assert_null(row->choices[counts[kind]]);
     }
 }
@@ -641,8 +641,8 @@ static void every_pair_can_be_sampled(void **state) {
         }
         double mean = sum / N, error = root(fmax(squares / N - mean * mean, 0.0) / N);
         if (fabs(mean - e) > 4.5 * error + 1e-3)
-            fail_msg("d=%s v=%s cos_o=%g: E %.4f, sampling %.4f +- %.4f", weft_term_id(WEFT_TERM_D, d),
-                     weft_term_id(WEFT_TERM_V, v), (double)o.z, e, mean, error);
+            fail_msg("d=%s v=%s cos_o=%g: E %.4f, sampling %.4f +- %.4f", weft_term_name(WEFT_TERM_D, d),
+                     weft_term_name(WEFT_TERM_V, v), (double)o.z, e, mean, error);
         heaviest = fmax(heaviest, heavy);
         highest = fmax(highest, e);
         over += e > 1.0 + 1e-3;

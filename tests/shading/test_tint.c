@@ -69,7 +69,7 @@ static void albedo_is_integrated_for_each_colour(void **state) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!is_tinted(id)) continue;
         WeftLobe lobe;
-        assert_int_equal(weft_lobe_create(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
+        assert_int_equal(weft_lobe_init(weft_lobe_info(id)->id, &lobe, NULL), WEFT_OK);
         lobe.f0[1] = 0.6f, lobe.f0[2] = 0.2f;
         for (int c = 0; c < 3; c++) {
             Dir o = direction_cos(cosines[c], 0.0);

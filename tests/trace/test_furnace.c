@@ -54,7 +54,7 @@ static WeftLobe rough_lobe(int lobe, float alpha) {
     const WeftLobeInfo *info = weft_lobe_info(lobe);
     const WeftParamInfo *p = info->params;
     WeftLobe l;
-    assert_int_equal(weft_lobe_create(info->id, &l, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init(info->id, &l, NULL), WEFT_OK);
     if (info->param_count == 0) return l;
     l.params[0] = p->low + (p->high - p->low) * sqrtf(alpha);
     if (strcmp(p->name, "alpha") == 0) l.params[0] = alpha;

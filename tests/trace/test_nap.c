@@ -76,7 +76,7 @@ static double seen_and_freed(WeftScene *scene) {
 static double of_the_lobe(float tilt, float azimuth) {
     enum { COUNT = 20000 };
     WeftLobe lobe;
-    assert_int_equal(weft_lobe_create("fibre-walk", &lobe, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("fibre-walk", &lobe, NULL), WEFT_OK);
     static const char *const names[] = {"alpha", "density", "tilt", "azimuth"};
     const float values[] = {0.64f, 2.0f, tilt * DEGREES, azimuth * DEGREES};
     const WeftLobeInfo *info = weft_lobe_info(lobe.lobe);
