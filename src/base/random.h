@@ -21,7 +21,7 @@ static inline uint32_t hash_combine(uint32_t a, uint32_t b) {
 }
 
 /* 24 bits of x as a float in [0, 1). */
-static inline float unit_float(uint32_t x) { return (float)(x >> 8) * 0x1p-24f; }
+static inline float unit_float(uint32_t x) { return (float)(int32_t)(x >> 8) * 0x1p-24f; }
 
 /* 64 bits, for what draws too often for 32: a counter in steps of the golden ratio, mixed. Guy L. Steele,
  * Doug Lea, Christine H. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014, SplitMix64. */

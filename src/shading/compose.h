@@ -245,7 +245,8 @@ FN void view_select_p(const Stack *m, StackView *w) {
     }
     if (HAS_SHEEN(m)) {
         base_scale = rgb_mean(w->base_scale);
-        p.sheen = m->layer == LAYER_MULTIPLICATIVE ? 0.0f : max(p.sheen * w->e_o.e, 1e-3f);
+        bool sampled = m->layer != LAYER_MULTIPLICATIVE && p.sheen > 0.0f;
+        p.sheen = sampled ? max(p.sheen * w->e_o.e, 1e-3f) : 0.0f;
         p.diffuse = p.diffuse * base_scale;
         if (!IS_BELOW_F(m)) p.specular = p.specular * base_scale;
     }

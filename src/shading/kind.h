@@ -1,24 +1,35 @@
-/* kind.h - the stack in C for a material: its text with the structure known, or that of any lobes
+/* kind.h - vertices of paths shaded many at once, for the materials whose stack has a structure known before
  *
  * A kind is a row of kinds.list: which lobe a slot may hold, the layer rule, what dims the diffuse lobe,
- * where E comes from. The text of a stack is one; a kind is that text compiled with these as constants. Its
- * stacks and views are those of material_stack.h, whose functions take them too. */
+ * where E comes from. Its loops are the text of stacks (compose.h) compiled once more with these as
+ * constants, a vertex a lane: the arithmetic is that of material_stack.h but for the last bits. */
 #ifndef WEFT_SHADING_KIND_H
 #define WEFT_SHADING_KIND_H
 
 #include "shading/material_stack.h"
+#include "shading/surface_rows.h"
 
-/* The functions of material_stack.h, for what fits alone. */
-typedef struct StackKind {
-    bool (*fits)(const Stack *plain, const Choices *choices);
-    void (*make)(Stack *stack, const Surface *surface, const Choices *choices, TableRef e);
-    void (*see)(const Stack *stack, const Dir *o, StackView *view);
-    void (*eval)(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value);
-    void (*sample)(const Stack *stack, const StackView *view, float u, float v, Dir *i);
-} StackKind;
+enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };
 
-/* The kind of a material, the one of any lobes if no other fits. plain: its stack where all its textures are
- * 1, which is their most; NULL: that one anyway. */
+/* Vertices of surfaces in the shading frame; each wi is unit, in [KIND_DRAWN] the one that is sampled. */
+typedef struct KindVertices {
+    SurfaceRows surface;
+    float o[3][ROW_ROOM]; /* wo, z > 0 */
+    float u[ROW_ROOM], v[ROW_ROOM];
+    float i[KIND_DIRECTIONS][3][ROW_ROOM];
+    float f[KIND_DIRECTIONS][3][ROW_ROOM], pdf[KIND_DIRECTIONS][ROW_ROOM]; /* f cos and pdf; 0 below */
+    float e_o[ROW_ROOM], base_scale[3][ROW_ROOM], select_p[5][ROW_ROOM];   /* of the StackView */
+} KindVertices;
+
+typedef struct StackKind StackKind;
+
+/* The kind of a material; NULL: none has its structure. plain: its stack where all its textures are 1, which
+ * is their most. */
 const StackKind *stack_kind(const Stack *plain, const Choices *choices);
+
+/* Samples wi for the first n vertices, n a multiple of ROW_LANES, and gives f cos and pdf of it and of the
+ * directions [k] with lights[k]. e: as for stack_make. */
+void kind_shade(const StackKind *kind, KindVertices *vertices, TableRef e, const bool lights[KIND_LIGHTS],
+                int n);
 
 #endif

@@ -1,10 +1,12 @@
-/* kind_text.h - the text of stacks once more, for what a file that cmake/kinds.cmake made says is known */
+/* kind_text.h - the text of stacks as loops, for what a file that cmake/kinds.cmake made says is known */
 #ifndef WEFT_SHADING_KIND_TEXT_H
 #define WEFT_SHADING_KIND_TEXT_H
 
-#define HAS_LAYERED_SHEEN(m) (HAS_SHEEN(m) && (m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
+#define HAS_LAYERED_SHEEN(m) HAS_SHEEN(m) /* a black one leaves all of the base */
+#include "shading/frame.h"
 #include "shading/kind.h"
-#include "shading/stack_steps.h"
+#include "shading/kind_loops.h"
+#include "shading/loop.h"
 
 static Choices known_choices(void) {
     Choices c = choices_unmade();
@@ -12,43 +14,109 @@ static Choices known_choices(void) {
     return c;
 }
 
-/* The compiler takes what this says for granted. */
-FN bool is_known(const Stack *m) {
-    return m->layer == KIND_LAYER && m->combine == LAYER_BY_MAX && m->base_fresnel == KIND_BASE_FRESNEL &&
-           m->albedo == KIND_ALBEDO && m->view == VIEW_PLAIN;
-}
-#define KNOWN(m)                                                                                             \
-    if (!is_known(m)) __builtin_unreachable()
+#define TAKE_STACK(m, v)                                                                                     \
+    Surface s = surface_of_row(&(v)->surface, k);                                                            \
+    if (coat_lobe < 0) s.clearcoat = 0.0f;                                                                   \
+    if (dust_lobe < 0) s.dust = 0.0f;                                                                        \
+    Stack m;                                                                                                 \
+    compose_stack(&m, &s, known_choices(), e)
 
-#define HOLDS_NO_OTHER(name, NAME, Name, wo) &&(!(m->name.normal > 0.0f) || m->name.lobe.id == name##_lobe)
-#define SAME_CHOICE(name, help)              &&c.name == known.name
-static bool fits(const Stack *m, const Choices *choices) {
-    const Choices known = known_choices();
-    Choices c = *choices;
-    if (c.profile == 0) c.profile = CHOICE_AUTO; /* the first of either list is what auto comes to */
-    if (c.workflow == 0) c.workflow = CHOICE_AUTO;
-    bool has_e = !HAS_SHEEN(m) || (m->table.kind == TABLE_ROOTS && m->table.tilts == 0);
-    return has_e && is_known(m) SLOTS(HOLDS_NO_OTHER) SURFACE_CHOICES(SAME_CHOICE);
-}
+#define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;
+#define GET_SELECT_P(name, NAME, Name, wo) w.select_p.name = v->select_p[place++][k];
 
-static void make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e) {
-    compose_stack(stack, surface, known_choices(), e);
-}
-
-static void see(const Stack *stack, const Dir *o, StackView *view) {
-    KNOWN(stack);
-    stack_view(stack, *o, view);
+/* A table of one row is looked up otherwise: which one it is must be known before the loop. */
+FN void see_each(KindVertices *restrict v, TableRef e, int n) {
+    EACH(k, (size_t)n) {
+        TAKE_STACK(m, v);
+        StackView w = {0};
+        stack_view(&m, ROW_DIR(v->o, k), &w);
+        v->e_o[k] = w.e_o.e;
+        v->base_scale[0][k] = w.base_scale.r;
+        v->base_scale[1][k] = w.base_scale.g;
+        v->base_scale[2][k] = w.base_scale.b;
+        int place = 0;
+        SLOTS(PUT_SELECT_P)
+    }
 }
 
-static void eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value) {
-    KNOWN(stack);
-    steps_eval(stack, view, i, seed, value);
+CLONES static void see_n(KindVertices *restrict v, TableRef e, int n) {
+    if (e.rows < 2) {
+        e.rows = 1;
+        see_each(v, e, n);
+    } else
+        see_each(v, e, n);
 }
 
-static void sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
-    steps_sample(stack, view, u, v, i);
+FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
+    float(*i)[ROW_ROOM] = v->i[direction];
+    float(*f)[ROW_ROOM] = v->f[direction], *pdf = v->pdf[direction];
+    EACH(k, (size_t)n) {
+        TAKE_STACK(m, v);
+        StackView w = {0};
+        Dir wi = ROW_DIR(i, k);
+        bool above = wi.z > 0.0f;
+        float seen = above ? 1.0f : 0.0f; /* a choice would put look-ups in a branch */
+        wi = dir(above ? wi.x : 0.0f, above ? wi.y : 0.0f, above ? wi.z : 1.0f);
+        view_begin(&m, ROW_DIR(v->o, k), &w);
+        w.e_o = sheen_e_of(v->e_o[k]);
+        w.base_scale = rgb(v->base_scale[0][k], v->base_scale[1][k], v->base_scale[2][k]);
+        int place = 0;
+        SLOTS(GET_SELECT_P)
+        Angles a = angles_between(w.o, wi);
+        StackValue value = stack_value(&m, &w, &a, &a);
+        f[0][k] = value.f_cos.r * seen;
+        f[1][k] = value.f_cos.g * seen;
+        f[2][k] = value.f_cos.b * seen;
+        pdf[k] = value.pdf * seen;
+    }
 }
 
-const StackKind KIND = {fits, make, see, eval, sample};
+CLONES static void eval_n(KindVertices *restrict v, TableRef e, int direction, int n) {
+    if (e.rows < 2) {
+        e.rows = 1;
+        eval_each(v, e, direction, n);
+    } else
+        eval_each(v, e, direction, n);
+}
+
+#define TRY_SLOT(name, NAME, Name, wo)                                                                       \
+    if (name##_lobe >= 0) {                                                                                  \
+        bool begun = w.select_p.name > 0.0f && (slot < 0 || u >= at);                                        \
+        slot = begun ? place : slot;                                                                         \
+        begin = begun ? at : begin;                                                                          \
+        width = begun ? w.select_p.name : width;                                                             \
+        at += w.select_p.name;                                                                               \
+    }                                                                                                        \
+    place++;
+#define DRAW_SLOT(name, NAME, Name, wo)                                                                      \
+    if (name##_lobe >= 0) {                                                                                  \
+        Dir x;                                                                                               \
+        name##_sample_at(0, &m.name##_prepared, &w.name##_view, &w.wo, u, v->v[k], &x);                      \
+        i = dir_choose(slot == place, x, i);                                                                 \
+    }                                                                                                        \
+    place++;
+
+CLONES static void sample_n(KindVertices *restrict v, TableRef e, int n) {
+    float(*drawn)[ROW_ROOM] = v->i[KIND_DRAWN];
+    EACH(k, (size_t)n) {
+        TAKE_STACK(m, v);
+        StackView w = {0};
+        view_begin(&m, ROW_DIR(v->o, k), &w);
+        int place = 0, slot = -1;
+        SLOTS(GET_SELECT_P)
+        float u = v->u[k], begin = 0.0f, at = 0.0f, width = 1.0f;
+        place = 0;
+        SLOTS(TRY_SLOT)
+        u = min(max((u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f);
+        Dir i = dir(0.0f, 0.0f, -1.0f);
+        place = 0;
+        SLOTS(DRAW_SLOT)
+        drawn[0][k] = i.x;
+        drawn[1][k] = i.y;
+        drawn[2][k] = i.z;
+    }
+}
+
+const KindLoops KIND = {see_n, eval_n, sample_n};
 
 #endif

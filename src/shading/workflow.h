@@ -42,11 +42,9 @@ FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
 /* The base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
 FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90) {
     float mean = rgb_mean(diffuse);
-    if (rgb_max3(f0) > 0.0f || f90 > 0.0f) {
-        Lobe lobe = lobe_rough(LOBE_GGX, s->roughness);
-        lobe.params[GGX_ANISOTROPY] = s->anisotropy;
-        slot_make(&m->specular, lobe, f0, rgb_grey(f90), 1.0f, rgb_mean(f0), f90);
-    }
+    Lobe lobe = lobe_rough(LOBE_GGX, s->roughness);
+    lobe.params[GGX_ANISOTROPY] = s->anisotropy;
+    slot_make(&m->specular, lobe, f0, rgb_grey(f90), 1.0f, rgb_mean(f0), f90);
     slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f,
               mean * (1.0f - rgb_max3(m->interface_f0)), mean * (1.0f - m->interface_f90));
 }

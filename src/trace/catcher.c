@@ -1,6 +1,8 @@
 #include "trace/catcher.h"
 
+#include "shading/rgb.h"
 #include "shading/terms/d_ggx.h"
+#include "trace/sampler.h"
 
 /* One light sample of a group at a point of a white floor. */
 static void add_light(const PathContext *context, LightGroup group, Vec3 point, float share, Point uv,
@@ -17,39 +19,43 @@ static void add_light(const PathContext *context, LightGroup group, Vec3 point, 
 }
 
 /* Finds what a mirror of that roughness shows; false where that is not the scene. */
-static bool mirrored(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
-                     Sampler *sampler, Rgb *color, long long *rays) {
+static bool mirror(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
+                   Mirrored *found, long long *rays) {
     float alpha = max(floor->roughness * floor->roughness, 0.001f);
     Dir o = dir(-ray->direction.x, -ray->direction.z, -ray->direction.y); /* z is up here */
     Dir i = dir_mirror(o, ggx_sample_h(alpha, alpha, o, uv.u, uv.v));
-    Ray to = {point, vec3(i.x, i.z, i.y), 0.0f, INFINITY, hash32(ray->key + 0x9e3779b9u), ray->past_lights};
-    Hit hit;
+    found->ray =
+        (Ray){point, vec3(i.x, i.z, i.y), 0.0f, INFINITY, hash32(ray->key + 0x9e3779b9u), ray->past_lights};
     if (!(i.z > 0.0f)) return false;
     ++*rays;
-    if (!geometry_hit(context->geometry, to, &hit)) return false;
-    *color = path_radiance(context, to, hit, sampler, rays);
-    return color->r + color->g + color->b < INFINITY;
+    return geometry_hit(context->geometry, found->ray, &found->hit);
 }
 
-void catcher_sample(const PathContext *context, const Floor *floor, const Ray *ray, float t,
-                    const float behind[4], Sampler *sampler, Caught *caught, float sum[4], long long *rays) {
-    Vec3 point = vec3_madd(ray->origin, ray->direction, t);
+static Point numbers(PathKey key, uint32_t place) {
+    return sampler_point(key.pixel, key.sample, SAMPLER_FLOOR + place);
+}
+
+bool catcher_sample(const PathContext *context, const Floor *floor, const CatcherRay *from,
+                    const float behind[4], Caught *caught, float sum[4], Mirrored *mirrored,
+                    long long *rays) {
+    const Ray *ray = &from->ray;
+    Vec3 point = vec3_madd(ray->origin, ray->direction, from->t);
     float share = floor_coverage(floor, point), r = share * floor->reflection, c = 0.0f;
-    Rgb mirror = {0};
-    TwoPoints two = sampler_next(sampler), four = sampler_next(sampler);
-    const Point uv[LIGHT_GROUPS] = {two.first, two.second, four.first};
-    for (int g = 0; g < LIGHT_GROUPS; g++)
+    for (uint32_t g = 0; g < LIGHT_GROUPS; g++)
         if (lights_shine(context->lights, (LightGroup)g))
-            add_light(context, (LightGroup)g, point, share, uv[g], hash32(ray->key), caught, rays);
-    if (r > 0.0f && mirrored(context, floor, point, ray, four.second, sampler, &mirror, rays)) c = r;
-    const float M[3] = {mirror.r, mirror.g, mirror.b};
+            add_light(context, (LightGroup)g, point, share, numbers(from->key, g), hash32(ray->key), caught,
+                      rays);
+    if (r > 0.0f && mirror(context, floor, point, ray, numbers(from->key, LIGHT_GROUPS), mirrored, rays))
+        c = r;
     for (int k = 0; k < 3; k++) {
         float seen = behind[k] * (1.0f - c);
         caught->behind[k] += seen;
-        sum[k] += seen + c * M[k];
+        sum[k] += seen;
     }
     caught->clear += (1.0f - behind[3]) * (1.0f - c);
     sum[3] += 1.0f - (1.0f - behind[3]) * (1.0f - c);
+    mirrored->share = c;
+    return c > 0.0f;
 }
 
 void catcher_resolve(const Caught *caught, float sum[4]) {

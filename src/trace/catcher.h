@@ -10,7 +10,7 @@
 #define WEFT_TRACE_CATCHER_H
 
 #include "scene/floor.h"
-#include "trace/path_radiance.h"
+#include "trace/path_context.h"
 
 /* Sums over the samples of a pixel that meet the floor. */
 typedef struct Caught {
@@ -19,10 +19,25 @@ typedef struct Caught {
     float whole, reached; /* luminance of the light: were nothing in its way, and as it is */
 } Caught;
 
-/* Adds what a camera ray, `t` away from the floor, finds there; `behind` is B a and a. What is mirrored is
- * added to `sum`, radiance and coverage, as are B a and a without V: catcher_resolve puts that right. */
-void catcher_sample(const PathContext *context, const Floor *floor, const Ray *ray, float t,
-                    const float behind[4], Sampler *sampler, Caught *caught, float sum[4], long long *rays);
+/* A camera ray that meets the floor, t away, and the random numbers it takes. */
+typedef struct CatcherRay {
+    Ray ray;
+    float t;
+    PathKey key;
+} CatcherRay;
+
+/* The part of the scene that the floor mirrors: the ray, its hit, and the share c of the light from there. */
+typedef struct Mirrored {
+    Ray ray;
+    Hit hit;
+    float share;
+} Mirrored;
+
+/* Adds what a camera ray finds on the floor, but for c M, and returns true where the mirror shows the scene.
+ * `behind` is B a and a. What is added to `sum`, radiance and coverage, is without V: catcher_resolve puts
+ * that right. */
+bool catcher_sample(const PathContext *context, const Floor *floor, const CatcherRay *ray,
+                    const float behind[4], Caught *caught, float sum[4], Mirrored *mirrored, long long *rays);
 
 /* Turns sum, radiance times coverage and coverage of all samples of a pixel, into what V makes of them. */
 void catcher_resolve(const Caught *caught, float sum[4]);

@@ -8,6 +8,9 @@
 typedef struct Emitter {
     uint32_t mesh, triangle;
     float area;
+    Vec3 a, ab, ac, normal; /* a corner, two edges; unit, or 0 */
+    bool even, two_sided;   /* even: it sends out the same everywhere */
+    Rgb radiance;           /* if it is even */
 } Emitter;
 
 /* Returns the emission of a point times its opacity. */
@@ -25,6 +28,13 @@ static bool emits(const Material *material) {
     const float *e = material->inputs[INPUT_emission].value;
     return !material->unlit && (e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f) &&
            material->inputs[INPUT_emission_strength].value[0] > 0.0f;
+}
+
+/* Returns true if neither a texture nor a vertex colour changes the emission. */
+static bool is_even(const Mesh *mesh, const Material *material) {
+    return !material->inputs[INPUT_emission].texture && !material->inputs[INPUT_emission_strength].texture &&
+           (material->alpha_mode == WEFT_ALPHA_OPAQUE ||
+            (!material->inputs[INPUT_opacity].texture && !mesh->color));
 }
 
 typedef struct Corners {
@@ -57,6 +67,24 @@ static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t t
     return PI * area * (0.1f * factor + 0.9f * mean) * (material->double_sided ? 2.0f : 1.0f);
 }
 
+static Emitter emitter_of(const WeftScene *scene, int m, uint32_t triangle) {
+    const Mesh *mesh = &scene->meshes[m];
+    const Material *material = &scene->materials[mesh->material];
+    Corners c = corners(mesh, triangle);
+    Vec3 normal = normal_area(c);
+    const Attributes none = {.color = {1.0f, 1.0f, 1.0f, 1.0f}};
+    return (Emitter){.mesh = (uint32_t)m,
+                     .triangle = triangle,
+                     .area = 0.5f * vec3_length(normal),
+                     .a = c.a,
+                     .ab = vec3_sub(c.b, c.a),
+                     .ac = vec3_sub(c.c, c.a),
+                     .normal = vec3_normal_or(normal, vec3(0.0f, 0.0f, 0.0f)),
+                     .even = is_even(mesh, material),
+                     .two_sided = material->double_sided,
+                     .radiance = emission(scene, material, &none)};
+}
+
 bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
     *emitters = (Emitters){.scene = scene};
     size_t count = 0;
@@ -74,9 +102,9 @@ bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
         if (!emits(&scene->materials[mesh->material])) continue;
         emitters->mesh_first[m] = (uint32_t)emitters->count + 1;
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-            float area = 0.5f * vec3_length(normal_area(corners(mesh, t)));
             int k = emitters->count++;
-            emitters->triangles[k] = (Emitter){(uint32_t)m, t, area};
+            emitters->triangles[k] = emitter_of(scene, m, t);
+            float area = emitters->triangles[k].area;
             power[k] = area > 0.0f ? triangle_power(scene, mesh, t, area) : 0.0f;
         }
     }
@@ -86,10 +114,15 @@ bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
     return made;
 }
 
+static Rgb radiance_at(const WeftScene *scene, const Emitter *emitter, float u, float v) {
+    const Mesh *mesh = &scene->meshes[emitter->mesh];
+    Hit hit = {.triangle = emitter->triangle, .u = u, .v = v};
+    Attributes at = geometry_attributes(mesh, &hit);
+    return emission(scene, &scene->materials[mesh->material], &at);
+}
+
 EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float u, float v) {
     const Emitter *emitter = &emitters->triangles[k];
-    const Mesh *mesh = &emitters->scene->meshes[emitter->mesh];
-    const Material *material = &emitters->scene->materials[mesh->material];
     /* the square folded onto the triangle; Eric Heitz, "A Low-Distortion Map Between Triangle and Square",
      * 2019 */
     float b1 = u, b2 = v;
@@ -100,18 +133,31 @@ EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float 
         b2 *= 0.5f;
         b1 -= b2;
     }
-    Corners c = corners(mesh, emitter->triangle);
-    Vec3 to = vec3_sub(vec3_lerp3(c.a, c.b, c.c, 1.0f - b1 - b2, b1, b2), point);
+    Vec3 to = vec3_sub(vec3_madd(vec3_madd(emitter->a, emitter->ab, b1), emitter->ac, b2), point);
     EmitterPoint p = {.distance = vec3_length(to)};
     if (!(p.distance > 0.0f)) return p;
     p.direction = vec3_scale(to, 1.0f / p.distance);
-    float cosine = -vec3_dot(vec3_normal_or(normal_area(c), p.direction), p.direction);
-    if (cosine <= 0.0f && !material->double_sided) return p;
-    Hit hit = {.triangle = emitter->triangle, .u = b1, .v = b2};
-    Attributes at = geometry_attributes(mesh, &hit);
-    p.radiance = emission(emitters->scene, material, &at);
+    float cosine = -vec3_dot(emitter->normal, p.direction);
+    if (cosine <= 0.0f && !emitter->two_sided) return p;
+    p.radiance = emitter->even ? emitter->radiance : radiance_at(emitters->scene, emitter, b1, b2);
     p.pdf = emitters_pdf(emitters, emitter->mesh, emitter->triangle, p.distance, cosine);
     return p;
+}
+
+void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3], const float *u,
+                          const float *v, LightRows *samples) {
+    for (int k = 0; k < n; k++) {
+        Choice triangle = distribution_choose(&emitters->choice, u[k]);
+        Vec3 at = vec3(point[0][k], point[1][k], point[2][k]);
+        EmitterPoint p = emitters_sample(emitters, triangle.index, at, triangle.rest, v[k]);
+        samples->wi[0][k] = p.direction.x, samples->wi[1][k] = p.direction.y,
+        samples->wi[2][k] = p.direction.z;
+        samples->radiance[0][k] = p.radiance.r;
+        samples->radiance[1][k] = p.radiance.g;
+        samples->radiance[2][k] = p.radiance.b;
+        samples->pdf[k] = p.pdf;
+        samples->distance[k] = p.distance;
+    }
 }
 
 float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, float t, float cosine) {

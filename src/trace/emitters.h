@@ -3,8 +3,8 @@
 #define WEFT_TRACE_EMITTERS_H
 
 #include "scene/scene.h"
-#include "shading/angles.h"
 #include "trace/distribution.h"
+#include "trace/light_rows.h"
 
 typedef struct Emitters {
     const WeftScene *scene; /* borrowed */
@@ -16,6 +16,11 @@ typedef struct Emitters {
 
 /* Fills emitters; its arrays come from arena. false when memory is short. */
 bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena);
+
+/* Samples for n points and (u, v) as arrays: u chooses the triangle, and what it has left after that is u of
+ * its point. */
+void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3], const float *u,
+                          const float *v, LightRows *samples);
 
 typedef struct EmitterPoint {
     Vec3 direction; /* unit, from the point to the emitter */

@@ -14,7 +14,7 @@ struct Geometry {
     const WeftScene *scene;
     RTCDevice device;
     RTCScene accel;
-    bool *asked; /* of a mesh: see is_asked */
+    unsigned char *asked; /* of a mesh: see asked_of */
     int meshes, threads;
     atomic_int complaint; /* an RTCError: Embree's first; its own threads complain too */
     bool built;
@@ -44,51 +44,73 @@ static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
 
+/* The questions that a mesh's material has a hit answer. */
+enum { ASKED_SIDE = 1, ASKED_OPACITY = 2 };
+static unsigned char asked_of(const WeftScene *scene, int mesh) {
+    const Material *material = &scene->materials[scene->meshes[mesh].material];
+    int asked = material->double_sided ? 0 : ASKED_SIDE;
+    if (material->alpha_mode != WEFT_ALPHA_OPAQUE) asked |= ASKED_OPACITY;
+    return (unsigned char)asked;
+}
+
 /* A hit may only count when the surface is there for that ray, from that side and, by a coin that is a
  * function of ray and triangle, not transparent. */
-static bool present(const WeftScene *scene, const Hit *hit, Vec3 direction, uint32_t key, bool past_lights) {
+static bool present(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key,
+                    bool past_lights) {
+    const WeftScene *scene = geometry->scene;
     if (past_lights && hit->mesh >= (uint32_t)scene_own_meshes(scene)) return false;
+    int asked = asked_of(scene, (int)hit->mesh);
+    if (asked & ASKED_SIDE && vec3_dot(hit->facing, direction) > 0.0f) return false;
+    if (!(asked & ASKED_OPACITY)) return true;
     const Mesh *mesh = &scene->meshes[hit->mesh];
-    const Material *material = &scene->materials[mesh->material];
-    if (!material->double_sided && vec3_dot(hit->facing, direction) > 0.0f) return false;
-    if (material->alpha_mode == WEFT_ALPHA_OPAQUE) return true;
     Attributes at = geometry_attributes(mesh, hit);
-    float opacity = material_opacity(scene, material, at.uv, at.color[3]);
+    float opacity = material_opacity(scene, &scene->materials[mesh->material], at.uv, at.color[3]);
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
 }
 
 typedef struct Query {
     struct RTCIntersectContext context; /* first: Embree hands back its address */
-    const WeftScene *scene;
+    const Geometry *geometry;
     bool past_lights;
 } Query;
 
-static Query query_of(const Geometry *geometry, const Ray *ray) {
-    Query query = {.scene = geometry->scene, .past_lights = ray->past_lights};
+static Query query_of(const Geometry *geometry, bool past_lights) {
+    Query query = {.geometry = geometry, .past_lights = past_lights};
     rtcInitIntersectContext(&query.context);
     return query;
 }
 
-/* Refuses candidates that are not there. Only single rays get here, so N is 1 and the records are plain ones.
- */
-static void filter(const struct RTCFilterFunctionNArguments *a) {
-    const struct RTCRay *r = (const struct RTCRay *)(const void *)a->ray;
-    Hit hit = from_embree((const struct RTCHit *)(const void *)a->hit, r->tfar);
-    const Query *query = (const Query *)(const void *)a->context;
-    if (!present(query->scene, &hit, (Vec3){r->dir_x, r->dir_y, r->dir_z}, r->id, query->past_lights))
-        a->valid[0] = 0;
+/* Rays and hits come to a filter as rows of N numbers, in the order of the records' members. */
+enum { RAY_DIRECTION = 4, RAY_FAR = 8, RAY_ID = 10 };
+enum { HIT_FACING = 0, HIT_U = 3, HIT_V, HIT_TRIANGLE, HIT_MESH };
+static float number_at(const void *rows, unsigned n, int row, unsigned k) {
+    return ((const float *)rows)[(unsigned)row * n + k];
+}
+static uint32_t word_at(const void *rows, unsigned n, int row, unsigned k) {
+    return ((const uint32_t *)rows)[(unsigned)row * n + k];
+}
+static Vec3 vector_at(const void *rows, unsigned n, int row, unsigned k) {
+    return vec3(number_at(rows, n, row, k), number_at(rows, n, row + 1, k), number_at(rows, n, row + 2, k));
 }
 
-/* Returns true if a shadow ray must examine its hits on this mesh. */
-static bool is_asked(const WeftScene *scene, int mesh) {
-    const Material *material = &scene->materials[scene->meshes[mesh].material];
-    return !material->double_sided || material->alpha_mode != WEFT_ALPHA_OPAQUE;
+/* Refuses candidates that are not there. */
+static void filter(const struct RTCFilterFunctionNArguments *a) {
+    const Query *query = (const Query *)(const void *)a->context;
+    for (unsigned k = 0, n = a->N; k < n; k++) {
+        if (!a->valid[k]) continue;
+        Hit hit = {number_at(a->ray, n, RAY_FAR, k),    word_at(a->hit, n, HIT_MESH, k),
+                   word_at(a->hit, n, HIT_TRIANGLE, k), number_at(a->hit, n, HIT_U, k),
+                   number_at(a->hit, n, HIT_V, k),      vector_at(a->hit, n, HIT_FACING, k)};
+        Vec3 direction = vector_at(a->ray, n, RAY_DIRECTION, k);
+        if (!present(query->geometry, &hit, direction, word_at(a->ray, n, RAY_ID, k), query->past_lights))
+            a->valid[k] = 0;
+    }
 }
 
 bool geometry_serves(const Geometry *geometry) {
     bool serves = true;
     for (int k = 0; k < geometry->meshes && serves; k++)
-        serves = geometry->asked[k] == is_asked(geometry->scene, k);
+        serves = geometry->asked[k] == asked_of(geometry->scene, k);
     return serves;
 }
 
@@ -169,7 +191,7 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
         free(geometry);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
-    for (int k = 0; k < meshes; k++) geometry->asked[k] = is_asked(scene, k);
+    for (int k = 0; k < meshes; k++) geometry->asked[k] = asked_of(scene, k);
     bool starved;
     if (guarded(build, geometry, &starved) && geometry->built) {
         *out = geometry;
@@ -200,50 +222,107 @@ static bool intersect(const Geometry *geometry, const Ray *ray, Query *query, Hi
 /* Nearly every nearest hit is there. For the rest every candidate is asked, since another may lie at the same
  * place. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
-    Query query = query_of(geometry, &ray);
+    Query query = query_of(geometry, ray.past_lights);
     if (!is_sound(&ray)) return false;
     if (!intersect(geometry, &ray, &query, hit)) return false;
-    if (present(geometry->scene, hit, ray.direction, ray.key, ray.past_lights)) return true;
+    if (present(geometry, hit, ray.direction, ray.key, ray.past_lights)) return true;
     query.context.filter = filter;
     return intersect(geometry, &ray, &query, hit);
 }
 
-void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits) {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    struct RTCRayHit16 q;
-    _Alignas(64) int valid[GEOMETRY_PACKET];
-    /* with AVX2 Embree makes sure of idle rays too */
-    static const Ray harmless = {.direction = {0.0f, 0.0f, 1.0f}};
-    for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        valid[k] = k < count && is_sound(&rays[k]) ? -1 : 0;
-        const Ray *ray = valid[k] ? &rays[k] : &harmless;
-        q.ray.org_x[k] = ray->origin.x, q.ray.org_y[k] = ray->origin.y, q.ray.org_z[k] = ray->origin.z;
-        q.ray.dir_x[k] = ray->direction.x, q.ray.dir_y[k] = ray->direction.y,
-        q.ray.dir_z[k] = ray->direction.z;
-        q.ray.tnear[k] = ray->near, q.ray.tfar[k] = ray->far;
-        q.ray.time[k] = 0.0f, q.ray.mask[k] = ~0u, q.ray.flags[k] = 0, q.ray.id[k] = 0;
-        q.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    }
-    rtcIntersect16(valid, geometry->accel, &context, &q);
-    for (int k = 0; k < count; k++) {
-        hits[k].t = -1.0f;
-        if (q.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
-        hits[k] = (Hit){q.ray.tfar[k], q.hit.geomID[k], q.hit.primID[k],
-                        q.hit.u[k],    q.hit.v[k],      {q.hit.Ng_x[k], q.hit.Ng_y[k], q.hit.Ng_z[k]}};
-        if (!present(geometry->scene, &hits[k], rays[k].direction, rays[k].key, rays[k].past_lights) &&
-            !geometry_hit(geometry, rays[k], &hits[k]))
-            hits[k].t = -1.0f;
-    }
-}
-
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
     if (!is_sound(&ray)) return true;
-    Query query = query_of(geometry, &ray);
+    Query query = query_of(geometry, ray.past_lights);
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);
     return r.tfar < 0.0f;
+}
+
+/* The rays from `first` on, `left` of them or as many as a packet has. Those that are not sound stay idle;
+ * but with AVX2 Embree makes sure of idle rays too. */
+static void fill_packet(const RayRows *rays, int first, int left, int *valid, struct RTCRay16 *q) {
+    const float *const *o = rays->o, *const *d = rays->d;
+    for (int k = 0; k < GEOMETRY_PACKET; k++) {
+        int j = first + k;
+        float far = rays->far ? rays->far[j] : INFINITY;
+        bool sound = k < left && far >= 0.0f;
+        for (int c = 0; c < 3; c++) sound &= fabsf(o[c][j]) <= RAY_REACH && fabsf(d[c][j]) <= RAY_REACH;
+        valid[k] = sound ? -1 : 0;
+        q->org_x[k] = sound ? o[0][j] : 0.0f;
+        q->org_y[k] = sound ? o[1][j] : 0.0f;
+        q->org_z[k] = sound ? o[2][j] : 0.0f;
+        q->dir_x[k] = sound ? d[0][j] : 0.0f;
+        q->dir_y[k] = sound ? d[1][j] : 0.0f;
+        q->dir_z[k] = sound ? d[2][j] : 1.0f;
+        q->tnear[k] = 0.0f;
+        q->tfar[k] = sound ? far : 0.0f;
+        q->time[k] = 0.0f;
+        q->mask[k] = ~0u;
+        q->id[k] = rays->key[j];
+        q->flags[k] = 0;
+    }
+}
+
+static Query packet_query(const Geometry *geometry, const RayRows *rays) {
+    Query query = query_of(geometry, rays->past_lights);
+    query.context.flags =
+        rays->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return query;
+}
+
+static Ray ray_of_row(const RayRows *rays, int k) {
+    return (Ray){vec3(rays->o[0][k], rays->o[1][k], rays->o[2][k]),
+                 vec3(rays->d[0][k], rays->d[1][k], rays->d[2][k]),
+                 0.0f,
+                 INFINITY,
+                 rays->key[k],
+                 rays->past_lights};
+}
+
+static void put_hit(const HitRows *hits, int k, const Hit *hit) {
+    hits->t[k] = hit->t;
+    hits->u[k] = hit->u;
+    hits->v[k] = hit->v;
+    hits->mesh[k] = hit->mesh;
+    hits->triangle[k] = hit->triangle;
+}
+
+/* Sees to the hits that must be asked whether they are there. */
+static void take_hits(const Geometry *geometry, const RayRows *rays, const struct RTCHit16 *h, const float *t,
+                      int first, int left, const HitRows *hits) {
+    for (int k = 0; k < GEOMETRY_PACKET && k < left; k++) {
+        Hit hit = {t[k], h->geomID[k], h->primID[k], h->u[k], h->v[k], {h->Ng_x[k], h->Ng_y[k], h->Ng_z[k]}};
+        put_hit(hits, first + k, &hit);
+        if (hit.mesh == GEOMETRY_NOTHING || (!geometry->asked[hit.mesh] && !rays->past_lights)) continue;
+        Ray ray = ray_of_row(rays, first + k);
+        if (present(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
+        if (!geometry_hit(geometry, ray, &hit)) hit.mesh = GEOMETRY_NOTHING;
+        put_hit(hits, first + k, &hit);
+    }
+}
+
+void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, const HitRows *hits) {
+    Query query = packet_query(geometry, rays);
+    struct RTCRayHit16 q;
+    _Alignas(64) int valid[GEOMETRY_PACKET];
+    for (int first = 0; first < count; first += GEOMETRY_PACKET) {
+        fill_packet(rays, first, count - first, valid, &q.ray);
+        for (int k = 0; k < GEOMETRY_PACKET; k++) q.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect16(valid, geometry->accel, &query.context, &q);
+        take_hits(geometry, rays, &q.hit, q.ray.tfar, first, count - first, hits);
+    }
+}
+
+void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *hidden) {
+    Query query = packet_query(geometry, rays);
+    struct RTCRay16 q;
+    _Alignas(64) int valid[GEOMETRY_PACKET];
+    for (int first = 0; first < count; first += GEOMETRY_PACKET) {
+        fill_packet(rays, first, count - first, valid, &q);
+        rtcOccluded16(valid, geometry->accel, &query.context, &q);
+        for (int k = 0; k < GEOMETRY_PACKET && first + k < count; k++)
+            hidden[first + k] = !valid[k] || q.tfar[k] < 0.0f;
+    }
 }
 
 static Vec3 blend(const float *attribute, const uint32_t *index, float w, float u, float v) {

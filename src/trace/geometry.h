@@ -30,12 +30,31 @@ typedef struct Hit {
 /* The nearest surface that is there: not the back of a single-sided one, not a transparent point. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
 
-/* Works as geometry_hit, for `count` <= GEOMETRY_PACKET camera rays at once; t < 0 if nothing is hit. */
-enum { GEOMETRY_PACKET = 16 };
-void geometry_hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit *hits);
-
 /* Returns true if anything lies on the ray between near and far. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
+
+/* Rays as arrays, from their origins on. They are traced GEOMETRY_PACKET at a time: the arrays must have room
+ * up to a multiple of that. What a ray finds may differ by rounding with those beside it. */
+enum { GEOMETRY_PACKET = 16 };
+typedef struct RayRows {
+    const float *o[3], *d[3];
+    const float *far; /* NULL: without end */
+    const uint32_t *key;
+    bool past_lights, coherent; /* coherent: neighbours go the same way */
+} RayRows;
+
+#define GEOMETRY_NOTHING UINT32_MAX
+
+/* The ends of rays; mesh is GEOMETRY_NOTHING if nothing is hit. */
+typedef struct HitRows {
+    float *t, *u, *v;
+    uint32_t *mesh, *triangle;
+} HitRows;
+
+void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, const HitRows *hits);
+
+/* Sets hidden[k] if anything lies between ray k's origin and its far end, or the ray is not sound. */
+void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *hidden);
 
 /* The point and orientation at which a triangle was hit. */
 typedef struct Vertex {

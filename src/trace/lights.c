@@ -99,6 +99,31 @@ LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, fl
     return sample_punctual(lights, point, u);
 }
 
+static void put_sample(LightRows *rows, int k, const LightSample *s) {
+    rows->wi[0][k] = s->wi.x, rows->wi[1][k] = s->wi.y, rows->wi[2][k] = s->wi.z;
+    rows->radiance[0][k] = s->radiance.r;
+    rows->radiance[1][k] = s->radiance.g;
+    rows->radiance[2][k] = s->radiance.b;
+    rows->pdf[k] = s->pdf;
+    rows->distance[k] = min(s->distance, LIGHT_FAR);
+}
+
+void lights_sample_rows(const Lights *lights, LightGroup group, int n, const float *const point[3],
+                        const float *u, const float *v, LightRows *samples) {
+    if (group == LIGHTS_SKY) sky_sample_rows(&lights->sky, n, u, v, samples);
+    if (group == LIGHTS_EMITTERS) emitters_sample_rows(&lights->emitters, n, point, u, v, samples);
+    for (int k = 0; group == LIGHTS_PUNCTUAL && k < n; k++) {
+        Vec3 p = vec3(point[0][k], point[1][k], point[2][k]);
+        LightSample s = sample_punctual(lights, p, u[k]);
+        put_sample(samples, k, &s);
+    }
+}
+
+void lights_environment_rows(const Lights *lights, int n, const float *const d[3], LightRows *found) {
+    sky_at_rows(&lights->sky, n, d, found);
+    for (int k = 0; !lights->shine[LIGHTS_SKY] && k < n; k++) found->pdf[k] = 0.0f;
+}
+
 LightSample lights_environment(const Lights *lights, Vec3 direction) {
     LightSample s = from_sky(sky_at(&lights->sky, direction));
     if (!lights->shine[LIGHTS_SKY]) s.pdf = 0.0f;

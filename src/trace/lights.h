@@ -7,7 +7,7 @@
 #define WEFT_TRACE_LIGHTS_H
 
 #include "scene/scene.h"
-#include "shading/angles.h"
+#include "trace/light_rows.h"
 
 typedef struct Lights Lights;
 
@@ -31,9 +31,16 @@ typedef struct LightSample {
 /* Samples a group that has light, for (u, v) in [0, 1)^2. */
 LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v);
 
+/* Samples such a group as arrays, for n points and (u, v), n <= ROW_MOST a multiple of ROW_LANES. */
+void lights_sample_rows(const Lights *lights, LightGroup group, int n, const float *const point[3],
+                        const float *u, const float *v, LightRows *samples);
+
 /* Returns the light from a direction in which nothing is hit, and the density with which lights_sample
  * finds that direction. */
 LightSample lights_environment(const Lights *lights, Vec3 direction);
+
+/* Radiance and pdf of that as arrays, along n directions. */
+void lights_environment_rows(const Lights *lights, int n, const float *const d[3], LightRows *found);
 
 /* Density with which lights_sample, from a point at distance t, finds that triangle's point seen under
  * `cosine`. */

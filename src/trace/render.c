@@ -12,16 +12,14 @@
 #include "scene/sheen_tables.h"
 #include "shading/frame.h"
 #include "trace/catcher.h"
-#include "trace/path_radiance.h"
+#include "trace/lens.h"
+#include "trace/stream.h"
 
 enum {
-    TILE = 16,
-    PASS_SAMPLES = 16,
     DEFAULT_WIDTH = 960,
     DEFAULT_HEIGHT = 720,
     DEFAULT_DEPTH = 9,
     SIDE_MAX = 65536,
-    FILTER_STEPS = 256,
 };
 
 /* One tile's finished work. Only one thread holds a tile at a time. */
@@ -40,8 +38,9 @@ struct WeftRender {
     int material_count;
     PathContext context;
     Camera camera;
-    View view;
-    float filter[FILTER_STEPS + 1];
+    Lens lens;
+    Stream **streams; /* one a thread */
+    int stream_count;
     WeftImage blurred; /* of backdrop.h, where it is the background; its environment was that of */
     unsigned blurred_turn;
     int x0, y0, width, height; /* the crop */
@@ -113,29 +112,35 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
         known->kind = stack_kind(&known->stack, &known->choices);
+        known->shines = material_emits(material);
+        known->bent =
+            !known->kind || known->material.inputs[INPUT_normal].texture || known->plain.anisotropy > 0.0f;
     }
+    for (int k = 0; k < scene->mesh_count; k++)
+        render->materials[scene->meshes[k].material].textured |= scene->meshes[k].color != NULL;
     return WEFT_OK;
 }
 
-/* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one
- * up at random spreads samples as the window weighs them. Fredric J. Harris, "On the Use of Windows for
- * Harmonic Analysis with the Discrete Fourier Transform", 1978. */
-static void filter_make(float filter[FILTER_STEPS + 1]) {
-    enum { FINE = 16 * FILTER_STEPS };
-    const double radius = 1.5, total = 0.35875;
-    double integral = 0.0;
-    int step = 0;
-    for (int k = 0; k < FINE; k++) {
-        double a = 6.28318530717959 * (k + 0.5) / FINE;
-        double w = 0.35875 - 0.48829 * (cos)(a) + 0.14128 * (cos)(2.0 * a) - 0.01168 * (cos)(3.0 * a),
-               before = integral;
-        integral += w / (total * FINE);
-        for (; step <= FILTER_STEPS && (double)step / FILTER_STEPS <= integral; step++) {
-            double part = ((double)step / FILTER_STEPS - before) / (integral - before);
-            filter[step] = (float)(radius * (2.0 * (k + part) / FINE - 1.0));
-        }
+static void free_streams(WeftRender *render) {
+    for (int k = 0; k < render->stream_count; k++) stream_free(render->streams[k]);
+    free(render->streams);
+    render->streams = NULL;
+    render->stream_count = 0;
+}
+
+/* No more than have a tile. */
+static WeftResult make_streams(WeftRender *render, WeftError *error) {
+    int wanted = render->desc.threads < render->tile_count ? render->desc.threads : render->tile_count;
+    free_streams(render);
+    render->streams = alloc_array((size_t)wanted, sizeof *render->streams);
+    for (int k = 0; render->streams && k < wanted; k++) {
+        render->streams[k] = stream_create(&render->context, render->scene->material_count);
+        if (!render->streams[k]) break;
+        render->stream_count++;
     }
-    for (; step <= FILTER_STEPS; step++) filter[step] = (float)radius;
+    if (render->stream_count == wanted) return WEFT_OK;
+    render->tile_count = 0; /* nothing to render */
+    return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
 
 /* The picture's own: camera and an empty film. */
@@ -144,10 +149,11 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     float aspect = (float)d->width / (float)d->height;
     WeftResult result = camera_find(render->scene, d->camera, aspect, &render->camera, error);
     if (result != WEFT_OK) return result;
-    render->view = view_of(&render->camera, aspect);
+    render->lens.view = view_of(&render->camera, aspect);
+    render->lens.width = d->width, render->lens.height = d->height, render->lens.centred = d->pixel_centre;
     render->x0 = d->crop[0], render->y0 = d->crop[1], render->width = d->crop[2], render->height = d->crop[3];
-    render->tiles_across = (render->width + TILE - 1) / TILE;
-    render->tile_count = render->tiles_across * ((render->height + TILE - 1) / TILE);
+    render->tiles_across = (render->width + STREAM_TILE - 1) / STREAM_TILE;
+    render->tile_count = render->tiles_across * ((render->height + STREAM_TILE - 1) / STREAM_TILE);
     free(render->tiles);
     free(render->sums);
     free(render->caught);
@@ -209,6 +215,7 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .roulette = !d->no_roulette,
                                         .shadows = !d->no_shadows,
                                         .sky_in_parts = in_parts(&render->scene->environment)};
+    if (result == WEFT_OK) result = make_streams(render, error);
     return result;
 }
 
@@ -251,7 +258,7 @@ WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc
     WeftRender *render = alloc_array(1, sizeof *render);
     if (!render) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     render->scene = scene;
-    filter_make(render->filter);
+    lens_make(&render->lens);
     WeftResult result = weft_render_restart(render, desc, 0, error);
     if (result == WEFT_OK)
         *out = render;
@@ -264,6 +271,7 @@ void weft_render_free(WeftRender *render) {
     if (!render) return;
     sheen_tables_free(render->tables);
     free(render->materials);
+    free_streams(render);
     lights_free(render->lights);
     geometry_free(render->geometry);
     weft_image_free(&render->blurred);
@@ -271,30 +279,6 @@ void weft_render_free(WeftRender *render) {
     free(render->sums);
     free(render->caught);
     free(render);
-}
-
-static float filter_offset(const float *filter, float u) {
-    float x = u * FILTER_STEPS;
-    int k = (int)x;
-    return mix(filter[k], filter[k + 1], x - (float)k);
-}
-
-static Ray camera_sample(const WeftRender *render, int px, int py, Sampler *sampler) {
-    const WeftRenderDesc *d = &render->desc;
-    float x = 0.5f, y = 0.5f;
-    if (!d->pixel_centre) {
-        Point p = sampler_next(sampler).first;
-        x += filter_offset(render->filter, p.u), y += filter_offset(render->filter, p.v);
-    }
-    x = 2.0f * ((float)px + x) / (float)d->width - 1.0f;
-    y = 1.0f - 2.0f * ((float)py + y) / (float)d->height;
-    CameraRay r = view_ray(&render->view, x, y);
-    return (Ray){r.origin,
-                 r.direction,
-                 0.0f,
-                 INFINITY,
-                 hash32(sampler->key ^ sampler->index),
-                 render->desc.hide_lights != 0};
 }
 
 /* Adds the background: colour and coverage. */
@@ -312,53 +296,117 @@ static void add_background(const WeftRender *render, Vec3 direction, float *sum)
     sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
 }
 
-static bool finite(Rgb c) { return c.r + c.g + c.b < INFINITY && c.r + c.g + c.b > -INFINITY; }
+/* A tile's part of a picture and of its samples. */
+static LensPart part_of(const WeftRender *render, int item, int first, int count) {
+    int x = item % render->tiles_across * STREAM_TILE, y = item / render->tiles_across * STREAM_TILE;
+    int w = render->width - x, h = render->height - y;
+    return (LensPart){render->x0 + x,
+                      render->y0 + y,
+                      w < STREAM_TILE ? w : STREAM_TILE,
+                      h < STREAM_TILE ? h : STREAM_TILE,
+                      first,
+                      count,
+                      render->desc.seed};
+}
+
+static size_t index_of(const WeftRender *render, const LensPart *part, int pixel) {
+    int x = part->x - render->x0 + pixel % part->width, y = part->y - render->y0 + pixel / part->width;
+    return (size_t)y * (size_t)render->width + (size_t)x;
+}
+
+static Ray ray_of(const WeftRender *render, const Paths *paths, int k) {
+    return (Ray){vec3(paths->o[0][k], paths->o[1][k], paths->o[2][k]),
+                 vec3(paths->d[0][k], paths->d[1][k], paths->d[2][k]),
+                 0.0f,
+                 INFINITY,
+                 paths->key[k],
+                 render->desc.hide_lights != 0};
+}
+
+static void trace_camera(const WeftRender *render, Stream *s, int n) {
+    const Paths *p = &s->paths[0];
+    const RayRows rays = {{p->o[0], p->o[1], p->o[2]},
+                          {p->d[0], p->d[1], p->d[2]},
+                          NULL,
+                          p->key,
+                          render->desc.hide_lights != 0,
+                          true};
+    const HitRows hits = stream_hits(s);
+    geometry_hits(render->geometry, &rays, n, &hits);
+    s->rays += n;
+}
+
+/* Lets a path go on along the mirror. */
+static void take_mirrored(Stream *s, int k, const Mirrored *m) {
+    Paths *p = &s->paths[0];
+    p->o[0][k] = m->ray.origin.x, p->o[1][k] = m->ray.origin.y, p->o[2][k] = m->ray.origin.z;
+    p->d[0][k] = m->ray.direction.x, p->d[1][k] = m->ray.direction.y, p->d[2][k] = m->ray.direction.z;
+    p->key[k] = m->ray.key;
+    for (int c = 0; c < 3; c++) p->throughput[c][k] = p->sky[c][k] = m->share;
+    s->t[k] = m->hit.t, s->u[k] = m->hit.u, s->v[k] = m->hit.v;
+    s->mesh[k] = m->hit.mesh, s->triangle[k] = m->hit.triangle;
+}
 
 /* The floor, where a camera ray meets it before all else; false where it does not. */
-static bool add_floor(const WeftRender *render, const Ray *ray, float hit_t, Sampler *sampler, Caught *caught,
-                      float *sum, Tile *tile) {
-    float t = floor_distance(&render->floor, ray->origin, ray->direction);
-    if (t < 0.0f || (hit_t >= 0.0f && hit_t < t)) return false;
+static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, int k, float sum[4]) {
+    uint32_t id = s->paths[0].id[k], pixel = id >> PATHS_SAMPLES_LOG2;
+    uint32_t sample = id & ((1u << PATHS_SAMPLES_LOG2) - 1u);
+    CatcherRay from = {ray_of(render, &s->paths[0], k), 0.0f, {s->keys.pixel[pixel], s->keys.sample[sample]}};
+    from.t = floor_distance(&render->floor, from.ray.origin, from.ray.direction);
+    if (from.t < 0.0f || (s->mesh[k] != GEOMETRY_NOTHING && s->t[k] < from.t)) return false;
     float behind[4] = {0};
-    add_background(render, ray->direction, behind);
-    catcher_sample(&render->context, &render->floor, ray, t, behind, sampler, caught, sum, &tile->rays);
+    Mirrored mirrored;
+    add_background(render, from.ray.direction, behind);
+    Caught *caught = &render->caught[index_of(render, part, (int)pixel)];
+    if (catcher_sample(&render->context, &render->floor, &from, behind, caught, sum, &mirrored, &s->rays))
+        take_mirrored(s, k, &mirrored);
+    else
+        s->mesh[k] = STREAM_DONE;
     return true;
 }
 
-/* `count` samples of a pixel, the index-th, from sample `first` on. */
-static void sample_pixel(const WeftRender *render, int px, int py, size_t index, int first, int count,
-                         Tile *tile) {
-    float *sum = render->sums + 4 * index;
-    Sampler samplers[GEOMETRY_PACKET];
-    Ray rays[GEOMETRY_PACKET] = {0};
-    Hit hits[GEOMETRY_PACKET];
-    uint32_t key = sampler_key((uint32_t)px, (uint32_t)py, render->desc.seed);
-    for (int k = 0; k < count; k++) {
-        samplers[k] = sampler_start(key, (uint32_t)(first + k));
-        rays[k] = camera_sample(render, px, py, &samplers[k]);
+/* Adds what camera rays meet before any surface: the floor, the background. That of the environment is left to the
+ * stream. */
+static void enter(WeftRender *render, Stream *s, const LensPart *part, int n) {
+    bool sky = render->desc.background == WEFT_BACKGROUND_ENVIRONMENT;
+    for (int k = 0; k < n; k++) {
+        float sum[4] = {0};
+        if (!render->floor.there || !add_floor(render, s, part, k, sum)) {
+            if (s->mesh[k] != GEOMETRY_NOTHING || sky) {
+                sum[3] = 1.0f;
+            } else {
+                add_background(render, ray_of(render, &s->paths[0], k).direction, sum);
+                s->mesh[k] = STREAM_DONE;
+            }
+        }
+        for (int c = 0; c < 4; c++) s->light.c[c][s->paths[0].id[k]] = sum[c];
     }
-    geometry_hit_packet(render->geometry, count, rays, hits);
-    tile->rays += count;
-    for (int k = 0; k < count; k++) {
-        if (render->floor.there &&
-            add_floor(render, &rays[k], hits[k].t, &samplers[k], render->caught + index, sum, tile))
-            continue;
-        if (hits[k].t < 0.0f) {
-            add_background(render, rays[k].direction, sum);
-            continue;
+}
+
+static bool finite(const float c[4]) {
+    float sum = c[0] + c[1] + c[2];
+    return sum < INFINITY && sum > -INFINITY;
+}
+
+/* Adds the samples of each pixel in their order. */
+static void sum_up(WeftRender *render, const Stream *s, const LensPart *part, Tile *tile) {
+    for (int pixel = 0; pixel < part->width * part->height; pixel++) {
+        float *sum = render->sums + 4 * index_of(render, part, pixel);
+        for (int k = 0; k < part->count; k++) {
+            int id = pixel << PATHS_SAMPLES_LOG2 | k;
+            float c[4] = {s->light.c[0][id], s->light.c[1][id], s->light.c[2][id], s->light.c[3][id]};
+            if (!finite(c)) {
+                tile->non_finite++;
+                c[0] = c[1] = c[2] = 0.0f;
+            }
+            for (int a = 0; a < 4; a++) sum[a] += c[a];
         }
-        Rgb c = path_radiance(&render->context, rays[k], hits[k], &samplers[k], &tile->rays);
-        if (!finite(c)) {
-            tile->non_finite++;
-            c = (Rgb){0};
-        }
-        sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
     }
 }
 
 typedef struct Pass {
     WeftRender *render;
-    int samples; /* per pixel in this pass, <= PASS_SAMPLES */
+    int samples; /* per pixel in this pass, <= STREAM_SAMPLES */
     atomic_int stop, finished;
     double deadline; /* INFINITY: none */
     WeftProgress progress;
@@ -372,12 +420,15 @@ static void render_tile(void *user, int item, int thread) {
     WeftRender *render = pass->render;
     if (atomic_load(&pass->stop)) return;
     Tile tile = render->tiles[item]; /* counted in a copy: neighbours in memory belong to other threads */
-    int tx = item % render->tiles_across * TILE, ty = item / render->tiles_across * TILE;
-    for (int y = ty; y < ty + TILE && y < render->height; y++)
-        for (int x = tx; x < tx + TILE && x < render->width; x++) {
-            size_t index = (size_t)y * (size_t)render->width + (size_t)x;
-            sample_pixel(render, render->x0 + x, render->y0 + y, index, tile.samples, pass->samples, &tile);
-        }
+    Stream *stream = render->streams[thread];
+    LensPart part = part_of(render, item, tile.samples, pass->samples);
+    int n = lens_rays(&render->lens, &part, &stream->keys, &stream->paths[0]);
+    stream->rays = 0;
+    trace_camera(render, stream, n);
+    enter(render, stream, &part, n);
+    stream_follow(stream, n);
+    sum_up(render, stream, &part, &tile);
+    tile.rays += stream->rays;
     tile.samples += pass->samples;
     render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
@@ -401,11 +452,11 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
      */
     for (int done = 0; done < spp && !atomic_load(&pass.stop); done += pass.samples) {
         int rest = spp - done;
-        pass.samples = done == 0 ? 1 : rest < PASS_SAMPLES ? rest : PASS_SAMPLES;
+        pass.samples = done == 0 ? 1 : rest < STREAM_SAMPLES ? rest : STREAM_SAMPLES;
         pass.done_before = (double)done / spp;
         pass.share = (double)pass.samples / spp;
         atomic_init(&pass.finished, 0);
-        parallel_for(render->desc.threads, render->tile_count, render_tile, &pass);
+        parallel_for(render->stream_count, render->tile_count, render_tile, &pass);
     }
     render->render_seconds += now() - start;
     return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
@@ -416,9 +467,9 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
     camera_tell(render->scene, &render->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     double samples = 0.0;
     for (int k = 0; k < render->tile_count; k++) {
-        int x = k % render->tiles_across * TILE, y = k / render->tiles_across * TILE;
-        int w = render->width - x < TILE ? render->width - x : TILE;
-        int h = render->height - y < TILE ? render->height - y : TILE;
+        int x = k % render->tiles_across * STREAM_TILE, y = k / render->tiles_across * STREAM_TILE;
+        int w = render->width - x < STREAM_TILE ? render->width - x : STREAM_TILE;
+        int h = render->height - y < STREAM_TILE ? render->height - y : STREAM_TILE;
         samples += (double)render->tiles[k].samples * w * h;
         info.rays += render->tiles[k].rays;
         info.non_finite += render->tiles[k].non_finite;
@@ -434,7 +485,7 @@ WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError
     size_t index = 0;
     for (int y = 0; y < render->height; y++)
         for (int x = 0; x < render->width; x++, pixel += 4, index++) {
-            int samples = render->tiles[y / TILE * render->tiles_across + x / TILE].samples;
+            int samples = render->tiles[y / STREAM_TILE * render->tiles_across + x / STREAM_TILE].samples;
             float sum[4];
             memcpy(sum, render->sums + 4 * index, sizeof sum);
             if (render->caught) catcher_resolve(&render->caught[index], sum);

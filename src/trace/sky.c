@@ -2,6 +2,9 @@
 
 #include "trace/sky.h"
 
+#include "shading/loop.h"
+#include "shading/rgb.h"
+
 #define TWO_PI 6.28318530717959f
 
 /* The importance map is never finer than this: beyond, a cell has several texels. */
@@ -10,7 +13,7 @@ enum { MAP_WIDTH_MAX = 4096, MAP_HEIGHT_MAX = 2048 };
 /* acos to 1e-6 and atan to 2e-6: Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions",
  * 1964, 4.4.46 and 4.4.49. A texel of a 16k map spans 4e-4 radians; the library's calls cost more than the
  * rest of a look-up. */
-static float fast_acos(float x) {
+FN float fast_acos(float x) {
     float a = abs(x);
     float p = -0.0012624911f;
     p = p * a + 0.0066700901f;
@@ -24,7 +27,7 @@ static float fast_acos(float x) {
     return x < 0.0f ? PI - p : p;
 }
 
-static float fast_atan2(float y, float x) {
+FN float fast_atan2(float y, float x) {
     float ax = abs(x), ay = abs(y), t = min(ax, ay) / max(max(ax, ay), 1e-30f), s = t * t;
     float p = 0.0028662257f;
     p = p * s - 0.0161657367f;
@@ -41,7 +44,7 @@ static float fast_atan2(float y, float x) {
 }
 
 /* World direction to the image's (u, v), and back. */
-static void to_map(const Sky *sky, Vec3 d, float *u, float *v) {
+FN void to_map(const Sky *sky, Vec3 d, float *u, float *v) {
     float x = d.x * sky->cos_turn - d.z * sky->sin_turn, z = d.x * sky->sin_turn + d.z * sky->cos_turn;
     *u = 0.5f + fast_atan2(x, -z) / TWO_PI;
     *v = fast_acos(clamp(d.y, -1.0f, 1.0f)) / PI;
@@ -53,17 +56,13 @@ static Vec3 from_map(const Sky *sky, float u, float v) {
     return vec3(x * sky->cos_turn + z * sky->sin_turn, cos(theta), -x * sky->sin_turn + z * sky->cos_turn);
 }
 
-/* A colour in one register; the fourth lane is idle. */
-typedef float Color4 __attribute__((vector_size(16)));
-typedef int32_t Bytes4 __attribute__((vector_size(16)));
-
 /* Greg Ward, "Real Pixels", Graphics Gems II, 1991: three mantissas m and one exponent e, m 2^(e - 136). */
-static inline Color4 unpack(uint32_t p) {
+FN Rgb unpack(uint32_t p) {
     uint32_t e = p >> 24, bits = e > 9 ? (e - 9) << 23 : 0;
     float scale;
     memcpy(&scale, &bits, 4);
-    Bytes4 m = ((Bytes4){0} + (int32_t)(p & 0xffffffu)) >> (Bytes4){0, 8, 16, 24} & 255;
-    return __builtin_convertvector(m, Color4) * scale;
+    return (Rgb){(float)(int32_t)(p & 255u) * scale, (float)(int32_t)((p >> 8) & 255u) * scale,
+                 (float)(int32_t)((p >> 16) & 255u) * scale};
 }
 
 static uint32_t pack(const float *c) {
@@ -85,38 +84,46 @@ static void pack_image(Sky *sky, Arena *arena) {
     const float *p = image->pixels;
     if (image->channels != 3) return;
     for (size_t k = 0; k < count; k++) {
-        Color4 c = unpack(pack(p + 3 * k));
+        Rgb c = unpack(pack(p + 3 * k));
+        const float same[3] = {c.r, c.g, c.b};
         for (size_t j = 0; j < 3; j++)
-            if (c[j] < p[3 * k + j] || c[j] > p[3 * k + j]) return;
+            if (same[j] < p[3 * k + j] || same[j] > p[3 * k + j]) return;
     }
     sky->packed = arena_array(arena, count, sizeof(uint32_t));
     for (size_t k = 0; sky->packed && k < count; k++) sky->packed[k] = pack(p + 3 * k);
 }
 
-static inline Color4 lerp(Color4 a, Color4 b, float t) { return a + (b - a) * t; }
+/* The image as a look-up needs it: packed, or so many floats a texel of which green and blue may be red's. */
+typedef struct SkyTexels {
+    const uint32_t *packed;
+    const float *floats;
+    int width, height, stride, green, blue;
+    float strength;
+} SkyTexels;
+
+static SkyTexels sky_texels(const Sky *sky) {
+    const WeftImage *image = &sky->environment->image;
+    int colors = image->channels >= 3;
+    return (SkyTexels){sky->packed,     image->pixels, image->width, image->height,
+                       image->channels, colors,        2 * colors,   sky->environment->strength};
+}
+
+FN Rgb texel_at(SkyTexels t, bool packed, int k) {
+    if (packed) return unpack(t.packed[k]);
+    return (Rgb){t.floats[k * t.stride], t.floats[k * t.stride + t.green], t.floats[k * t.stride + t.blue]};
+}
 
 /* Bilinear: columns wrap, rows end. */
-static Rgb image_at(const Sky *sky, float u, float v) {
-    const Environment *e = sky->environment;
-    const WeftImage *image = &e->image;
-    if (!sky->packed) {
-        static const Texture latlong = {.wrap_u = WRAP_REPEAT, .wrap_v = WRAP_CLAMP};
-        Texel t = texture_fetch(&latlong, image, NULL, u, v);
-        return (Rgb){t.c[0] * e->strength, t.c[1] * e->strength, t.c[2] * e->strength};
-    }
-    float x = u * (float)image->width - 0.5f, y = v * (float)image->height - 0.5f, fx = floor(x),
-          fy = floor(y);
+FN Rgb image_at(SkyTexels t, bool packed, float u, float v) {
+    float x = u * (float)t.width - 0.5f, y = v * (float)t.height - 0.5f, fx = floor(x), fy = floor(y);
     int x0 = (int)fx, y0 = (int)fy, x1 = x0 + 1, y1 = y0 + 1;
-    if (x0 < 0) x0 += image->width;
-    if (x1 >= image->width) x1 -= image->width;
-    y0 = y0 < 0 ? 0 : y0;
-    y1 = y1 >= image->height ? image->height - 1 : y1;
-    const uint32_t *above = sky->packed + (size_t)y0 * (size_t)image->width;
-    const uint32_t *below = sky->packed + (size_t)y1 * (size_t)image->width;
-    Color4 upper = lerp(unpack(above[x0]), unpack(above[x1]), x - fx);
-    Color4 lower = lerp(unpack(below[x0]), unpack(below[x1]), x - fx);
-    Color4 c = lerp(upper, lower, y - fy) * e->strength;
-    return (Rgb){c[0], c[1], c[2]};
+    x0 = x0 < 0 ? t.width - 1 : x0;
+    x1 = x1 >= t.width ? 0 : x1;
+    y0 = (y0 < 0 ? 0 : y0) * t.width;
+    y1 = (y1 >= t.height ? t.height - 1 : y1) * t.width;
+    Rgb above = rgb_mix(texel_at(t, packed, y0 + x0), texel_at(t, packed, y0 + x1), x - fx);
+    Rgb below = rgb_mix(texel_at(t, packed, y1 + x0), texel_at(t, packed, y1 + x1), x - fx);
+    return rgb_scale(rgb_mix(above, below, y - fy), t.strength);
 }
 
 static Rgb constant(const Environment *e) {
@@ -143,7 +150,8 @@ SkyPoint sky_at(const Sky *sky, Vec3 direction) {
     int column = (int)clamp(u * (float)sky->width, 0.0f, (float)(sky->width - 1));
     int row = (int)clamp(v * (float)sky->height, 0.0f, (float)(sky->height - 1));
     float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);
-    return (SkyPoint){direction, image_at(sky, u, v), map_pdf(sky, row, column, sin_theta)};
+    return (SkyPoint){direction, image_at(sky_texels(sky), sky->packed, u, v),
+                      map_pdf(sky, row, column, sin_theta)};
 }
 
 SkyPoint sky_sample(const Sky *sky, float u, float v) {
@@ -157,11 +165,173 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
     Choice column = distribution_choose(&columns, u);
     float mu = ((float)column.index + column.rest) / (float)sky->width;
     float mv = ((float)row.index + row.rest) / (float)sky->height;
-    SkyPoint point = {.direction = from_map(sky, mu, mv), .radiance = image_at(sky, mu, mv)};
+    SkyPoint point = {.direction = from_map(sky, mu, mv),
+                      .radiance = image_at(sky_texels(sky), sky->packed, mu, mv)};
     Vec3 d = point.direction;
     float sin_theta = sqrt(d.x * d.x + d.z * d.z);
     point.pdf = map_pdf(sky, row.index, column.index, sin_theta);
     return point;
+}
+
+/* The cells that (u, v) choose: row and column of each. Each
+ * pass over the levels asks for the memory of the next. */
+typedef struct Cells {
+    int row[ROW_ROOM], column[ROW_ROOM];
+} Cells;
+
+static void choose_cells(const Sky *sky, int n, const float *u, const float *v, Cells *cells) {
+    const Distribution columns = sky->columns;
+    int top = columns.levels - 1;
+    for (int k = 0; k < n; k++) {
+        int row = cells->row[k] = distribution_choose(&sky->rows, v[k]).index;
+        cells->column[k] = 0;
+        __builtin_prefetch(columns.ends + (size_t)row * sky->stride + columns.first[top]);
+    }
+    for (int level = top; level >= 0; level--)
+        for (int k = 0; k < n; k++) {
+            const float *ends = columns.ends + (size_t)cells->row[k] * sky->stride;
+            int node = DISTRIBUTION_FAN * cells->column[k];
+            node += distribution_count(ends + columns.first[level] + node, u[k]);
+            cells->column[k] = node;
+            if (level > 0) __builtin_prefetch(ends + columns.first[level - 1] + DISTRIBUTION_FAN * node);
+        }
+}
+
+/* Asks for the texels about each cell, which is of their size. */
+static void fetch_texels(const Sky *sky, int n, const Cells *cells) {
+    SkyTexels t = sky_texels(sky);
+    if (!t.packed || sky->width != t.width || sky->height != t.height) return;
+    for (int k = 0; k < n; k++) {
+        const uint32_t *p = t.packed + (size_t)cells->row[k] * (size_t)t.width + (size_t)cells->column[k];
+        __builtin_prefetch(p);
+        __builtin_prefetch(cells->row[k] + 1 < t.height ? p + t.width : p);
+    }
+}
+
+FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const float *u, const float *v,
+                     const Cells *cells, LightRows *restrict s) {
+    const float *ends = sky->columns.ends, *row_ends = sky->rows.ends;
+    const int *rows = cells->row, *columns = cells->column;
+    int stride = (int)sky->stride;
+    float width = (float)sky->width, height = (float)sky->height;
+    float cos_turn = sky->cos_turn, sin_turn = sky->sin_turn, scale = width * height / (TWO_PI * PI);
+    EACH(k, (size_t)n) {
+        int row = rows[k], column = columns[k];
+        int leaf = row * stride + column;
+        float begin = ends[leaf - 1], wide = ends[leaf] - begin, top = row_ends[row - 1],
+              high = row_ends[row] - top;
+        float mu = ((float)column + min((u[k] - begin) / wide, 0x1.fffffep-1f)) / width;
+        float mv = ((float)row + min((v[k] - top) / high, 0x1.fffffep-1f)) / height;
+        float phi = (mu - 0.5f) * TWO_PI, theta = mv * PI, sine = sin(theta), x = sine * sin(phi),
+              z = -sine * cos(phi);
+        Rgb c = image_at(t, packed, mu, mv);
+        s->wi[0][k] = x * cos_turn + z * sin_turn;
+        s->wi[1][k] = cos(theta);
+        s->wi[2][k] = z * cos_turn - x * sin_turn;
+        s->radiance[0][k] = c.r;
+        s->radiance[1][k] = c.g;
+        s->radiance[2][k] = c.b;
+        s->pdf[k] = wide * high * scale / max(abs(sine), 1e-7f);
+        s->distance[k] = LIGHT_FAR;
+    }
+}
+
+/* Compiled for either form of texels: a loop of vectors has no choice in it. */
+CLONES static void sample_packed_n(const Sky *sky, int n, const float *u, const float *v, const Cells *cells,
+                                   LightRows *s) {
+    sample_cells(sky, sky_texels(sky), true, n, u, v, cells, s);
+}
+CLONES static void sample_floats_n(const Sky *sky, int n, const float *u, const float *v, const Cells *cells,
+                                   LightRows *s) {
+    sample_cells(sky, sky_texels(sky), false, n, u, v, cells, s);
+}
+
+/* Samples an environment of one colour. */
+static void sample_each(const Sky *sky, int n, const float *u, const float *v, LightRows *s) {
+    for (int k = 0; k < n; k++) {
+        SkyPoint p = sky_sample(sky, u[k], v[k]);
+        s->wi[0][k] = p.direction.x, s->wi[1][k] = p.direction.y, s->wi[2][k] = p.direction.z;
+        s->radiance[0][k] = p.radiance.r, s->radiance[1][k] = p.radiance.g, s->radiance[2][k] = p.radiance.b;
+        s->pdf[k] = p.pdf;
+        s->distance[k] = LIGHT_FAR;
+    }
+}
+
+static bool has_map(const Sky *sky) { return sky->environment->kind != ENVIRONMENT_CONSTANT; }
+
+void sky_sample_rows(const Sky *sky, int n, const float *u, const float *v, LightRows *samples) {
+    Cells cells;
+    if (!has_map(sky)) {
+        sample_each(sky, n, u, v, samples);
+        return;
+    }
+    choose_cells(sky, n, u, v, &cells);
+    fetch_texels(sky, n, &cells);
+    (sky->packed ? sample_packed_n : sample_floats_n)(sky, n, u, v, &cells, samples);
+}
+
+/* The image coordinates of directions, and the cells there. */
+typedef struct Places {
+    float u[ROW_ROOM], v[ROW_ROOM];
+    Cells cells;
+} Places;
+
+CLONES static void find_places_n(const Sky *sky, int n, const float *x, const float *y, const float *z,
+                                 Places *restrict at) {
+    const Sky s = {.cos_turn = sky->cos_turn, .sin_turn = sky->sin_turn};
+    float width = (float)sky->width, height = (float)sky->height;
+    EACH(k, (size_t)n) {
+        float u, v;
+        to_map(&s, vec3(x[k], y[k], z[k]), &u, &v);
+        at->u[k] = u;
+        at->v[k] = v;
+        at->cells.column[k] = (int)clamp(u * width, 0.0f, width - 1.0f);
+        at->cells.row[k] = (int)clamp(v * height, 0.0f, height - 1.0f);
+    }
+}
+
+FN void look_up(const Sky *sky, bool packed, int n, const float *x, const float *z, const Places *at,
+                LightRows *restrict found) {
+    const float *ends = sky->columns.ends, *row_ends = sky->rows.ends;
+    const int *rows = at->cells.row, *columns = at->cells.column;
+    SkyTexels t = sky_texels(sky);
+    int stride = (int)sky->stride;
+    float scale = (float)sky->width * (float)sky->height / (TWO_PI * PI);
+    EACH(k, (size_t)n) {
+        int row = rows[k];
+        int leaf = row * stride + columns[k];
+        Rgb c = image_at(t, packed, at->u[k], at->v[k]);
+        found->radiance[0][k] = c.r;
+        found->radiance[1][k] = c.g;
+        found->radiance[2][k] = c.b;
+        found->pdf[k] = (ends[leaf] - ends[leaf - 1]) * (row_ends[row] - row_ends[row - 1]) * scale /
+                        max(sqrt(x[k] * x[k] + z[k] * z[k]), 1e-7f);
+    }
+}
+CLONES static void look_up_packed_n(const Sky *sky, int n, const float *x, const float *z, const Places *at,
+                                    LightRows *found) {
+    look_up(sky, true, n, x, z, at, found);
+}
+CLONES static void look_up_floats_n(const Sky *sky, int n, const float *x, const float *z, const Places *at,
+                                    LightRows *found) {
+    look_up(sky, false, n, x, z, at, found);
+}
+
+void sky_at_rows(const Sky *sky, int n, const float *const d[3], LightRows *found) {
+    Places at;
+    if (has_map(sky)) {
+        find_places_n(sky, n, d[0], d[1], d[2], &at);
+        fetch_texels(sky, n, &at.cells);
+        (sky->packed ? look_up_packed_n : look_up_floats_n)(sky, n, d[0], d[2], &at, found);
+        return;
+    }
+    for (int k = 0; k < n; k++) {
+        SkyPoint p = sky_at(sky, vec3(d[0][k], d[1][k], d[2][k]));
+        found->radiance[0][k] = p.radiance.r;
+        found->radiance[1][k] = p.radiance.g;
+        found->radiance[2][k] = p.radiance.b;
+        found->pdf[k] = p.pdf;
+    }
 }
 
 static double sin_of_row(int y, int height) { return (sin)(3.14159265358979 * (y + 0.5) / height); }

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "shading/angles.h"
 #include "trace/distribution.h"
+#include "trace/light_rows.h"
 
 typedef struct Sky {
     const Environment *environment; /* borrowed */
@@ -31,5 +32,10 @@ SkyPoint sky_at(const Sky *sky, Vec3 direction);
 
 /* A direction for (u, v) in [0, 1)^2, by about its radiance. */
 SkyPoint sky_sample(const Sky *sky, float u, float v);
+
+/* Works on arrays of n <= ROW_MOST, n a multiple of ROW_LANES: samples for (u, v); and radiance and pdf
+ * along the directions d. */
+void sky_sample_rows(const Sky *sky, int n, const float *u, const float *v, LightRows *samples);
+void sky_at_rows(const Sky *sky, int n, const float *const d[3], LightRows *found);
 
 #endif

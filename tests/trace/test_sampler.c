@@ -37,12 +37,8 @@ static void pairs_are_stratified(void **state) {
                 for (uint32_t block = 0; block < 2; block++) {
                     unsigned char seen[N] = {0};
                     for (uint32_t k = 0; k < N; k++) {
-                        Sampler s = sampler_start(sampler_key(pixel, 3, 9), block * N + k);
-                        Point p = {0};
-                        for (int j = 0; j <= pair; j += 2) {
-                            TwoPoints two = sampler_next(&s);
-                            p = j == pair ? two.first : two.second;
-                        }
+                        Point p = sampler_point(sampler_key(pixel, 3, 9), sampler_index(block * N + k),
+                                                (uint32_t)pair);
                         int column = (int)(p.u * (float)(1 << split)),
                             row = (int)(p.v * (float)(1 << (M - split)));
                         seen[column * (1 << (M - split)) + row]++;
@@ -56,11 +52,12 @@ static void pixels_and_pairs_are_decorrelated(void **state) {
     enum { N = 4096 };
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        Sampler a = sampler_start(sampler_key(k, 0, 1), 0), b = sampler_start(sampler_key(k + 1, 0, 1), 0);
-        TwoPoints p = sampler_next(&a), q = sampler_next(&b);
-        sum += ((double)p.first.u - 0.5) * ((double)q.first.u - 0.5) * 12.0;  /* between pixels */
-        sum += ((double)p.first.u - 0.5) * ((double)p.second.u - 0.5) * 12.0; /* between pairs */
-        sum += ((double)p.second.u - 0.5) * ((double)p.second.v - 0.5) * 12.0;
+        uint32_t one = sampler_key(k, 0, 1), two = sampler_key(k + 1, 0, 1), first = sampler_index(0);
+        Point p = sampler_point(one, first, 0), q = sampler_point(two, first, 0),
+              next = sampler_point(one, first, 1);
+        sum += ((double)p.u - 0.5) * ((double)q.u - 0.5) * 12.0;    /* between pixels */
+        sum += ((double)p.u - 0.5) * ((double)next.u - 0.5) * 12.0; /* between pairs */
+        sum += ((double)next.u - 0.5) * ((double)next.v - 0.5) * 12.0;
     }
     assert_true(sum * sum < 16.0 * 3.0 * N); /* 4 standard errors of a sum of 3 N products of variance 1 */
 }

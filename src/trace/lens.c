@@ -1,0 +1,75 @@
+#include "trace/lens.h"
+
+#include "shading/loop.h"
+#include "trace/sampler.h"
+
+/* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one
+ * up at random spreads samples as the window weighs them. Fredric J. Harris, "On the Use of Windows for
+ * Harmonic Analysis with the Discrete Fourier Transform", 1978. */
+void lens_make(Lens *lens) {
+    enum { FINE = 16 * LENS_STEPS };
+    const double radius = 1.5, total = 0.35875;
+    double integral = 0.0;
+    int step = 0;
+    for (int k = 0; k < FINE; k++) {
+        double a = 6.28318530717959 * (k + 0.5) / FINE;
+        double w = 0.35875 - 0.48829 * (cos)(a) + 0.14128 * (cos)(2.0 * a) - 0.01168 * (cos)(3.0 * a),
+               before = integral;
+        integral += w / (total * FINE);
+        for (; step <= LENS_STEPS && (double)step / LENS_STEPS <= integral; step++) {
+            double part = ((double)step / LENS_STEPS - before) / (integral - before);
+            lens->filter[step] = (float)(radius * (2.0 * (k + part) / FINE - 1.0));
+        }
+    }
+    for (; step <= LENS_STEPS; step++) lens->filter[step] = (float)radius;
+}
+
+FN float filter_offset(const float *filter, float u) {
+    float x = u * LENS_STEPS;
+    int k = (int)x;
+    return mix(filter[k], filter[k + 1], x - (float)k);
+}
+
+/* Makes the rays of one pixel; pixels do not share vectors, so that a crop has the bytes of the whole. */
+CLONES static void rays_of_pixel_n(const Lens *lens, float px, float py, uint32_t pixel,
+                                   const uint32_t *sample, int at, int n, Paths *restrict paths) {
+    const View view = lens->view;
+    const float *filter = lens->filter;
+    float across = 2.0f / (float)lens->width, down = 2.0f / (float)lens->height,
+          wide = lens->centred ? 0.0f : 1.0f;
+    float parallel = view.orthographic ? 1.0f : 0.0f, spread = 1.0f - parallel; /* origins, or directions */
+    EACH(k, (size_t)n) {
+        Point p = sampler_point(pixel, sample[k], SAMPLER_PIXEL);
+        float x = (px + 0.5f + wide * filter_offset(filter, p.u)) * across - 1.0f;
+        float y = 1.0f - (py + 0.5f + wide * filter_offset(filter, p.v)) * down;
+        float ox = view.across.x * x + view.up.x * y, oy = view.across.y * x + view.up.y * y,
+              oz = view.across.z * x + view.up.z * y;
+        float dx = view.forward.x + spread * ox, dy = view.forward.y + spread * oy,
+              dz = view.forward.z + spread * oz, r = 1.0f / sqrt(dx * dx + dy * dy + dz * dz);
+        size_t j = (size_t)at + k;
+        paths->o[0][j] = view.eye.x + parallel * ox;
+        paths->o[1][j] = view.eye.y + parallel * oy;
+        paths->o[2][j] = view.eye.z + parallel * oz;
+        paths->d[0][j] = dx * r;
+        paths->d[1][j] = dy * r;
+        paths->d[2][j] = dz * r;
+        paths->key[j] = hash32(pixel ^ sample[k]);
+    }
+}
+
+int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *paths) {
+    int pixels = part->width * part->height, at = 0;
+    for (int k = 0; k < 1 << PATHS_SAMPLES_LOG2; k++)
+        keys->sample[k] = sampler_index((uint32_t)(part->first + k));
+    for (int p = 0; p < pixels; p++, at += part->count) {
+        int x = part->x + p % part->width, y = part->y + p / part->width;
+        keys->pixel[p] = sampler_key((uint32_t)x, (uint32_t)y, part->seed);
+        /* all ROW_LANES of them: the next pixel's take the place of what is too many */
+        rays_of_pixel_n(lens, (float)x, (float)y, keys->pixel[p], keys->sample, at, ROW_LANES, paths);
+        for (int k = 0; k < part->count; k++) paths->id[at + k] = (uint32_t)(p << PATHS_SAMPLES_LOG2 | k);
+    }
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < at; k++) paths->throughput[a][k] = paths->sky[a][k] = 1.0f;
+    for (int k = 0; k < at; k++) paths->pdf[k] = 0.0f;
+    return at;
+}

@@ -1,0 +1,16 @@
+/* light_rows.h - samples of lights, or what comes along directions, as arrays */
+#ifndef WEFT_TRACE_LIGHT_ROWS_H
+#define WEFT_TRACE_LIGHT_ROWS_H
+
+#include "shading/surface_rows.h"
+
+/* Further than any light of a scene. */
+#define LIGHT_FAR 1e30f
+
+/* The members of LightSample in lights.h. */
+typedef struct LightRows {
+    float wi[3][ROW_ROOM], radiance[3][ROW_ROOM];
+    float pdf[ROW_ROOM], distance[ROW_ROOM]; /* LIGHT_FAR: of the environment and directional lights */
+} LightRows;
+
+#endif

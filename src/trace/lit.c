@@ -1,0 +1,104 @@
+/* lit.c - light that vertices of paths send out or receive */
+#include "trace/chunk.h"
+
+#include "shading/loop.h"
+#include "shading/rgb.h"
+
+void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
+    const PathContext *context = from->context;
+    const Material *material = &context->materials[from->material].material;
+    SurfaceRows *s = &c->vertices.surface;
+    for (int k = 0; k < from->n; k++) {
+        Row *sent = material->unlit ? s->base_color : s->emission;
+        float cosine = 0.0f, worth = 1.0f;
+        for (int a = 0; a < 3; a++) cosine += c->wo[a][k] * c->geometric[a][k];
+        if (!material->unlit) {
+            float b = lights_triangle_pdf(context->lights, c->mesh[k], c->triangle[k], c->t[k], cosine);
+            worth = s->emission_strength[k] * lobe_weight(context->sampling, c->pdf[k], b);
+            if (c->side[k] < 0.0f && !material->double_sided) worth = 0.0f;
+        }
+        for (int a = 0; a < 3; a++) light->c[a][c->id[k]] += c->throughput[a][k] * (sent[a][k] * worth);
+    }
+}
+
+/* Weighs each light sample of a group, as if nothing were in its way; far is below 0 if it brings nothing.
+ * mis: the lobe may find the same light. */
+CLONES static void weigh_n(Chunk *restrict c, LightGroup group, bool mis, int n) {
+    const LightRows *light = &c->light[group];
+    float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group];
+    float both = mis ? 1.0f : 0.0f;
+    EACH(k, (size_t)n) {
+        float own = light->pdf[k], lobe = pdf[k], safe = own > 0.0f ? own : 1.0f;
+        float worth = 1.0f / (safe + both * lobe * (lobe / safe)); /* weight / own */
+        float up = light->wi[0][k] * c->geometric[0][k] + light->wi[1][k] * c->geometric[1][k] +
+                   light->wi[2][k] * c->geometric[2][k];
+        float r = f[0][k] * light->radiance[0][k], g = f[1][k] * light->radiance[1][k],
+              b = f[2][k] * light->radiance[2][k];
+        bool live = (own > 0.0f) & (up > 0.0f) & (r + g + b > 0.0f);
+        c->far[k] = live ? light->distance[k] : -1.0f;
+        c->added[0][k] = c->throughput[0][k] * r * worth;
+        c->added[1][k] = c->throughput[1][k] * g * worth;
+        c->added[2][k] = c->throughput[2][k] * b * worth;
+    }
+}
+
+/* Lists those with a shadow ray. */
+static int list_rays(Chunk *c, int n) {
+    int count = 0;
+    for (int k = 0; k < n; k++) {
+        c->list[count] = k;
+        count += c->far[k] >= 0.0f;
+    }
+    for (int k = count; k < row_whole(count); k++) c->list[k] = c->list[0];
+    return count;
+}
+
+/* From the moved start to just before the light. */
+CLONES static void aim_n(Chunk *restrict c, LightGroup group, int n) {
+    const LightRows *light = &c->light[group];
+    const int *list = c->list;
+    EACH(k, (size_t)n) {
+        int j = list[k];
+        float distance = c->far[j], x = light->wi[0][j], y = light->wi[1][j], z = light->wi[2][j];
+        float ox = c->origin[0][j], oy = c->origin[1][j], oz = c->origin[2][j];
+        bool near = distance < 0.5f * LIGHT_FAR;
+        float d = near ? distance : 0.0f;
+        float tx = c->lifted[0][j] + x * d - ox, ty = c->lifted[1][j] + y * d - oy,
+              tz = c->lifted[2][j] + z * d - oz;
+        float length2 = tx * tx + ty * ty + tz * tz;
+        bool moved = near & (length2 > 1e-30f) & (length2 < 1e30f);
+        float length = sqrt(length2), r = 1.0f / (moved ? length : 1.0f);
+        c->shadow.o[0][k] = ox;
+        c->shadow.o[1][k] = oy;
+        c->shadow.o[2][k] = oz;
+        c->shadow.d[0][k] = moved ? tx * r : x;
+        c->shadow.d[1][k] = moved ? ty * r : y;
+        c->shadow.d[2][k] = moved ? tz * r : z;
+        c->shadow.far[k] = near ? length * (1.0f - 1e-4f) : LIGHT_FAR;
+        c->shadow.key[k] = c->key[j];
+    }
+}
+
+int chunk_add_light(Chunk *c, const ChunkSource *from, LightGroup group, Light4 *light) {
+    const PathContext *context = from->context;
+    bool punctual = group == LIGHTS_PUNCTUAL;
+    if (context->sampling == WEFT_SAMPLING_LOBE && !punctual) return 0;
+    weigh_n(c, group, !punctual && context->sampling == WEFT_SAMPLING_MIS, row_whole(from->n));
+    int count = list_rays(c, from->n);
+    if (context->shadows) {
+        aim_n(c, group, row_whole(count));
+        const RayRows rays = {{c->shadow.o[0], c->shadow.o[1], c->shadow.o[2]},
+                              {c->shadow.d[0], c->shadow.d[1], c->shadow.d[2]},
+                              c->shadow.far,
+                              c->shadow.key,
+                              false,
+                              false};
+        geometry_occlusions(context->geometry, &rays, count, c->hidden);
+    }
+    for (int k = 0; k < count; k++) {
+        int j = c->list[k];
+        if (context->shadows && c->hidden[k]) continue;
+        for (int a = 0; a < 3; a++) light->c[a][c->id[j]] += c->added[a][j];
+    }
+    return context->shadows ? count : 0;
+}

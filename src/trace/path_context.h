@@ -1,0 +1,40 @@
+/* path_context.h - the scene as paths of light see it */
+#ifndef WEFT_TRACE_PATH_CONTEXT_H
+#define WEFT_TRACE_PATH_CONTEXT_H
+
+#include "scene/material.h"
+#include "shading/kind.h"
+#include "trace/geometry.h"
+#include "trace/lights.h"
+#include "weft/render.h"
+
+/* A material prepared for all its hits. */
+typedef struct PathMaterial {
+    Material material; /* the scene's, without textures that a path never looks at */
+    Surface plain;     /* all its textures left out */
+    Choices choices;
+    bool textured;         /* has any, or a mesh that wears it has colours */
+    bool shines;           /* may send out light */
+    bool bent;             /* a normal map or anisotropy turns the shading frame */
+    TableRef sheen_e;      /* TABLE_NONE without a sheen */
+    Stack stack;           /* of plain, where no point has one of its own */
+    const StackKind *kind; /* NULL: shaded one vertex at a time */
+} PathMaterial;
+
+typedef struct PathContext {
+    const WeftScene *scene;
+    const Geometry *geometry;
+    const Lights *lights;
+    const PathMaterial *materials; /* beside the scene's */
+    int max_depth;
+    WeftSampling sampling;
+    bool roulette, shadows;
+    bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
+} PathContext;
+
+/* Which random numbers a path takes (sampler.h). */
+typedef struct PathKey {
+    uint32_t pixel, sample;
+} PathKey;
+
+#endif

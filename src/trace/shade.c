@@ -1,0 +1,185 @@
+/* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
+#include "trace/chunk.h"
+
+#include "shading/frame.h"
+#include "shading/loop.h"
+#include "trace/sampler.h"
+
+CLONES static void draw_numbers(const Chunk *c, uint32_t pair, int n, float *restrict u, float *restrict v) {
+    const uint32_t *pixel = c->pixel, *sample = c->sample;
+    EACH(k, (size_t)n) {
+        Point p = sampler_point(pixel[k], sample[k], pair);
+        u[k] = p.u;
+        v[k] = p.v;
+    }
+}
+
+/* World directions as the shading frame has them. */
+CLONES static void turn_in_n(Chunk *c, Row w[3], int n, Row *restrict local) {
+    for (int axis = 0; axis < 3; axis++) {
+        Row *along = c->frame[axis];
+        float *to = local[axis];
+        EACH(k, (size_t)n) { to[k] = w[0][k] * along[0][k] + w[1][k] * along[1][k] + w[2][k] * along[2][k]; }
+    }
+}
+
+static void sample_lights(Chunk *c, const ChunkSource *from, int n) {
+    const Lights *lights = from->context->lights;
+    KindVertices *v = &c->vertices;
+    uint32_t pair = SAMPLER_VERTEX + SAMPLER_PER_VERTEX * (uint32_t)from->depth;
+    const float *const point[3] = {c->lifted[0], c->lifted[1], c->lifted[2]};
+    for (int g = 0; g < LIGHT_GROUPS; g++) {
+        if (!lights_shine(lights, (LightGroup)g)) continue;
+        draw_numbers(c, pair + (uint32_t)g, n, v->u, v->v);
+        lights_sample_rows(lights, (LightGroup)g, n, point, v->u, v->v, &c->light[g]);
+        turn_in_n(c, c->light[g].wi, n, v->i[g]);
+    }
+    draw_numbers(c, pair + LIGHT_GROUPS, n, v->u, v->v);
+}
+
+static void put_value(Chunk *c, int direction, int k, const Rgb *f, float pdf) {
+    KindVertices *v = &c->vertices;
+    v->f[direction][0][k] = f->r;
+    v->f[direction][1][k] = f->g;
+    v->f[direction][2][k] = f->b;
+    v->pdf[direction][k] = pdf;
+}
+
+/* f cos, which was asked for with that seed, as it is for the environment's light: ambient times what the
+ * diffuse lobe and dust reflect first, reflection times what the others do. */
+static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const StackView *view, Dir wi,
+                        uint32_t seed, Rgb f_cos) {
+    const Environment *sky = &context->scene->environment;
+    Slots others = slots_of(false, true, true, true, false);
+    Rgb rest = rgb_add(stack_eval_of(stack, view, others, wi).f_cos,
+                       layer_walk_bounces(stack, view, others, wi, seed));
+    Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
+    return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
+}
+
+/* The stack at a vertex: the material's, or one of its own. */
+static const Stack *stack_at(Chunk *c, const PathMaterial *material, int k) {
+    Surface surface = surface_of_row(&c->vertices.surface, (size_t)k);
+    if (!material->textured && !(surface.dust > 0.0f)) return &material->stack;
+    Dir normal = dir(c->frame[2][0][k], c->frame[2][1][k], c->frame[2][2][k]);
+    Dir position = dir(c->position[0][k], c->position[1][k], c->position[2][k]);
+    surface = dust_accumulate(frame_surface(surface), normal, position);
+    stack_make(&c->stack, &surface, &material->choices, material->sheen_e);
+    return &c->stack;
+}
+
+/* One vertex at a time, whatever its stack is. */
+static void shade_vertex(Chunk *c, const PathContext *context, const PathMaterial *material, int k) {
+    KindVertices *v = &c->vertices;
+    const Stack *stack = stack_at(c, material, k);
+    uint32_t seed = hash32(c->key[k]);
+    Dir o = dir(v->o[0][k], v->o[1][k], v->o[2][k]), wi;
+    StackValue value;
+    stack_see(stack, &o, &c->view);
+    for (int g = 0; g < LIGHT_GROUPS; g++) {
+        if (!lights_shine(context->lights, (LightGroup)g)) continue;
+        wi = dir(v->i[g][0][k], v->i[g][1][k], v->i[g][2][k]);
+        stack_eval(stack, &c->view, &wi, seed, &value);
+        if (g == LIGHTS_SKY && context->sky_in_parts)
+            value.f_cos = f_cos_of_sky(context, stack, &c->view, wi, seed, value.f_cos);
+        put_value(c, g, k, &value.f_cos, value.pdf);
+    }
+    seed = hash32(c->key[k] ^ 0x68e31da4u);
+    stack_sample(stack, &c->view, v->u[k], v->v[k], &wi);
+    stack_eval(stack, &c->view, &wi, seed, &value);
+    v->i[KIND_DRAWN][0][k] = wi.x, v->i[KIND_DRAWN][1][k] = wi.y, v->i[KIND_DRAWN][2][k] = wi.z;
+    put_value(c, KIND_DRAWN, k, &value.f_cos, value.pdf);
+    if (!context->sky_in_parts) return;
+    Rgb f = f_cos_of_sky(context, stack, &c->view, wi, seed, value.f_cos);
+    c->f_sky[0][k] = f.r, c->f_sky[1][k] = f.g, c->f_sky[2][k] = f.b;
+}
+
+void chunk_shade(Chunk *c, const ChunkSource *from) {
+    const PathContext *context = from->context;
+    const PathMaterial *material = &context->materials[from->material];
+    int n = row_whole(from->n);
+    sample_lights(c, from, n);
+    if (material->kind && !context->sky_in_parts) {
+        bool shine[LIGHT_GROUPS];
+        for (int g = 0; g < LIGHT_GROUPS; g++) shine[g] = lights_shine(context->lights, (LightGroup)g);
+        kind_shade(material->kind, &c->vertices, material->sheen_e, shine, n);
+    } else
+        for (int k = 0; k < from->n; k++) shade_vertex(c, context, material, k);
+}
+
+/* Weighs each path along the direction that was drawn; goes is 0 if it ends. */
+CLONES static void weigh_paths_n(Chunk *restrict c, bool roulette, uint32_t place, int n) {
+    KindVertices *v = &c->vertices;
+    float(*i)[ROW_ROOM] = v->i[KIND_DRAWN], (*f)[ROW_ROOM] = v->f[KIND_DRAWN], *pdf = v->pdf[KIND_DRAWN];
+    float surely = roulette ? 0.0f : 1.0f;
+    EACH(k, (size_t)n) {
+        float x = i[0][k], y = i[1][k], z = i[2][k], p = pdf[k];
+        float wx = x * c->frame[0][0][k] + y * c->frame[1][0][k] + z * c->frame[2][0][k];
+        float wy = x * c->frame[0][1][k] + y * c->frame[1][1][k] + z * c->frame[2][1][k];
+        float wz = x * c->frame[0][2][k] + y * c->frame[1][2][k] + z * c->frame[2][2][k];
+        float up = wx * c->geometric[0][k] + wy * c->geometric[1][k] + wz * c->geometric[2][k];
+        float worth = 1.0f / (p > 0.0f ? p : 1.0f);
+        float r = c->throughput[0][k] * f[0][k] * worth, g = c->throughput[1][k] * f[1][k] * worth,
+              b = c->throughput[2][k] * f[2][k] * worth, most = max(r, max(g, b));
+        /* the square root ends paths later than their share of the light would, as the eye sees it */
+        float survive = max(min(sqrt(max(most, 0.0f)), 1.0f), surely);
+        float chance = sampler_random(c->pixel[k], c->sample[k], place);
+        bool live = (z > 0.0f) & (up > 0.0f) & (p > 0.0f) & (most > 0.0f) & (chance < survive);
+        float gain = 1.0f / max(survive, 1e-20f);
+        c->goes[k] = live ? 1.0f : 0.0f;
+        c->worth[0][k] = r * gain;
+        c->worth[1][k] = g * gain;
+        c->worth[2][k] = b * gain;
+        c->gain[k] = worth * gain;
+        c->next[0][k] = wx;
+        c->next[1][k] = wy;
+        c->next[2][k] = wz;
+    }
+}
+
+static int list_paths(Chunk *c, int n) {
+    int count = 0;
+    for (int k = 0; k < n; k++) {
+        c->list[count] = k;
+        count += c->goes[k] > 0.0f;
+    }
+    return count;
+}
+
+CLONES static void append(const Chunk *c, int at, int n, Paths *restrict to) {
+    const int *list = c->list;
+    for (int a = 0; a < 3; a++) {
+        float *o = to->o[a] + at, *d = to->d[a] + at, *throughput = to->throughput[a] + at;
+        const float *origin = c->origin[a], *w = c->next[a], *worth = c->worth[a];
+        EACH(k, (size_t)n) {
+            o[k] = origin[list[k]];
+            d[k] = w[list[k]];
+            throughput[k] = worth[list[k]];
+        }
+    }
+    uint32_t *id = to->id + at, *key = to->key + at;
+    float *pdf = to->pdf + at;
+    EACH(k, (size_t)n) {
+        int j = list[k];
+        id[k] = c->id[j];
+        key[k] = hash32(c->key[j] + 0x9e3779b9u);
+        pdf[k] = c->vertices.pdf[KIND_DRAWN][j];
+    }
+}
+
+static void append_sky(const Chunk *c, int at, int n, Paths *to) {
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < n; k++) {
+            int j = c->list[k];
+            to->sky[a][at + k] = c->throughput[a][j] * c->f_sky[a][j] * c->gain[j];
+        }
+}
+
+int chunk_go_on(Chunk *c, const ChunkSource *from, Paths *paths, int at) {
+    const PathContext *context = from->context;
+    weigh_paths_n(c, context->roulette && from->depth >= 1, (uint32_t)from->depth, row_whole(from->n));
+    int count = list_paths(c, from->n);
+    append(c, at, count, paths);
+    if (context->sky_in_parts) append_sky(c, at, count, paths);
+    return at + count;
+}
