@@ -1,7 +1,7 @@
 /* fit.h - measured reflectance, and the lobes of the catalogue that come closest to it
  *
  * A candidate is a lobe over a diffuse base: f = base color * white base + lobe. Free are all parameters of
- * the lobe that are numbers, within their plausible ranges; its choices, of which all that may be put
+ * both that are numbers, within their plausible ranges; the choices of the lobe, of which all that may be put
  * together are looked at and the best searched; its colours and that of the base, which are at least 0 and
  * may pass 1 (weft_fitted_notes says so). Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
  *
@@ -54,7 +54,8 @@ WEFT_API int weft_data_count(const WeftData *data, int *all);
 /* One candidate, fitted. */
 typedef struct WeftFitted {
     WeftLobe lobe;         /* with the parameters and colours that were found */
-    float base[3];         /* colour of the base */
+    WeftLobe base;         /* likewise; f0 and f90 are its colour, a factor on the white base */
+    int numbers;           /* free ones: parameters of both, and three a colour, or one if all is grey */
     double error;          /* by the metric that was chosen */
     long long evaluations; /* of the error, that it took */
 } WeftFitted;
@@ -69,8 +70,8 @@ enum {
 /* Returns the notes that hold of a fit, or-ed together; 0 without any. */
 WEFT_API unsigned weft_fitted_notes(const WeftFitted *fitted);
 
-/* The most candidates of a ranking. */
-enum { WEFT_FITTED_MOST = 64 };
+/* The most candidates of a ranking, and the most bases. */
+enum { WEFT_FITTED_MOST = 768, WEFT_FITTED_BASES = 16 };
 
 /* The ranking. */
 typedef struct WeftFit {
@@ -84,8 +85,9 @@ typedef struct WeftFit {
 typedef struct WeftFitDesc {
     WeftBrdfMetric metric; /* LOG where `chosen` is 0; PICTURE is refused */
     int chosen;            /* not 0: metric was chosen */
-    const char *base;      /* a diffuse lobe, with its default parameters; NULL: lambert */
+    const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: lambert */
     const char *only;      /* one candidate instead of all; NULL: all */
+    int sayable;           /* not 0: parameters that no material has an input for stay at their default */
     int threads;           /* 0: one a processor; no influence on the result */
     WeftProgress progress; /* may be NULL */
     void *user;            /* handed to progress */
@@ -96,9 +98,9 @@ typedef struct WeftFitDesc {
 WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
 
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
- * inputs cannot say it: a lobe with more shape than roughness, density and nap have, or a base brighter than
- * white. */
-WEFT_API int weft_fitted_material(const WeftFitted *fitted, const char *base, WeftMaterial *out);
+ * inputs cannot say it: a lobe or base with more shape than inputs have (`sayable` fits them as they can be
+ * said), or a base brighter than white. */
+WEFT_API int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out);
 
 #ifdef __cplusplus
 }

@@ -39,14 +39,9 @@ static bool reads_f90(const WeftLobe *lobe) {
     return reads;
 }
 
-/* "f90 0.1,0.1,0.2, d charlie, alpha 0.31": all but the colour. */
-static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
+/* Writes "d charlie, alpha 0.31" from `used` on; returns the new end. */
+static size_t numbers_text(const WeftLobe *lobe, char *text, size_t size, size_t used) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
-    size_t used = 0;
-    text[0] = '\0';
-    if (reads_f90(lobe))
-        used += (size_t)snprintf(text, size, "f90 %.3g,%.3g,%.3g", (double)lobe->f90[0], (double)lobe->f90[1],
-                                 (double)lobe->f90[2]);
     for (int k = 0; k < info->param_count && used < size; k++) {
         const WeftParamInfo *p = &info->params[k];
         used += (size_t)snprintf(text + used, size - used, "%s%s ", used ? ", " : "", p->name);
@@ -55,6 +50,19 @@ static const char *params_text(const WeftLobe *lobe, char *text, size_t size) {
         else if (used < size)
             used += (size_t)snprintf(text + used, size - used, "%.3g", (double)lobe->params[k]);
     }
+    return used;
+}
+
+/* Writes all of lobe and base but their first colours: "f90 0.1,0.1,0.2, d charlie, alpha 0.31, edge 0.1". */
+static const char *params_text(const WeftFitted *fitted, char *text, size_t size) {
+    const float *f90 = fitted->lobe.f90;
+    size_t used = 0;
+    text[0] = '\0';
+    if (reads_f90(&fitted->lobe))
+        used = (size_t)snprintf(text, size, "f90 %.3g,%.3g,%.3g", (double)f90[0], (double)f90[1],
+                                (double)f90[2]);
+    used = numbers_text(&fitted->lobe, text, size, used);
+    if (used < size) numbers_text(&fitted->base, text, size, used);
     return text;
 }
 
@@ -70,13 +78,13 @@ static const struct {
 enum { NOTES = sizeof notes / sizeof *notes };
 
 static void row_write(const char *rank, const char *name, const WeftFitted *fitted) {
-    char params[256], base[64], color[64];
-    snprintf(base, sizeof base, "%.3f,%.3f,%.3f", (double)fitted->base[0], (double)fitted->base[1],
-             (double)fitted->base[2]);
+    char params[320], base[64], color[64];
+    snprintf(base, sizeof base, "%.3f,%.3f,%.3f", (double)fitted->base.f0[0], (double)fitted->base.f0[1],
+             (double)fitted->base.f0[2]);
     snprintf(color, sizeof color, "%.3g,%.3g,%.3g", (double)fitted->lobe.f0[0], (double)fitted->lobe.f0[1],
              (double)fitted->lobe.f0[2]);
-    printf("%4s  %-27s %7.4f  %-19s  %-24s %s", rank, name, fitted->error, base, color,
-           params_text(&fitted->lobe, params, sizeof params));
+    printf("%4s  %-44s %7.4f  %7d  %-19s  %-24s %s", rank, name, fitted->error, fitted->numbers, base, color,
+           params_text(fitted, params, sizeof params));
     for (int k = 0; k < NOTES; k++)
         if (weft_fitted_notes(fitted) & notes[k].note) printf("  (%s)", notes[k].words);
     putchar('\n');
@@ -87,22 +95,38 @@ static void text_write(const Fitting *fitting) {
     int all = 0, count = weft_data_count(fitting->data, &all), better = 0, idle = 0;
     printf("%s: %d samples of %d; error is %s, relative; base %s\n\n", fitting->path, count, all,
            weft_brdf_metric_name(fitting->metric), fitting->base);
-    printf("%4s  %-27s %7s  %-19s  %-24s %s\n", "", "lobe over the base", "error", "base color", "lobe color",
-           "parameters");
+    printf("%4s  %-44s %7s  %7s  %-19s  %-24s %s\n", "", "lobe over base", "error", "numbers", "base color",
+           "lobe color", "parameters");
     for (int k = 0; k < fit->count; k++) {
         const WeftLobeInfo *info = weft_lobe_info(fit->fitted[k].lobe.lobe);
-        char rank[8], name[64];
+        char rank[16], name[96];
         snprintf(rank, sizeof rank, "%d", k + 1);
-        snprintf(name, sizeof name, "%s%s", info->id, reads_f90(&fit->fitted[k].lobe) ? ", f90 free" : "");
+        snprintf(name, sizeof name, "%s%s over %s", info->id,
+                 reads_f90(&fit->fitted[k].lobe) ? ", f90 free," : "",
+                 weft_lobe_info(fit->fitted[k].base.lobe)->id);
         row_write(rank, name, &fit->fitted[k]);
         better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
-    row_write("", "baseline: ggx, f90 = 1", &fit->baseline);
-    printf("%4s  %-27s %7.4f\n\n", "", "the base alone", fit->base_alone);
+    row_write("", "baseline: ggx, f90 = 1, over lambert", &fit->baseline);
+    printf("%4s  %-44s %7.4f\n\n", "", "the base alone", fit->base_alone);
+    printf("these are fits to a measurement: what they say of directions that it has not is a guess. "
+           "Numbers: how "
+           "many were free, three of each colour\n");
     printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better,
            fit->count);
     if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
+}
+
+static void json_params(Json *json, const char *key, const WeftLobe *lobe) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    json_open(json, key, '{');
+    for (int k = 0; k < info->param_count; k++)
+        if (info->params[k].choices)
+            json_text(json, info->params[k].name, info->params[k].choices[(int)lobe->params[k]]);
+        else
+            json_float(json, info->params[k].name, lobe->params[k]);
+    json_close(json, '}');
 }
 
 static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
@@ -110,16 +134,13 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_open(json, key, '{');
     json_text(json, "lobe", info->id);
     json_number(json, "error", fitted->error);
-    json_floats(json, "base_color", fitted->base, 3);
+    json_text(json, "base", weft_lobe_info(fitted->base.lobe)->id);
+    json_whole(json, "numbers", fitted->numbers);
+    json_floats(json, "base_color", fitted->base.f0, 3);
     json_floats(json, "color", fitted->lobe.f0, 3);
     if (reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
-    json_open(json, "params", '{');
-    for (int k = 0; k < info->param_count; k++)
-        if (info->params[k].choices)
-            json_text(json, info->params[k].name, info->params[k].choices[(int)fitted->lobe.params[k]]);
-        else
-            json_float(json, info->params[k].name, fitted->lobe.params[k]);
-    json_close(json, '}');
+    json_params(json, "params", &fitted->lobe);
+    json_params(json, "base_params", &fitted->base);
     json_open(json, "notes", '[');
     for (int k = 0; k < NOTES; k++)
         if (weft_fitted_notes(fitted) & notes[k].note) json_text(json, NULL, notes[k].words);
@@ -145,32 +166,50 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, '}');
 }
 
-/* Returns the number of lobes to fit, with the baseline. */
-static int fits_count(const char *only) {
-    int count = 2;
-    for (int k = 0; !only && k < weft_lobe_count(); k++)
-        count += !(weft_lobe_info(k)->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE));
-    return only ? count : count - 1;
+/* Returns the number of fits, with the baseline. */
+static int fits_count(const Fitting *fitting, const char *only) {
+    int lobes = 0, bases = 0;
+    for (int k = 0; k < weft_lobe_count(); k++) {
+        unsigned traits = weft_lobe_info(k)->traits;
+        bases += (traits & WEFT_LOBE_DIFFUSE) != 0;
+        lobes += !(traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE));
+    }
+    return (only ? 1 : lobes) * (strcmp(fitting->base, "all") == 0 ? bases : 1) + 1;
 }
 
-/* The best whose numbers a material has room for. */
+/* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
+ * rest is fitted again. */
+static WeftResult sayable_fit(const Fitting *fitting, WeftFit *again, WeftMaterial *material,
+                              WeftError *error) {
+    const WeftFitted *best = &fitting->fit.fitted[0];
+    *again = fitting->fit;
+    if (weft_fitted_material(best, material)) return WEFT_OK;
+    const WeftFitDesc desc = {.metric = fitting->metric,
+                              .chosen = 1,
+                              .base = weft_lobe_info(best->base.lobe)->id,
+                              .only = weft_lobe_info(best->lobe.lobe)->id,
+                              .sayable = 1};
+    WeftResult result = weft_fit(fitting->data, &desc, again, error);
+    if (result == WEFT_OK && weft_fitted_material(&again->fitted[0], material))
+        report(0,
+               "warning: %s: a material has no inputs for all numbers of %s over %s; with those at their "
+               "defaults the error is %.4f",
+               fitting->material, desc.only, desc.base, again->fitted[0].error);
+    return result;
+}
+
 static int material_write(const Fitting *fitting) {
     WeftError error;
     WeftMaterial material;
-    WeftScene *scene;
-    int best = 0;
-    while (best < fitting->fit.count &&
-           !weft_fitted_material(&fitting->fit.fitted[best], fitting->base, &material))
-        best++;
-    if (best == fitting->fit.count)
+    WeftFit again;
+    WeftScene *scene = NULL;
+    WeftResult result = sayable_fit(fitting, &again, &material, &error);
+    if (result != WEFT_OK) return report_error(&error);
+    if (!weft_fitted_material(&again.fitted[0], &material))
         return report(WEFT_FAILED, "%s: no fit could be said by a material's inputs", fitting->material);
-    if (best > 0)
-        report(0, "warning: %s: is %s, number %d, since a material has no inputs for all of %s",
-               fitting->material, weft_lobe_info(fitting->fit.fitted[best].lobe.lobe)->id, best + 1,
-               weft_lobe_info(fitting->fit.fitted[0].lobe.lobe)->id);
-    if (weft_fitted_notes(&fitting->fit.fitted[best]) & WEFT_FITTED_BRIGHT)
+    if (weft_fitted_notes(&again.fitted[0]) & WEFT_FITTED_BRIGHT)
         report(0, "warning: %s: a colour is above 1: more light may leave than came", fitting->material);
-    WeftResult result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
+    result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_put_material(scene, 0, &material, &error);
     if (result == WEFT_OK) result = weft_scene_save_material(scene, 0, fitting->material, &error);
     weft_scene_free(scene);
@@ -218,7 +257,7 @@ static int fit_make(Fitting *fitting) {
     WeftResult result = weft_data_read(fitting->path, &fitting->data, &error);
     if (result != WEFT_OK) return report_error(&error);
     if (interrupt_seen()) return interrupted(fitting);
-    Progress progress = progress_start_count(false, "lobes", fits_count(only));
+    Progress progress = progress_start_count(false, "fits", fits_count(fitting, only));
     const WeftFitDesc desc = {.metric = fitting->metric,
                               .chosen = 1,
                               .base = fitting->base,
@@ -247,8 +286,7 @@ static int fit_run(const Options *options) {
     if (result == 0) result = outputs_check(&fitting);
     if (result == 0) result = fit_make(&fitting);
     if (result == 0 && fitting.material) result = material_write(&fitting);
-    if (result == 0 && fitting.plot)
-        result = fit_sheet_write(fitting.path, fitting.base, &fitting.fit, fitting.plot);
+    if (result == 0 && fitting.plot) result = fit_sheet_write(fitting.path, &fitting.fit, fitting.plot);
     if (result == 0 && option_given(options, "--json"))
         json_write(&fitting);
     else if (result == 0)
@@ -260,7 +298,7 @@ static int fit_run(const Options *options) {
 static const Option fit_options[] = {
     OPTION_HEADING("Fit"),
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
-    OPTION_TEXT("--base", "LOBE", "lambert", "the diffuse lobe below, with its default parameters"),
+    OPTION_TEXT("--base", "LOBE|all", "lambert", "the diffuse lobe below, or each of them"),
     OPTION_LOBES_OR("fit this lobe alone"),
     OPTION_HEADING("Result"),
     OPTION_TEXT("-o", "FILE.json", NULL, "write the best as a material that weft render takes"),
@@ -282,14 +320,14 @@ const Verb verb_fit = {
              "tangent, f in 1/sr. Lines that start with # are passed over; one line of names\n"
              "may stand above. A negative number was not measured.\n\n"
              "Every lobe of the catalogue that is no diffuse term is fitted, over a diffuse\n"
-             "base: all parameters, the colours of both. The baseline is ggx over lambert.\n"
+             "base: all parameters and colours of both. The baseline is ggx over lambert.\n"
              "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"
              "  log      g = ln(1 + x / mean x)\n"
              "  cosine   g = x\n"
              "Directions more than 80 degrees off the normal do not count. docs/fit.md explains\n"
              "more.\n\n"
              "Examples\n"
-             "  weft fit red-fabric.binary\n"
+             "  weft fit red-fabric.binary --base all\n"
              "  weft fit felt.binary -o felt.json --plot felt.png\n"
              "  weft fit gonio.csv --metric cosine --base eon --json\n",
     .run = fit_run,

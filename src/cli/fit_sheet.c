@@ -47,12 +47,11 @@ static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftErr
 }
 
 /* A fit as two things to be added. */
-static WeftResult drawn_of(const WeftFitted *fitted, const char *base, Drawn *drawn,
-                           WeftReflection **reflection, WeftError *error) {
-    WeftResult result = weft_lobe_init(base, &drawn->base, error);
-    for (int c = 0; c < 3; c++) drawn->base.f0[c] = drawn->base.f90[c] = fitted->base[c];
+static WeftResult drawn_of(const WeftFitted *fitted, Drawn *drawn, WeftReflection **reflection,
+                           WeftError *error) {
+    drawn->base = fitted->base;
     drawn->has_base = 1;
-    if (result == WEFT_OK) result = weft_reflection_of_lobe(&fitted->lobe, reflection, error);
+    WeftResult result = weft_reflection_of_lobe(&fitted->lobe, reflection, error);
     drawn->reflection = *reflection;
     return result;
 }
@@ -137,15 +136,15 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
     return result;
 }
 
-int fit_sheet_write(const char *path, const char *base, const WeftFit *fit, const char *output) {
+int fit_sheet_write(const char *path, const WeftFit *fit, const char *output) {
     WeftError error;
     Slices all = {.scale = 1.0f};
     WeftReflection *of[COLUMNS] = {NULL};
     Drawn drawn[COLUMNS] = {{.reflection = NULL}};
     WeftResult result = weft_reflection_read(path, &of[0], &error);
     drawn[0].reflection = of[0];
-    if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], base, &drawn[1], &of[1], &error);
-    if (result == WEFT_OK) result = drawn_of(&fit->baseline, "lambert", &drawn[2], &of[2], &error);
+    if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], &drawn[1], &of[1], &error);
+    if (result == WEFT_OK) result = drawn_of(&fit->baseline, &drawn[2], &of[2], &error);
     if (result == WEFT_OK) result = draw_all(&all, drawn, &error);
     if (result == WEFT_OK) result = compose(&all, path, fit, output, &error);
     for (int r = 0; r < ROWS; r++)

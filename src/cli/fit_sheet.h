@@ -6,6 +6,6 @@
 
 /* Writes a .png: in rows phi_d 90 and 0 degrees, in columns the data at path, the best fit and the baseline,
  * and how these differ. Returns 0, or an exit code after one line on standard error. */
-int fit_sheet_write(const char *path, const char *base, const WeftFit *fit, const char *output);
+int fit_sheet_write(const char *path, const WeftFit *fit, const char *output);
 
 #endif

@@ -16,6 +16,8 @@ typedef struct LobeWalker {
     WeftLobe start;
     bool tinted, second; /* tinted: colour is no factor; second: two colours are */
     int free[WEFT_LOBE_PARAMS_MAX], frees;
+    WeftLobe ground;                                                   /* the white base */
+    int ground_free[WEFT_LOBE_PARAMS_MAX], ground_frees, ground_first; /* its numbers follow those in x */
     /* x: of f0, of f90 and without either, or of a colour's channels, or of tints */
     float *column[TINTS];
     float *base, *fixed[3], *work, *block;
@@ -24,7 +26,7 @@ typedef struct LobeWalker {
 
 static const WeftLobeInfo *info_of(const LobeWalker *self) { return weft_lobe_info(self->start.lobe); }
 
-/* x of a lobe in three channels. */
+/* x of a lobe in three channels, or in the first alone. */
 static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, float *g, float *b) {
     const WeftDirections o = {s->o[0], s->o[1], s->o[2]}, i = {s->i[0], s->i[1], s->i[2]};
     weft_eval_n(lobe, (size_t)count, o, i, (WeftColors){r, g, b}, NULL);
@@ -68,6 +70,13 @@ static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
     return lobe;
 }
 
+/* Evaluates the white base with the parameters in x. */
+static void ask_ground(LobeWalker *self, const double *x, int count) {
+    for (int k = 0; k < self->ground_frees; k++)
+        self->ground.params[self->ground_free[k]] = (float)x[self->ground_first + k];
+    ask(self->search->samples, &self->ground, count, self->base, NULL, NULL);
+}
+
 /* Sets x to the best of some tints for each channel. */
 static double try_tints(LobeWalker *self, double *x) {
     const Samples *s = self->search->samples;
@@ -106,6 +115,7 @@ static double error_at(void *user, double *x, SearchCare care) {
     int count = care == SEARCH_FULL ? s->count : s->first;
     /* of a million samples one evaluation takes seconds: it ends halfway */
     if (!progress_report(self->search->item_progress, 0.0)) return 1e30;
+    if (self->ground_frees) ask_ground(self, x, count);
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
     WeftLobe lobe = lobe_at(self, x);
@@ -165,19 +175,20 @@ static unsigned hold_turning(const LobeWalker *self) {
 }
 
 /* Returns true if the parameter changes f at any of a fixed set of values of the other free parameters. */
-static bool has_influence(const LobeWalker *self, int param, unsigned hold) {
+static bool has_influence(const Samples *s, const WeftLobe *start, int param, unsigned hold) {
     enum { SETTINGS = 3 };
-    const WeftLobeInfo *info = info_of(self);
+    const WeftLobeInfo *info = weft_lobe_info(start->lobe);
     float x[LOOKS], y[LOOKS];
     for (int setting = 0; setting < SETTINGS; setting++) {
-        WeftLobe lobe = self->start;
+        WeftLobe lobe = *start;
+        lobe.f90[0] = 0.5f * lobe.f0[0]; /* a number may say how two colours mix, and no more */
         float t = 0.3f + 0.25f * (float)setting;
         for (int k = 0; k < info->param_count; k++)
             if (!info->params[k].choices && !(hold >> k & 1u))
                 lobe.params[k] = info->params[k].low + t * (info->params[k].high - info->params[k].low);
-        int count = look(self->search->samples, &lobe, false, x);
+        int count = look(s, &lobe, false, x);
         lobe.params[param] = info->params[param].high;
-        look(self->search->samples, &lobe, false, y);
+        look(s, &lobe, false, y);
         if (differ(x, y, count, 1e-6f)) return true;
     }
     return false;
@@ -205,31 +216,44 @@ static SearchAxis axis_of(double low, double high, double start) {
     return (SearchAxis){fmin(low, start), fmax(high, start)};
 }
 
+/* Adds an axis for each parameter of a lobe that is free and has an influence; returns how many. */
+static int add_axes(const Samples *s, const WeftLobe *lobe, unsigned hold, Search *search, double *x,
+                    int free[WEFT_LOBE_PARAMS_MAX]) {
+    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
+    int count = 0;
+    for (int k = 0; k < info->param_count && search->axes < SEARCH_MOST; k++) {
+        const WeftParamInfo *p = &info->params[k];
+        if (p->choices || hold >> k & 1u || !has_influence(s, lobe, k, hold)) continue;
+        double start = fmin(fmax((double)lobe->params[k], (double)p->hard_low), (double)p->hard_high);
+        x[search->axes] = start;
+        search->axis[search->axes++] = axis_of((double)p->low, (double)p->high, start);
+        free[count++] = k;
+    }
+    return count;
+}
+
 static Search make_search(LobeWalker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
-    const WeftLobeInfo *info = info_of(self);
+    const Samples *s = self->search->samples;
     Search search = {.error = error_at,
                      .user = self,
                      .descents = 3,
                      .most = 1000,
                      .item_progress = self->search->item_progress};
-    unsigned hold = hold_turning(self);
-    for (int k = 0; k < info->param_count; k++) {
-        const WeftParamInfo *p = &info->params[k];
-        if (p->choices || hold >> k & 1u || !has_influence(self, k, hold)) continue;
-        double start = fmin(fmax((double)self->start.params[k], (double)p->hard_low), (double)p->hard_high);
-        x[search.axes] = start;
-        search.axis[search.axes++] = axis_of((double)p->low, (double)p->high, start);
-        self->free[self->frees++] = k;
+    self->frees = add_axes(s, &self->start, hold_turning(self), &search, x, self->free);
+    bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
+    for (int c = 0; painted && c < s->channels; c++) {
+        x[search.axes] = (double)self->start.f0[c];
+        search.axis[search.axes] = axis_of(0.0, 1.0, x[search.axes]);
+        search.axes++;
     }
-    search.grid = grids[search.axes < 6 ? search.axes : 6];
-    if (self->tinted && !(self->search->hold & WEFT_HOLD_COLOR))
-        for (int c = 0; c < self->search->samples->channels; c++) {
-            x[search.axes] = (double)self->start.f0[c];
-            search.axis[search.axes] = axis_of(0.0, 1.0, x[search.axes]);
-            search.axes++;
-            search.grid = search.grid > 24 ? search.grid : 24;
-        }
+    self->ground_first = search.axes;
+    if (self->search->base)
+        self->ground_frees =
+            add_axes(s, &self->ground, self->search->hold_base, &search, x, self->ground_free);
+    int numbers = self->frees + self->ground_frees;
+    search.grid = grids[numbers < 6 ? numbers : 6];
+    if (painted && search.grid < 24) search.grid = 24;
     return search;
 }
 
@@ -244,22 +268,27 @@ static bool walker_make(LobeWalker *self, const LobeSearch *search, const WeftLo
     self->base = self->block + (TINTS + 3) * n;
     self->work = self->base + n;
     if (!search->base) return true;
-    WeftLobe white = *search->base;
-    for (int c = 0; c < 3; c++) white.f0[c] = white.f90[c] = 1.0f;
-    ask(search->samples, &white, search->samples->count, self->base, NULL, NULL);
+    self->ground = *search->base;
+    for (int c = 0; c < 3; c++) self->ground.f0[c] = self->ground.f90[c] = 1.0f;
+    ask(search->samples, &self->ground, search->samples->count, self->base, NULL, NULL);
     return true;
 }
 
-/* Sets the colours that the last evaluation found. */
+/* Sets the colours that the last evaluation found, and how many numbers were free. */
 static void colors_of(const LobeWalker *self, LobeFound *out) {
     const LobeSearch *search = self->search;
+    bool painted = !(search->hold & WEFT_HOLD_COLOR);
+    bool second = self->second && !(search->hold & WEFT_HOLD_COLOR_2);
+    int colors = (search->base != NULL) + painted + second;
+    out->numbers = self->frees + self->ground_frees + colors * search->samples->channels;
+    if (search->base) out->base = self->ground;
     for (int c = 0; c < 3; c++) {
         const double *weights = self->weights[c < search->samples->channels ? c : 0];
         int k = 0;
-        if (search->base) out->base[c] = (float)weights[k++];
+        if (search->base) out->base.f0[c] = out->base.f90[c] = (float)weights[k++];
         if (self->tinted) continue;
-        if (!(search->hold & WEFT_HOLD_COLOR)) out->lobe.f0[c] = (float)weights[k++];
-        if (self->second && !(search->hold & WEFT_HOLD_COLOR_2)) out->lobe.f90[c] = (float)weights[k];
+        if (painted) out->lobe.f0[c] = (float)weights[k++];
+        if (second) out->lobe.f90[c] = (float)weights[k];
     }
 }
 

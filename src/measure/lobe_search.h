@@ -2,7 +2,7 @@
  * samples
  *
  * Colours are factors on f, so the best ones for given numbers follow at once (blend_solve); only the numbers
- * are searched, and of a tinted lobe its colour too, which is no factor. */
+ * of lobe and base are searched, and of a tinted lobe its colour too, which is no factor. */
 #ifndef WEFT_MEASURE_LOBE_SEARCH_H
 #define WEFT_MEASURE_LOBE_SEARCH_H
 
@@ -11,15 +11,17 @@
 
 typedef struct LobeSearch {
     const Samples *samples;
-    const WeftLobe *base;        /* the white base, which a base colour scales; NULL: none */
-    unsigned hold;               /* as weft_match_lobe has it */
-    bool isotropic;              /* what is to be met is: then a lobe that is stays so */
+    const WeftLobe *base; /* where its parameters begin; a base colour scales it in white; NULL: none */
+    unsigned hold;        /* as weft_match_lobe has it */
+    unsigned hold_base;   /* bit k: parameter k of the base stays */
+    bool isotropic;       /* what is to be met is: then a lobe that is stays so */
     ItemProgress *item_progress; /* may be NULL */
 } LobeSearch;
 
 typedef struct LobeFound {
     WeftLobe lobe;
-    float base[3]; /* colour of the base */
+    WeftLobe base; /* its numbers, and its colour as f0 and f90 */
+    int numbers;   /* free ones: parameters of both, and three a colour, or one if all is grey */
     double start, error;
     long long evaluations;
 } LobeFound;

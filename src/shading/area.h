@@ -58,6 +58,12 @@ FN AreaDensity area_fibres(float alpha, Dir o) {
 /* Half of the haze of gtr1 lies within the root of its alpha. */
 FN AreaDensity area_haze(float alpha, Dir o) { return area_facets(sqrt(alpha), sqrt(alpha), o); }
 
+/* Returns the density for lobe fabric. Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */
+FN AreaDensity area_fabric(Lobe lobe, Dir o) {
+    float width = pow(lobe.params[FABRIC_ALPHA], min(0.5f * lobe.params[FABRIC_TAIL], 1.0f));
+    return area_facets(width, width, o);
+}
+
 /* Returns the density for a composition of terms; distributions of cloth are broad. */
 FN AreaDensity area_composed(Lobe lobe, Dir o) {
     float alpha = lobe.params[COOK_TORRANCE_ALPHA];
@@ -88,6 +94,7 @@ FN AreaDensity area_density(Lobe lobe, Dir o) {
     if (lobe.id == LOBE_GGX) return area_ggx(lobe, o);
     if (lobe.id == LOBE_SILK) return area_silk(lobe, o);
     if (lobe.id == LOBE_COOK_TORRANCE) return area_composed(lobe, o);
+    if (lobe.id == LOBE_FABRIC) return area_fabric(lobe, o);
     if (lobe.id == LOBE_BURLEY_COAT) return area_haze(alpha, o);
     if (lobe.id == LOBE_LTC_FIBRE || lobe.id == LOBE_FIBRE_TABLE) return area_fibres(alpha, o);
     if (lobe.id == LOBE_FIBRE && lobe.params[FIBRE_TILT] < 0.03f) return area_fibres(alpha, o);

@@ -62,7 +62,7 @@ static void the_table_is_printed(void **state) {
     Ran ran = RUN("fit", "table.csv", "--lobe", "charlie-neubelt", "--metric", "cosine");
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.out, "charlie-neubelt"));
-    assert_non_null(strstr(ran.out, "baseline: ggx, f90 = 1 "));
+    assert_non_null(strstr(ran.out, "baseline: ggx, f90 = 1, over lambert "));
     assert_non_null(strstr(ran.out, "error is cosine"));
     ran_free(&ran);
 }

@@ -93,11 +93,11 @@ static const struct {
      "implicit neumann cook-torrance kelemen smith-beckmann smith-ggx smith-ggx-correlated smith-ggx-fast "
      "schlick-beckmann schlick-ggx smith-ggx-aniso neubelt conty-kulla conty-kulla-clamped"},
     {"f", "none schlick schlick-f90 cook-torrance dielectric conductor"},
-    {"diffuse", "lambert burley burley-subsurface oren-nayar eon fabric-lambert wrap"},
+    {"diffuse", "lambert burley burley-subsurface oren-nayar eon fabric-lambert wrap body"},
     {"layer", "additive seed albedo-view albedo-min albedo-max reciprocal stochastic"},
     {"lobe",
      "lambert ggx burley-sheen ashikhmin-neubelt ashikhmin-conty-kulla charlie-neubelt charlie-conty-kulla "
-     "charlie-khronos charlie-neubelt-normalised exponential exponential-lit patry silk threads"},
+     "charlie-khronos charlie-neubelt-normalised exponential exponential-lit patry silk threads fabric"},
     {"workflow", "metallic specular disney cloth free"},
     {"profile",
      "unreal4 hdrp-cotton hdrp-silk urp filament-cloth filament-sheen khronos three babylon materialx "

@@ -191,12 +191,13 @@ static const Language language_glsl = {"vec3", "vec3", "int", "float", "() {", t
 static const Language language_hlsl = {"float3", "float3", "int", "float", "() {", true};
 static const Language language_wgsl = {"vec3f", "vec3f", "i32", "f32", "() -> ", false};
 
-typedef struct Body {
+typedef struct WrittenBody {
     char *text;
     size_t used, room;
-} Body;
+} WrittenBody;
 
-__attribute__((format(printf, 2, 3))) static inline void body_put(Body *body, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static inline void body_put(WrittenBody *body, const char *format,
+                                                                  ...) {
     va_list arguments;
     va_start(arguments, format);
     body->used += (size_t)vsnprintf(body->text + body->used, body->room - body->used, format, arguments);
@@ -205,7 +206,8 @@ __attribute__((format(printf, 2, 3))) static inline void body_put(Body *body, co
 }
 
 /* "    T name", or "    var name: T". */
-static inline void body_declare(Body *body, const Language *language, const char *type, const char *name) {
+static inline void body_declare(WrittenBody *body, const Language *language, const char *type,
+                                const char *name) {
     if (language->typed)
         body_put(body, "    %s %s", type, name);
     else
@@ -230,7 +232,7 @@ static inline const char *model_record(const WeftExport *text, const Language *l
 }
 
 static inline void put_lobe_questions(const Exported *s, const WeftExport *text, const Language *l,
-                                      const char *id, Body *body) {
+                                      const char *id, WrittenBody *body) {
     const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
     bool two = info->traits & WEFT_LOBE_TWO_COLORS;
     char type[64];
@@ -256,7 +258,7 @@ static inline void put_lobe_questions(const Exported *s, const WeftExport *text,
 }
 
 static inline void put_material_questions(const Exported *s, const WeftExport *text, const Language *l,
-                                          const char *id, Body *body) {
+                                          const char *id, WrittenBody *body) {
     char type[64];
     const char *numbers = model_record(text, l, "_surface", type);
     body_declare(body, l, type, "s");
@@ -281,7 +283,7 @@ static inline void put_material_questions(const Exported *s, const WeftExport *t
 static inline void model_body(const Exported *s, const WeftExport *text, const char *prefix,
                               const Language *l, char *out, size_t room) {
     char id[64];
-    Body body = {.text = out, .room = room};
+    WrittenBody body = {.text = out, .room = room};
     snprintf(id, sizeof id, "%s%s", prefix, s->id);
     for (char *k = id; *k; k++)
         if (*k == '-') *k = '_';

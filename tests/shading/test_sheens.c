@@ -108,6 +108,22 @@ static double silk(const float *p, Vector o, Vector i) {
     return d / (1.0 + lambda_ggx(ax, ay, o) + lambda_ggx(ax, ay, i)) / (4.0 * o.z * i.z);
 }
 
+/* Of weft's own header: GTR by its powers, the shadowing and the second colour's share with angles. */
+static double spread_of_fabric(const float *p, Vector o, Vector i) {
+    Vector h = halfway(o, i);
+    double a2 = (pow)((double)p[0], 2.0), tail = (double)p[1], theta = polar(h);
+    double off = tail > 1.0 ? fmax(tail - 1.0, 1e-4) : fmin(tail - 1.0, -1e-4);
+    double t = (pow)((sin)(theta), 2.0) + a2 * (1.5 - 0.5 * dot(i, h)) * (pow)((cos)(theta), 2.0);
+    return off * (1.0 - a2) / (TEST_PI * ((pow)(a2, -off) - 1.0)) * (pow)(t, -tail);
+}
+static double fabric(const float *p, Vector o, Vector i) {
+    double alpha = (double)p[0], m = 0.25 + 0.5 * alpha;
+    double to = hypot(m * (sin)(polar(o)), o.z), ti = hypot(m * (sin)(polar(i)), i.z);
+    double graze = 1.0 - (double)p[1] * (0.85 - 0.5 * alpha - 0.2 * alpha * alpha);
+    return spread_of_fabric(p, o, i) / (2.0 * (i.z * to + o.z * ti)) /
+           fmax(1.0, 1.0 + (1.0 / m - 1.0) * graze);
+}
+
 /* Sadeghi et al. 2013, in their angles: theta from the plane across the yarn, phi around it from n. */
 typedef struct Around {
     double theta, phi;
@@ -171,6 +187,7 @@ static const struct Sheen {
     {"patry", patry},
     {"silk", silk},
     {"threads", threads},
+    {"fabric", fabric},
 };
 enum { SHEENS = sizeof sheens / sizeof sheens[0] };
 
@@ -295,6 +312,33 @@ static void headers_state_true_energies(void **state) {
     assert_true(white_albedo(LOBE_CHARLIE_KHRONOS, 0.05f, 1e-6) > 1.0);
 }
 
+/* Whatever textures make of their numbers, body and fabric return no more than they receive. */
+static void cloth_conserves_over_all_its_numbers(void **state) {
+    (void)state;
+    static const char *const ids[] = {"body", "fabric"};
+    for (int l = 0; l < 2; l++) {
+        int id = weft_lobe_find(ids[l]);
+        const WeftLobeInfo *info = weft_lobe_info(id);
+        Random random = {53};
+        double most = 0.0;
+        for (int n = 0; n < (test_long() ? 20000 : 600); n++) {
+            Lobe lobe = lobe_default(id);
+            for (int k = 0; k < info->param_count; k++) {
+                float u = n % 3 ? random_unit(&random) : (float)(n / 3 >> k & 1); /* every corner too */
+                lobe_set(&lobe, k, mix(info->params[k].hard_low, info->params[k].hard_high, u));
+            }
+            double u = (double)random_unit(&random), cos_o = n % 2 ? u : (pow)(10.0, -4.0 * u);
+            Dir o = direction_cos(fmax(cos_o, 1e-4), n);
+            Albedo e = albedo_quadrature(&lobe, o, 1e-4);
+            most = fmax(most, (double)(e.f0 + e.f90));
+            if (!(e.f0 + e.f90 <= 1.0005f))
+                fail_msg("%s: E %g", case_name(&lobe, o).text, (double)(e.f0 + e.f90));
+        }
+        print_message("%-22s E at most %.3f\n", ids[l], most);
+        assert_true(most > 0.9);
+    }
+}
+
 /* The weight f cos / pdf never passes the stated bound, nor what yarns send up the stated most. */
 static void weights_and_yarns_are_bounded(void **state) {
     (void)state;
@@ -407,6 +451,7 @@ int main(void) {
         cmocka_unit_test(roughness_means_what_the_headers_say),
         cmocka_unit_test(exponentials_reflect_their_ramp),
         cmocka_unit_test(headers_state_true_energies),
+        cmocka_unit_test(cloth_conserves_over_all_its_numbers),
         cmocka_unit_test(weights_and_yarns_are_bounded),
         cmocka_unit_test(threads_shift_their_color),
         cmocka_unit_test(flat_yarn_is_weighed_by_its_share),
