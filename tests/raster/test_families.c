@@ -203,6 +203,7 @@ static void thousands_of_materials_are_drawn_in_seconds(void **state) {
     WeftError error;
     scene->meshes = arena_array(&scene->arena, COUNT, sizeof(Mesh));
     scene->materials = arena_array(&scene->arena, COUNT, sizeof(Material));
+    scene->material_names = arena_array(&scene->arena, COUNT, sizeof(char *));
     for (int k = 0; k < COUNT; k++) {
         Material *m = test_material(scene, 0.5f);
         m->inputs[INPUT_roughness].value[0] = 0.2f + 0.7f * (float)k / COUNT;

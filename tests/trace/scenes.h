@@ -15,6 +15,7 @@ static inline WeftScene *test_scene(void) {
     WeftScene *scene = scene_create("test");
     scene->meshes = arena_array(&scene->arena, TEST_MESHES, sizeof(Mesh));
     scene->materials = arena_array(&scene->arena, TEST_MESHES, sizeof(Material));
+    scene->material_names = arena_array(&scene->arena, TEST_MESHES, sizeof(char *));
     scene->lights = arena_array(&scene->arena, TEST_MESHES, sizeof(Light));
     return scene;
 }
@@ -32,6 +33,7 @@ static inline Material *test_material(WeftScene *scene, float base_color) {
     int k = scene->material_count++;
     Material *material = &scene->materials[k];
     *material = material_default();
+    scene->material_names[k] = "matt";
     material->double_sided = true;
     test_color(material, INPUT_base_color, base_color);
     test_color(material, INPUT_specular, 0.0f);
