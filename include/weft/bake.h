@@ -52,7 +52,7 @@ WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int wid
 typedef struct WeftBakeKind {
     const char *id, *help; /* live as long as the program */
     int lobe;              /* 0, 1 or 2, see above */
-    int formed;        /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words tell */
+    int formed; /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words describe */
     int width, height; /* where none are given */
 } WeftBakeKind;
 

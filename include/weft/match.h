@@ -110,11 +110,11 @@ typedef struct WeftAssetMatch {
  * sheen_color, sheen_roughness and specular of materials that have a sheen, so that under profile `to` they
  * come closest to what they are under profile `from` (indices of weft_profile_name); all else stays as it is,
  * byte for byte. Materials that are the same on average share one search; these run on all processors.
- * progress (may be NULL) is told how many are done, reading being none of it, and can stop it, in the midst
- * of a search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of
- * each of *count materials; on success it is owned by the caller: release it with weft_match_report_free.
- * Fails with WEFT_MESSAGE_DESC (a profile that there is not), and with what reading and writing the file can
- * fail with. */
+ * progress (may be NULL) receives the fraction done, without reading, and can stop it, in the midst of a
+ * search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of each of
+ * *count materials; on success it is owned by the caller: release it with weft_match_report_free. Fails with
+ * WEFT_MESSAGE_DESC (a profile that there is not), and with what reading and writing the file can fail
+ * with. */
 WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
                                      WeftBrdfMetric metric, WeftProgress progress, void *user,
                                      WeftAssetMatch **report, int *count, const WeftLog *log,

@@ -1,4 +1,4 @@
-/* progress.h - how long calls report their progress, and how many threads they may use */
+/* progress.h - progress reports of long calls, and their number of threads */
 #ifndef WEFT_PROGRESS_H
 #define WEFT_PROGRESS_H
 

@@ -401,8 +401,7 @@ static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog 
     return result;
 }
 
-/* The warnings told so far of materials that are hardly real. Several settings lead to one finding, and each
- * of them warns. */
+/* The plausibility warnings so far. Several settings lead to one finding, and each of them warns. */
 typedef struct Heard {
     const WeftLog *log;
     char lines[32][256];

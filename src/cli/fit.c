@@ -231,7 +231,7 @@ static int outputs_check(Fitting *fitting) {
     return result;
 }
 
-/* Names that are no lobe are told by the library. */
+/* The library reports names that are no lobe. */
 static int lobes_check(const Fitting *fitting) {
     const char *only = option_text(fitting->options, "--lobe");
     const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base)),

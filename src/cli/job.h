@@ -1,4 +1,4 @@
-/* job.h - one picture at work: a scene loaded, dressed, lit and drawn by an engine, and what is told of it */
+/* job.h - one picture at work: a scene loaded, dressed, lit and drawn by an engine, and its report */
 #ifndef WEFT_CLI_JOB_H
 #define WEFT_CLI_JOB_H
 
@@ -39,7 +39,7 @@ WeftResult job_draw(Job *job, const char *camera, WeftError *error);
 /* Both. */
 WeftResult job_run(Job *job, WeftError *error);
 
-/* Releases the scene, and keeps the picture and what is told of it. */
+/* Releases the scene, and keeps the picture and its report. */
 void job_close(Job *job);
 void job_free(Job *job);
 

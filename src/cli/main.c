@@ -107,7 +107,7 @@ int main(int count, char **arguments) {
     errno = 0;
     int flushed = fflush(stdout);
     if ((flushed != 0 || ferror(stdout)) &&
-        (result == 0 || result == WEFT_FAILED)) /* which only stdout tells */
+        (result == 0 || result == WEFT_FAILED)) /* only stdout shows this */
         result = report(WEFT_RESOURCES, "standard output: cannot be written%s%s", errno ? ": " : "",
                         errno ? strerror(errno) : "");
     /* Threads of TBB may still work on what failed for want of memory, and would do so on what exit()

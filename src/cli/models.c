@@ -197,7 +197,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
     json_close(json, '}');
 }
 
-/* The kind "lobe" lists all lobes; their traits tell which are diffuse. */
+/* The kind "lobe" lists all lobes; their traits say which are diffuse. */
 static bool in_json(const Kind *kind) {
     return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0));
 }

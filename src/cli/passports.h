@@ -1,4 +1,5 @@
-/* passports.h - a passport told: as text, in a line, as lines of a lobe's header, as JSON, as a page */
+/* passports.h - printing of a passport: as text, in a line, as lines of a lobe's header, as JSON, as a
+ * page */
 #ifndef WEFT_CLI_PASSPORTS_H
 #define WEFT_CLI_PASSPORTS_H
 

@@ -1,4 +1,4 @@
-/* weave.c - `weft weave`: weaving drafts, read, told of and written */
+/* weave.c - `weft weave`: weaving drafts, read, described and written */
 #include <stdio.h>
 #include <string.h>
 

@@ -22,7 +22,7 @@ typedef struct Doubling {
     int kept;             /* results are of depth / 2^(kept - 1) .. depth / 2, depth; 1 .. halvings + 1 */
 } Doubling;
 
-/* Between passengers, for each kept depth; what is NULL is not told. */
+/* Between passengers, for each kept depth; results whose pointer is NULL are not computed. */
 typedef struct Layered {
     double *r, *t;     /* [kept][guests * guests] f of what comes back and of what goes through diffusely */
     double *up, *down; /* [kept][guests] integrals over the hemisphere, down with direct light */

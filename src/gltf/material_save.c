@@ -1,8 +1,8 @@
 /* material_save.c - materials as other programs read them, and in extras.weft what these do not say
  *
  * What is written for others is read back at once, as a reader of this library would; where that gives
- * another input than there is, the input is told whole. So what comes back is what was, whatever a workflow
- * or a profile makes of its inputs and however well glTF says it. */
+ * another input than there is, the whole input is written. So what comes back is what was, whatever a
+ * workflow or a profile makes of its inputs and however well glTF says it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +25,7 @@ static bool is_black(const Material *material, InputId id) {
     return !(v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f);
 }
 
-/* KHR_texture_transform of a matrix that is scale, turn and shift; others are told as well as it can. */
+/* KHR_texture_transform of a matrix that is scale, turn and shift; others are approximated. */
 static void transform_put(Saving *saving, json_t *info, const float m[6]) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     bool same = true;

@@ -3,7 +3,7 @@
  * The frame in which a normal map is read: the tangent is the direction of growing u on the surface, made
  * smooth over the faces around a vertex, each weighted by its angle there; where the map is mirrored on one
  * side of a vertex the vertex is split. In the spirit of: Morten S. Mikkelsen, "Simulation of Wrinkled
- * Surfaces Revisited", University of Copenhagen, 2008. Unlike his library it does not tell apart fans of one
+ * Surfaces Revisited", University of Copenhagen, 2008. Unlike his library it does not distinguish fans of one
  * orientation that touch only at a vertex. */
 #ifndef WEFT_GLTF_TANGENT_H
 #define WEFT_GLTF_TANGENT_H

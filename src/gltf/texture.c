@@ -171,7 +171,7 @@ static const char *image_name(Asset *asset, int index) {
     return name;
 }
 
-/* Who examines an asset is told of an image whose bytes are not to be had, and of all else in the asset. */
+/* Reports an image whose bytes cannot be read to a caller that examines the asset, and goes on. */
 static void image_excuse(Asset *asset, DecodeJob *job) {
     if (!asset->examined || asset->result != WEFT_INPUT) return;
     job->result = asset->result;

@@ -174,7 +174,7 @@ static double map_mean(const Pair *pair, const float *map, WeftMetric metric) {
     return sum / ((double)(pair->width - 2 * edge) * (double)(pair->height - 2 * edge));
 }
 
-/* Fills what out tells of a map; false where memory is short. */
+/* Fills the statistics of a map in out. Returns false if memory is short. */
 static bool summarise(const Pair *pair, WeftMetric metric, const float *map, WeftDiff *out) {
     const size_t count = pair_pixels(pair);
     float *bad = alloc_array(count, sizeof *bad);

@@ -25,8 +25,8 @@ static inline size_t pair_pixels(const Pair *pair) { return (size_t)pair->width 
  * order. False where memory is short. */
 bool value_ranked(const float *values, size_t count, size_t rank, float *value);
 
-/* The map of FLIP, of pairs in [0, 1]; bright: of any radiance, over exposures that *out then tells of. map
- * must contain width * height zeros. False where memory is short. */
+/* The map of FLIP, of pairs in [0, 1]; bright: of any radiance, over exposures that *out then holds. map must
+ * contain width * height zeros. False where memory is short. */
 bool flip_map(const Pair *pair, float pixels_per_degree, bool bright, WeftDiff *out, float *map);
 
 /* Computes the map of SSIM, for pairs in [0, 1]. */

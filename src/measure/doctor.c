@@ -1,4 +1,4 @@
-/* doctor.c - an asset is read, the checks run over it, and what they found is kept, told and repaired */
+/* doctor.c - reads an asset, runs the checks over it, and keeps, reports and repairs the findings */
 #include "measure/doctor.h"
 
 #include <math.h>

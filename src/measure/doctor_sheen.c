@@ -16,7 +16,7 @@ static bool in_list(json_t *list, const char *name) {
     return false;
 }
 
-/* An extension that extensionsUsed leaves out, told once. */
+/* Reports an extension that extensionsUsed lacks, once. */
 static void declare(WeftDoctor *doctor, const char *name) {
     if (in_list(doctor_list(doctor, "extensionsUsed"), name)) return;
     for (int k = 0; k < doctor->count; k++)

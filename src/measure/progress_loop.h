@@ -1,4 +1,4 @@
-/* progress_loop.h - a long parallel loop whose caller is told how far it is, and can stop it */
+/* progress_loop.h - a long parallel loop with progress, which its caller can stop */
 #ifndef WEFT_MEASURE_PROGRESS_LOOP_H
 #define WEFT_MEASURE_PROGRESS_LOOP_H
 

@@ -22,7 +22,7 @@ enum { WALKS = 16, DRAWS = 1024 };
 typedef struct Whole {
     Surface surface;
     Choices choices;
-    Dir along; /* x of the shading frame, told in the caller's */
+    Dir along; /* x of the shading frame, in the caller's frame */
     TableRef table;
     AlbedoTable *own;
 } Whole;

@@ -38,7 +38,7 @@ typedef struct Search {
  * grows by what it took. */
 double search_run(const Search *search, double *x, long long *evaluations);
 
-/* The least error of so many points of the grid, roughly told: for a choice between searches. */
+/* The least error of so many points of the grid, computed roughly: for a choice between searches. */
 double search_glance(const Search *search, int points, long long *evaluations);
 
 #endif

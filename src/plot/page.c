@@ -11,9 +11,9 @@
 const double ink_dark[3] = {0.10, 0.10, 0.11}, ink_dim[3] = {0.38, 0.39, 0.41},
              ink_grid[3] = {0.84, 0.84, 0.85}, ink_none[3] = {0.55, 0.55, 0.56};
 
-/* Colours that eyes of all kinds tell apart: Masataka Okabe and Kei Ito, "Color Universal Design", 2008, in
- * an order that begins with what is darkest on white; their yellow, which is not dark enough for a line, is
- * grey. The dashes differ as well, so that a print without colour can be read. */
+/* Colours that the colour-blind can distinguish too: Masataka Okabe and Kei Ito, "Color Universal Design",
+ * 2008, in an order that begins with what is darkest on white; their yellow, which is not dark enough for a
+ * line, is grey. The dashes differ as well, so that a print without colour can be read. */
 static const double colors[8][3] = {{0.000, 0.447, 0.698}, {0.835, 0.369, 0.000}, {0.000, 0.620, 0.451},
                                     {0.800, 0.475, 0.655}, {0.050, 0.050, 0.050}, {0.902, 0.624, 0.000},
                                     {0.337, 0.706, 0.914}, {0.500, 0.500, 0.500}};

@@ -122,7 +122,7 @@ static bool make_anywhere(GlContext *self) {
 static void *egl_current(void) { return eglGetCurrentContext(); }
 
 /* GLX's own answer. Windows may come from there, and libepoxy, which ends the process where no context is
- * current, does not tell. The library is not loaded for that: who has a context has it loaded. */
+ * current, does not report it. The library is not loaded for that: who has a context has it loaded. */
 static Current glx_current(void) {
     static const char *const names[] = {"libGLX.so.0", "libGL.so.1"};
     Current found = NULL;

@@ -19,7 +19,7 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
 /* Another context that has the same textures, buffers and programs (not framebuffers nor vertex arrays), for
  * work in another thread: what is made there is there for all once glFinish and whatever joins the threads
  * are past. NULL where the driver or memory refuses, and of one that was adopted from GLX, which makes
- * contexts for a screen's visual that it does not tell. Release with context_destroy. */
+ * contexts for a screen's visual that it does not report. Release with context_destroy. */
 GlContext *context_share(const GlContext *context);
 
 /* The context that is current in this thread, whatever made it; it stays its owner's, and context_enter asks

@@ -165,7 +165,7 @@ static void add_change(const GlMaterial *old, const GlMaterial *fresh, Materials
     change->emission |= old->emits || fresh->emits;
 }
 
-/* Uploads what differs, and tells what that means. */
+/* Uploads changed materials, and returns the consequences. */
 static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
                    MaterialsChange *change) {
     static const GlMaterial none;

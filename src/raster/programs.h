@@ -62,8 +62,8 @@ bool programs_has(Programs *programs, const ShaderKey *key);
 bool programs_build(Programs *programs, const GlContext *context);
 
 /* The program for a key that was noted and built. NULL where it has never compiled, with what the compiler
- * says in error; where it did before, that one stays, and error tells all the same: *error is WEFT_OK only
- * where all is well. */
+ * says in error; an earlier version stays in use, and error reports the failure all the same: *error is
+ * WEFT_OK only where all is well. */
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
 
 /* The program that draws the environment behind everything; 0 on failure, with what the compiler says in

@@ -15,7 +15,7 @@ enum { AMBIENT_LIGHTS_MAX = 16, AMBIENT_LIGHTS = 8, AMBIENT_TERMS = 25, AMBIENT_
 /* log2 kappa of lights that is fine enough: then there are no more of them. */
 #define AMBIENT_LIGHT_KAPPA 9.0f
 
-/* The residual tells no more than that. */
+/* The residual has no more terms than that. */
 #define AMBIENT_EVEN_KAPPA 6.0f
 
 typedef struct EnvLight {

@@ -29,10 +29,10 @@ void material_set(Material *material, const Setting *setting);
 /* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
 void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
 
-/* Checks the inputs that a file names, a flag for each of SURFACE_INPUTS, and tells each finding once. */
+/* Checks the inputs that a file names, a flag for each of SURFACE_INPUTS, and reports each finding once. */
 void plausible_check_named(const Material *material, const bool *named, const char *file, const WeftLog *log);
 
-/* Checks all settings and tells each finding once. */
+/* Checks all settings and reports each finding once. */
 void plausible_check_all(const Material *material, const char *target, const WeftLog *log);
 
 #endif

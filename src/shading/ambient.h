@@ -81,10 +81,10 @@
 #define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of a table, each of a group */
 #define AMBIENT_BAKED  (3 * AMBIENT_SIDE)         /* of one that turns: along, across and against */
 
-/* log2 kappa from which on one look-up of the residual is better than those of a broad lobe. From a quarter of
- * the lights' own kappa on, log2 of it less AMBIENT_FINER, a lobe tells their places from those of what they
- * stand for. Each is the middle of a range in which one goes over into the other, AMBIENT_BLEND to both
- * sides. */
+/* log2 kappa from which on one look-up of the residual is better than those of a broad lobe. From a quarter
+ * of the lights' own kappa on, log2 of it less AMBIENT_FINER, a lobe is narrow enough to show that they stand
+ * in for spread light. Each is the middle of a range in which one goes over into the other, AMBIENT_BLEND to
+ * both sides. */
 #define AMBIENT_CLOSE 4.0f
 #define AMBIENT_FINER 2.0f
 #define AMBIENT_BLEND 1.0f

@@ -27,7 +27,7 @@ const char *choice_id(ChoiceId choice, int k) {
     return NULL;
 }
 
-/* The names of papers and engines for the terms of the two sheens. The letter tells D from V. */
+/* The names of papers and engines for the terms of the two sheens. The letter distinguishes D and V. */
 static const struct {
     const char *name, *id, *help;
 } aliases[] = {

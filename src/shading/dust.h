@@ -43,7 +43,7 @@ FN float dust_ease(float t) { return t * t * (3.0f - 2.0f * t); }
 
 /* A random number at each whole point of space and a smooth course between them, in [0, 1]. */
 FN float dust_octave(Dir p) {
-    float most = 2097152.0f; /* 2^21: so far out there are no fractions to tell */
+    float most = 2097152.0f; /* 2^21: floats of this size have few fractions left */
     float x = clamp(p.x, -most, most), y = clamp(p.y, -most, most), z = clamp(p.z, -most, most);
     float i = floor(x), j = floor(y), k = floor(z);
     Dir a = dir(dust_mod(i), dust_mod(j), dust_mod(k));

@@ -47,8 +47,8 @@ FN FibreModel fibre_model(float alpha, float density, float tilt) {
     return m;
 }
 
-/* The powers of d = nu - mu and of u that tell a leaning fibre from an upright one; w fades from the horizon.
- */
+/* The powers of d = nu - mu and of u by which a leaning fibre differs from an upright one; w fades from the
+ * horizon. / */
 FN FibreSide fibre_nap(FibreModel m, FibreSide side, float mu, float nu, float u) {
     FibreNumbers n = m.n;
     float d = nu - mu, s = m.s, w = 0.03f / (mu + 0.03f);

@@ -85,7 +85,7 @@ FN Frame frame_of(Facing at, Surface s, Dir wo) {
     return f;
 }
 
-/* The surface as its frame sees it: directions that were told from the tangent are told from x. */
+/* The surface as its frame sees it: directions that were relative to the tangent are relative to x. */
 FN Surface frame_surface(Surface s) {
     if (s.anisotropy > 0.0f) {
         Dir a = s.anisotropy_direction, b = s.nap_direction;

@@ -1,7 +1,7 @@
 /* loop.h - loops over arrays of pairs of directions, for arrays.c, arrays_each.c and plugins (plugin.h)
  *
- * Only files with these loops are compiled with -ffinite-math-only (see CMakeLists.txt): under it a NaN test
- * is folded away, and a question about NaN has to be one about bits. */
+ * Files with these loops, and a few others, are compiled with -ffinite-math-only (CMakeLists.txt): under it a
+ * NaN test is folded away, and NaN has to be found by its bits. */
 #ifndef WEFT_SHADING_LOOP_H
 #define WEFT_SHADING_LOOP_H
 

@@ -34,8 +34,9 @@ typedef struct OutsideLobe {
     const char *file, *text;          /* "shading/lobes/toy.h", as though it were there, and what is in it */
 } OutsideLobe;
 
-/* Takes one, in place of what has its name or behind the last; false where there is no room. From any thread,
- * at any time. outside_lobe: NULL where the id is none of one. */
+/* Adds a lobe, in place of one of the same name or behind the last. Returns false if there is no room. May be
+ * called from any thread while others use lobes. outside_lobe returns NULL if the id is not that of an
+ * outside lobe. */
 bool outside_take(OutsideLobe *lobe, int *id);
 const OutsideLobe *outside_lobe(int id);
 int outside_count(void);

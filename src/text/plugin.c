@@ -198,7 +198,7 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
     return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
 }
 
-/* The first error of those that the compiler has told, else its last line. */
+/* Returns the compiler's first error, else its last line. */
 static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file,
                                WeftError *error) {
     FileBytes log;

@@ -92,8 +92,8 @@ static void visit_stored(void *user, const Access *access) {
     if (member && !member->read) edit_drop(&self->edits, access->statement, access->statement_end);
 }
 
-/* A write through a path whose record is not known cannot be told from one to a member that goes; and a
- * statement that does more than write stays, with its member. */
+/* A write through a path of an unknown record may be one to a removed member; and a statement that does more
+ * than write stays, with its member. */
 static void visit_unknown(void *user, const Access *access) {
     const Unused *self = user;
     if (access->statement && (access->record.kind != TOKEN_NAME ||
@@ -159,7 +159,7 @@ static void cut_members(Unused *self, const char *const *whole) {
     }
 }
 
-/* Drops the arguments of a place, or tells whether they all could be. */
+/* Drops the arguments of a place, or returns true if all of them could be dropped. */
 static bool take_arguments(Unused *self, const Item *function, int place, bool drop) {
     for (int k = 0; k < self->items->count; k++) {
         const Item *caller = &self->items->all[k];

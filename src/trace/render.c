@@ -103,7 +103,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         PathMaterial *known = &render->materials[k];
         known->material = *material;
         known->material.inputs[INPUT_occlusion].texture = 0; /* the paths find it out for themselves */
-        known->material.inputs[INPUT_opacity].texture = 0;   /* told by whether there is a hit */
+        known->material.inputs[INPUT_opacity].texture = 0;   /* opacity is decided by the hit itself */
         known->plain = material_plain(material);
         known->choices = material_choices(material);
         for (int input = 0; input < INPUT_COUNT; input++)

@@ -13,7 +13,7 @@ enum { FILES = 1024 };
 typedef struct File {
     char *path;
     int id;
-    unsigned long long told, seen; /* stamps: when it was last told of, and last looked at */
+    unsigned long long told, seen; /* stamps: as last reported, and as last seen */
     double since;                  /* when the stamp was last seen to change */
 } File;
 

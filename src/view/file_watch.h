@@ -1,7 +1,7 @@
 /* file_watch.h - a watch on files that other programs write: which have changed and are complete
  *
- * A file has changed once it is different from when it was last told of and has then stood still for a third
- * of a second: what is half written is waited for. */
+ * A file has changed once it differs from its last report and has then stayed the same for a third of a
+ * second: what is half written is waited for. */
 #ifndef WEFT_VIEW_FILE_WATCH_H
 #define WEFT_VIEW_FILE_WATCH_H
 

@@ -123,9 +123,8 @@ static bool is_outdated(Renderer *self, unsigned number) {
 
 /* Draws part of a picture, so many rows at a time as a twentieth of a second has, about: another request need
  * not wait long, nor does a window whose driver draws one thing after the other. More rows cost less than in
- * proportion, so that their number is found by doubling and halving. *whole tells whether no request came
- * between.
- */
+ * proportion, so that their number is found by doubling and halving. *whole is true if no request came
+ * between. / */
 static WeftResult draw_part(Renderer *self, const FrameRequest *request, const SceneState *state,
                             const int part[4], unsigned number, int target, double expected, bool *whole,
                             WeftError *error) {

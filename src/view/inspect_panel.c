@@ -10,7 +10,7 @@ enum { SLICE = 181, ANGLES = 21, RINGS = 24, SECTORS = 48, PAIRS = 64, PARTS = 4
 
 static const WeftPart parts[PARTS] = {WEFT_PART_ALL, WEFT_PART_DIFFUSE, WEFT_PART_SPECULAR, WEFT_PART_SHEEN};
 static const unsigned colors[PARTS] = {0xFFE8E8E8u, 0xFF5EA8E8u, 0xFFE0A858u,
-                                       0xFF68C878u}; /* told apart by the colour-blind */
+                                       0xFF68C878u}; /* distinct for the colour-blind too */
 
 struct Inspection {
     WeftMaterial of;

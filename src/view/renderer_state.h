@@ -66,8 +66,8 @@ void renderer_watch_files(
     Renderer *renderer); /* the files of the scene's textures, the folders worn, no others */
 
 /* frame.c: brings the scene to a state, and draws a request into the next texture. A light from a file that
- * cannot be had leaves the one before; frame_refusal then tells why, and the file is left alone until it has
- * changed. */
+ * cannot be read leaves the one before; frame_refusal then returns the reason, and the file is left alone
+ * until it has changed. */
 WeftResult frame_apply_state(Renderer *renderer, const SceneState *state, WeftError *error);
 const char *frame_refusal(const Renderer *renderer, const SceneState *state); /* NULL: it does not */
 /* The state shown in the panels. */

@@ -136,7 +136,7 @@ bool ui_checkbox(const char *label, bool *on);
 bool ui_tabs(const char *label, const char *const *names, const char *const *tips, int *chosen);
 bool ui_selectable(const char *label, bool chosen);
 
-/* A menu of count values; name and help (may be NULL) tell them by number. */
+/* A menu of count values; name and help (may be NULL) return them by number. */
 typedef struct UiChoices {
     int count;
     const char *(*name)(const void *user, int value);
@@ -177,8 +177,6 @@ void ui_ring(float x, float y, float radius, unsigned color);
 void ui_label(float x, float y, unsigned color, const char *text);
 void ui_picture(unsigned texture, UiBox box, bool flipped);
 void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, float v1);
-
-/* A row of a plot over one number: the points and their colour. */
 
 /* A control of the last frame. */
 typedef struct UiControl {

@@ -42,7 +42,7 @@ typedef struct Viewer {
     Renderer *renderer;
     ReferenceView *reference;
     Loader *loader;  /* NULL: nothing is being read */
-    Loader *leaving; /* one that was told to stop, and has not yet; NULL: none */
+    Loader *leaving; /* a loader that is stopping; NULL: none */
     struct Replay *replay;
     FileWatch *file_watch;
     Settings settings;
@@ -126,7 +126,7 @@ typedef struct Viewer {
     char save_path[STATE_PATH], shot_path[STATE_PATH];
     int shot_width, shot_height;
     bool shot_transparent, shot_traced;
-    char dropped[STATE_PATH]; /* a picture that waits to be told what it is for */
+    char dropped[STATE_PATH]; /* an image whose input is still to be chosen */
     int dropped_input;
 
     /* of the mouse on the stage */
@@ -185,7 +185,7 @@ bool viewer_is_idle(Viewer *v);
 /* "WxH" pixels of the stage. */
 float viewer_aspect(const Viewer *v);
 
-/* Shows the maps that the facts tell of. */
+/* Shows the maps of the facts. */
 void viewer_show_maps(Viewer *v);
 
 /* A texture from U8 RGB or RGBA. */

@@ -45,7 +45,7 @@ void window_push(Window *self, const Event *event) {
     self->events[(self->first + self->count++) % QUEUE_MOST] = copy;
 }
 
-/* ---- what GLFW tells ---- */
+/* ---- callbacks of GLFW ---- */
 
 static Window *of(GLFWwindow *window) { return glfwGetWindowUserPointer(window); }
 

@@ -50,9 +50,9 @@ typedef struct Event {
 /* Adds an event behind those that wait; a path is copied. */
 void window_push(Window *window, const Event *event);
 
-/* Takes what happened since the last call into input, as far as one frame can tell it: of a button or key
- * that went down and up again the second is left for the next frame, and so is a Ctrl, Shift or Alt that
- * changed after one of them did. Returns whether anything happened. */
+/* Takes the events since the last call into input, as far as one frame can show them: of a button or key that
+ * went down and up again the second is left for the next frame, and so is a Ctrl, Shift or Alt that changed
+ * after one of them did. Returns whether anything happened. */
 bool window_take(Window *window, UiInput *input);
 
 /* Returns true if events wait. */

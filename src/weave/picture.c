@@ -1,4 +1,4 @@
-/* picture.c - a picture of two colours as a draft, one pixel a crossing: how jacquard looms are told their
+/* picture.c - a picture of two colours as a draft, one pixel a crossing: how jacquard looms receive their
  * patterns */
 #include <stdint.h>
 #include <string.h>

@@ -190,7 +190,7 @@ static WeftResult press_treadles(const Wif *wif, const Shed *shed, Sets *lift) {
     return result;
 }
 
-/* A lift plan is taken as it stands; where treadling is there too and says otherwise, that is told. */
+/* A lift plan is taken as it stands; if there is a treadling too that differs, a warning says so. */
 static WeftResult read_lift(const Wif *wif, Shed *shed) {
     if (!sets_create(&shed->lift, shed->picks, shed->shafts)) return memory_short(wif);
     if (!ini_find(&wif->ini, "LIFTPLAN", NULL)) return press_treadles(wif, shed, &shed->lift);

@@ -47,8 +47,8 @@ STRUCT(Strip) {
     float density;
 };
 
-/* Works as ggx_sample_h, with u along the longer axis: the cap is cut across that axis, u tells the cut and v
- * the place on its arc, which is as long on a sphere wherever it is cut and on the cap between half as long
+/* Works as ggx_sample_h, with u along the longer axis: the cap is cut across that axis, u selects the cut and
+ * v the place on its arc, which is as long on a sphere wherever it is cut and on the cap between half as long
  * and all of it. So points that are even in u are even along a highlight that is drawn out. */
 FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
     bool turned = ay > ax;
