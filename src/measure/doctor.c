@@ -162,7 +162,7 @@ static void hear(void *user, WeftMessage message, const char *text) {
 }
 
 /* Reading is short beside what comes after, and is no part of it. */
-static int tell(void *user, double fraction) {
+static int report_progress(void *user, double fraction) {
     const WeftDoctor *doctor = user;
     return doctor->progress ? doctor->progress(doctor->user, doctor->examining ? fraction : 0.0) : 0;
 }
@@ -239,7 +239,7 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
                             .scene = doctor->scene,
                             .examined = true,
                             .log = &doctor->own,
-                            .progress = tell,
+                            .progress = report_progress,
                             .user = doctor};
     gltf_open(&doctor->asset, path, data, size);
     gltf_read_parts(&doctor->asset);

@@ -15,7 +15,7 @@ typedef struct LoopWatch {
 /* The progress of one item. */
 typedef struct ItemProgress {
     LoopWatch *watch; /* NULL: nobody watches */
-    long long told;
+    long long reported;
 } ItemProgress;
 
 /* Records that this fraction of the item is done, where that is more than was said before. False where the item

@@ -13,9 +13,9 @@ static const long pause_ns = 50000000;
 bool progress_report(ItemProgress *item_progress, double fraction) {
     if (!item_progress || !item_progress->watch) return true;
     long long now = (long long)(fmin(fmax(fraction, 0.0), 1.0) * WHOLE);
-    if (now > item_progress->told) {
-        atomic_fetch_add(&item_progress->watch->done, now - item_progress->told);
-        item_progress->told = now;
+    if (now > item_progress->reported) {
+        atomic_fetch_add(&item_progress->watch->done, now - item_progress->reported);
+        item_progress->reported = now;
     }
     return !atomic_load(&item_progress->watch->stopped);
 }

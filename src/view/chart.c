@@ -57,7 +57,7 @@ static bool has_swatch(const WeftChartEntry *e, const char *input) {
     return e->kind != WEFT_CHART_METAL || strcmp(input, "specular_color") == 0;
 }
 
-static void tell(const WeftChartEntry *e, bool base) {
+static void set_swatch(const WeftChartEntry *e, bool base) {
     char text[512];
     const float *c = base ? e->base_color : e->f0;
     snprintf(text, sizeof text, "%s%s%s\n%s %.3g, %.3g, %.3g\n%s", e->name, e->help[0] ? ", " : "", e->help,
@@ -79,6 +79,6 @@ void chart_swatches(WeftMaterial *m, const char *input) {
         if (shown++ % ROW) ui_same_line();
         snprintf(label, sizeof label, "##%s %s", base ? "colour" : "F0", e->name);
         if (ui_swatch(label, base ? e->base_color : e->f0)) base ? put_base(m, e) : put_f0(m, e, input);
-        tell(e, base);
+        set_swatch(e, base);
     }
 }

@@ -13,8 +13,8 @@ enum { FILES = 1024 };
 typedef struct File {
     char *path;
     int id;
-    unsigned long long told, seen; /* stamps: as last reported, and as last seen */
-    double since;                  /* when the stamp was last seen to change */
+    unsigned long long reported, seen; /* stamps: as last reported, and as last seen */
+    double since;                      /* when the stamp was last seen to change */
 } File;
 
 struct FileWatch {
@@ -77,8 +77,8 @@ int file_watch_poll(FileWatch *self, double seconds) {
             file->since = seconds;
         }
         /* A missing file may be about to return: editors write another file and rename it. */
-        if (!stamp || stamp == file->told || seconds - file->since < 0.3) continue;
-        file->told = stamp;
+        if (!stamp || stamp == file->reported || seconds - file->since < 0.3) continue;
+        file->reported = stamp;
         self->looked = 0.0; /* others may have changed as well */
         return file->id;
     }

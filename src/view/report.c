@@ -45,7 +45,7 @@ static json_t *box_json(const UiBox *b) {
 static json_t *untold_json(void) {
     json_t *array = json_array();
     for (int k = 0; k < ui_control_count(); k++)
-        if (!ui_control(k)->told) json_array_append_new(array, json_string(ui_control(k)->name));
+        if (!ui_control(k)->explained) json_array_append_new(array, json_string(ui_control(k)->name));
     return array;
 }
 

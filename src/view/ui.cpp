@@ -82,7 +82,7 @@ void note(const char *label) {
 /* Works as note, for a control whose label is all of its state: a heading, a line of a menu, a file. */
 void note_spoken(const char *label) {
     note(label);
-    if (ui->noted) ui->shown.back().told = true;
+    if (ui->noted) ui->shown.back().explained = true;
 }
 
 /* Labels stand left of widgets: a column of names, one of values. */
@@ -419,7 +419,7 @@ void ui_warning(const char *text) {
 }
 
 void ui_tip(const char *text) {
-    if (text && *text && ui->noted) ui->shown.back().told = true;
+    if (text && *text && ui->noted) ui->shown.back().explained = true;
     if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
     ImGui::BeginTooltip();

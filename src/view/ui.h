@@ -182,7 +182,7 @@ void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, 
 typedef struct UiControl {
     char name[96];
     UiBox box;
-    bool told; /* a tip exists or none is needed */
+    bool explained; /* a tip exists or none is needed */
 } UiControl;
 int ui_control_count(void);
 const UiControl *ui_control(int index);
