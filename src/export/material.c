@@ -13,10 +13,10 @@
 #include "text/tables.h"
 
 typedef struct Rule {
-    const char *id, *base;
+    const char *id, *base, *asks_wi, *asks_average;
 } Rule;
 
-#define RULE(id, index, base, conserves, help) {id, #base},
+#define RULE(id, index, base, asks_wi, asks_average, conserves, help) {id, #base, #asks_wi, #asks_average},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
 typedef struct ExportModel {
@@ -83,14 +83,12 @@ static void find_facts(Draft *draft, ExportModel *model) {
     if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
     if (view) draft_fact(draft, "m.view", m[0].view);
     if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
-    bool moved =
-        c->layer == LAYER_RECIPROCAL || c->layer == LAYER_STOCHASTIC; /* these may change it on the way */
-    if (albedo && !moved) draft_fact(draft, "m.albedo", m[0].albedo);
+    if (albedo && !layer_asks_average(c->layer)) /* these may change it on the way */
+        draft_fact(draft, "m.albedo", m[0].albedo);
 #define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
     SURFACE_CHOICES(CHOICE_FACT)
-    static const char *const shown[] = {"only.diffuse", "only.specular", "only.sheen", "only.coat",
-                                        "only.dust"};
-    for (int k = 0; k < 5; k++) draft_fact(draft, shown[k], 1);
+#define SHOWN_FACT(name, NAME, Name, wo) draft_fact(draft, "only." #name, 1);
+    SLOTS(SHOWN_FACT)
     Choices beside = *c;
     beside.workflow = beside.profile = beside.convert = CHOICE_AUTO;
 #define CHOICE_MADE(name, help) model->chosen |= beside.name != CHOICE_AUTO;
@@ -118,12 +116,12 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
 /* Returns true if the layer rule reads E and E comes from a table of the sheen's own lobe. */
 static bool needs_e(const ExportModel *model) {
     const Stack *m = &model->stack;
-    return model->slots.slots[2].count &&
+    return model->slots.slots[PLACE_SHEEN].count &&
            (!model->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
 }
 
 static bool needs_table(const ExportModel *model) {
-    return needs_e(model) && (model->stack.albedo == ALBEDO_TABLE || model->stack.albedo == ALBEDO_KHRONOS);
+    return needs_e(model) && albedo_is_own(model->stack.albedo);
 }
 
 /* In place of shading/layer.h: the one rule. */
@@ -146,6 +144,8 @@ static void put_layer(Text *text, int layer) {
         "/* What of the base is left for wo and wi: c the sheen's colour, e_o e_i e_avg its albedo. */\n"
         "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
         LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
+    text_define(text, "layer_asks_wi(layer)", rules[layer].asks_wi);
+    text_define(text, "layer_asks_average(layer)", rules[layer].asks_average);
 }
 
 static void put_value(Text *text, const Surface *s, int k) {
@@ -179,7 +179,7 @@ static void put_surface(Draft *draft, const ExportModel *model) {
 
 static void put_shade(Draft *draft, const ExportModel *model) {
     Text *text = &draft->text;
-    bool coat = model->slots.slots[3].count > 0;
+    bool coat = model->slots.slots[PLACE_COAT].count > 0;
     text_line(text,
               "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
@@ -190,7 +190,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
     if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
     if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (model->table) text_line(text, "    m.table = sheen_table();");
-    if (model->table && model->stack.layer >= LAYER_RECIPROCAL)
+    if (model->table && layer_asks_average(model->stack.layer))
         text_line(
             text,
             "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
@@ -201,7 +201,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
     text_line(text, "    stack_prepare(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(model)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
-    if (model->slots.slots[2].count) text_line(text, "    view_base_scale(m, w);");
+    if (model->slots.slots[PLACE_SHEEN].count) text_line(text, "    view_base_scale(m, w);");
     text_line(text, "    Angles a = angles_between(wo, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
     text_line(text,
@@ -217,7 +217,7 @@ static void put_text(Draft *draft, ExportModel *model) {
     if (model->table) e = albedo_table_ref(model->table);
     text_include(text, "shading/angles.h");
     text_composition_lobes(text, &model->slots, e.kind, e.tilts);
-    if (!model->slots.slots[2].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
+    if (!model->slots.slots[PLACE_SHEEN].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
     if (model->one_layer) put_layer(text, model->stack.layer);
     text_composition(text, &model->choices);
     if (model->chosen) text_composition_choices(text, &model->choices);

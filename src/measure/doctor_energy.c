@@ -158,8 +158,7 @@ static TableRef keep_table(EnergyTables *tables, const Case *self) {
     SeenStack most, end;
     const Stack *stack = &most.stack;
     see(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &most);
-    if (stack->albedo != ALBEDO_TABLE && stack->albedo != ALBEDO_KHRONOS)
-        return (TableRef){.kind = TABLE_NONE};
+    if (!albedo_is_own(stack->albedo)) return (TableRef){.kind = TABLE_NONE};
     see(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
     const float low = fminf(end.stack.albedo_coord, stack->albedo_coord),
                 high = fmaxf(end.stack.albedo_coord, stack->albedo_coord);

@@ -41,7 +41,7 @@ struct WeftReflection {
 static bool asks_for_table(const Whole *self, Stack *stack) {
     stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE});
     if (!HAS_SHEEN(stack) && stack->layer != LAYER_MULTIPLICATIVE) return false;
-    if (stack->albedo == ALBEDO_TABLE || stack->albedo == ALBEDO_KHRONOS) return true;
+    if (albedo_is_own(stack->albedo)) return true;
     stack_albedo(stack, dir(0.0f, 0.0f, 1.0f));
     return false;
 }

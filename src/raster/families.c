@@ -88,10 +88,10 @@ static void join(Families *self, int m) {
 
 /* A table made for a narrow lobe also serves a broad one. */
 static void share_finest(Families *self, int head) {
-    float finest[SHADER_SLOTS] = {0.0f};
+    float finest[SLOT_COUNT] = {0.0f};
     for (int pass = 0; pass < 2; pass++)
         for (int m = 0; m < self->scene->material_count; m++)
-            for (int k = 0; self->head[m] == head && k < SHADER_SLOTS; k++) {
+            for (int k = 0; self->head[m] == head && k < SLOT_COUNT; k++) {
                 float *own = &self->all[m].finest[k];
                 if (pass)
                     *own = finest[k];

@@ -17,7 +17,7 @@ typedef struct Uniforms {
     float places[INPUT_COUNT][2][4];
     float e[4];    /* layer, low, high, tilt */
     float more[4]; /* alpha cutoff */
-    AmbientWeights fits[SHADER_SLOTS * AMBIENT_BAKED];
+    AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
 } Uniforms;
 
 static bool is_all(const Input *input, int count, float x) {
@@ -86,10 +86,9 @@ static bool add_fits(GlMaterial *self, const Material *material, int threads, Un
     Stack m;
     if (!fit) return false;
     stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE});
-    const Slot *const slots[SHADER_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
-    for (int k = 0; k < SHADER_SLOTS; k++) {
-        const Lobe *lobe = &slots[k]->lobe;
-        if (!(slots[k]->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
+    for (int k = 0; k < SLOT_COUNT; k++) {
+        const Lobe *lobe = &stack_slot(&m, k)->lobe;
+        if (!(stack_slot(&m, k)->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
         MaterialFit *baked = &self->fits[k];
         if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
@@ -260,7 +259,7 @@ void materials_destroy(GlMaterials *self) {
 
 void material_in_light(const GlMaterial *self, float env_light_kappa, ShaderKey *key) {
     key->focus = key->narrow = 0;
-    for (int k = 0; k < SHADER_SLOTS; k++) {
+    for (int k = 0; k < SLOT_COUNT; k++) {
         key->focus |= (self->finest[k] > AMBIENT_CLOSE - AMBIENT_BLEND) << k;
         key->narrow |= (self->finest[k] > env_light_kappa - AMBIENT_FINER - AMBIENT_BLEND) << k;
     }

@@ -20,10 +20,10 @@ typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
-    bool used;                  /* by some mesh */
-    bool emits;                 /* light */
-    float finest[SHADER_SLOTS]; /* of the tables that are baked, or a finer one's; 0 where none is */
-    MaterialFit fits[SHADER_SLOTS];
+    bool used;                /* by some mesh */
+    bool emits;               /* light */
+    float finest[SLOT_COUNT]; /* of the tables that are baked, or a finer one's; 0 where none is */
+    MaterialFit fits[SLOT_COUNT];
 } GlMaterial;
 
 typedef struct GlMaterials {

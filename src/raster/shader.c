@@ -39,11 +39,6 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
     SURFACE_INPUTS(VARY)
 }
 
-static const Slot *slot_of(const Stack *m, int slot) {
-    const Slot *const slots[SHADER_SLOTS] = {&m->diffuse, &m->specular, &m->sheen, &m->coat, &m->dust};
-    return slots[slot];
-}
-
 bool shader_holds(const ShaderKey *key, int slot) {
     Lobe lobes[2];
     bool zero[INPUT_COUNT];
@@ -54,8 +49,8 @@ bool shader_holds(const ShaderKey *key, int slot) {
         Surface s = composition_surface(0.5f, zero);
         vary(key, &s, k ? 0.75f : 0.25f);
         stack_make(&m, &s, &key->choices, (TableRef){.kind = TABLE_NONE});
-        lobes[k] = slot_of(&m, slot)->lobe;
-        if (!(slot_of(&m, slot)->normal > 0.0f)) return false;
+        lobes[k] = stack_slot(&m, slot)->lobe;
+        if (!(stack_slot(&m, slot)->normal > 0.0f)) return false;
     }
     bool same = !(lobes[0].params[0] < lobes[1].params[0]) && !(lobes[0].params[0] > lobes[1].params[0]);
     return lobes[0].id == lobes[1].id && same;
@@ -69,7 +64,7 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
     text_line(text, "    highp vec4 material_more; /* alpha cutoff */");
     text_line(text, "    highp vec4 material_fits[%d]; /* see shading/ambient.h */\n};",
-              SHADER_SLOTS * AMBIENT_BAKED);
+              SLOT_COUNT * AMBIENT_BAKED);
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
@@ -212,12 +207,13 @@ static bool turns(const ShaderKey *key, const CompositionSlots *found) {
         bool number = input_infos[turning[k]].kind != WEFT_INPUT_NORMAL;
         if (is_mapped(input) || (number && input->state != INPUT_ZERO)) return true;
     }
-    return found->slots[2].count && weft_lobe_info(found->lobes[2].id)->traits & TRAIT_ANISOTROPIC;
+    return found->slots[PLACE_SHEEN].count &&
+           weft_lobe_info(found->lobes[PLACE_SHEEN].id)->traits & TRAIT_ANISOTROPIC;
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
     bool same = a->used == b->used;
-    for (int k = 0; k < TEXT_SLOTS; k++) {
+    for (int k = 0; k < SLOT_COUNT; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
         same = same && s->count == t->count;
         for (int j = 0; same && j < s->count; j++) same = s->lobes[j] == t->lobes[j];
@@ -230,7 +226,7 @@ static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
 /* Returns true if one table over a parameter, made without regard to the others, suits both keys. / */
 static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
     bool same = true, turned = false;
-    for (int k = 0; k < SHADER_SLOTS; k++) same &= shader_holds(a, k) == shader_holds(b, k);
+    for (int k = 0; k < SLOT_COUNT; k++) same &= shader_holds(a, k) == shader_holds(b, k);
     for (int x = 0; x < 2; x++) {
         const ShaderInput *inputs = x ? a->inputs : b->inputs;
         turned |= inputs[INPUT_nap].state != INPUT_ZERO || inputs[INPUT_anisotropy].state != INPUT_ZERO;
@@ -301,7 +297,6 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
 /* Writes the table of a slot; an empty slot has one too, which is never read. Returns false if memory is
  * short. */
 static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
-    static const char *const names[SHADER_SLOTS] = {"diffuse", "specular", "sheen", "coat", "dust"};
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
     int layer = 0;
     bool dense = key->dense >> slot & 1;
@@ -325,7 +320,7 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         t.strategy = key->ambient - 2;
     else if (lobe)
         t.strategy = ambient_strategy(lobe->id, t.turning, dense);
-    put_ambient_table(text, names[slot], t, layer);
+    put_ambient_table(text, slot_name(slot), t, layer);
     return true;
 }
 
@@ -337,7 +332,7 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
     text_include(text, "raster/glsl/light_visibility.glsl");
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
-    for (int k = 0; k < SHADER_SLOTS; k++) {
+    for (int k = 0; k < SLOT_COUNT; k++) {
         const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
         if (!put_ambient_slot(text, key, k, lobe, fits)) return;
     }

@@ -6,7 +6,7 @@
 
 #include "raster/fits.h"
 #include "scene/scene.h"
-#include "shading/surface.h"
+#include "shading/material_stack.h"
 #include "shading/table.h"
 #include "text/text.h"
 
@@ -25,9 +25,6 @@ typedef struct ShaderInput {
     int16_t slot, channel, texcoord; /* of a map: sampler, channel of a number, UV set */
     int16_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
-
-/* The slots of a stack: diffuse, specular, sheen, coat, dust. */
-enum { SHADER_SLOTS = 5 };
 
 /* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
 enum { SHADER_LIGHTS = 8 };

@@ -71,7 +71,7 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     *index = -1;
     Stack most = plain_stack(&plain, &choices);
     if (!HAS_SHEEN(&most) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
-    if (most.albedo != ALBEDO_TABLE && most.albedo != ALBEDO_KHRONOS) {
+    if (!albedo_is_own(most.albedo)) {
         stack_albedo(&most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
         return WEFT_OK;
     }

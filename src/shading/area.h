@@ -55,49 +55,11 @@ FN AreaDensity area_fibres(float alpha, Dir o) {
     return area_of(ltc_table_level(lobe_table_ltc_fibre(), o.z, alpha).m, 1.0f, 1.0f, true);
 }
 
-/* Half of the haze of gtr1 lies within the root of its alpha. */
-FN AreaDensity area_haze(float alpha, Dir o) { return area_facets(sqrt(alpha), sqrt(alpha), o); }
-
-/* Returns the density for lobe fabric. Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */
-FN AreaDensity area_fabric(Lobe lobe, Dir o) {
-    float width = pow(lobe.params[FABRIC_ALPHA], min(0.5f * lobe.params[FABRIC_TAIL], 1.0f));
-    return area_facets(width, width, o);
-}
-
-/* Returns the density for a composition of terms; distributions of cloth are broad. */
-FN AreaDensity area_composed(Lobe lobe, Dir o) {
-    float alpha = lobe.params[COOK_TORRANCE_ALPHA];
-    int d = to_int(lobe.params[COOK_TORRANCE_D]);
-    if (d == D_GGX_ANISO) return area_facets(alpha * lobe.params[COOK_TORRANCE_STRETCH], alpha, o);
-    if (d == D_BLINN_PHONG || d == D_BECKMANN || d == D_GGX) return area_facets(alpha, alpha, o);
-    if (d == D_GTR1) return area_haze(alpha, o);
-    return area_cosine(o);
-}
-
-FN AreaDensity area_ggx(Lobe lobe, Dir o) {
-    Ggx m;
-    m.alpha = lobe.params[GGX_ALPHA];
-    m.anisotropy = lobe.params[GGX_ANISOTROPY];
-    return area_facets(ggx_ax(m), m.alpha, o);
-}
-
-FN AreaDensity area_silk(Lobe lobe, Dir o) {
-    Silk m;
-    m.alpha = lobe.params[SILK_ALPHA];
-    m.anisotropy = lobe.params[SILK_ANISOTROPY];
-    return area_facets(silk_ax(m), silk_ay(m), o);
-}
-
-/* D of a lobe. Fibres that lean are broad: fibre_nap_of sees to that. */
-FN AreaDensity area_density(Lobe lobe, Dir o) {
-    float alpha = lobe.params[0];
-    if (lobe.id == LOBE_GGX) return area_ggx(lobe, o);
-    if (lobe.id == LOBE_SILK) return area_silk(lobe, o);
-    if (lobe.id == LOBE_COOK_TORRANCE) return area_composed(lobe, o);
-    if (lobe.id == LOBE_FABRIC) return area_fabric(lobe, o);
-    if (lobe.id == LOBE_BURLEY_COAT) return area_haze(alpha, o);
-    if (lobe.id == LOBE_LTC_FIBRE || lobe.id == LOBE_FIBRE_TABLE) return area_fibres(alpha, o);
-    if (lobe.id == LOBE_FIBRE && lobe.params[FIBRE_TILT] < 0.03f) return area_fibres(alpha, o);
+/* Returns D for a lobe. */
+FN AreaDensity area_density(const Lobe *m, Dir o) {
+    Proxy p = lobe_proxy(m);
+    if (p.fit == PROXY_FACETS) return area_facets(p.ax, p.ay, o);
+    if (p.fit == PROXY_FIBRES) return area_fibres(p.ax, o);
     return area_cosine(o);
 }
 
@@ -148,8 +110,8 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     Polygon q = polygon_clip(p);
     Dir o = view->o;
     if (q.count < 3 || o.z <= 0.0f) return sum;
-    AreaDensity specular = area_density(m->specular.lobe, o), sheen = area_density(m->sheen.lobe, o);
-    AreaDensity dust = area_density(m->dust.lobe, o);
+    AreaDensity specular = area_density(&m->specular.lobe, o), sheen = area_density(&m->sheen.lobe, o);
+    AreaDensity dust = area_density(&m->dust.lobe, o);
     for (int pass = 0; pass < 5; pass++) {
         Slots only = slots_of(SHOWS_DIFFUSE && HAS_DIFFUSE(m) && pass == 0,
                               SHOWS_SPECULAR && HAS_SPECULAR(m) && pass == (specular.narrow ? 1 : 0),
@@ -164,7 +126,7 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
         if (only.coat) {
             from = view->coat_o;
             q = area_to_coat(m, q);
-            d = area_density(m->coat.lobe, from);
+            d = area_density(&m->coat.lobe, from);
         }
         if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
             if (from.z > 0.0f) sum = rgb_add(sum, area_slots(m, view, only, d, from, q));

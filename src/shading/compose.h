@@ -10,8 +10,6 @@
 #include "shading/dust.h"
 #include "shading/dust_lobe.h"
 #include "shading/lobes/cook_torrance.h"
-#include "shading/lobes/ggx.h"
-#include "shading/lobes/silk.h"
 #include "shading/profile.h"
 
 /* The index of refraction; where none is given, that of the reflectance. */
@@ -22,27 +20,14 @@ FN float compose_ior(const Surface *s) {
 
 /* A lobe of facets as the composition that it is. */
 FN Lobe compose_facets(Lobe lobe) {
-    if (lobe.id != LOBE_GGX && lobe.id != LOBE_SILK) return lobe;
-    float ax = 0.0f, ay = 0.0f;
-    if (lobe.id == LOBE_GGX) {
-        Ggx g;
-        g.alpha = lobe.params[GGX_ALPHA];
-        g.anisotropy = lobe.params[GGX_ANISOTROPY];
-        ax = ggx_ax(g);
-        ay = g.alpha;
-    } else {
-        Silk k;
-        k.alpha = lobe.params[SILK_ALPHA];
-        k.anisotropy = lobe.params[SILK_ANISOTROPY];
-        ax = silk_ax(k);
-        ay = silk_ay(k);
-    }
-    Lobe m = lobe_rough(LOBE_COOK_TORRANCE, sqrt(ay));
-    if (ax < ay || ax > ay) {
+    Proxy p = lobe_proxy(&lobe);
+    if (lobe.id == LOBE_COOK_TORRANCE || p.fit != PROXY_FACETS) return lobe;
+    Lobe m = lobe_rough(LOBE_COOK_TORRANCE, sqrt(p.ay));
+    if (p.ax < p.ay || p.ax > p.ay) {
         m.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
         m.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
     }
-    m.params[COOK_TORRANCE_STRETCH] = clamp(ax / m.params[COOK_TORRANCE_ALPHA], 0.01f, 100.0f);
+    m.params[COOK_TORRANCE_STRETCH] = clamp(p.ax / m.params[COOK_TORRANCE_ALPHA], 0.01f, 100.0f);
     return m;
 }
 
@@ -100,7 +85,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     }
     if (c.layer >= 0) m->layer = c.layer;
     m->amount = min(s->sheen, 1.0f);
-    if ((c.layer == LAYER_RECIPROCAL || c.layer == LAYER_STOCHASTIC) && m->albedo > ALBEDO_KHRONOS) {
+    if (layer_asks_average(c.layer) && !albedo_is_own(m->albedo)) {
         m->albedo = ALBEDO_TABLE; /* these ask for more than engines' own formulas know */
         m->albedo_coord = m->sheen.lobe.params[0];
     }
@@ -116,7 +101,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
 }
 
 /* E of the white sheen towards a direction. */
-#define COMPOSE_ALBEDO(name, index, formula)                                                                 \
+#define COMPOSE_ALBEDO(name, index, own_table, formula)                                                      \
     if (m->albedo == index) return sheen_e_of(formula);
 FN SheenE stack_albedo(const Stack *m, Dir w) {
     float cosine = w.z;
@@ -133,6 +118,13 @@ FN void compose_dust(Stack *m, const Surface *s) {
     m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
 
+/* What a stack knows once its lobes are settled: what their parameters make, and where E is in its table. */
+FN void stack_prepare(Stack *m) {
+    stack_prepare_lobes(m);
+    if (HAS_SHEEN(m) && albedo_is_own(m->albedo) && SHEEN_IS_OWN(m->table))
+        m->rows = table_rows(m->table, m->albedo_coord);
+}
+
 /* The stack of a surface whose inputs are those of its workflow and stay as they are. */
 FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_begin(m, s, c);
@@ -140,7 +132,7 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_dust(m, s);
     m->table = e;
     stack_prepare(m);
-    if (HAS_SHEEN(m)) m->e_avg = table_sheen_nap_average(e, m->nap, m->rows);
+    if (HAS_SHEEN(m) && layer_asks_wi(m->layer)) m->e_avg = table_sheen_nap_average(e, m->nap, m->rows);
     if (m->layer == LAYER_MULTIPLICATIVE) {
         m->sheen.f0 = rgb_grey(0.0f);
         m->sheen.f90 = rgb_grey(0.0f);
@@ -298,7 +290,7 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     }
     if (layered && !below_f) {
         Rgb base_scale = w->base_scale;
-        if (m->layer >= LAYER_ALBEDO_MIN) {
+        if (layer_asks_wi(m->layer)) {
             SheenE e_i = sheen_e_of(0.0f);
             if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
             base_scale = stack_base_scale(m, w, e_i);

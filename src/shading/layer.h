@@ -27,34 +27,41 @@
 #define LAYER_BY_MAX     0
 #define LAYER_BY_CHANNEL 1
 
-/* L(id, index, what of the base is left, conserves, help), c the sheen's colour, e_o e_i e_avg its white
- * albedo. conserves: with a sheen of E <= 1 the whole returns no more light than it received. */
+/* L(id, index, what of the base is left, asks_wi, asks_average, conserves, help), c the sheen's colour, e_o
+ * e_i e_avg its white albedo, of which those two ask for e_i and for e_avg. conserves: with a sheen of E <= 1
+ * the whole returns no more light than it received. */
 #define WEFT_LAYERS(L)                                                                                       \
-    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false,                                  \
+    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false, false, false,                    \
       "the base loses nothing; gains energy")                                                                \
-    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false,                \
+    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false, false, false,  \
       "no sheen of its own: the base times 1 + c E(wo); gains energy")                                       \
-    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), false,                                              \
+    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), false, false, false,                                \
       "(1 - F)(1 - k) diffuse + specular + (1 - F) k sheen, k the amount of sheen")                          \
-    L("side-by-side", LAYER_SIDE_BY_SIDE, side_by_side_base(c, e_o, e_i, e_avg), true,                       \
+    L("side-by-side", LAYER_SIDE_BY_SIDE, side_by_side_base(c, e_o, e_i, e_avg), false, false, true,         \
       "as seed, k the sheen's colour and F the most that conserves energy")                                  \
-    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), true,                          \
+    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), false, false, true,            \
       "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                            \
-    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), false,                            \
+    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), true, false, false,               \
       "the base keeps 1 - c min(E(wo), E(wi)); gains energy")                                                \
-    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg), true,                             \
+    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg), true, false, true,                \
       "the base keeps 1 - c max(E(wo), E(wi)); glTF's rule, loses energy")                                   \
-    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true,                             \
+    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true, true, true,                 \
       "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                           \
-    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true,                             \
+    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true, true, true,                 \
       "light bounces between sheen and base; the path tracer's reference")
 
 /* Returns the factor that the layer rule leaves for the base at wo and wi. */
-#define LAYER_CASE(id, index, base, conserves, help)                                                         \
+#define LAYER_CASE(id, index, base, asks_wi, asks_average, conserves, help)                                  \
     if (layer == index) return base;
 FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {
     WEFT_LAYERS(LAYER_CASE)
     return 1.0f;
 }
+
+#define LAYER_ASKS_WI(id, index, base, asks_wi, asks_average, conserves, help) || (layer == index && asks_wi)
+FN bool layer_asks_wi(int layer) { return false WEFT_LAYERS(LAYER_ASKS_WI); }
+#define LAYER_ASKS_AVERAGE(id, index, base, asks_wi, asks_average, conserves, help)                          \
+    || (layer == index && asks_average)
+FN bool layer_asks_average(int layer) { return false WEFT_LAYERS(LAYER_ASKS_AVERAGE); }
 
 #endif

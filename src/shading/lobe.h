@@ -4,6 +4,7 @@
 
 #include "shading/angles.h"
 #include "shading/lobe_value.h"
+#include "shading/proxy.h"
 
 /* A lobe is one file in lobes/ and one row of lobes.list. For the row ID, "-" in it read as "_", as NAME and
  * in the upper and lower case that the language wants, its file gives
@@ -34,6 +35,10 @@
  * environment then takes in place of name_sample:
  *
  *   Strip name_strip(const NamePrepared *p, Dir o, float u, float v)
+ *
+ * One that is not broad names what stands for it under polygon lights (proxy.h):
+ *
+ *   Proxy name_proxy(Name m)
  *
  * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
 

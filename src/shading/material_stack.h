@@ -5,6 +5,21 @@
 #include "shading/albedo.h"
 #include "shading/compose.h"
 
+/* The slots by number, in the order of SLOTS. */
+#define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,
+#define SLOT_NAME(name, NAME, Name, wo)  #name,
+#define SLOT_AT(name, NAME, Name, wo)    &m->name,
+enum { PLACE_NONE = -1, SLOTS(SLOT_PLACE) SLOT_COUNT };
+
+static inline const char *slot_name(int place) {
+    static const char *const names[] = {SLOTS(SLOT_NAME)};
+    return names[place];
+}
+static inline const Slot *stack_slot(const Stack *m, int place) {
+    const Slot *const slots[] = {SLOTS(SLOT_AT)};
+    return slots[place];
+}
+
 /* One copy of each: the catalogue's text in every caller would be many times the program. Records go by
  * reference: by value they would be packed into registers and come out slower than they are computed. */
 #define ONE_COPY __attribute__((noinline))

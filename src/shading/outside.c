@@ -106,6 +106,11 @@ float outside_seconds(const Lobe *m, float f0, float f90) {
     return plugin && plugin->traits & TRAIT_TINTED ? 1.0f : f0;
 }
 
+Proxy outside_proxies(const Lobe *m) {
+    const Plugin *plugin = plugin_of(m->id);
+    return plugin && plugin->proxy ? plugin->proxy(m) : proxy_cosine();
+}
+
 /* The loop of an id without a lobe. */
 static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
 static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,

@@ -46,6 +46,7 @@ LobeValue outside_value(const OutsidePrepared *p, const OutsideView *w, Angles a
 Dir outside_sample(const OutsidePrepared *p, const OutsideView *w, Dir o, float u, float v);
 Strip outside_strips(const Lobe *m, Dir o, float u, float v);
 float outside_seconds(const Lobe *m, float f0, float f90);
+Proxy outside_proxies(const Lobe *m);
 
 /* The loops of that lobe; NULL where there is none. */
 const PluginLoops *outside_loops(int id);

@@ -40,6 +40,7 @@ typedef struct Plugin {
     void (*sample)(const void *p, const void *w, const Dir *o, float u, float v, Dir *i);
     float (*second)(const Lobe *m, float f0, float f90);                    /* NULL: it is f90 */
     void (*strip)(const void *p, const Dir *o, float u, float v, Strip *s); /* NULL: it has none */
+    Proxy (*proxy)(const Lobe *m);                                          /* NULL: a cosine */
     const PluginLoops *loops;
 } Plugin;
 

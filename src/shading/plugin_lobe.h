@@ -37,9 +37,11 @@
     static void plugin_strip(const void *p, const Dir *o, float u, float v, Strip *s) {                      \
         *s = name##_strip(p, *o, u, v);                                                                      \
     }
+#define PLUGIN_PROXY(name)                                                                                   \
+    static Proxy plugin_proxy(const Lobe *m) { return name##_proxy(name##_of(m)); }
 
-/* second and strip: plugin_second and plugin_strip, or NULL. */
-#define PLUGIN_OF(name, Name, NAME, second, strip)                                                           \
+/* second, strip and proxy: plugin_second, plugin_strip and plugin_proxy, or NULL. */
+#define PLUGIN_OF(name, Name, NAME, second, strip, proxy)                                                    \
     static const PluginParam plugin_params[] = {                                                             \
         NAME##_PARAMS(PLUGIN_PARAM){NULL, NULL, NULL, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}};                        \
     static void plugin_prepare(const Lobe *m, void *p) { name##_prepare(name##_of(m), p); }                  \
@@ -62,6 +64,7 @@
                                       plugin_sample,                                                         \
                                       second,                                                                \
                                       strip,                                                                 \
+                                      proxy,                                                                 \
                                       &weft_lobe_loops};                                                     \
         return &plugin;                                                                                      \
     }

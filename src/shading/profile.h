@@ -51,13 +51,15 @@
     P("order-1886", 13, order_1886_stack(m, s), "The Order: 1886, a reconstruction")                         \
     P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
 
-/* The formulas of engines for E: A(name, source, formula). Only khronos reads the table of the lobe. */
+/* The formulas of engines for E: A(name, source, true if it reads the table of the lobe itself, formula). */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                              \
-    A(khronos, ALBEDO_KHRONOS, khronos_albedo(m, cosine))                                                    \
-    A(three, ALBEDO_THREE, three_albedo(cosine, m->albedo_coord))                                            \
-    A(filament, ALBEDO_FILAMENT, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->albedo_coord)) \
-    A(babylon, ALBEDO_BABYLON, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->albedo_coord))    \
-    A(materialx, ALBEDO_MATERIALX, materialx_albedo(cosine, m->albedo_coord))
+    A(khronos, ALBEDO_KHRONOS, true, khronos_albedo(m, cosine))                                              \
+    A(three, ALBEDO_THREE, false, three_albedo(cosine, m->albedo_coord))                                     \
+    A(filament, ALBEDO_FILAMENT, false,                                                                      \
+      table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->albedo_coord))                            \
+    A(babylon, ALBEDO_BABYLON, false,                                                                        \
+      table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->albedo_coord))                             \
+    A(materialx, ALBEDO_MATERIALX, false, materialx_albedo(cosine, m->albedo_coord))
 
 /* The steps of engines that depend on wo: V(name, view, statement that changes a view in which nothing is
  * dimmed yet). */
@@ -67,6 +69,9 @@
     V(filament, VIEW_FILAMENT, filament_view(engine_table(ENGINE_FILAMENT_GGX), m, w))                       \
     V(babylon, VIEW_BABYLON, filament_view(engine_table(ENGINE_BABYLON_GGX), m, w))                          \
     V(materialx, VIEW_MATERIALX, materialx_view(m, w))
+
+#define ALBEDO_OWN_TABLE(name, index, own_table, formula) || (albedo == index && own_table)
+FN bool albedo_is_own(int albedo) { return albedo == ALBEDO_TABLE WEFT_ALBEDO_FORMULAS(ALBEDO_OWN_TABLE); }
 
 #define PROFILE_CASE(id, index, fill, help)                                                                  \
     if (c.profile == index) {                                                                                \

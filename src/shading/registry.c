@@ -20,10 +20,10 @@ SAME_TRAIT(TABLE);
 SAME_TRAIT(TINTED);
 
 /* The values of a parameter of each type: a number, or an index into these. */
-#define choices_float                            NULL
-#define D_TERM_ID(id, NAME, value, drawn, help)  [NAME] = id,
-#define V_TERM_ID(id, NAME, value, help)         [NAME] = id,
-#define F_TERM_ID(id, NAME, share, second, help) [NAME] = id,
+#define choices_float            NULL
+#define D_TERM_ID(id, NAME, ...) [NAME] = id,
+#define V_TERM_ID(id, NAME, ...) [NAME] = id,
+#define F_TERM_ID(id, NAME, ...) [NAME] = id,
 static const char *const choices_DTerm[D_COUNT + 1] = {WEFT_D_TERMS(D_TERM_ID)};
 static const char *const choices_VTerm[V_COUNT + 1] = {WEFT_V_TERMS(V_TERM_ID)};
 static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};

@@ -217,14 +217,10 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-/* Prepares the lobes and finds the rows of E in its table, once all parameters are set. */
+/* Prepares the lobes, once their parameters are set. */
 #define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
-FN void stack_prepare(Stack *m) {
-    SLOTS(PREPARE_SLOT)
-    if (HAS_SHEEN(m) && m->albedo <= ALBEDO_KHRONOS && SHEEN_IS_OWN(m->table))
-        m->rows = table_rows(m->table, m->albedo_coord);
-}
+FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}
 
 /* Computes the lobes' views for wo if it is above the slot's horizon: a coat's normal may turn it away. */
 #define VIEW_SLOT(name, NAME, Name, wo)                                                                      \

@@ -4,9 +4,6 @@
 
 #include "shading/material_stack.h"
 
-#define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,
-enum { PLACE_NONE = -1, SLOTS(SLOT_PLACE) };
-
 FN Dir from_coat(const Stack *s, Dir w) {
     return dir(w.x * s->coat_x.x + w.y * s->coat_y.x + w.z * s->coat_z.x,
                w.x * s->coat_x.y + w.y * s->coat_y.y + w.z * s->coat_z.y,

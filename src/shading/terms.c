@@ -10,9 +10,9 @@ typedef struct TermText {
 } TermText;
 
 /* Placed by number, so that list and number cannot part. */
-#define D_TEXT(id, NAME, value, drawn, help)  [NAME] = {id, help},
-#define V_TEXT(id, NAME, value, help)         [NAME] = {id, help},
-#define F_TEXT(id, NAME, share, second, help) [NAME] = {id, help},
+#define D_TEXT(id, NAME, value, drawn, proxy, help) [NAME] = {id, help},
+#define V_TEXT(id, NAME, value, help)               [NAME] = {id, help},
+#define F_TEXT(id, NAME, share, second, help)       [NAME] = {id, help},
 static const TermText d_texts[D_COUNT] = {WEFT_D_TERMS(D_TEXT)};
 static const TermText v_texts[V_COUNT] = {WEFT_V_TERMS(V_TEXT)};
 static const TermText f_texts[F_COUNT] = {WEFT_F_TERMS(F_TEXT)};

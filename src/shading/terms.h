@@ -8,6 +8,7 @@
 #define WEFT_SHADING_TERMS_H
 
 #include "shading/fresnel_weight.h"
+#include "shading/proxy.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/d_beckmann.h"
 #include "shading/terms/d_blinn_phong.h"
@@ -52,26 +53,27 @@
 #define D_VELVET          9
 #define D_COUNT           10
 
-/* T(id, number, D(h), h drawn from D cos_h by u and v, help) */
+/* T(id, number, D(h), h drawn from D cos_h by u and v, its proxy, help); distributions of cloth are broad */
 #define WEFT_D_TERMS(T)                                                                                      \
     T("blinn-phong", D_BLINN_PHONG, blinn_phong_d(alpha, h), blinn_phong_facet(alpha, u, v),                 \
-      "power of a cosine; a round highlight with an edge")                                                   \
-    T("beckmann", D_BECKMANN, beckmann_d(alpha, h), beckmann_facet(alpha, u, v),                             \
+      proxy_facets(alpha, alpha), "power of a cosine; a round highlight with an edge")                       \
+    T("beckmann", D_BECKMANN, beckmann_d(alpha, h), beckmann_facet(alpha, u, v), proxy_facets(alpha, alpha), \
       "bell curve of slopes; a highlight with an edge")                                                      \
-    T("ggx", D_GGX, ggx_d(alpha, alpha, h), ggx_facet(alpha, alpha, u, v),                                   \
+    T("ggx", D_GGX, ggx_d(alpha, alpha, h), ggx_facet(alpha, alpha, u, v), proxy_facets(alpha, alpha),       \
       "Trowbridge-Reitz; a highlight that glows")                                                            \
-    T("ggx-aniso", D_GGX_ANISO, ggx_d(ax, ay, h), ggx_facet(ax, ay, u, v),                                   \
+    T("ggx-aniso", D_GGX_ANISO, ggx_d(ax, ay, h), ggx_facet(ax, ay, u, v), proxy_facets(ax, ay),             \
       "ggx drawn out along the tangent by anisotropy")                                                       \
-    T("gtr1", D_GTR1, gtr1_d(alpha, h), gtr1_facet(alpha, u, v), "a core in a wide haze, Disney's coat")     \
-    T("ashikhmin", D_ASHIKHMIN, ashikhmin_d(alpha, h), ashikhmin_facet(alpha, u, v),                         \
+    T("gtr1", D_GTR1, gtr1_d(alpha, h), gtr1_facet(alpha, u, v), gtr1_proxy(alpha),                          \
+      "a core in a wide haze, Disney's coat")                                                                \
+    T("ashikhmin", D_ASHIKHMIN, ashikhmin_d(alpha, h), ashikhmin_facet(alpha, u, v), proxy_cosine(),         \
       "velvet: an even floor and a bright rim")                                                              \
-    T("charlie", D_CHARLIE, charlie_d(alpha, h), charlie_facet(alpha, u, v),                                 \
+    T("charlie", D_CHARLIE, charlie_d(alpha, h), charlie_facet(alpha, u, v), proxy_cosine(),                 \
       "power of a sine; the sheen of glTF")                                                                  \
     T("charlie-floored", D_CHARLIE_FLOORED, charlie_floored_d(alpha, h), charlie_floored_facet(alpha, u, v), \
-      "charlie with a faint floor, as engines with half floats have it")                                     \
-    T("inverse-ggx", D_INVERSE_GGX, inverse_ggx_d(alpha, h), inverse_ggx_facet(alpha, u, v),                 \
+      proxy_cosine(), "charlie with a faint floor, as engines with half floats have it")                     \
+    T("inverse-ggx", D_INVERSE_GGX, inverse_ggx_d(alpha, h), inverse_ggx_facet(alpha, u, v), proxy_cosine(), \
       "an even floor and a soft rim, Unreal's cloth")                                                        \
-    T("velvet", D_VELVET, velvet_d(alpha, h), velvet_facet(alpha, u, v),                                     \
+    T("velvet", D_VELVET, velvet_d(alpha, h), velvet_facet(alpha, u, v), proxy_cosine(),                     \
       "the rim of ashikhmin alone, Cycles' old velvet")
 
 #define V_IMPLICIT                 0
@@ -145,10 +147,12 @@
     T("dielectric", F_DIELECTRIC, dielectric_s(ior, d), 1.0f, "to white as a dielectric of that ior does")   \
     T("conductor", F_CONDUCTOR, conductor_s(ior, k, d), 1.0f, "to white as a metal of that ior and k does")
 
-#define D_CASE(id, NAME, value, drawn, help)                                                                 \
+#define D_CASE(id, NAME, value, drawn, proxy, help)                                                          \
     if (term == NAME) return value;
-#define D_FACET(id, NAME, value, drawn, help)                                                                \
+#define D_FACET(id, NAME, value, drawn, proxy, help)                                                         \
     if (term == NAME) return drawn;
+#define D_PROXY(id, NAME, value, drawn, proxy, help)                                                         \
+    if (term == NAME) return proxy;
 #define V_CASE(id, NAME, value, help)                                                                        \
     if (term == NAME) return value;
 #define F_CASE(id, NAME, share, second, help)                                                                \
@@ -166,6 +170,11 @@ FN float term_d(int term, float alpha, float ax, float ay, Dir h) {
 FN Dir term_facet(int term, float alpha, float ax, float ay, float u, float v) {
     WEFT_D_TERMS(D_FACET)
     return dir(0.0f, 0.0f, 1.0f);
+}
+
+FN Proxy term_proxy(int term, float alpha, float ax, float ay) {
+    WEFT_D_TERMS(D_PROXY)
+    return proxy_cosine();
 }
 
 FN float term_v(int term, float alpha, float ax, float ay, Angles a) {

@@ -23,8 +23,10 @@ typedef struct Formula {
     const char *row;
 } Formula;
 
+#define ALBEDO_ROW(name, index, own_table, formula)                                                          \
+    {index, "F(" #name ", " #index ", " #own_table ", " #formula ")"},
 #define FORMULA_ROW(name, index, formula) {index, "F(" #name ", " #index ", " #formula ")"},
-static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(FORMULA_ROW){-1, ""}};
+static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(ALBEDO_ROW){-1, ""}};
 static const Formula views[] = {WEFT_VIEWS(FORMULA_ROW){-1, ""}};
 
 /* The one that a stack names, or the empty one behind. */
@@ -80,8 +82,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         Surface s = composition_surface(0.5f * (float)(x % 3), zero);
         if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
-        const Slot *const slots[TEXT_SLOTS] = {&m.diffuse, &m.specular, &m.sheen, &m.coat, &m.dust};
-        for (int k = 0; k < TEXT_SLOTS; k++) add_lobe(&found, k, slots[k]);
+        for (int k = 0; k < SLOT_COUNT; k++) add_lobe(&found, k, stack_slot(&m, k));
         const Stack *made = &m;
         found.used &= !IS_BELOW_F(made);
     }
@@ -90,17 +91,17 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
 
 /* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
 void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
-    static const char *const has[TEXT_SLOTS] = {"HAS_DIFFUSE(m)", "HAS_SPECULAR(m)", "HAS_SHEEN(m)",
-                                                "HAS_COAT(m)", "HAS_DUST(m)"};
-    int ids[3 + TEXT_SLOTS * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    for (int k = 0; k < TEXT_SLOTS; k++)
+#define SLOT_HAS(name, NAME, Name, wo) "HAS_" #NAME "(m)",
+    static const char *const has[] = {SLOTS(SLOT_HAS)};
+    int ids[3 + SLOT_COUNT * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    for (int k = 0; k < SLOT_COUNT; k++)
         for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
     char kind[16], tilts[16];
     snprintf(kind, sizeof kind, "%d", table_kind);
     snprintf(tilts, sizeof tilts, "%d", table_tilts);
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
-    for (int k = 0; k < TEXT_SLOTS; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
+    for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
     text_define(text, "HAS_LAYERED_SHEEN(m)",
                 found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_dispatch(text, ids, count);

@@ -11,8 +11,8 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 
 /* The possible contents of a stack's slots: ids, and the first lobe of each with its parameters. */
 typedef struct CompositionSlots {
-    TextSlot slots[TEXT_SLOTS];
-    Lobe lobes[TEXT_SLOTS];
+    TextSlot slots[SLOT_COUNT];
+    Lobe lobes[SLOT_COUNT];
     bool used; /* no layer rule could do without a sheen */
 } CompositionSlots;
 

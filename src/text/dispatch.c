@@ -75,14 +75,14 @@ static void put_lines(Text *text, const char *file, const char *first, const cha
     buffer_free(&chosen);
 }
 
-void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]) {
+void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]) {
 #define SLOT_NAMES(name, NAME, Name, wo)                                                                     \
     {#Name "Prepared", #Name "View", #name "_prepare", #name "_view", #name "_reflect"},
     static const char *const names[] = {"LobePrepared", "LobeView", "lobe_prepare", "lobe_view",
                                         "lobe_reflect"};
     enum { NAMES = sizeof names / sizeof *names };
-    static const char *const own[TEXT_SLOTS][NAMES] = {SLOTS(SLOT_NAMES)};
-    for (int k = 0; k < TEXT_SLOTS; k++) {
+    static const char *const own[SLOT_COUNT][NAMES] = {SLOTS(SLOT_NAMES)};
+    for (int k = 0; k < SLOT_COUNT; k++) {
         bool there[LOBE_MOST] = {false};
         for (int j = 0; j < slots[k].count; j++) there[slots[k].lobes[j]] = true;
         for (int n = 0; n < NAMES; n++) text_define(text, names[n], own[k][n]);

@@ -4,6 +4,7 @@
 
 #include "text/text.h"
 
+#include "shading/material_stack.h"
 #include "shading/outside.h"
 #include "shading/registry.h"
 
@@ -27,7 +28,6 @@ bool text_weight_is_cosine(int id);
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
 /* The lobes that a slot of a stack may hold. */
-enum { TEXT_SLOTS = 5 };
 typedef struct TextSlot {
     int lobes[LOBE_MOST];
     int count;
@@ -35,6 +35,6 @@ typedef struct TextSlot {
 
 /* The records and functions of shading/slots.h for each slot, in the order of SLOTS, which know only these
  * lobes. Call it once, behind text_dispatch, which has all of them. */
-void text_slots(Text *text, const TextSlot slots[TEXT_SLOTS]);
+void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]);
 
 #endif

@@ -201,14 +201,12 @@ static WeftResult take_plugin(LobeFile *own, const Plugin *plugin, const char *p
     if (result == WEFT_OK) result = take_params(own, plugin, path, error);
     own->lobe.info.traits = plugin->traits;
     own->lobe.plugin = plugin;
+    own->lobe.names.strips = plugin->strip != NULL;
     return result;
 }
 
 static WeftResult take(LobeFile *own, const char *path, int *lobe, WeftError *error) {
-    char strip[80];
     const Plugin *plugin;
-    snprintf(strip, sizeof strip, "Strip %s_strip(", own->prefix);
-    own->lobe.names.strips = strstr(own->text, strip) != NULL;
     WeftResult result = check_names(own, path, error);
     if (result == WEFT_OK) result = check_parts(own, path, error);
     if (result == WEFT_OK) result = check_dialect(own, path, error);

@@ -72,6 +72,15 @@ static void put_seconds(const OutsideLobe *lobe, Buffer *out) {
     buffer_print(out, ";\n}\n");
 }
 
+static void put_proxies(const OutsideLobe *lobe, Buffer *out) {
+    const char *name = lobe->names.prefix;
+    buffer_print(out, "FN Proxy %s_proxies(const Lobe *m) {\n    return ", name);
+    if (lobe->plugin->proxy)
+        buffer_print(out, "%s_proxy(%s_of(m));\n}\n", name, name);
+    else
+        buffer_print(out, "proxy_cosine();\n}\n");
+}
+
 void text_outside(Text *text, const bool there[LOBE_MOST]) {
     text_provide(text, "shading/outside.h");
     for (int id = LOBE_COUNT; id < LOBE_MOST; id++) {
@@ -79,12 +88,14 @@ void text_outside(Text *text, const bool there[LOBE_MOST]) {
         if (!lobe || !there[id]) continue;
         Buffer rows = {0};
         text_include(text, "shading/terms/d_ggx.h");
+        text_include(text, "shading/proxy.h");
         text_lobe(text, id);
         buffer_print(&rows, "#define LOBE_%s %d\n", lobe->names.macros, id);
         put_params(lobe, &rows);
         put_common(lobe, &rows);
         put_strips(lobe, &rows);
         put_seconds(lobe, &rows);
+        put_proxies(lobe, &rows);
         text_source(text, "shading/outside.h", &rows);
         buffer_free(&rows);
     }

@@ -68,6 +68,8 @@ static bool has_function(const LobeNames *names, const char *bytes, const char *
 static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     const char *name = names->prefix, *record = names->record, *macros = names->macros;
     bool second = has_function(names, bytes, "float", "second");
+    bool strip = has_function(names, bytes, "Strip", "strip"),
+         proxy = has_function(names, bytes, "Proxy", "proxy");
     char file[128];
     snprintf(file, sizeof file, "%s.h", name);
     put_file(flat, file, bytes);
@@ -75,9 +77,11 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     buffer_print(&flat->text, "PLUGIN_RECORD(%s, %s, %s)\n", name, record, macros);
     buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s)\n#else\n", name, record);
     if (second) buffer_print(&flat->text, "PLUGIN_SECOND(%s)\n", name);
-    if (names->strips) buffer_print(&flat->text, "PLUGIN_STRIP(%s)\n", name);
-    buffer_print(&flat->text, "PLUGIN_OF(%s, %s, %s, %s, %s)\n#endif\n", name, record, macros,
-                 second ? "plugin_second" : "NULL", names->strips ? "plugin_strip" : "NULL");
+    if (strip) buffer_print(&flat->text, "PLUGIN_STRIP(%s)\n", name);
+    if (proxy) buffer_print(&flat->text, "PLUGIN_PROXY(%s)\n", name);
+    buffer_print(&flat->text, "PLUGIN_OF(%s, %s, %s, %s, %s, %s)\n#endif\n", name, record, macros,
+                 second ? "plugin_second" : "NULL", strip ? "plugin_strip" : "NULL",
+                 proxy ? "plugin_proxy" : "NULL");
 }
 
 /* Compiling it. */

@@ -1,6 +1,7 @@
 #include "text/unused.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "text/edit.h"
 #include "text/types.h"
@@ -25,20 +26,23 @@ static bool is_whole(Token record, const char *const *whole) {
     return false;
 }
 
-/* Returns true if [c, end) has a side effect: it calls a function that writes through a parameter, or
- * increments a variable. */
-static bool has_effect(const Items *items, const char *c, const char *end) {
+/* Returns true if the mark at c assigns: it is none of "==", "!=", "<=" and ">=". */
+static bool is_assignment(const char *c, const char *end) {
+    return *c == '=' && !(c + 1 < end && c[1] == '=') && !strchr("=!<>", c[-1]);
+}
+
+/* Returns true if [c, end) has a side effect beside `own` assignments: it calls a function that writes
+ * through a parameter, increments a variable, or assigns once more. */
+static bool has_effect(const Items *items, const char *c, const char *end, int own) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         const Item *called =
             token.kind == TOKEN_NAME && token_is(token_peek(c, end), "(") ? items_find(items, token) : NULL;
         bool counts = (token_is(token, "+") || token_is(token, "-")) && c < end && *c == *token.at;
-        if (counts || (called && called->kind == ITEM_FUNCTION && types_writes(called))) return true;
+        own -= token.kind == TOKEN_MARK && is_assignment(token.at, end);
+        if (counts || own < 0 || (called && called->kind == ITEM_FUNCTION && types_writes(called)))
+            return true;
     }
     return false;
-}
-
-static bool piece_has_effect(const Items *items, Piece piece) {
-    return has_effect(items, piece.at, piece.end);
 }
 
 /* The first piece of a list goes with the comma behind it, another one with that before it. */
@@ -97,7 +101,7 @@ static void visit_stored(void *user, const Access *access) {
 static void visit_unknown(void *user, const Access *access) {
     const Unused *self = user;
     if (access->statement && (access->record.kind != TOKEN_NAME ||
-                              has_effect(self->items, access->statement, access->statement_end)))
+                              has_effect(self->items, access->statement, access->statement_end, 1)))
         visit_read(user, &(Access){access->record, access->member, NULL, NULL});
 }
 
@@ -172,7 +176,7 @@ static bool take_arguments(Unused *self, const Item *function, int place, bool d
             if (place >= arguments.count) continue;
             if (drop)
                 drop_piece(self, arguments, place);
-            else if (piece_has_effect(self->items, arguments.all[place]))
+            else if (has_effect(self->items, arguments.all[place].at, arguments.all[place].end, 0))
                 return false;
         }
     }
@@ -244,7 +248,7 @@ static void add_uses(const Items *items, const List *names, Uses *out) {
             use = &out->all[out->count++];
             *use = (Use){name, -1, 0};
         }
-        use->named += piece_has_effect(items, names->all[k]);
+        use->named += has_effect(items, names->all[k].at, names->all[k].end, 1);
     }
 }
 
@@ -258,7 +262,7 @@ static void list_uses(const Items *items, const char *c, const char *end, Uses *
         Use *use = token.kind == TOKEN_NAME && !token_is(before, ".") ? find_use(out, token) : NULL;
         if (use) use->named++;
         if (use && statement.stored &&
-            !has_effect(items, statement.at, types_statement_end(statement.at, end)))
+            !has_effect(items, statement.at, types_statement_end(statement.at, end), 1))
             use->stored++;
         before = token;
     }
@@ -293,7 +297,7 @@ static void cut_value(Unused *self, const Statement *declared, const char *end) 
     Token name = token_solid(&piece, declared->names.all[0].end), before = {TOKEN_MARK, ";", 1}, token;
     Statement statement;
     if (!token_is(token_peek(piece, declared->names.all[0].end), "=") ||
-        piece_has_effect(self->items, declared->names.all[0]))
+        has_effect(self->items, declared->names.all[0].at, declared->names.all[0].end, 1))
         return;
     for (int depth = 0; (token = next_token(&c, end, &before, &statement)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
@@ -338,7 +342,7 @@ static void cut_calls(Unused *self, const Item *function) {
         const char *body;
         types_parameters(called, &body);
         const char *stop = types_statement_end(at, function->end);
-        if (blank_end(body + 1, called->end) == called->end - 1 && !has_effect(self->items, c, stop))
+        if (blank_end(body + 1, called->end) == called->end - 1 && !has_effect(self->items, c, stop, 0))
             edit_drop(&self->edits, at, stop);
     }
 }

@@ -436,26 +436,40 @@ void wgsl_put_members(const Item *record, Buffer *out) {
     put(out, c, close + 1);
 }
 
+/* Takes a statement. Returns true if control never reaches the one behind it in its case. */
+static bool take_leaving(const char **c, const char *end) {
+    const char *first = blank_end(*c, end);
+    Token token = token_solid(c, end), next = token_peek(*c, end);
+    bool branch = token_is(token, "if"), loop = token_is(token, "for") || token_is(token, "while");
+    if (token_is(token, "{")) {
+        bool left = false;
+        const char *close = token_closed(first, end) - 1;
+        while (blank_end(*c, close) < close) left = take_leaving(c, close);
+        *c = close + 1;
+        return left;
+    }
+    if (branch || loop || token_is(token, "switch")) {
+        *c = token_closed(next.at, end);
+        bool left = take_leaving(c, end);
+        const char *other = *c;
+        if (!branch || !token_is(token_solid(&other, end), "else")) return false;
+        *c = other;
+        return take_leaving(c, end) && left;
+    }
+    *c = types_statement_end(first, end);
+    return token_is(token, "return") || token_is(token, "break") || token_is(token, "continue");
+}
+
 /* Returns true if a case of the switch with its brace at `open` falls through to the next. */
 static bool falls_through(const char *open, const char *end) {
     const char *close = token_closed(open, end) - 1, *c = open + 1;
-    Token before = {TOKEN_MARK, ";", 1};
-    bool left = true; /* what stands before leaves the switch */
-    for (Token token; (token = token_next(&c, close)).kind != TOKEN_NONE;) {
-        if (token.kind == TOKEN_BLANK) continue;
-        bool begins = types_begins(before) && !token_is(before, ":"), brace = token_is(token, "{");
-        before = token;
-        if (is_label(token)) {
-            if (!left) return true;
-            c = label_end(c, close);
-            before = (Token){TOKEN_MARK, ";", 1};
-        } else if (brace) {
-            if (!begins) c = token_closed(token.at, close);
-            if (!begins) before = (Token){TOKEN_MARK, "}", 1};
-            left = false;
-        } else if (begins && token.kind == TOKEN_NAME) {
-            left = token_is(token, "return") || token_is(token, "break") || token_is(token, "continue");
-        }
+    for (bool left = true; blank_end(c, close) < close;) {
+        bool label = is_label(token_peek(c, close));
+        if (!label) left = take_leaving(&c, close);
+        if (label && !left) return true;
+        if (!label) continue;
+        token_solid(&c, close);
+        c = label_end(c, close);
     }
     return false;
 }

@@ -199,7 +199,7 @@ static inline SeenStack light_lone(Lobe lobe, Dir o) {
     unsigned traits = weft_lobe_info(lobe.id)->traits;
     if (traits & TRAIT_DIFFUSE)
         m.stack.diffuse = slot;
-    else if (area_density(lobe, dir(0.0f, 0.0f, 1.0f)).narrow)
+    else if (area_density(&lobe, dir(0.0f, 0.0f, 1.0f)).narrow)
         m.stack.specular = slot;
     else
         m.stack.sheen = slot;

@@ -155,6 +155,9 @@ static void idle_parts_go(void **state) {
          "shade() { float y = 1.0; return f(y, bump(y)); }",
          NULL},
         {"float shade(float x) { float a = x; float b = a++; return a; }", NULL},
+        {"float shade(float x) { float a = x; float b = a = 2.0; return a; }", NULL},
+        {"float shade(float x) { float a = x; float b; b = a = 2.0; return a; }", NULL},
+        {"float shade(float x) { bool b = x == 2.0; return x; }", "float shade(float x) { return x; }"},
         /* what is copied whole keeps what is read of the copy */
         {"struct T { float a, b; }; float shade(T t) { T u = t; return u.a + u.b; }", NULL},
     };

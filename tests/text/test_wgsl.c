@@ -160,6 +160,15 @@ static void some_is_refused(void **state) {
         {"void f(int k) { switch (k) { case 0: g(); case 1: h(); break; } }", "neither"},
         {"void f(int k) { switch (k) { case 0: if (g()) { break; } case 1: h(); break; } }", "neither"},
         {"void f(int k) { switch (k) { case 0: { g(); break; } case 1: h(); } }", NULL},
+        {"void f(int k) { switch (k) { case 0: if (k > a) return; else { g(); break; } case 1: h(); } }",
+         NULL},
+        {"void f(int k) { switch (k) { case 0: if (k > a) return; else g(); case 1: h(); } }", "neither"},
+        {"void f(int k) { switch (k) { case 0: if (k > a) return; case 1: h(); } }", "neither"},
+        {"void f(int k) { switch (k) { case 0: for (;;) { break; } case 1: h(); } }", "neither"},
+        {"void f(int k) { switch (k) { case 0: case 1: if (k > a) return; else if (k > b) break; else "
+         "return; "
+         "default: h(); } }",
+         NULL},
         {"float f(int k) { switch (k) { case 0: return k > 1 ? a : b; default: break; } return c; }", NULL},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

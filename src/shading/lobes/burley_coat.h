@@ -39,5 +39,6 @@ FN Dir burley_coat_sample(const BurleyCoatPrepared *p, const BurleyCoatView *w, 
     if (u < 0.5f) i = dir_mirror(o, gtr1_facet(p->m.alpha, 2.0f * u, v));
     return i;
 }
+FN Proxy burley_coat_proxy(BurleyCoat m) { return gtr1_proxy(m.alpha); }
 
 #endif

@@ -63,6 +63,9 @@ FN float cook_torrance_drawn(CookTorrance m, float spread, Angles a) {
         pdf = facet_pdf(spread * a.h.z, a);
     return 0.5f * pdf + 0.5f * warp_uniform_pdf(a.i);
 }
+FN Proxy cook_torrance_proxy(CookTorrance m) {
+    return term_proxy(m.d, m.alpha, cook_torrance_ax(m), m.alpha);
+}
 
 FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorranceView *w, Angles a) {
     float spread = cook_torrance_spread(p->m, a);

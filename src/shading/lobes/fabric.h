@@ -90,4 +90,10 @@ FN Dir fabric_sample(const FabricPrepared *p, const FabricView *w, Dir o, float 
     return dir_mirror(o, facet_seen(o, fabric_facet(p, rest, v)));
 }
 
+/* Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */
+FN Proxy fabric_proxy(Fabric m) {
+    float width = pow(m.alpha, min(0.5f * m.tail, 1.0f));
+    return proxy_facets(width, width);
+}
+
 #endif

@@ -166,5 +166,10 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
 FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {
     return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
+/* Those that lean are broad: fibre_nap_of sees to that. */
+FN Proxy fibre_proxy(Fibre m) {
+    if (m.tilt < 0.03f) return proxy_fibres(m.alpha);
+    return proxy_cosine();
+}
 
 #endif

@@ -126,5 +126,6 @@ FN LobeValue fibre_table_value(const FibreTablePrepared *p, const FibreTableView
 FN Dir fibre_table_sample(const FibreTablePrepared *p, const FibreTableView *w, Dir o, float u, float v) {
     return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
+FN Proxy fibre_table_proxy(FibreTable m) { return proxy_fibres(m.alpha); }
 
 #endif

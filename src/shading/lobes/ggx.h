@@ -66,6 +66,7 @@ FN LobeValue ggx_value(const GgxPrepared *p, const GgxView *w, Angles a) {
 FN Dir ggx_sample(const GgxPrepared *p, const GgxView *w, Dir o, float u, float v) {
     return dir_mirror(o, ggx_sample_h(p->ax, p->ay, o, u, v));
 }
+FN Proxy ggx_proxy(Ggx m) { return proxy_facets(ggx_ax(m), m.alpha); }
 FN Strip ggx_strip(const GgxPrepared *p, Dir o, float u, float v) {
     return ggx_strip_h(p->ax, p->ay, o, u, v);
 }

@@ -50,5 +50,6 @@ FN LobeValue ltc_fibre_value(const LtcFibrePrepared *p, const LtcFibreView *w, A
 FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o, float u, float v) {
     return ltc_sample(w->ltc, o, u, v);
 }
+FN Proxy ltc_fibre_proxy(LtcFibre m) { return proxy_fibres(m.alpha); }
 
 #endif

@@ -46,6 +46,7 @@ FN LobeValue silk_value(const SilkPrepared *p, const SilkView *w, Angles a) {
 FN Dir silk_sample(const SilkPrepared *p, const SilkView *w, Dir o, float u, float v) {
     return ggx_sample(&p->ggx, &w->ggx, o, u, v);
 }
+FN Proxy silk_proxy(Silk m) { return proxy_facets(silk_ax(m), silk_ay(m)); }
 FN Strip silk_strip(const SilkPrepared *p, Dir o, float u, float v) { return ggx_strip(&p->ggx, o, u, v); }
 
 #endif

@@ -8,6 +8,7 @@
 #ifndef WEFT_D_GTR1_H
 #define WEFT_D_GTR1_H
 
+#include "shading/proxy.h"
 #include "shading/terms/facet.h"
 
 /* At alpha = 1 the formula is 0 / 0, whose limit is 1 / pi. Just below, numerator and logarithm share one
@@ -26,5 +27,8 @@ FN Dir gtr1_facet(float alpha, float u, float v) {
     float sin2 = exp(-u * m) * facet_rise((1.0f - u) * m) / facet_rise(m);
     return facet(sqrt(min(sin2, 1.0f)), sqrt(max(1.0f - sin2, 0.0f)), v);
 }
+
+/* Half of the haze lies within the root of alpha. */
+FN Proxy gtr1_proxy(float alpha) { return proxy_facets(sqrt(alpha), sqrt(alpha)); }
 
 #endif
