@@ -12,6 +12,10 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/profile.h"
 
+/* Returns true if a source of E is the table of the sheen's own lobe. */
+#define ALBEDO_OWN_TABLE(name, index, own_table, formula) || (albedo == index && own_table)
+FN bool albedo_is_own(int albedo) { return albedo == ALBEDO_TABLE WEFT_ALBEDO_FORMULAS(ALBEDO_OWN_TABLE); }
+
 /* The index of refraction; where none is given, that of the reflectance. */
 FN float compose_ior(const Surface *s) {
     float root = sqrt(dielectric_f0(s));

@@ -70,9 +70,6 @@
     V(babylon, VIEW_BABYLON, filament_view(engine_table(ENGINE_BABYLON_GGX), m, w))                          \
     V(materialx, VIEW_MATERIALX, materialx_view(m, w))
 
-#define ALBEDO_OWN_TABLE(name, index, own_table, formula) || (albedo == index && own_table)
-FN bool albedo_is_own(int albedo) { return albedo == ALBEDO_TABLE WEFT_ALBEDO_FORMULAS(ALBEDO_OWN_TABLE); }
-
 #define PROFILE_CASE(id, index, fill, help)                                                                  \
     if (c.profile == index) {                                                                                \
         fill;                                                                                                \
