@@ -164,7 +164,16 @@ static AmbientLight look_light(const void *user, int k) {
     const PixelView *look = user;
     const EnvLight *light = &look->map->parts.env_lights[k];
     return (AmbientLight){to_local(look->pixel, light->direction),
-                          rgb(light->color[0], light->color[1], light->color[2])};
+                          rgb(light->color[0], light->color[1], light->color[2]), env_light_density(light),
+                          k};
+}
+static AmbientLight look_point(const void *user, int k) {
+    const PixelView *look = user;
+    const EnvPoint *point = &look->map->parts.points[k];
+    AmbientLight l = look_light(user, point->light);
+    l.w = to_local(look->pixel, point->direction);
+    l.color = rgb(point->color[0], point->color[1], point->color[2]);
+    return l;
 }
 
 static const char *const own_names[MODELS - BASE] = {"base", "brushed", "disney", "satin"};
@@ -331,7 +340,9 @@ static void measure(void *user, int item, int thread) {
                                         &look,
                                         maps[k].parts.env_light_count,
                                         maps[k].parts.env_light_kappa,
-                                        baked->polynomials};
+                                        baked->polynomials,
+                                        look_point,
+                                        maps[k].parts.point_count};
             Rgb expected = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);

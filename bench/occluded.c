@@ -1,19 +1,28 @@
 /* occluded - prints what neighbours leave of a sheen's light from an environment: how the raster engine's sum
  * over a picture differs from the path tracer's direct light, in hundredths
  *
- *   bench_occluded [--only LOBE] [--rays N] MAP.hdr ...
+ *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] MAP.hdr ...
  *
- * On builtin:spheres and builtin:cloth, whose lobes below the sheen are black and whose lights are off. First
- * the sums, below 0 where the drawing is darker, then sum |difference| over sum. --rays: those of a vertex.
- */
+ * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular. `sum` is the
+ * difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference| over sum, of
+ * means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
+ * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex.
+ * --centre: both engines take one sample in the centre of each pixel. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "weft/weft.h"
 
-enum { WIDTH = 160, HEIGHT = 120, SAMPLES = 64 };
+enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
+
+/* How both engines draw. */
+typedef struct How {
+    int width, height, rays;
+    bool centre;
+} How;
 
 static void check(WeftResult result, const WeftError *error) {
     if (result == WEFT_OK) return;
@@ -35,26 +44,34 @@ static WeftScene *scene_of(const char *name, const char *map, const char *lobe) 
     return scene;
 }
 
-static WeftImage traced(const WeftScene *scene) {
-    const WeftRenderDesc desc = {.width = WIDTH,
-                                 .height = HEIGHT,
+static WeftRender *render_of(const WeftScene *scene, const How *how, uint32_t seed) {
+    const WeftRenderDesc desc = {.width = how->width,
+                                 .height = how->height,
                                  .max_depth = 1,
+                                 .seed = seed,
                                  .camera = "0",
-                                 .background = WEFT_BACKGROUND_TRANSPARENT};
+                                 .background = WEFT_BACKGROUND_TRANSPARENT,
+                                 .pixel_centre = how->centre};
     WeftRender *render;
-    WeftImage image;
     WeftError error;
     check(weft_render_create(scene, &desc, &render, &error), &error);
-    check(weft_render_run(render, SAMPLES, 0.0, NULL, NULL), &error);
+    return render;
+}
+
+static WeftImage image_of(const WeftRender *render) {
+    WeftImage image;
+    WeftError error;
     check(weft_render_image(render, &image, &error), &error);
-    weft_render_free(render);
     return image;
 }
 
-static WeftImage drawn(const WeftScene *scene, int rays) {
-    const WeftRasterDesc desc = {.occlusion = rays, .no_cache = 1};
-    const WeftRasterView view = {
-        .width = WIDTH, .height = HEIGHT, .camera = "0", .background = WEFT_BACKGROUND_TRANSPARENT};
+static WeftImage drawn(const WeftScene *scene, const How *how) {
+    const WeftRasterDesc desc = {.occlusion = how->rays, .no_cache = 1};
+    const WeftRasterView view = {.width = how->width,
+                                 .height = how->height,
+                                 .samples = how->centre ? 1 : 0,
+                                 .camera = "0",
+                                 .background = WEFT_BACKGROUND_TRANSPARENT};
     WeftRaster *raster;
     WeftImage image;
     WeftError error;
@@ -66,57 +83,106 @@ static WeftImage drawn(const WeftScene *scene, int rays) {
     return image;
 }
 
-/* Of means over blocks, in which noise is small. */
-static void compare(const WeftImage *image, const WeftImage *reference, double *sum, double *apart) {
-    enum { BLOCK = 4 };
-    const float *p = image->pixels, *q = reference->pixels;
-    double more = 0.0, off = 0.0, all = 0.0;
-    for (int block = 0; block < WIDTH / BLOCK * (HEIGHT / BLOCK) * 3; block++) {
-        int b = block / 3, x = b % (WIDTH / BLOCK) * BLOCK, y = b / (WIDTH / BLOCK) * BLOCK;
-        double difference = 0.0;
-        for (int k = 0; k < BLOCK * BLOCK; k++) {
-            int at = 4 * ((y + k / BLOCK) * WIDTH + x + k % BLOCK), c = at + block % 3;
-            difference += (double)(p[c] * p[at + 3] - q[c] * q[at + 3]);
-            all += (double)(q[c] * q[at + 3]);
-        }
-        more += difference;
-        off += fabs(difference);
+/* Sum of a colour over a block of pixels, of straight alpha. */
+static double block_sum(const WeftImage *image, int block, int c) {
+    int across = image->width / BLOCK, x = block % across * BLOCK, y = block / across * BLOCK;
+    const float *p = image->pixels;
+    double sum = 0.0;
+    for (int k = 0; k < BLOCK * BLOCK; k++) {
+        int at = 4 * ((y + k / BLOCK) * image->width + x + k % BLOCK);
+        sum += (double)(p[at + c] * p[at + 3]);
     }
-    *sum = more / all;
-    *apart = off / all;
+    return sum;
+}
+
+/* Ratios to the sum of the path traced image. */
+typedef struct Error {
+    double sum, apart, noise;
+} Error;
+
+/* Two path traced images, of which the mean counts, and the raster image. */
+static Error error_of(const WeftImage reference[2], const WeftImage *image) {
+    Error e = {0.0, 0.0, 0.0};
+    double all = 0.0;
+    int blocks = image->width / BLOCK * (image->height / BLOCK);
+    for (int k = 0; k < 3 * blocks; k++) {
+        double a = 0.5 * block_sum(&reference[0], k / 3, k % 3),
+               b = 0.5 * block_sum(&reference[1], k / 3, k % 3);
+        double difference = block_sum(image, k / 3, k % 3) - a - b;
+        e.sum += difference;
+        e.apart += fabs(difference);
+        e.noise += (a - b) * (a - b);
+        all += a + b;
+    }
+    return (Error){e.sum / all, e.apart / all, sqrt(e.noise) / all};
+}
+
+static Error measure(const WeftScene *scene, const How *how) {
+    WeftRender *renders[2] = {render_of(scene, how, 0), render_of(scene, how, 1)};
+    WeftImage image = drawn(scene, how);
+    Error e = {0.0, 0.0, 1.0};
+    for (int samples = SAMPLES; e.noise > 0.005 && samples <= SAMPLES_MOST; samples *= 2) {
+        WeftImage reference[2];
+        for (int k = 0; k < 2; k++) {
+            int done = samples > SAMPLES ? samples / 2 : 0;
+            WeftError error = {0};
+            check(weft_render_run(renders[k], samples - done, 0.0, NULL, NULL), &error);
+            reference[k] = image_of(renders[k]);
+        }
+        e = error_of(reference, &image);
+        for (int k = 0; k < 2; k++) weft_image_free(&reference[k]);
+    }
+    weft_image_free(&image);
+    for (int k = 0; k < 2; k++) weft_render_free(renders[k]);
+    return e;
+}
+
+static bool is_named(const char *id, const char *const *only, int count) {
+    bool named = count == 0;
+    for (int k = 0; k < count; k++) named |= strcmp(only[k], id) == 0;
+    return named;
+}
+
+static void print_lobe(const char *id, const char *map, const How *how) {
+    static const char *const scenes[] = {"builtin:spheres", "builtin:cloth"};
+    Error e[2];
+    for (int s = 0; s < 2; s++) {
+        WeftScene *scene = scene_of(scenes[s], map, id);
+        e[s] = measure(scene, how);
+        weft_scene_free(scene);
+    }
+    printf("%-27s", id);
+    for (int s = 0; s < 2; s++)
+        printf(" %8.1f %8.1f %8.1f", 100.0 * e[s].sum, 100.0 * e[s].apart, 100.0 * e[s].noise);
+    printf("\n");
+    fflush(stdout);
 }
 
 int main(int argc, char **argv) {
-    static const char *const scenes[] = {"builtin:spheres", "builtin:cloth"};
-    const char *maps[8], *only = NULL;
-    int map_count = 0, rays = 64;
+    const char *maps[8], *only[LOBES_MOST];
+    int map_count = 0, only_count = 0;
+    How how = {.width = 160, .rays = 64};
     for (int k = 1; k < argc; k++) {
-        if (strcmp(argv[k], "--only") == 0 && k + 1 < argc)
-            only = argv[++k];
+        if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < LOBES_MOST)
+            only[only_count++] = argv[++k];
         else if (strcmp(argv[k], "--rays") == 0 && k + 1 < argc)
-            rays = atoi(argv[++k]);
+            how.rays = atoi(argv[++k]);
+        else if (strcmp(argv[k], "--width") == 0 && k + 1 < argc)
+            how.width = atoi(argv[++k]);
+        else if (strcmp(argv[k], "--centre") == 0)
+            how.centre = true;
         else if (map_count < 8)
             maps[map_count++] = argv[k];
     }
+    how.height = how.width * 3 / 4;
     for (int m = 0; m < map_count; m++) {
         const char *slash = strrchr(maps[m], '/');
-        printf("\n%s\n%-27s  spheres    cloth  spheres    cloth\n", slash ? slash + 1 : maps[m], "lobe");
+        printf("\n%-27s %26s %26s\n", slash ? slash + 1 : maps[m], "spheres", "cloth");
+        printf("%-27s %8s %8s %8s %8s %8s %8s\n", "lobe", "sum", "apart", "noise", "sum", "apart", "noise");
         for (int lobe = 0; weft_lobe_info(lobe); lobe++) {
             const WeftLobeInfo *info = weft_lobe_info(lobe);
-            double sum[2], apart[2];
             if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE)) continue;
-            if (only && strcmp(only, info->id) != 0) continue;
-            for (int s = 0; s < 2; s++) {
-                WeftScene *scene = scene_of(scenes[s], maps[m], info->id);
-                WeftImage reference = traced(scene), image = drawn(scene, rays);
-                compare(&image, &reference, &sum[s], &apart[s]);
-                weft_image_free(&reference);
-                weft_image_free(&image);
-                weft_scene_free(scene);
-            }
-            printf("%-27s %8.1f %8.1f %8.1f %8.1f\n", info->id, 100.0 * sum[0], 100.0 * sum[1],
-                   100.0 * apart[0], 100.0 * apart[1]);
-            fflush(stdout);
+            if (is_named(info->id, only, only_count)) print_lobe(info->id, maps[m], &how);
         }
     }
     return 0;

@@ -28,7 +28,7 @@ enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
 /* The block Environment, as the shader has it. */
 typedef struct Block {
     float place[4], parts[4], terms[IRRADIANCE_TERMS][4], residual[AMBIENT_RESIDUAL_TERMS][4],
-        env_lights[2 * AMBIENT_LIGHTS_MAX][4];
+        env_lights[2 * AMBIENT_LIGHTS_MAX][4], points[2 * AMBIENT_POINTS_MAX][4];
 } Block;
 
 /* One level of a cube, and where it comes from. */
@@ -330,6 +330,12 @@ static WeftResult find_cube(GlEnvironment *self, const Environment *environment,
     return result;
 }
 
+/* Writes two vectors: direction and x, color and 0. */
+static void put_light(float to[2][4], Vec3 direction, float x, const float color[3]) {
+    const float numbers[8] = {direction.x, direction.y, direction.z, x, color[0], color[1], color[2], 0.0f};
+    memcpy(to, numbers, sizeof numbers);
+}
+
 static void make_buffer(GlEnvironment *self) {
     Block block = {.place = {0}}; /* and parts: environment_place */
     for (int k = 0; k < IRRADIANCE_TERMS; k++)
@@ -339,9 +345,11 @@ static void make_buffer(GlEnvironment *self) {
         memcpy(block.residual[k], self->parts.residual_sh[k], 3 * sizeof(float));
     for (int k = 0; k < self->parts.env_light_count; k++) {
         const EnvLight *light = &self->parts.env_lights[k];
-        const float d[3] = {light->direction.x, light->direction.y, light->direction.z};
-        memcpy(block.env_lights[2 * k], d, sizeof d);
-        memcpy(block.env_lights[2 * k + 1], light->color, sizeof light->color);
+        put_light(&block.env_lights[2 * k], light->direction, env_light_density(light), light->color);
+    }
+    for (int k = 0; k < self->parts.point_count; k++) {
+        const EnvPoint *point = &self->parts.points[k];
+        put_light(&block.points[2 * k], point->direction, (float)point->light, point->color);
     }
     block.terms[0][3] = self->parts.env_light_kappa;
     glGenBuffers(1, &self->buffer);
@@ -393,7 +401,7 @@ void environment_destroy(GlEnvironment *self) {
 void environment_place(const GlEnvironment *self, const Environment *e) {
     const float env_lights = (float)self->parts.env_light_count;
     const float place[2][4] = {{cosf(e->rotation), sinf(e->rotation), e->strength, env_lights},
-                               {e->ambient, e->reflection}};
+                               {e->ambient, e->reflection, (float)self->parts.point_count}};
     glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
 }

@@ -56,9 +56,8 @@ int environment_lights(const GlEnvironment *environment, float rotation,
                        EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
 /* Declares the functions that shading/ambient.h needs from its source, which is then a Frame
- * (shading/frame.h). Takes one sampler. AmbientWeights ambient_baked(Frame, int), float
- * ambient_light_visibility(Frame, int, float) and float ambient_nearest_visibility(Frame, Dir, float) are
- * left to the caller. / */
+ * (shading/frame.h). Takes one sampler. The caller declares AmbientWeights ambient_baked(Frame, int) and float
+ * ambient_light_visibility(Frame, int, float). */
 void environment_text(Text *text);
 
 /* Texture unit, and the binding of the uniform block; of a program that lacks them nothing is asked. */

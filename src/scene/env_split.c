@@ -234,8 +234,8 @@ static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres)
 static double assign_texels(const Sparks *sparks, int count, Vec3 *centres, EnvLight *env_lights) {
     double left = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
-        Vec3 sums[AMBIENT_LIGHTS_MAX] = {{0.0f, 0.0f, 0.0f}};
-        float energy[AMBIENT_LIGHTS_MAX] = {0.0f};
+        Vec3 sums[AMBIENT_POINTS_MAX] = {{0.0f, 0.0f, 0.0f}};
+        float energy[AMBIENT_POINTS_MAX] = {0.0f};
         memset(env_lights, 0, (size_t)count * sizeof *env_lights);
         left = 0.0;
         for (int n = 0; n < sparks->count; n++) {
@@ -286,6 +286,46 @@ static void find_env_lights(const Sparks *sparks, int most, AmbientParts *parts)
     }
 }
 
+float env_light_density(const EnvLight *light) {
+    return 2.0f * (float)light->points / ((float)pi * fmaxf(light->spread, 1e-5f));
+}
+
+/* Divides light k, which `own` is of, into points; `all` is the energy of all lights. */
+static void divide_light(const Sparks *own, int k, double all, AmbientParts *parts) {
+    Vec3 centres[AMBIENT_POINTS_MAX];
+    EnvLight found[AMBIENT_POINTS_MAX];
+    int count = (int)(AMBIENT_POINTS * own->energy / all + 0.5), first = parts->point_count;
+    count = count < 1 ? 1 : count < own->count ? count : own->count;
+    seed(own, count, 0, centres);
+    assign_texels(own, count, centres, found);
+    for (int n = 0; n < count; n++) {
+        const float *c = found[n].color;
+        EnvPoint point = {found[n].direction, {c[0], c[1], c[2]}, k};
+        if (c[0] + c[1] + c[2] > 0.0f) parts->points[parts->point_count++] = point;
+    }
+    parts->env_lights[k].points = parts->point_count - first;
+}
+
+/* Divides all lights into points. Returns false if memory is short. */
+static bool find_points(const Sparks *sparks, AmbientParts *parts) {
+    Vec3 centres[AMBIENT_LIGHTS_MAX];
+    Spark *list = alloc_array((size_t)sparks->count + 1, sizeof *list);
+    if (!list) return false;
+    for (int k = 0; k < parts->env_light_count; k++) centres[k] = parts->env_lights[k].direction;
+    for (int k = 0; k < parts->env_light_count; k++) {
+        Sparks own = {.list = list};
+        for (int n = 0; n < sparks->count; n++) {
+            float c;
+            if (nearest(centres, parts->env_light_count, sparks->list[n].direction, &c) != k) continue;
+            own.list[own.count++] = sparks->list[n];
+            own.energy += (double)sparks->list[n].energy;
+        }
+        if (own.count) divide_light(&own, k, sparks->energy, parts);
+    }
+    free(list);
+    return true;
+}
+
 static WeftResult constant_image(const float color[3], WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(SPLIT_WIDTH, SPLIT_WIDTH / 2, 3, WEFT_PIXEL_F32, out, error);
     float *p = out->pixels;
@@ -310,9 +350,9 @@ WeftResult ambient_split(const Environment *environment, int env_lights, Ambient
         if (env_lights >= 2) take_sparks(&image, &sparks);
         project(&image, out->residual_sh);
         find_env_lights(&sparks, env_lights < AMBIENT_LIGHTS_MAX ? env_lights : AMBIENT_LIGHTS_MAX, out);
-    } else {
-        result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
     }
+    if (!sparks.list || !find_points(&sparks, out))
+        result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
     free(sparks.list);
     weft_image_free(&image);
     return result;

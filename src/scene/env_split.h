@@ -10,6 +10,9 @@
 
 enum { AMBIENT_LIGHTS_MAX = 16, AMBIENT_LIGHTS = 8, AMBIENT_TERMS = 25, AMBIENT_RESIDUAL_TERMS = 16 };
 
+/* Points that all lights together are divided into, by their luminance. Each light has at least one. */
+enum { AMBIENT_POINTS = 48, AMBIENT_POINTS_MAX = AMBIENT_POINTS + AMBIENT_LIGHTS_MAX };
+
 #define AMBIENT_CLIP 1.25
 
 /* log2 kappa of lights that is fine enough: then there are no more of them. */
@@ -22,11 +25,21 @@ typedef struct EnvLight {
     Vec3 direction; /* towards it, unit */
     float color[3]; /* irradiance on what faces it */
     float spread;   /* mean squared distance of its light from it, on the unit sphere */
+    int points;     /* number of points that it is divided into, 1 or more */
 } EnvLight;
+
+/* A part of an EnvLight, found by k-means among its texels. Its points together show the shape of a light. */
+typedef struct EnvPoint {
+    Vec3 direction; /* towards it, unit */
+    float color[3]; /* irradiance on what faces it */
+    int light;      /* the number of its EnvLight */
+} EnvPoint;
 
 typedef struct AmbientParts {
     EnvLight env_lights[AMBIENT_LIGHTS_MAX];
     int env_light_count;
+    EnvPoint points[AMBIENT_POINTS_MAX]; /* sorted by light */
+    int point_count;
     /* log2 of it: 2 over the mean squared distance of light to its light; AMBIENT_EVEN_KAPPA where all is even
      * and there is none. */
     float env_light_kappa;
@@ -39,6 +52,10 @@ typedef struct AmbientParts {
 /* Splits the environment into as many lights as are enough, at most env_lights (0, or 2 ..
  * AMBIENT_LIGHTS_MAX), and a residual. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out, WeftError *error);
+
+/* Returns the density, in 1/sr, at which directions stand for as much solid angle as a point of this light:
+ * points kappa / pi, kappa = 2 / spread. exp(kappa (mu - 1)) covers 2 pi / kappa, twice that of a light. */
+float env_light_density(const EnvLight *light);
 
 /* Spherical harmonics of degrees 0 to 4, without their factors. The cosine has none of degree 3, and of
  * degree 6 a thousandth: Ravi Ramamoorthi, Pat Hanrahan, "On the Relationship between Radiance and

@@ -12,8 +12,8 @@
  *                the tail of the lobe). The axis is the lobe's mean direction
  *   sampled      the mean over samples of the lobe of f cos_i / pdf L(i, kappa), kappa by their density:
  *                Jaroslav Krivanek, Mark Colbert, "Real-time Shading with Filtered Importance Sampling",
- *                Computer Graphics Forum 27(4), 2008; joined with the lights where they are the denser. For a
- *                highlight that is drawn out, whose normals come in strips (terms/d_ggx.h), and for
+ *                Computer Graphics Forum 27(4), 2008; joined with the points of the lights where they are the
+ *                denser. For a highlight that is drawn out, whose normals come in strips (terms/d_ggx.h), and for
  *                a lobe that is a ring, which one axis and one width say little of
  *
  * Why lights: a studio is dark but for a few boxes of light, and then only f itself is near enough to f. A few
@@ -56,7 +56,13 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
-#define AMBIENT_SAMPLES 96
+/* Samples of a lobe that is a ring, and of one that has strips. */
+#define AMBIENT_SAMPLES       32
+#define AMBIENT_STRIP_SAMPLES 64
+
+/* Factor on the density of samples before it is compared with that of points: samples lie where the lobe is,
+ * points wherever the light is. Fitted to bench_ambient. */
+#define AMBIENT_SAMPLE_TRUST 4.0f
 
 /* A shader whose slots all have one strategy says so in place of this. */
 #ifndef AMBIENT_STRATEGY
@@ -348,13 +354,12 @@ FN Rgb ambient_radiance_with_tail(AmbientSource s, Dir w, float kappa, float tai
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);
 }
 
-/* Returns the visible part of the mean `all` about w: the residual times `open`, plus the rest, which the
- * nearest light stands for, times the visibility of that light and `part`. */
+/* Returns the visible part of the mean `all` about w: of the residual the part `open`, and of what the lights
+ * add to it the part `part`. */
 FN Rgb ambient_visible_mean(AmbientSource s, Dir w, Rgb all, float kappa, float part, float open) {
     Rgb residual = ambient_residual(s, w, kappa);
     residual = rgb(min(residual.r, all.r), min(residual.g, all.g), min(residual.b, all.b));
-    return rgb_add(rgb_scale(residual, open), rgb_scale(rgb_add(all, rgb_scale(residual, -1.0f)),
-                                                        part * ambient_nearest_visibility(s, w, open)));
+    return rgb_add(rgb_scale(residual, open), rgb_scale(rgb_add(all, rgb_scale(residual, -1.0f)), part));
 }
 
 /* 0 below, 1 above, and smooth between. */
@@ -368,17 +373,28 @@ FN float ambient_kappa_blend(float log2_kappa, float edge) {
  * power heuristic. */
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
-/* Returns the light that samples of the lobe find: the residual, and their part of the lights. env_lights is
- * the density with which a light stands for its solid angle. A sample stands for the solid angle 1 / (n pdf);
- * exp(kappa (mu - 1)) has that of 2 pi / kappa, and twice it, by the paper, keeps neighbours together. The
- * sum is made E, which the table knows better. */
-FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float env_lights,
-                                 float albedo) {
+/* Returns the part of the lights in a sample about w, times their visibility: the sample's weight against
+ * their points. `drawn` is the density of samples, `open` the visible part of the sky. */
+FN float ambient_sample_part(AmbientSource s, Dir w, float drawn, float open) {
+    int nearest = ambient_nearest_light(s, w);
+    if (nearest < 0) return open;
+    AmbientLight l = ambient_light(s, nearest);
+    return ambient_power_heuristic(AMBIENT_SAMPLE_TRUST * drawn, l.density) *
+           ambient_light_visibility(s, nearest, open);
+}
+
+/* Returns what samples of the lobe find: the residual, and their part of the lights. A sample stands for the
+ * solid angle 1 / (n pdf). The paper filters over twice that, so that neighbours overlap; exp(kappa (mu - 1))
+ * covers 2 pi / kappa, hence kappa = pi n pdf. The sum is scaled to the albedo from the table, which has less
+ * noise, except along strips, where the sum itself is within 0.015 of it and the table of an anisotropic lobe
+ * within 0.05. */
+FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float albedo) {
     LobeLight p;
-    float e = 0.0f, n = to_float(AMBIENT_SAMPLES);
+    int count = strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES;
+    float e = 0.0f, n = to_float(count);
     p.first = rgb_grey(0.0f);
     p.second = p.first;
-    for (int k = 0; k < AMBIENT_SAMPLES; k++) {
+    for (int k = 0; k < count; k++) {
         float golden = to_float(k) * 0.618033989f + 0.25f, at = (to_float(k) + 0.5f) / n, dense = 1.0f;
         Dir i;
         if (strips) {
@@ -391,34 +407,37 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
             float drawn = max(x.pdf * dense * n, 1e-20f), w = x.f * i.z / drawn;
-            float kappa = clamp(PI * drawn, 0.5f, 1e4f), part = ambient_power_heuristic(drawn, env_lights);
+            float kappa = clamp(PI * drawn, 0.5f, 1e4f);
             Dir out_i = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, out_i, kappa);
             float open = ambient_sky_visibility(s, out_i, i.z, v.occlusion);
+            float part = ambient_sample_part(s, out_i, drawn, open);
             Rgb l = rgb_scale(ambient_visible_mean(s, out_i, all, kappa, part, open), w);
             p.first = rgb_add(p.first, rgb_scale(l, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(l, x.s));
             e = e + w;
         }
     }
-    p.first = rgb_scale(p.first, albedo / max(e, 1e-20f));
-    p.second = rgb_scale(p.second, albedo / max(e, 1e-20f));
+    float scale = strips ? 1.0f : albedo / max(e, 1e-20f);
+    p.first = rgb_scale(p.first, scale);
+    p.second = rgb_scale(p.second, scale);
     return p;
 }
 
-/* Returns the part of the lights that is sampled by the lights themselves. */
-FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, float env_lights) {
+/* Returns the rest of the lights, of which each point is evaluated as a directional light. */
+FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, bool strips) {
     LobeLight p;
     p.first = rgb_grey(0.0f);
     p.second = p.first;
-    int count = ambient_light_count(s);
+    int count = ambient_point_count(s);
+    float n = AMBIENT_SAMPLE_TRUST * to_float(strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES);
     for (int k = 0; k < count; k++) {
-        AmbientLight l = ambient_light(s, k);
+        AmbientLight l = ambient_point(s, k);
         Dir i = dir(dir_dot(l.w, v.x), dir_dot(l.w, v.y), dir_dot(l.w, v.z));
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
-            float part = ambient_power_heuristic(env_lights, x.pdf * to_float(AMBIENT_SAMPLES));
-            Rgb c = rgb_scale(l.color, x.f * i.z * part * ambient_light_visibility(s, k, v.occlusion));
+            float part = ambient_power_heuristic(l.density, x.pdf * n);
+            Rgb c = rgb_scale(l.color, x.f * i.z * part * ambient_light_visibility(s, l.light, v.occlusion));
             p.first = rgb_add(p.first, rgb_scale(c, 1.0f - x.s));
             p.second = rgb_add(p.second, rgb_scale(c, x.s));
         }
@@ -455,9 +474,8 @@ FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, 
         return a;
     }
     if (AMBIENT_STRATEGY(t) == AMBIENT_SAMPLED) {
-        float env_lights = exp2(ambient_light_kappa(s)) / PI; /* twice that of exp(kappa (mu - 1)) */
-        LobeLight met = ambient_sample_lights(s, v, lobe, env_lights);
-        a.reflected = ambient_sample_lobe(s, v, lobe, t.strips, env_lights, l.first + l.second);
+        LobeLight met = ambient_sample_lights(s, v, lobe, t.strips);
+        a.reflected = ambient_sample_lobe(s, v, lobe, t.strips, l.first + l.second);
         a.reflected.first = rgb_add(a.reflected.first, met.first);
         a.reflected.second = rgb_add(a.reflected.second, met.second);
         return a;
@@ -477,7 +495,8 @@ FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, 
     a.reflected = lobe_light_mix(a.reflected, lobe_light_of(wide, l.first, l.second), close);
     if (!t.narrow) return a;
     Rgb sharp = ambient_radiance_with_tail(s, out_axis, kappa, clamp(shape.c, 0.0f, 1.0f));
-    sharp = ambient_visible_mean(s, out_axis, sharp, kappa, 1.0f, seen);
+    float lit = ambient_light_visibility(s, ambient_nearest_light(s, out_axis), seen);
+    sharp = ambient_visible_mean(s, out_axis, sharp, kappa, lit, seen);
     a.reflected = lobe_light_mix(a.reflected, lobe_light_of(sharp, l.first, l.second), narrow);
     return a;
 }

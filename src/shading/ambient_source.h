@@ -6,7 +6,10 @@
  *   ambient_light_count(s)               how many there are
  *   ambient_light_visibility(s, k, occlusion)  the part of light k that is seen, where that part of the sky is: no more is
  *                                  known of it in C
- *   ambient_nearest_visibility(s, w, open)    the same of the light nearest to w; `open` where that is not known
+ *   ambient_nearest_light(s, w)    the number of the light nearest to w; -1 if there is none
+ *   ambient_point(s, k)            point k of those that the lights are divided into, for lobes that are so
+ *                                  narrow that the shape of a light shows
+ *   ambient_point_count(s)         how many there are
  *   ambient_sky_visibility(s, w, cos_i, occlusion)
  *                                  the part of the sky about w that is seen, where that part of the
  *                                  cosine-weighted sky is; cos_i is that of its look-up's axis to the normal
@@ -30,7 +33,9 @@
 
 STRUCT(AmbientLight) {
     Dir w;
-    Rgb color; /* irradiance on a surface that faces it */
+    Rgb color;     /* irradiance on a surface that faces it */
+    float density; /* 1/sr: one direction per solid angle of a point of it, or of the point that it is */
+    int light;     /* its own number; of a point the number of its light */
 };
 
 /* Four numbers of a table. */
@@ -44,7 +49,9 @@ typedef struct AmbientSourceCalls {
     const void *user;
     int count;
     float env_light_kappa;
-    const AmbientWeights *baked; /* may be NULL where no table is */
+    const AmbientWeights *baked;                    /* may be NULL where no table is */
+    AmbientLight (*point)(const void *user, int k); /* may be NULL if point_count is 0 */
+    int point_count;
 } AmbientSourceCalls;
 
 typedef const AmbientSourceCalls *AmbientSource;
@@ -57,7 +64,18 @@ FN float ambient_light_kappa(AmbientSource s) { return s->env_light_kappa; }
 FN AmbientWeights ambient_baked(AmbientSource s, int k) { return s->baked[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 FN float ambient_light_visibility(AmbientSource s, int k, float occlusion) { return occlusion; }
-FN float ambient_nearest_visibility(AmbientSource s, Dir w, float open) { return open; }
+FN AmbientLight ambient_point(AmbientSource s, int k) { return s->point(s->user, k); }
+FN int ambient_point_count(AmbientSource s) { return s->point_count; }
+FN int ambient_nearest_light(AmbientSource s, Dir w) {
+    float most = -2.0f;
+    int nearest = -1;
+    for (int k = 0; k < s->count; k++) {
+        float mu = dir_dot(w, ambient_light(s, k).w);
+        if (mu > most) nearest = k;
+        most = max(most, mu);
+    }
+    return nearest;
+}
 FN float ambient_sky_visibility(AmbientSource s, Dir w, float cos_i, float occlusion) {
     return occlusion_cone(occlusion, cos_i);
 }

@@ -21,8 +21,8 @@ static Rgb even_irradiance(const void *user, Dir w) { return even_about(user, w,
 static AmbientLight even_light(const void *user, int k) { return ((const Even *)user)->env_lights[k]; }
 
 static AmbientSourceCalls even_calls(const Even *even) {
-    return (AmbientSourceCalls){even_about, even_irradiance, even_about, even_light,
-                                even,       even->count,     6.0f,       NULL};
+    return (AmbientSourceCalls){even_about, even_irradiance, even_about, even_light, even, even->count, 6.0f,
+                                NULL,       even_light,      even->count};
 }
 
 static bool asked(int lobe) { return !(weft_lobe_info(lobe)->traits & TRAIT_REFERENCE); }
@@ -190,8 +190,8 @@ static void lamps_are_met_as_lights_are(void **state) {
     (void)state;
     static AmbientFit table;
     Even even = {.count = 2};
-    even.env_lights[0] = (AmbientLight){direction(0.6, 1.0), rgb(2.0f, 1.0f, 0.5f)};
-    even.env_lights[1] = (AmbientLight){direction(1.4, 4.0), rgb(0.1f, 0.3f, 3.0f)};
+    even.env_lights[0] = (AmbientLight){direction(0.6, 1.0), rgb(2.0f, 1.0f, 0.5f), 20.0f, 0};
+    even.env_lights[1] = (AmbientLight){direction(1.4, 4.0), rgb(0.1f, 0.3f, 3.0f), 20.0f, 1};
     AmbientSourceCalls calls = even_calls(&even);
     Lobe lobe = lobe_rough(LOBE_CHARLIE_CONTY_KULLA, 0.5f);
     fit(&table, lobe.id);
@@ -323,7 +323,16 @@ static AmbientLight sharp_light(const void *user, int k) {
     const Sharp *s = user;
     const EnvLight *light = &s->parts.env_lights[k];
     return (AmbientLight){sharp_local(s, light->direction),
-                          rgb(light->color[0], light->color[1], light->color[2])};
+                          rgb(light->color[0], light->color[1], light->color[2]), env_light_density(light),
+                          k};
+}
+static AmbientLight sharp_point(const void *user, int k) {
+    const Sharp *s = user;
+    const EnvPoint *point = &s->parts.points[k];
+    AmbientLight l = sharp_light(user, point->light);
+    l.w = sharp_local(s, point->direction);
+    l.color = rgb(point->color[0], point->color[1], point->color[2]);
+    return l;
 }
 
 /* A grey room with two windows and a warm light. */
@@ -352,7 +361,9 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, floa
                                 s,
                                 s->parts.env_light_count,
                                 s->parts.env_light_kappa,
-                                NULL};
+                                NULL,
+                                sharp_point,
+                                s->parts.point_count};
     double off = 0.0, all = 0.0;
     for (int n = 0; n < 24; n++) {
         float z = 0.15f + 0.033f * (float)n, side = sqrt(1.0f - z * z), turn = 2.4f * (float)n;
@@ -398,8 +409,25 @@ static void no_light_is_lost(void **state) {
             double sum = 4.0 * TEST_PI * (double)parts.residual_sh[0][c];
             for (int n = 0; n < parts.env_light_count; n++) sum += (double)parts.env_lights[n].color[c];
             assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.terms[0][c], 1e-4f * (float)sum);
+            for (int n = 0; n < parts.point_count; n++) sum -= (double)parts.points[n].color[c];
+            assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.residual_sh[0][c],
+                               1e-4f * (float)sum);
         }
     }
+    weft_image_free(&s.image);
+}
+
+/* A stretched highlight passes through a part of a light only. */
+static void streaks_show_the_shape_of_a_light(void **state) {
+    (void)state;
+    static AmbientFit table;
+    Sharp s = {0};
+    make_sharp(&s);
+    Lobe lobe = lobe_rough(LOBE_SILK, 0.3f);
+    ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
+    double off = sphere_error(&s, &table, AMBIENT_SAMPLED, 0.3f, 0.0f);
+    print_message("%.1f %%\n", 100.0 * off);
+    assert_true(off < 0.05);
     weft_image_free(&s.image);
 }
 
@@ -466,6 +494,7 @@ int main(void) {
                                        cmocka_unit_test(layers_leave_what_they_should),
                                        cmocka_unit_test(no_light_is_lost),
                                        cmocka_unit_test(held_tables_fade_away),
+                                       cmocka_unit_test(streaks_show_the_shape_of_a_light),
                                        cmocka_unit_test(sharp_light_is_met),
                                        cmocka_unit_test(rings_are_sampled),
                                        cmocka_unit_test(faint_sheens_keep_albedo_under_a_white_sky)};

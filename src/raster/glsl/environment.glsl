@@ -3,17 +3,18 @@
  * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
  * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/env_split.h: environment_terms of irradiance over pi,
  * without degree 3; environment_residual of what the lights leave. All are of the image as it is, lights too.
- * ambient_baked is whoever's who has baked tables, ambient_light_visibility and ambient_nearest_visibility whoever's who knows what hides lights. */
+ * ambient_baked is whoever's who has baked tables, ambient_light_visibility whoever's who knows what hides lights. */
 #include "shading/frame.h"
 #include "shading/rgb.h"
 
 uniform highp samplerCube environment_cube;
 layout(std140) uniform Environment {
     highp vec4 environment_place;     /* cosine and sine of its rotation, factor on radiance, number of lights */
-    highp vec4 environment_parts;     /* x: factor on diffuse lobe and dust, y: on the other lobes */
+    highp vec4 environment_parts;     /* factor on diffuse lobe and dust, on the other lobes, number of points */
     highp vec4 environment_terms[18]; /* w of the first: ambient_light_kappa */
     highp vec4 environment_residual[16];
-    highp vec4 environment_lights[32]; /* two each: direction, irradiance */
+    highp vec4 environment_lights[32];  /* two each: direction and density, irradiance */
+    highp vec4 environment_points[128]; /* two each: direction and number of the light, irradiance */
 };
 
 struct AmbientWeights {
@@ -22,6 +23,8 @@ struct AmbientWeights {
 struct AmbientLight {
     Dir w;
     Rgb color;
+    float density;
+    int light;
 };
 
 /* From the image to the world, and back. */
@@ -86,8 +89,7 @@ int ambient_light_count(Frame f) { return int(environment_place.w); }
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
 
-/* The light nearest to w; -1 where there is none. */
-int environment_nearest(Frame f, Dir w) {
+int ambient_nearest_light(Frame f, Dir w) {
     vec3 d = environment_image(f, w);
     float most = -2.0;
     int nearest = -1;
@@ -104,5 +106,20 @@ AmbientLight ambient_light(Frame f, int k) {
     AmbientLight l;
     l.w = frame_to(f, dir(d.x, d.y, d.z));
     l.color = environment_rgb(environment_lights[2 * k + 1].rgb);
+    l.density = environment_lights[2 * k].w;
+    l.light = k;
+    return l;
+}
+
+int ambient_point_count(Frame f) { return int(environment_parts.z); }
+
+AmbientLight ambient_point(Frame f, int k) {
+    vec4 p = environment_points[2 * k];
+    vec3 d = environment_world(p.xyz);
+    AmbientLight l;
+    l.light = int(p.w);
+    l.w = frame_to(f, dir(d.x, d.y, d.z));
+    l.color = environment_rgb(environment_points[2 * k + 1].rgb);
+    l.density = environment_lights[2 * l.light].w;
     return l;
 }

@@ -36,8 +36,3 @@ float ambient_light_visibility(Frame f, int k, float occlusion) {
     float seen = env_light_seen(k);
     return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion;
 }
-
-float ambient_nearest_visibility(Frame f, Dir w, float open) {
-    float seen = env_light_seen(environment_nearest(f, w));
-    return seen < -0.5 ? open : clamp(seen, 0.0, 1.0) * texture_occlusion;
-}
