@@ -1,13 +1,14 @@
 /* occluded - prints what neighbours leave of a sheen's light from an environment: how the raster engine's sum
  * over a picture differs from the path tracer's direct light, in hundredths
  *
- *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] MAP.hdr ...
+ *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] [--open] MAP.hdr ...
  *
  * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular. `sum` is the
  * difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference| over sum, of
  * means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
  * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex.
- * --centre: both engines take one sample in the centre of each pixel. */
+ * --centre: both engines take one sample in the centre of each pixel.
+ * --open: nothing hides anything in either engine. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,7 +22,7 @@ enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
 /* How both engines draw. */
 typedef struct How {
     int width, height, rays;
-    bool centre;
+    bool centre, open;
 } How;
 
 static void check(WeftResult result, const WeftError *error) {
@@ -51,7 +52,8 @@ static WeftRender *render_of(const WeftScene *scene, const How *how, uint32_t se
                                  .seed = seed,
                                  .camera = "0",
                                  .background = WEFT_BACKGROUND_TRANSPARENT,
-                                 .pixel_centre = how->centre};
+                                 .pixel_centre = how->centre,
+                                 .no_shadows = how->open};
     WeftRender *render;
     WeftError error;
     check(weft_render_create(scene, &desc, &render, &error), &error);
@@ -66,7 +68,7 @@ static WeftImage image_of(const WeftRender *render) {
 }
 
 static WeftImage drawn(const WeftScene *scene, const How *how) {
-    const WeftRasterDesc desc = {.occlusion = how->rays, .no_cache = 1};
+    const WeftRasterDesc desc = {.occlusion = how->open ? 0 : how->rays, .no_cache = 1};
     const WeftRasterView view = {.width = how->width,
                                  .height = how->height,
                                  .samples = how->centre ? 1 : 0,
@@ -171,6 +173,8 @@ int main(int argc, char **argv) {
             how.width = atoi(argv[++k]);
         else if (strcmp(argv[k], "--centre") == 0)
             how.centre = true;
+        else if (strcmp(argv[k], "--open") == 0)
+            how.open = true;
         else if (map_count < 8)
             maps[map_count++] = argv[k];
     }
