@@ -35,7 +35,7 @@ STRUCT(AmbientLight) {
     Dir w;
     Rgb color;     /* irradiance on a surface that faces it */
     float density; /* 1/sr: one direction per solid angle of a point of it, or of the point that it is */
-    int light;     /* its own number; of a point the number of its light */
+    int light;     /* number of the light, or of the light that a point is part of */
 };
 
 /* Four numbers of a table. */
