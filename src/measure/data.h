@@ -5,7 +5,7 @@
 #include "measure/samples.h"
 #include "weft/fit.h"
 
-/* Whether f stays the same however both directions turn about the normal. */
+/* Returns true if f stays the same however both directions turn about the normal. */
 bool data_isotropic(const WeftData *data);
 
 /* Its samples, each of which counts alike, settled. False where memory is short; release with samples_free in

@@ -16,8 +16,9 @@ typedef struct LobeWalker {
     WeftLobe start;
     bool tinted, second; /* tinted: colour is no factor; second: two colours are */
     int free[WEFT_LOBE_PARAMS_MAX], frees;
-    WeftLobe ground;                                                   /* the white base */
-    int ground_free[WEFT_LOBE_PARAMS_MAX], ground_frees, ground_first; /* its numbers follow those in x */
+    WeftLobe ground; /* the white base */
+    int ground_free[WEFT_LOBE_PARAMS_MAX], ground_frees,
+        ground_first; /* the base's numbers follow those in x */
     /* x: of f0, of f90 and without either, or of a colour's channels, or of tints */
     float *column[TINTS];
     float *base, *fixed[3], *work, *block;

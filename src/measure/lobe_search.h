@@ -20,7 +20,7 @@ typedef struct LobeSearch {
 
 typedef struct LobeFound {
     WeftLobe lobe;
-    WeftLobe base; /* its numbers, and its colour as f0 and f90 */
+    WeftLobe base; /* the base with its numbers, the colour as f0 and f90 */
     int numbers;   /* free ones: parameters of both, and three a colour, or one if all is grey */
     double start, error;
     long long evaluations;

@@ -122,7 +122,7 @@ FN void compose_dust(Stack *m, const Surface *s) {
     m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
 
-/* What a stack knows once its lobes are settled: what their parameters make, and where E is in its table. */
+/* Prepares the lobes of a stack and finds the place of E in its table, once the lobes are chosen. */
 FN void stack_prepare(Stack *m) {
     stack_prepare_lobes(m);
     if (HAS_SHEEN(m) && albedo_is_own(m->albedo) && SHEEN_IS_OWN(m->table))

@@ -2,10 +2,10 @@
 
 #include "text/types.h"
 
-typedef struct Body {
+typedef struct FunctionBody {
     const Item *function;
     Buffer *out;
-} Body;
+} FunctionBody;
 
 static void put(Buffer *out, const char *c, const char *end) {
     if (c < end) buffer_put(out, c, (size_t)(end - c));
@@ -149,7 +149,7 @@ static bool is_written(const Item *function, Token name) {
 }
 
 /* The blanks that the line of c begins with; none where something else does. */
-static Piece indent_of(const Body *body, const char *c) {
+static Piece indent_of(const FunctionBody *body, const char *c) {
     const char *first = c;
     while (first > body->function->code && (first[-1] == ' ' || first[-1] == '\t')) first--;
     bool line = first > body->function->code && first[-1] == '\n';
@@ -157,7 +157,7 @@ static Piece indent_of(const Body *body, const char *c) {
 }
 
 /* To a new line where the statement at c begins one. */
-static void put_break(const Body *body, const char *c) {
+static void put_break(const FunctionBody *body, const char *c) {
     Piece indent = indent_of(body, c);
     buffer_put_text(body->out, indent.at < indent.end ? "\n" : " ");
     put(body->out, indent.at, indent.end);
@@ -176,7 +176,7 @@ static void put_type(Token type, const char *c, const char *end, Buffer *out) {
 }
 
 /* One of the names of a declaration: "x = 1.0", "x" or "x[4]". */
-static void put_variable(const Body *body, Token type, Piece piece) {
+static void put_variable(const FunctionBody *body, Token type, Piece piece) {
     const char *c = piece.at, *value = find_mark(c, piece.end, "=");
     Token name = token_solid(&c, piece.end);
     bool set = value < piece.end;
@@ -191,7 +191,7 @@ static void put_variable(const Body *body, Token type, Piece piece) {
     }
 }
 
-static void put_declaration(const Body *body, const char *c, Token type, const List *names) {
+static void put_declaration(const FunctionBody *body, const char *c, Token type, const List *names) {
     for (int k = 0; k < names->count; k++) {
         if (k) put_break(body, c);
         put_variable(body, type, names->all[k]);
@@ -200,7 +200,7 @@ static void put_declaration(const Body *body, const char *c, Token type, const L
 }
 
 /* "a = b" and "f(a)", without a semicolon. */
-static void put_action(const Body *body, const char *c, const char *end) {
+static void put_action(const FunctionBody *body, const char *c, const char *end) {
     const char *from = c;
     Token type, first = token_peek(c, end);
     if (token_is(first, "const")) c = blank_end(first.at + first.size, end);
@@ -216,10 +216,10 @@ static void put_action(const Body *body, const char *c, const char *end) {
     }
 }
 
-static const char *put_statement(const Body *body, const char *c, const char *from);
+static const char *put_statement(const FunctionBody *body, const char *c, const char *from);
 
 /* Statements and what is between them, up to a brace or a case. */
-static const char *put_statements(const Body *body, const char *c, const char *end) {
+static const char *put_statements(const FunctionBody *body, const char *c, const char *end) {
     for (;;) {
         const char *first = blank_end(c, end);
         Token token = token_peek(first, end);
@@ -230,7 +230,7 @@ static const char *put_statements(const Body *body, const char *c, const char *e
 }
 
 /* Writes the statement that a condition guards, in braces. from: the start of the whole statement. */
-static const char *put_branch(const Body *body, const char *c, const char *from) {
+static const char *put_branch(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *first = blank_end(c, end);
     bool braces = *first == '{', line = memchr(c, '\n', (size_t)(first - c)) != NULL;
     if (!braces) buffer_put_text(body->out, " {");
@@ -245,7 +245,7 @@ static const char *put_branch(const Body *body, const char *c, const char *from)
     return stop;
 }
 
-static const char *put_if(const Body *body, const char *c, const char *from) {
+static const char *put_if(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *open = token_peek(c + 2, end).at;
     const char *close = token_closed(open, end);
     put(body->out, c, open);
@@ -259,7 +259,7 @@ static const char *put_if(const Body *body, const char *c, const char *from) {
     return put_if(body, other, from);
 }
 
-static const char *put_for(const Body *body, const char *c, const char *from) {
+static const char *put_for(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *open = token_peek(c + 3, end).at;
     const char *close = token_closed(open, end), *at = open + 1;
     buffer_put_text(body->out, "for (");
@@ -275,7 +275,7 @@ static const char *put_for(const Body *body, const char *c, const char *from) {
 }
 
 /* "case A: default:" at c as "case A, default: {"; behind it. */
-static const char *put_labels(const Body *body, const char *c, const char *end) {
+static const char *put_labels(const FunctionBody *body, const char *c, const char *end) {
     Token label = token_solid(&c, end);
     const char *next = label_end(c, end);
     bool alone = token_is(label, "default") && !is_label(token_peek(next, end));
@@ -296,7 +296,7 @@ static const char *put_labels(const Body *body, const char *c, const char *end) 
 }
 
 /* A case has braces, and nothing falls out of it. */
-static const char *put_case(const Body *body, const char *c, const char *end) {
+static const char *put_case(const FunctionBody *body, const char *c, const char *end) {
     size_t size;
     Piece indent = indent_of(body, c);
     c = put_labels(body, c, end);
@@ -314,7 +314,7 @@ static const char *put_case(const Body *body, const char *c, const char *end) {
     return c;
 }
 
-static const char *put_switch(const Body *body, const char *c) {
+static const char *put_switch(const FunctionBody *body, const char *c) {
     const char *end = body->function->end, *open = token_peek(c + 6, end).at;
     const char *brace = token_peek(token_closed(open, end), end).at, *close = token_closed(brace, end) - 1;
     put(body->out, c, open);
@@ -329,14 +329,14 @@ static const char *put_switch(const Body *body, const char *c) {
     return close + 1;
 }
 
-static const char *put_block(const Body *body, const char *c) {
+static const char *put_block(const FunctionBody *body, const char *c) {
     const char *close = token_closed(c, body->function->end) - 1;
     buffer_put_text(body->out, "{");
     put(body->out, put_statements(body, c + 1, close), close + 1);
     return close + 1;
 }
 
-static const char *put_while(const Body *body, const char *c, const char *from) {
+static const char *put_while(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *open = token_peek(c + 5, end).at;
     put(body->out, c, open);
     put_tokens(open, token_closed(open, end), body->out);
@@ -344,7 +344,7 @@ static const char *put_while(const Body *body, const char *c, const char *from) 
 }
 
 /* The statement at c; behind it. */
-static const char *put_statement(const Body *body, const char *c, const char *from) {
+static const char *put_statement(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *stop;
     Token first = token_peek(c, end);
     if (token_is(first, "{")) return put_block(body, c);
@@ -392,7 +392,7 @@ static void put_copies(const Item *function, const List *list, const char *body,
 }
 
 void wgsl_put_function(const Item *function, Buffer *out) {
-    const Body body = {function, out};
+    const FunctionBody body = {function, out};
     const char *open, *c = function->code;
     Token result = token_solid(&c, function->end);
     List list = types_parameters(function, &open);
