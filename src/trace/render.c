@@ -415,6 +415,14 @@ typedef struct Pass {
     bool asked_to_stop;
 } Pass;
 
+/* Called in the thread that called weft_render_run. */
+static void report_progress(Pass *pass, int finished) {
+    double fraction = pass->done_before + pass->share * finished / pass->render->tile_count;
+    if (!pass->progress || !pass->progress(pass->user, fraction)) return;
+    pass->asked_to_stop = true;
+    atomic_store(&pass->stop, 1);
+}
+
 static void render_tile(void *user, int item, int thread) {
     Pass *pass = user;
     WeftRender *render = pass->render;
@@ -433,12 +441,7 @@ static void render_tile(void *user, int item, int thread) {
     render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
     if (pass->done_before > 0.0 && now() > pass->deadline) atomic_store(&pass->stop, 1);
-    if (thread != 0 || !pass->progress) return;
-    double fraction = pass->done_before + pass->share * finished / render->tile_count;
-    if (pass->progress(pass->user, fraction)) {
-        pass->asked_to_stop = true;
-        atomic_store(&pass->stop, 1);
-    }
+    if (thread == 0) report_progress(pass, finished);
 }
 
 WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
@@ -457,6 +460,8 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
         pass.share = (double)pass.samples / spp;
         atomic_init(&pass.finished, 0);
         parallel_for(render->stream_count, render->tile_count, render_tile, &pass);
+        /* the tiles that other threads finished last */
+        if (!atomic_load(&pass.stop)) report_progress(&pass, render->tile_count);
     }
     render->render_seconds += now() - start;
     return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
