@@ -61,9 +61,9 @@ static double drawn(const WeftScene *scene) {
     return sum_of(&image);
 }
 
-/* Of the light of a sheen; what has a highlight, and threads, are further off. */
+/* Returns the largest relative error of a sheen's light; lobes with a highlight, threads and fabric are further off. */
 static double bound_of(const char *lobe) {
-    if (strcmp(lobe, "threads") == 0) return 0.19;
+    if (strcmp(lobe, "threads") == 0 || strcmp(lobe, "fabric") == 0) return 0.19;
     return strcmp(lobe, "ggx") == 0 || strcmp(lobe, "burley-coat") == 0 ? 0.10 : 0.08;
 }
 
