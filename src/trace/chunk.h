@@ -85,7 +85,8 @@ int chunk_go_on(Chunk *chunk, const ChunkSource *source, Paths *paths, int at);
 /* Weight of the lobe's sample with that pdf, 0 of the camera, where lights have the density b. Eric Veach,
  * "Robust Monte Carlo Methods for Light Transport Simulation", 1997, power heuristic, Equation 9.13. */
 static inline float lobe_weight(WeftSampling sampling, float pdf, float b) {
-    float both = pdf / (pdf + b * (b / (pdf > 0.0f ? pdf : 1.0f)));
+    float some = pdf > 0.0f ? pdf : 1.0f,
+          both = some / (some + b * (b / some)); /* never 0 / 0: a loop evaluates both */
     float one = sampling == WEFT_SAMPLING_LIGHT && b > 0.0f ? 0.0f : 1.0f;
     return pdf > 0.0f ? sampling == WEFT_SAMPLING_MIS ? both : one : 1.0f;
 }
