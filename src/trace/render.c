@@ -132,7 +132,7 @@ static void free_streams(WeftRender *render) {
 static WeftResult make_streams(WeftRender *render, WeftError *error) {
     int wanted = render->desc.threads < render->tile_count ? render->desc.threads : render->tile_count;
     free_streams(render);
-    render->streams = alloc_array((size_t)wanted, sizeof *render->streams);
+    render->streams = alloc_array((size_t)wanted, sizeof(Stream *));
     for (int k = 0; render->streams && k < wanted; k++) {
         render->streams[k] = stream_create(&render->context, render->scene->material_count);
         if (!render->streams[k]) break;
