@@ -53,7 +53,7 @@ static const Form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof *forms, FABRICS = 16 };
 
-/* What of a pair of directions all forms ask for. */
+/* The numbers of a pair of directions that the forms read: cosines, and sin_h squared. */
 typedef struct Pair {
     float i, o, d, sin2_h;
 } Pair;

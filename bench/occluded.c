@@ -19,7 +19,7 @@
 
 enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
 
-/* How both engines draw. */
+/* Settings that both engines draw with. */
 typedef struct How {
     int width, height, rays;
     bool centre, open;

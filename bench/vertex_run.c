@@ -65,7 +65,7 @@ EXPORTED void vertex_run(VertexArrays *a, int material, int once) {
     }
 }
 
-/* The same by the kind of the material, whose surfaces are rows already. */
+/* Shades by the kind of the material, whose surfaces are rows already. */
 EXPORTED void vertex_run_kind(VertexArrays *a, int material, int once) {
     static KindVertices rows[VERTEX_MATERIALS][2];
     static bool filled[VERTEX_MATERIALS][2];

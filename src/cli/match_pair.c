@@ -43,7 +43,6 @@ static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy
     const WeftLobeInfo *info = weft_lobe_info(typed->lobe);
     const char *name;
     for (int cursor = 0; (name = option_next(match->options, "--hold", &cursor));) {
-        int k = 0;
         if (strcmp(name, "color") == 0 || strcmp(name, "f0") == 0) {
             *hold |= WEFT_HOLD_COLOR;
             memcpy(copy->f0, typed->f0, sizeof copy->f0);
@@ -54,9 +53,8 @@ static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy
             memcpy(copy->f90, typed->f90, sizeof copy->f90);
             continue;
         }
-        while (k < info->param_count && strcmp(info->params[k].name, name) != 0) k++;
-        if (k == info->param_count)
-            return report(WEFT_USAGE, "%.80s: is not a parameter of %s", name, info->id);
+        int k = weft_lobe_param_find(typed->lobe, name);
+        if (k < 0) return report(WEFT_USAGE, "%.80s: is not a parameter of %s", name, info->id);
         *hold |= 1u << k;
         copy->params[k] = typed->params[k];
     }

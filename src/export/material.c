@@ -52,8 +52,7 @@ static void find_zeros(const Draft *draft, ExportModel *model) {
         const Input *input = &model->material.inputs[k];
         bool number = input_infos[k].kind == WEFT_INPUT_SCALAR || input_infos[k].kind == WEFT_INPUT_COLOR;
         bool some = input->texture != 0 || draft->desc->profile != NULL;
-        for (int c = 0; c < (input_infos[k].kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
-            some |= input->value[c] > 0.0f;
+        for (int c = 0; c < input_value_count((InputId)k); c++) some |= input->value[c] > 0.0f;
         model->zero[k] = number && !some;
     }
     if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has it */

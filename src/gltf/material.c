@@ -163,7 +163,7 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     Field value = field_member(field, "value"), texture = field_member(field, "texture"),
           texcoord = field_member(field, "texCoord"), channel = field_member(field, "channel"),
           transform = field_member(field, "transform"), given = field_member(field, "given");
-    const int count = input_infos[id].kind == WEFT_INPUT_COLOR ? 3 : 1;
+    const int count = input_value_count(id);
     *input = material_default().inputs[id];
     field_floats(&value, input->value, (size_t)count, -most, most);
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);

@@ -219,7 +219,7 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
                        json_string(choice_id((ChoiceId)k, material->choices[k])));
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input wanted = numbered(saving, &material->inputs[k]);
-        int count = input_infos[k].kind == WEFT_INPUT_COLOR ? 3 : 1;
+        int count = input_value_count((InputId)k);
         if (!is_same(&wanted, &read->inputs[k], count))
             saving_put(saving, inputs, input_infos[k].name, input_save(saving, &wanted, count));
     }

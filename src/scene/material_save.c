@@ -174,7 +174,7 @@ static void write_inputs(Writer *w, const Material *material) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input *input = &material->inputs[k];
         WeftInputKind kind = input_infos[k].kind;
-        size_t size = (kind == WEFT_INPUT_COLOR ? 3 : 1) * sizeof *input->value;
+        size_t size = (size_t)input_value_count((InputId)k) * sizeof *input->value;
         bool same = memcmp(input->value, fresh.inputs[k].value, size) == 0 && !input->given;
         if (input->texture)
             put(w, w->root, input_infos[k].name, texture_json(w, material, (InputId)k));

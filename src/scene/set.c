@@ -95,8 +95,7 @@ WeftResult setting_read(const char *name, const char *value, const char *target,
     if (!parse_input(info, value, setting->v))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
                     info->kind == WEFT_INPUT_COLOR ? "a number or r,g,b" : "a number");
-    int count = info->kind == WEFT_INPUT_COLOR ? 3 : 1;
-    for (int c = 0; c < count; c++)
+    for (int c = 0; c < input_value_count((InputId)setting->input); c++)
         setting->v[c] = input_ranged((InputId)setting->input, setting->v[c], target, log);
     return WEFT_OK;
 }

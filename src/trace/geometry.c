@@ -366,18 +366,3 @@ Attributes geometry_attributes(const Mesh *mesh, const Hit *hit) {
         }
     return at;
 }
-
-/* The mean of the point's projections onto the tangent planes of the vertices, outward only. Johannes Hanika,
- * "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
-Vec3 geometry_lift(const Mesh *mesh, const Hit *hit, const Vertex *vertex, float side) {
-    Vec3 p = vertex->position, lifted = p;
-    if (!mesh->normal) return p;
-    const uint32_t *index = mesh->index + 3 * (size_t)hit->triangle;
-    float weight[3] = {1.0f - hit->u - hit->v, hit->u, hit->v};
-    for (int k = 0; k < 3; k++) {
-        Vec3 n = vec3_scale(vec3_load(mesh->normal + 3 * (size_t)index[k]), side);
-        float below = fminf(vec3_dot(vec3_sub(p, vec3_load(mesh->position + 3 * (size_t)index[k])), n), 0.0f);
-        lifted = vec3_madd(lifted, n, -below * weight[k]);
-    }
-    return lifted;
-}

@@ -75,8 +75,4 @@ typedef struct Attributes {
 
 Attributes geometry_attributes(const Mesh *mesh, const Hit *hit);
 
-/* The hit point moved out to where the smooth surface that the normals describe would be, on the front
- * (side 1) or the back (side -1): rays that leave from there meet no shadow of the triangles' own edges. */
-Vec3 geometry_lift(const Mesh *mesh, const Hit *hit, const Vertex *vertex, float side);
-
 #endif

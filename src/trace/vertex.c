@@ -79,7 +79,10 @@ FN Dir raise(Dir p, Dir corner, Dir n, float weight) {
     return dir_scale(n, -below * weight);
 }
 
-/* Position, normals on the viewer's side, and the point lifted as geometry.h has it. */
+/* Sets position, normals on the viewer's side, and the lifted point: the mean of the position's projections onto the
+ * tangent planes of the corners, outward only, near the smooth surface that the normals describe. Rays that leave from
+ * there meet no shadow of the triangles' own edges. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems
+ * II, 2021. */
 CLONES static void place_n(Chunk *restrict c, int n) {
     EACH(k, (size_t)n) {
         Dir a = ROW_DIR(c->corner[0], k), b = ROW_DIR(c->corner[1], k), d = ROW_DIR(c->corner[2], k);

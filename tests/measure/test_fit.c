@@ -236,7 +236,7 @@ static void bases_are_found(void **state) {
     weft_data_free(data);
 }
 
-/* What no input of a material sets stays at its default where that is asked for, and the rest is still
+/* If only what a material can say is asked for, parameters without an input stay at their defaults, and the others are
  * fitted; a number that only mixes the two colours is free without that. */
 static void what_a_material_says_is_fitted(void **state) {
     (void)state;

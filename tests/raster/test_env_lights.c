@@ -1,4 +1,4 @@
-/* What hides the lights of an environment: a wall's shadow on a floor is where the path tracer has it, and a
+/* Occlusion of the lights of an environment: a wall's shadow on a floor is where the path tracer has it, and a
  * map that is turned takes it along */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -201,7 +201,7 @@ static void look_ups_are_sums(TextLanguage language) {
     context_destroy(context);
 }
 
-/* What the lights leave, as C has it. */
+/* Compares the residual of a shader with that of C. */
 static void rest_is_that_of_c(TextLanguage language) {
     GlContext *context = context_or_skip(language);
     GlOuter outer;

@@ -125,7 +125,7 @@ static void swap_back(WeftScene *scene) {
 }
 static void wear_one(WeftScene *scene) { scene->meshes[0].material = 1; }
 
-/* As weft_scene_assign_material does: the lists grow, and a material looks up what is new. */
+/* Does what weft_scene_assign_material does: the lists grow, and a material looks up the new texture. */
 static void put_texture(WeftScene *scene) {
     scene->images = arena_array(&scene->arena, 1, sizeof *scene->images);
     scene->textures = arena_array(&scene->arena, 1, sizeof *scene->textures);

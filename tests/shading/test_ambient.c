@@ -185,7 +185,7 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
     }
 }
 
-/* Where there is nothing but lights, a broad lobe is f itself. */
+/* An environment of lights alone is reflected by a broad lobe as f itself. */
 static void lamps_are_met_as_lights_are(void **state) {
     (void)state;
     static AmbientFit table;

@@ -6,7 +6,9 @@
 #include <cmocka.h>
 
 #include "base/random.h"
+#include "scene/shade.h"
 #include "scenes.h"
+#include "trace/chunk.h"
 #include "trace/geometry.h"
 #include "weft/weft.h"
 
@@ -202,6 +204,33 @@ static void stacked_sheets_end(void **state) {
     weft_scene_free(scene);
 }
 
+/* Places a vertex on the scene's first mesh, seen from wo; where: its position, then the lifted point. */
+static void place(const WeftScene *scene, uint32_t triangle, float u, Vec3 wo, Vec3 where[2]) {
+    static Paths paths;
+    static Chunk chunk;
+    static const PathKeys keys;
+    const PathMaterial material = {.material = scene->materials[0],
+                                   .plain = material_plain(&scene->materials[0])};
+    const PathContext context = {.scene = scene, .materials = &material};
+    const float t = 1.0f;
+    const uint32_t mesh = 0;
+    const int order[ROW_LANES] = {0};
+    paths.d[0][0] = -wo.x, paths.d[1][0] = -wo.y, paths.d[2][0] = -wo.z;
+    chunk.filled = 0;
+    chunk_place(&chunk, &(ChunkSource){.context = &context,
+                                       .paths = &paths,
+                                       .t = &t,
+                                       .u = &u,
+                                       .v = &u,
+                                       .mesh = &mesh,
+                                       .triangle = &triangle,
+                                       .keys = &keys,
+                                       .order = order,
+                                       .n = 1});
+    where[0] = vec3(chunk.position[0][0], chunk.position[1][0], chunk.position[2][0]);
+    where[1] = vec3(chunk.lifted[0][0], chunk.lifted[1][0], chunk.lifted[2][0]);
+}
+
 static void lifted_points_lie_on_the_smooth_surface(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
@@ -209,14 +238,14 @@ static void lifted_points_lie_on_the_smooth_surface(void **state) {
     Mesh *mesh = test_sphere(scene, vec3(0, 0, 0), 1.0f);
     double flat = 0.0, lifted = 0.0;
     for (uint32_t k = 0; k < mesh->triangle_count; k += 7) {
-        Hit hit = {.triangle = k, .u = 0.33f, .v = 0.33f, .facing = {0, 1, 0}};
-        Vertex v = geometry_vertex(mesh, &hit);
-        Vec3 p = geometry_lift(mesh, &hit, &v, 1.0f);
-        flat = fmax(flat, fabs(1.0 - (double)vec3_length(v.position)));
+        Vec3 front[2], back[2], out = vec3_load(mesh->position + 3 * (size_t)mesh->index[3 * (size_t)k]);
+        place(scene, k, 0.33f, out, front);
+        Vec3 p = front[1];
+        flat = fmax(flat, fabs(1.0 - (double)vec3_length(front[0])));
         assert_true(vec3_length(p) > 1.0f - 1e-6f); /* tangent planes lie outside a ball */
         lifted = fmax(lifted, (double)vec3_length(p) - 1.0);
-        Vec3 inside = geometry_lift(mesh, &hit, &v, -1.0f); /* seen from within nothing bulges */
-        assert_true(vec3_length(vec3_sub(inside, v.position)) < 1e-6f);
+        place(scene, k, 0.33f, vec3_scale(out, -1.0f), back); /* seen from within nothing bulges */
+        assert_true(vec3_length(vec3_sub(back[1], back[0])) < 1e-6f);
     }
     assert_true(flat > 1e-4 && lifted < 1.1 * flat);
     weft_scene_free(scene);
@@ -258,7 +287,7 @@ static void a_ball_does_not_shadow_itself(void **state) {
                 double px = ((x + 0.5) / 32.0 - 1.0) * half, py = ((y + 0.5) / 32.0 - 1.0) * half;
                 double a = px * px + py * py + 100.0, root = 100.0 * 100.0 - a * 99.0;
                 if (root <= 0.0) continue;
-                double z = 10.0 - 10.0 * (100.0 - sqrt(root)) / a;
+                double z = 10.0 - 10.0 * (100.0 - (sqrt)(root)) / a;
                 if (z < 0.3) continue;
                 float lit = ((float *)image.pixels)[4 * (64 * y + x)];
                 assert_true(fabs((double)lit - z) <
