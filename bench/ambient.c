@@ -19,7 +19,8 @@
 #include "scene/env_split.h"
 #include "scene/scene.h"
 #include "shading/albedo.h"
-#include "shading/ambient_table.h"
+#include "shading/ambient.h"
+#include "shading/ambient_fit.h"
 #include "shading/choice.h"
 #include "shading/material_stack.h"
 

@@ -42,6 +42,8 @@ $hit"
 check 'a comment that is no sentence' '^ */\* (What|Whether|Where|How|Of|As|The same)\b'
 check 'the opening comment of a file is no noun' '^/\* [a-z0-9_.-]+ - (what|how|where|of|that|from|whether)\b'
 check 'a pronoun without its noun' '[;,] +/\* (it|its|that|which|from that)\b'
+check 'a function whose name is a participle' \
+    '^FN [A-Za-z]+ [a-z_0-9]+_(under|beyond|sound|one|four|drawn|tailed|mixed|lit|weighed|seen|sure|again|by|held|turned)\('
 check 'a message that is no plain English' \
     '"[^"]*(can(not)? be (had|meant)|in vain|that there is not|not asked for|gave out|tells all|there is none)[^"]*"'
 

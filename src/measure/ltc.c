@@ -132,9 +132,10 @@ WeftLtcInfo weft_ltc_info(const WeftLtc *ltc) {
 WeftLtcLobe weft_ltc_at(const WeftLtc *ltc, float cos_o, float value) {
     LtcTable t = ltc_table_ref(ltc);
     LtcSpot s = ltc_table_spot(t, cos_o, value);
-    return (WeftLtcLobe){ltc_table_mixed(t, s, LTC_Z),         ltc_table_mixed(t, s, LTC_Q),
-                         ltc_table_mixed(t, s, LTC_B),         ltc_table_mixed(t, s, LTC_R),
-                         ltc_table_mixed(t, s, LTC_AMPLITUDE), ltc_table_mixed(t, s, LTC_AMPLITUDE_F90)};
+    return (WeftLtcLobe){
+        ltc_table_interpolate(t, s, LTC_Z),         ltc_table_interpolate(t, s, LTC_Q),
+        ltc_table_interpolate(t, s, LTC_B),         ltc_table_interpolate(t, s, LTC_R),
+        ltc_table_interpolate(t, s, LTC_AMPLITUDE), ltc_table_interpolate(t, s, LTC_AMPLITUDE_F90)};
 }
 
 static Ltc transform(const WeftLtcLobe *lobe, const float wo[3]) {

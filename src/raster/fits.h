@@ -1,9 +1,9 @@
-/* fits.h - the tables by which lobes meet an environment (shading/ambient_table.h), each made at its first
+/* fits.h - the tables by which lobes meet an environment (shading/ambient_fit.h), each made at its first
  * use and kept */
 #ifndef WEFT_RASTER_FITS_H
 #define WEFT_RASTER_FITS_H
 
-#include "shading/ambient_table.h"
+#include "shading/ambient_fit.h"
 #include "weft/result.h"
 
 typedef struct Fits {

@@ -1,51 +1,179 @@
-/* ambient_table.h - tables of any lobe for ambient.h, made from its eval and its sampler */
+/* ambient_table.h - a lobe's albedo and shape, looked up for image-based lighting (ambient_lobe.h)
+ *
+ * ambient_fit.h makes the table of any lobe. Over cos_o and the lobe's first parameter, which is alpha in most lobes,
+ * it stores the directional albedo E, its division among the four look-ups of the residual, and the mean direction
+ * and width of the lobe. The nodes are uniform in the square root of the parameter and in y, with
+ * cos_o = (1 - (1 - y)^2)^2.
+ *
+ * If no texture changes the parameter, the table is baked. Its one row then becomes polynomials, which a shader reads
+ * from uniforms instead of a texture:
+ *
+ *   entry(y) = sum_k c_k (2 y - 1)^k,  k = 0 .. AMBIENT_DEGREE
+ *
+ * Departure: a lobe that depends on the azimuth of wo has three sets of entries only, for wo along the nap, across it
+ * and against it. Other headings are interpolated. */
 #ifndef WEFT_SHADING_AMBIENT_TABLE_H
 #define WEFT_SHADING_AMBIENT_TABLE_H
 
-#include "shading/ambient.h"
+#include "shading/ambient_source.h"
 
-enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16, AMBIENT_SIDES = 3 };
+/* A table consists of planes of `rows` rows each. Four planes make a group:
+ *
+ *   FIRST    of the first colour w_1, w_2, w_3 over E, and E. These ratios stay smooth where E goes to 0.
+ *   SHAPE    the sine of the angle between the normal and the lobe's mean direction, positive towards wo; log2 of the
+ *            lobe's kappa; its tail, 0 for a Gaussian and 1 for ggx; log2 of the kappa of a lobe of equal density
+ *   SECOND   of the second colour w_0, w_1, w_2, w_3
+ *
+ * The plane after the groups is E of the second colour. */
+#define AMBIENT_GROUP_FIRST  0
+#define AMBIENT_GROUP_SHAPE  1
+#define AMBIENT_GROUP_SECOND 2
+#define AMBIENT_GROUPS       3
+#define AMBIENT_PLANES       13
 
-/* The planes of ambient.h over cos_o and one parameter. */
-typedef struct AmbientFit {
-    Lobe lobe; /* parameter 0 is not used */
-    int rows;
-    float low, high; /* the range asked for */
-    float root_low, root_high;
-    float finest; /* the greatest log2 kappa */
-    float denser; /* mean over its light of log2 of how much denser it is than lobes as wide about one axis */
-    bool turning; /* there are planes for AMBIENT_SIDES headings */
-    float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
-} AmbientFit;
+#define AMBIENT_PLANE_E        3
+#define AMBIENT_PLANE_E_SECOND 12
 
-/* Fills the table for a lobe as its parameter 0 runs over low .. high (equal: one row), the others as given:
- * the weights that bring sum_k w_k G_k nearest to f cos_i, both convolved with what an environment's two
- * points have in common (the source says what that is). Not for lobes with TRAIT_REFERENCE. Runs on `threads`
- * threads (0: all); the same numbers on any number of them. */
-void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
+#define AMBIENT_DEGREE 9
+#define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of one heading */
+#define AMBIENT_BAKED  (3 * AMBIENT_SIDE)         /* coefficients of all three headings */
 
-/* Completes a fit whose texels were cached: sets all other members. */
-void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
-void ambient_fit_finish(AmbientFit *fit);
+/* The table of one slot's lobe. */
+STRUCT(AmbientTable) {
+    Table texels;
+    int rows, columns; /* of a plane; rows is 1 if the table is baked */
+    float low, high;   /* square roots of the parameter in the first and the last row */
+    bool focus;        /* some entries are too narrow for the four look-ups of the residual */
+    bool narrow;       /* some entries are too narrow for the lights too */
+    bool second;       /* the lobe has a second colour */
+    bool lossless;     /* E is 1 everywhere */
+    bool strips;       /* the lobe has lobe_strip */
+    bool
+        turning; /* the lobe depends on azimuth: entries along, across and against the nap, one after another */
+    int strategy; /* one of the AMBIENT_... of ambient_lobe.h */
+    int baked;    /* index of the first coefficient; negative if the table is not baked */
+};
 
-/* Returns true if one fit for a single value of parameter 0 serves both lobes. */
-bool ambient_alike(const Lobe *a, const Lobe *b);
+STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
 
-/* Returns true if this is the fit of that lobe for parameter 0 over low .. high. */
-bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
+/* A position in a table. */
+STRUCT(AmbientCoord) {
+    int row, column;                     /* the nodes before the position */
+    float row_fraction, column_fraction; /* from these nodes to the next, 0 to 1 */
+    int side;          /* first plane of the heading nearest to wo, along or against the nap */
+    float side_weight; /* of that heading; the rest is for wo across the nap */
+    float t;           /* 2 y - 1, for polynomials */
+};
 
-/* The table for ambient.h to read, not baked; the fit must outlive it. */
-AmbientTable ambient_table(const AmbientFit *fit, int strategy);
+/* Returns the position of cos_o and parameter p. heading: cosine of the azimuth of wo from that of the lobe (nap.h). */
+FN AmbientCoord ambient_coord(AmbientTable t, float cos_o, float heading, float p) {
+    AmbientCoord at;
+    float y = 1.0f - sqrt(max(1.0f - sqrt(clamp(cos_o, 0.0f, 1.0f)), 0.0f)), x = y * to_float(t.columns - 1);
+    float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
+    at.side = heading < 0.0f ? 2 * AMBIENT_PLANES : 0;
+    at.side_weight = heading * heading;
+    at.t = 2.0f * y - 1.0f;
+    at.column = to_int(left);
+    at.column_fraction = clamp(x - left, 0.0f, 1.0f);
+    at.row = 0;
+    at.row_fraction = 0.0f;
+    if (t.rows > 1) {
+        float row = (sqrt(max(p, 0.0f)) - t.low) / (t.high - t.low) * to_float(t.rows - 1);
+        float top = clamp(floor(row), 0.0f, to_float(t.rows - 2));
+        at.row = to_int(top);
+        at.row_fraction = clamp(row - top, 0.0f, 1.0f);
+    }
+    return at;
+}
 
-/* The polynomials of a fit of one row, by least squares over its nodes. */
-void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]);
+FN float ambient_row(AmbientTable t, AmbientCoord at, int row) {
+    return mix(table_texel(t.texels, t.columns, row, at.column),
+               table_texel(t.texels, t.columns, row, at.column + 1), at.column_fraction);
+}
 
-/* A lobe that is so much denser than one as wide, log2 of it, is a ring or a streak: one axis and one width
- * say little of it. */
-#define AMBIENT_DENSER 2.5f
+FN float ambient_plane(AmbientTable t, AmbientCoord at, int plane) {
+    int row = plane * t.rows + at.row;
+    float a = ambient_row(t, at, row);
+    if (t.rows < 2) return a;
+    return mix(a, ambient_row(t, at, row + 1), at.row_fraction);
+}
 
-/* The strategy with the least error for that lobe, with or without an azimuth that matters, and dense as
- * AMBIENT_DENSER has it or not (docs/environment.md). */
-int ambient_strategy(int lobe, bool turning, bool dense);
+FN float ambient_entry(AmbientTable t, AmbientCoord at, int plane) {
+    if (!t.turning) return ambient_plane(t, at, plane);
+    return mix(ambient_plane(t, at, AMBIENT_PLANES + plane), ambient_plane(t, at, at.side + plane),
+               at.side_weight);
+}
+
+FN AmbientWeights ambient_weights(float a, float b, float c, float d) {
+    AmbientWeights w;
+    w.a = a;
+    w.b = b;
+    w.c = c;
+    w.d = d;
+    return w;
+}
+FN AmbientWeights ambient_weights_select(bool first, AmbientWeights x, AmbientWeights y) {
+    return ambient_weights(first ? x.a : y.a, first ? x.b : y.b, first ? x.c : y.c, first ? x.d : y.d);
+}
+FN AmbientWeights ambient_weights_mix(AmbientWeights x, AmbientWeights y, float t) {
+    return ambient_weights(mix(x.a, y.a, t), mix(x.b, y.b, t), mix(x.c, y.c, t), mix(x.d, y.d, t));
+}
+FN float ambient_weights_sum(AmbientWeights w) { return w.a + w.b + w.c + w.d; }
+
+FN AmbientWeights ambient_polynomial(AmbientSource s, int first, float t) {
+    AmbientWeights w = ambient_baked(s, first + AMBIENT_DEGREE);
+    for (int k = AMBIENT_DEGREE - 1; k >= 0; k--) {
+        AmbientWeights c = ambient_baked(s, first + k);
+        w = ambient_weights(w.a * t + c.a, w.b * t + c.b, w.c * t + c.c, w.d * t + c.d);
+    }
+    return w;
+}
+
+/* Returns what polynomials give, within the range of tables. Near 0 a polynomial oscillates, but w_k and E are
+ * never negative. Where E is almost 0, log2 kappa is arbitrary and stays within -2 to 22. */
+FN AmbientWeights ambient_clamp_weights(AmbientWeights w, int group) {
+    if (group == AMBIENT_GROUP_SHAPE) return ambient_weights(w.a, clamp(w.b, -2.0f, 22.0f), w.c, w.d);
+    return ambient_weights(max(w.a, 0.0f), max(w.b, 0.0f), max(w.c, 0.0f), max(w.d, 0.0f));
+}
+
+FN AmbientWeights ambient_baked_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
+    int first = t.baked + (AMBIENT_DEGREE + 1) * group;
+    AmbientWeights along = ambient_polynomial(s, first, at.t);
+    if (!t.turning) return ambient_clamp_weights(along, group);
+    AmbientWeights across = ambient_polynomial(s, first + AMBIENT_SIDE, at.t),
+                   against = ambient_polynomial(s, first + 2 * AMBIENT_SIDE, at.t);
+    AmbientWeights nearest = ambient_weights_select(at.side > 0, against, along);
+    return ambient_clamp_weights(ambient_weights_mix(across, nearest, at.side_weight), group);
+}
+
+/* Returns the four planes of a group. */
+FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
+    if (t.baked >= 0) return ambient_baked_group(t, s, at, group);
+    return ambient_weights(ambient_entry(t, at, 4 * group), ambient_entry(t, at, 4 * group + 1),
+                           ambient_entry(t, at, 4 * group + 2), ambient_entry(t, at, 4 * group + 3));
+}
+
+/* E of a lobe's two colours, and its division among the four look-ups. */
+STRUCT(AmbientAlbedo) {
+    float first, second;
+    AmbientWeights first_weights, second_weights; /* relative to each other: sums are not E */
+};
+
+/* albedo: E of both colours together if the caller knows it better than this table, otherwise negative. */
+FN AmbientAlbedo ambient_albedo(AmbientTable t, AmbientSource s, AmbientCoord at, float albedo) {
+    AmbientAlbedo e;
+    AmbientWeights w = ambient_group(t, s, at, AMBIENT_GROUP_FIRST);
+    e.second_weights = ambient_weights(0.0f, 0.0f, 0.0f, 0.0f);
+    if (t.second) e.second_weights = ambient_group(t, s, at, AMBIENT_GROUP_SECOND);
+    e.first = t.lossless ? 1.0f : w.d;
+    e.second = ambient_weights_sum(e.second_weights);
+    e.first_weights = ambient_weights(max(1.0f - w.a - w.b - w.c, 0.0f), w.a, w.b, w.c);
+    if (albedo >= 0.0f) {
+        float part = e.second / max(e.first + e.second, 1e-20f);
+        e.first = albedo * (1.0f - part);
+        e.second = albedo * part;
+    }
+    return e;
+}
 
 #endif

@@ -26,7 +26,8 @@
 #define SPREAD_N(id, NAME, ...) TERM_N(spread, d, NAME, cook_torrance_spread(m, a))
 #define SHADOW_N(id, NAME, ...) TERM_N(shadow, v, NAME, f[k] * cook_torrance_shadow(m, a))
 #define MIXED_N(id, NAME, ...)  TERM_N(mixed, f, NAME, cook_torrance_fresnel_weight(m, a))
-#define DRAWN_N(id, NAME, ...)  TERM_N(drawn, d, NAME, cook_torrance_drawn(m, cook_torrance_spread(m, a), a))
+#define DRAWN_N(id, NAME, ...)                                                                               \
+    TERM_N(drawn, d, NAME, cook_torrance_sample_pdf(m, cook_torrance_spread(m, a), a))
 WEFT_D_TERMS(SPREAD_N)
 WEFT_V_TERMS(SHADOW_N)
 WEFT_F_TERMS(MIXED_N)

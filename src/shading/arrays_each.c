@@ -59,7 +59,7 @@
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_OWN_TERMS(d, NAME);                                                                         \
             Angles a = angles_between(o, i);                                                                 \
-            float spread = cook_torrance_spread(m, a), density = cook_torrance_drawn(m, spread, a);          \
+            float spread = cook_torrance_spread(m, a), density = cook_torrance_sample_pdf(m, spread, a);     \
             r[k] = counts ? spread : 0.0f;                                                                   \
             pdf[k] = counts ? density : 0.0f;                                                                \
         }                                                                                                    \

@@ -22,7 +22,7 @@
 
 /* R of the header. */
 FN float dust_eddington(float t, float mu) {
-    return (3.0f * t + (2.0f - 3.0f * mu) * flake_seen(t, 1.0f, mu)) / (4.0f + 3.0f * t);
+    return (3.0f * t + (2.0f - 3.0f * mu) * flake_visibility(t, 1.0f, mu)) / (4.0f + 3.0f * t);
 }
 
 /* E / E_1 where so much dust lies. */

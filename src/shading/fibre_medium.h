@@ -40,7 +40,7 @@ FN float flake_d(float s, float q, float m) {
 }
 
 /* (1 - exp(-x)) / L for x = H L / (mu_i mu_o); by its series where the difference would cancel. */
-FN float flake_seen(float thickness, float lambda, float mu_mu) {
+FN float flake_visibility(float thickness, float lambda, float mu_mu) {
     float depth = thickness / max(mu_mu, 1e-37f), x = depth * lambda, y = min(x, 0.5f);
     float series = 1.0f - y / 6.0f * (1.0f - y / 7.0f * (1.0f - y / 8.0f));
     series = 1.0f - y / 2.0f * (1.0f - y / 3.0f * (1.0f - y / 4.0f * (1.0f - y / 5.0f * series)));
@@ -52,7 +52,8 @@ FN float flake_single_of(float s, Dir t, float thickness, float sigma_o, float s
     float lambda = sigma_i * o.z + sigma_o * i.z;
     Dir sum = dir(o.x + i.x, o.y + i.y, o.z + i.z);
     /* nu_o + nu_i by the sum of the directions, which is exact where they are nearly opposite */
-    return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) * flake_seen(thickness, lambda, o.z * i.z);
+    return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) *
+           flake_visibility(thickness, lambda, o.z * i.z);
 }
 
 FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {

@@ -67,7 +67,7 @@ STRUCT(Facing) {
 
 /* The normal nearest to n that the viewer sees, by a hair: of a mesh whose normals are smoother than it is.
  */
-FN Dir frame_seen(Dir n, Dir wo) {
+FN Dir frame_visible_normal(Dir n, Dir wo) {
     float away = max(1e-4f - dir_dot(n, wo), 0.0f);
     Dir m = dir_add(n, dir_scale(wo, away));
     return dir_scale(m, 1.0f / sqrt(dir_dot(m, m)));
@@ -80,7 +80,7 @@ FN Frame frame_of(Facing at, Surface s, Dir wo) {
     if (s.normal.z < 1.0f)
         n = frame_bent(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal), at.geometric,
                        wo);
-    Frame f = frame_about(frame_seen(n, wo), at.tangent, at.handedness);
+    Frame f = frame_about(frame_visible_normal(n, wo), at.tangent, at.handedness);
     if (s.anisotropy > 0.0f) f = frame_about(f.z, frame_from(f, s.anisotropy_direction), at.handedness);
     return f;
 }

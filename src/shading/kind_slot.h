@@ -23,7 +23,7 @@
                            const Rgb *f0, const Rgb *f90, LobeReflected *s) {                                \
         LobeValue v = name##_value(p, w, *a);                                                                \
         bool one = (NAME##_TRAITS & (TRAIT_TWO_COLORS | TRAIT_TINTED)) == 0;                                 \
-        *s = one ? lobe_reflected_one(v, *f0) : lobe_reflected(v, *f0, *f90);                                \
+        *s = one ? lobe_reflected_single(v, *f0) : lobe_reflected(v, *f0, *f90);                             \
     }                                                                                                        \
     FN void slot##_sample_at(int id, const Slot##Prepared *p, const Slot##View *w, const Dir *o, float u,    \
                              float v, Dir *i) {                                                              \

@@ -47,7 +47,7 @@ FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
 }
 
 /* Works as lobe_reflected, for a lobe of one colour. */
-FN LobeReflected lobe_reflected_one(LobeValue v, Rgb color) {
+FN LobeReflected lobe_reflected_single(LobeValue v, Rgb color) {
     LobeReflected x;
     x.f.r = v.f * color.r;
     x.f.g = v.f * color.g;

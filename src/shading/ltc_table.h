@@ -51,7 +51,7 @@ FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
     return s;
 }
 
-FN float ltc_table_mixed(LtcTable t, LtcSpot s, int plane) {
+FN float ltc_table_interpolate(LtcTable t, LtcSpot s, int plane) {
     int row = plane * t.rows + s.row, below = plane * t.rows + s.below;
     float a = mix(table_texel(t.texels, t.columns, row, s.column),
                   table_texel(t.texels, t.columns, row, s.column + 1), s.x);
@@ -64,10 +64,10 @@ FN float ltc_table_mixed(LtcTable t, LtcSpot s, int plane) {
 FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
     LtcSpot s = ltc_table_spot(t, cos_o, p);
     LtcLobe l;
-    l.m = ltc_of(ltc_table_mixed(t, s, LTC_Z), ltc_table_mixed(t, s, LTC_Q), ltc_table_mixed(t, s, LTC_B),
-                 ltc_table_mixed(t, s, LTC_R), cos_o);
-    l.f0 = ltc_table_mixed(t, s, LTC_AMPLITUDE);
-    l.f90 = ltc_table_mixed(t, s, LTC_AMPLITUDE_F90);
+    l.m = ltc_of(ltc_table_interpolate(t, s, LTC_Z), ltc_table_interpolate(t, s, LTC_Q),
+                 ltc_table_interpolate(t, s, LTC_B), ltc_table_interpolate(t, s, LTC_R), cos_o);
+    l.f0 = ltc_table_interpolate(t, s, LTC_AMPLITUDE);
+    l.f90 = ltc_table_interpolate(t, s, LTC_AMPLITUDE_F90);
     return l;
 }
 
@@ -84,9 +84,9 @@ FN LtcLobe ltc_table_level(TableRef e, float cos_o, float p) {
     t.high = e.high;
     LtcSpot s = ltc_table_spot(t, cos_o, p);
     LtcLobe l;
-    l.m = ltc_of(ltc_table_mixed(t, s, LTC_Z), ltc_table_mixed(t, s, LTC_Q), ltc_table_mixed(t, s, LTC_B),
-                 0.0f, cos_o);
-    l.f0 = ltc_table_mixed(t, s, LTC_LEVEL_E);
+    l.m = ltc_of(ltc_table_interpolate(t, s, LTC_Z), ltc_table_interpolate(t, s, LTC_Q),
+                 ltc_table_interpolate(t, s, LTC_B), 0.0f, cos_o);
+    l.f0 = ltc_table_interpolate(t, s, LTC_LEVEL_E);
     l.f90 = 0.0f;
     return l;
 }

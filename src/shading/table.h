@@ -197,7 +197,7 @@ FN Taps table_tilt(TableRef m, float tilt) {
 }
 
 /* E at a heading, of the tilt whose maps begin there. */
-FN float table_turned(TableRef m, int map, Taps heading, TablePlace at) {
+FN float table_at_heading(TableRef m, int map, Taps heading, TablePlace at) {
     int k = map + heading.first;
     return heading.a * table_map(m, k, at) + heading.b * table_map(m, k + 1, at) +
            heading.c * table_map(m, k + 2, at) + heading.d * table_map(m, k + 3, at);
@@ -206,12 +206,12 @@ FN float table_turned(TableRef m, int map, Taps heading, TablePlace at) {
 FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
     Taps h = table_taps((0.5f + 0.5f * heading) * to_float(TABLE_HEADINGS - 1), TABLE_HEADINGS);
     int map = table_headings(m);
-    if (SHEEN_TILTS(m) < 2) return table_turned(m, map, h, at);
+    if (SHEEN_TILTS(m) < 2) return table_at_heading(m, map, h, at);
     Taps t = table_tilt(m, nap.tilt);
     map = map + TABLE_HEADINGS * t.first;
-    return t.a * table_turned(m, map, h, at) + t.b * table_turned(m, map + TABLE_HEADINGS, h, at) +
-           t.c * table_turned(m, map + 2 * TABLE_HEADINGS, h, at) +
-           t.d * table_turned(m, map + 3 * TABLE_HEADINGS, h, at);
+    return t.a * table_at_heading(m, map, h, at) + t.b * table_at_heading(m, map + TABLE_HEADINGS, h, at) +
+           t.c * table_at_heading(m, map + 2 * TABLE_HEADINGS, h, at) +
+           t.d * table_at_heading(m, map + 3 * TABLE_HEADINGS, h, at);
 }
 
 /* E towards w of a sheen with a nap, of a table of weft's whose rows are known. Colour changes it as it does

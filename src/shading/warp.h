@@ -20,12 +20,12 @@ FN float warp_uniform_pdf(Dir w) { return w.z > 0.0f ? 0.5f / PI : 0.0f; }
 
 /* A share of the samples uniform, the rest by cosine: bounds the weight where f cos stays up at the horizon.
  */
-FN Dir warp_mixed(float share, float u, float v) {
+FN Dir warp_uniform_cosine(float share, float u, float v) {
     Dir w = warp_cosine(max((u - share) / (1.0f - share), 0.0f), v);
     if (u < share) w = warp_uniform(u / share, v);
     return w;
 }
-FN float warp_mixed_pdf(float share, Dir w) {
+FN float warp_uniform_cosine_pdf(float share, Dir w) {
     return (1.0f - share) * warp_cosine_pdf(w) + share * warp_uniform_pdf(w);
 }
 

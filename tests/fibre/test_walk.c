@@ -194,7 +194,7 @@ static void the_shading_text_has_no_bad_ends(void **state) {
     }
     for (double x = 1e-8; x < 80.0; x *= 1.1) {
         double reference = -expm1(-x) / x,
-               found = (double)flake_seen((float)x, 1.0f, 1.0f) / (double)(float)x;
+               found = (double)flake_visibility((float)x, 1.0f, 1.0f) / (double)(float)x;
         assert_true(fabs(found / reference - 1.0) < 6e-7);
     }
 }

@@ -17,7 +17,8 @@
 #include "raster/gl_environment.h"
 #include "raster/gl_tables.h"
 #include "raster/program.h"
-#include "shading/ambient_table.h"
+#include "shading/ambient.h"
+#include "shading/ambient_fit.h"
 #include "shading/material_stack.h"
 #include "text/dispatch.h"
 

@@ -4,7 +4,8 @@
 #include "cases.h"
 
 #include "scene/env_split.h"
-#include "shading/ambient_table.h"
+#include "shading/ambient.h"
+#include "shading/ambient_fit.h"
 
 /* An environment that is even, with a light or two. */
 typedef struct Even {

@@ -43,7 +43,7 @@ FN void ashikhmin_conty_kulla_view(const AshikhminContyKullaPrepared *p, Dir o, 
 FN LobeValue ashikhmin_conty_kulla_value(const AshikhminContyKullaPrepared *p,
                                          const AshikhminContyKullaView *w, Angles a) {
     float d = ashikhmin_d(p->alpha, a.h);
-    float f = d * conty_kulla_seen(p->shadow, w->lambda, max(a.o.z, 1e-5f), max(a.i.z, 1e-5f));
+    float f = d * conty_kulla_v_of(p->shadow, w->lambda, max(a.o.z, 1e-5f), max(a.i.z, 1e-5f));
     return lobe_value_of(f, 0.0f, ashikhmin_pdf(d, a));
 }
 FN Dir ashikhmin_conty_kulla_sample(const AshikhminContyKullaPrepared *p, const AshikhminContyKullaView *w,

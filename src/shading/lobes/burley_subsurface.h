@@ -46,11 +46,11 @@ FN LobeValue burley_subsurface_value(const BurleySubsurfacePrepared *p, const Bu
     float fss = burley_subsurface_f(fss90, a.i.z) * burley_subsurface_f(fss90, a.o.z);
     float ss = 1.25f * (fss * (1.0f / (a.i.z + a.o.z) - 0.5f) + 0.5f) / PI;
     float f = burley_f(p->m.roughness, w->s_o, schlick_s(a.i.z), a.d);
-    return lobe_value_of(mix(f, ss, p->m.subsurface), 0.0f, warp_mixed_pdf(0.5f, a.i));
+    return lobe_value_of(mix(f, ss, p->m.subsurface), 0.0f, warp_uniform_cosine_pdf(0.5f, a.i));
 }
 FN Dir burley_subsurface_sample(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w, Dir o,
                                 float u, float v) {
-    return warp_mixed(0.5f, u, v);
+    return warp_uniform_cosine(0.5f, u, v);
 }
 
 #endif

@@ -48,7 +48,7 @@ FN void charlie_conty_kulla_view(const CharlieContyKullaPrepared *p, Dir o, Char
 FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w,
                                        Angles a) {
     float d = charlie_d_sin2(p->d, a.sin2_h);
-    return lobe_value_of(d * conty_kulla_seen(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f,
+    return lobe_value_of(d * conty_kulla_v_of(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f,
                          charlie_pdf(d, w->side, a));
 }
 FN Dir charlie_conty_kulla_sample(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Dir o,

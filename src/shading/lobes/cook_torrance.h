@@ -53,7 +53,7 @@ FN float cook_torrance_fresnel_weight(CookTorrance m, Angles a) { return term_f(
 FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
 
 /* Its density where D is known. */
-FN float cook_torrance_drawn(CookTorrance m, float spread, Angles a) {
+FN float cook_torrance_sample_pdf(CookTorrance m, float spread, Angles a) {
     float pdf;
     if (m.d == D_GGX)
         pdf = ggx_pdf_h(m.alpha, m.alpha, a);
@@ -70,7 +70,7 @@ FN Proxy cook_torrance_proxy(CookTorrance m) {
 FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorranceView *w, Angles a) {
     float spread = cook_torrance_spread(p->m, a);
     return lobe_value_of(spread * cook_torrance_shadow(p->m, a), cook_torrance_fresnel_weight(p->m, a),
-                         cook_torrance_drawn(p->m, spread, a));
+                         cook_torrance_sample_pdf(p->m, spread, a));
 }
 
 FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceView *view, Dir o, float u,
@@ -80,7 +80,7 @@ FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceVie
     float ax = cook_torrance_ax(m), w = 2.0f * u;
     if (m.d == D_GGX) return dir_mirror(o, ggx_sample_h(m.alpha, m.alpha, o, w, v));
     if (m.d == D_GGX_ANISO) return dir_mirror(o, ggx_sample_h(ax, m.alpha, o, w, v));
-    return dir_mirror(o, facet_seen(o, term_facet(m.d, m.alpha, ax, m.alpha, w, v)));
+    return dir_mirror(o, facet_towards(o, term_facet(m.d, m.alpha, ax, m.alpha, w, v)));
 }
 
 #endif

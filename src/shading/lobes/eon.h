@@ -65,10 +65,10 @@ FN LobeValue eon_value(const EonPrepared *p, const EonView *w, Angles a) {
     float first = max(1.0f + p->roughness * s / t, 0.0f),
           rest = w->lost_o * eon_lost(a.i.z) / (EON_C1 - EON_C2);
     return lobe_value_of(p->a * (first + rest) / PI, rest / max(first + rest, 1e-12f),
-                         warp_mixed_pdf(p->uniform_part, a.i));
+                         warp_uniform_cosine_pdf(p->uniform_part, a.i));
 }
 FN Dir eon_sample(const EonPrepared *p, const EonView *w, Dir o, float u, float v) {
-    return warp_mixed(p->uniform_part, u, v);
+    return warp_uniform_cosine(p->uniform_part, u, v);
 }
 
 #endif

@@ -87,7 +87,7 @@ FN Dir fabric_facet(const FabricPrepared *p, float u, float v) {
 FN Dir fabric_sample(const FabricPrepared *p, const FabricView *w, Dir o, float u, float v) {
     float rest = (u - FABRIC_UNIFORM) / (1.0f - FABRIC_UNIFORM);
     if (u < FABRIC_UNIFORM) return warp_uniform(u / FABRIC_UNIFORM, v);
-    return dir_mirror(o, facet_seen(o, fabric_facet(p, rest, v)));
+    return dir_mirror(o, facet_towards(o, fabric_facet(p, rest, v)));
 }
 
 /* Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */

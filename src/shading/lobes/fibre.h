@@ -104,7 +104,7 @@ FN float fibre_reach(FibreNap n, float nu) {
 
 #define FIBRE_UNIFORM 0.04f
 
-FN float fibre_drawn(FibreNap n, FibreDraw c, Ltc ltc, Angles a) {
+FN float fibre_sample_pdf(FibreNap n, FibreDraw c, Ltc ltc, Angles a) {
     float nu = clamp(dir_dot(a.i, n.axis), -1.0f, 1.0f), d = c.b + abs(nu + c.nu);
     float cone = c.b / (d * d * (c.high - c.low) * 2.0f * fibre_reach(n, nu));
     return mix(mix(ltc_pdf(ltc, a.o, a.i), cone, c.cone), warp_uniform_pdf(a.i), FIBRE_UNIFORM);
@@ -156,7 +156,7 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
         flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, flake_sigma(p->nap.s, nu_i), a.o, a.i);
     FibreSide i = fibre_side(p->model, a.i.z, nu_i);
     float turn = fibre_turn(w->side, i, a.o, a.i), multiple = fibre_multiple(p->model, w->side, i, turn);
-    LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_drawn(p->nap, w->draw, w->ltc, a));
+    LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_sample_pdf(p->nap, w->draw, w->ltc, a));
     v.tint.s = multiple / max(single + multiple, 1e-30f);
     v.tint.q_o = w->side.q;
     v.tint.q_i = i.q;

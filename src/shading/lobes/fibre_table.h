@@ -66,7 +66,7 @@ FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
     return s;
 }
 
-FN float fibre_table_mixed(FibreTableSpot s, int plane) {
+FN float fibre_table_interpolate(FibreTableSpot s, int plane) {
     int row = plane * s.rows + s.row, n = s.t.columns;
     float a =
         mix(table_texel(s.t.texels, n, row, s.column), table_texel(s.t.texels, n, row, s.column + 1), s.x);
@@ -81,10 +81,10 @@ STRUCT(FibreTableSide) { float a, h, g, k; };
 FN FibreTableSide fibre_table_side(float alpha, float mu) {
     FibreTableSpot s = fibre_table_spot(alpha, mu);
     FibreTableSide r;
-    r.a = fibre_table_mixed(s, 0);
-    r.h = fibre_table_mixed(s, 1);
-    r.g = fibre_table_mixed(s, 2);
-    r.k = fibre_table_mixed(s, 3);
+    r.a = fibre_table_interpolate(s, 0);
+    r.h = fibre_table_interpolate(s, 1);
+    r.g = fibre_table_interpolate(s, 2);
+    r.k = fibre_table_interpolate(s, 3);
     return r;
 }
 
@@ -121,7 +121,7 @@ FN LobeValue fibre_table_value(const FibreTablePrepared *p, const FibreTableView
     FibreTableSide i = fibre_table_side(p->nap.alpha, a.i.z);
     float multiple = fibre_table_multiple(w->side, i, a.o, a.i, p->nap.alpha, p->power);
     return lobe_value_of(flake_single_upright(p->flake, a.o, a.i) + multiple, 0.0f,
-                         fibre_drawn(p->nap, w->draw, w->ltc, a));
+                         fibre_sample_pdf(p->nap, w->draw, w->ltc, a));
 }
 FN Dir fibre_table_sample(const FibreTablePrepared *p, const FibreTableView *w, Dir o, float u, float v) {
     return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);

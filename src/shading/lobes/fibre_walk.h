@@ -147,7 +147,7 @@ FN float fibre_walk_pdf(FibreWalk m, Angles a) {
     Dir t = flake_axis(m.tilt, m.azimuth);
     float nu_o = dir_dot(a.o, t), b = fibre_walk_width(m, a.o), c = b + abs(nu_o + dir_dot(a.i, t));
     float low = fibre_walk_place(nu_o - sin(m.tilt), b), high = fibre_walk_place(nu_o + 1.0f, b);
-    return mix(0.5f / PI * b / (c * c * (high - low)), warp_mixed_pdf(0.5f, a.i), m.alpha);
+    return mix(0.5f / PI * b / (c * c * (high - low)), warp_uniform_cosine_pdf(0.5f, a.i), m.alpha);
 }
 
 FN LobeValue fibre_walk_value(const FibreWalkPrepared *p, const FibreWalkView *w, Angles a) {
@@ -156,7 +156,7 @@ FN LobeValue fibre_walk_value(const FibreWalkPrepared *p, const FibreWalkView *w
 
 FN Dir fibre_walk_sample(const FibreWalkPrepared *p, const FibreWalkView *view, Dir o, float u, float v) {
     FibreWalk m = p->m;
-    if (u < m.alpha) return warp_mixed(0.5f, u / m.alpha, v);
+    if (u < m.alpha) return warp_uniform_cosine(0.5f, u / m.alpha, v);
     Dir t = flake_axis(m.tilt, m.azimuth);
     float nu_o = dir_dot(o, t), b = fibre_walk_width(m, o);
     float low = fibre_walk_place(nu_o - sin(m.tilt), b), high = fibre_walk_place(nu_o + 1.0f, b);

@@ -39,10 +39,10 @@ SEEN_AS_IT_IS(oren_nayar, OrenNayar)
 FN LobeValue oren_nayar_value(const OrenNayarPrepared *p, const OrenNayarView *w, Angles a) {
     float s = a.o.x * a.i.x + a.o.y * a.i.y;
     float f = (p->a + p->b * max(s, 0.0f) / max(a.o.z, a.i.z)) / PI;
-    return lobe_value_of(f, 0.0f, warp_mixed_pdf(p->uniform_part, a.i));
+    return lobe_value_of(f, 0.0f, warp_uniform_cosine_pdf(p->uniform_part, a.i));
 }
 FN Dir oren_nayar_sample(const OrenNayarPrepared *p, const OrenNayarView *w, Dir o, float u, float v) {
-    return warp_mixed(p->uniform_part, u, v);
+    return warp_uniform_cosine(p->uniform_part, u, v);
 }
 
 #endif

@@ -57,10 +57,14 @@ FN Dir threads_turn_back(Dir w, bool weft, float slope) {
 
 /* Return the projected area towards w: of the two slopes of a family, per unit of its area; and of all,
  * which is never below w.z. */
-FN float threads_seen(float along, float z, float slope) { return 0.5f * max(z - slope * along, 0.0f); }
+FN float threads_projected_area(float along, float z, float slope) {
+    return 0.5f * max(z - slope * along, 0.0f);
+}
 FN float threads_all(Threads m, Dir w) {
-    float warp = threads_seen(w.x, w.z, m.warp_crimp) + threads_seen(w.x, w.z, -m.warp_crimp);
-    float weft = threads_seen(w.y, w.z, m.weft_crimp) + threads_seen(w.y, w.z, -m.weft_crimp);
+    float warp =
+        threads_projected_area(w.x, w.z, m.warp_crimp) + threads_projected_area(w.x, w.z, -m.warp_crimp);
+    float weft =
+        threads_projected_area(w.y, w.z, m.weft_crimp) + threads_projected_area(w.y, w.z, -m.weft_crimp);
     return (1.0f - m.weft) * warp + m.weft * weft;
 }
 
@@ -128,8 +132,10 @@ FN LobeValue threads_value(const ThreadsPrepared *p, const ThreadsView *w, Angle
 FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, Dir o, float u, float v) {
     Threads m = prepared->m;
     float warp = (1.0f - m.weft) / view->all, weft = m.weft / view->all;
-    float a = warp * threads_seen(o.x, o.z, m.warp_crimp), b = warp * threads_seen(o.x, o.z, -m.warp_crimp);
-    float c = weft * threads_seen(o.y, o.z, m.weft_crimp), d = weft * threads_seen(o.y, o.z, -m.weft_crimp);
+    float a = warp * threads_projected_area(o.x, o.z, m.warp_crimp),
+          b = warp * threads_projected_area(o.x, o.z, -m.warp_crimp);
+    float c = weft * threads_projected_area(o.y, o.z, m.weft_crimp),
+          d = weft * threads_projected_area(o.y, o.z, -m.weft_crimp);
     /* numbers are chosen here, and not conditions, which would keep a loop from being one of vectors */
     float behind = c + d > 0.0f ? u - (a + b) : -1.0f;
     bool second = behind >= 0.0f;

@@ -38,10 +38,11 @@ SEEN_AS_IT_IS(wrap, Wrap)
 
 FN LobeValue wrap_value(const WrapPrepared *p, const WrapView *w, Angles a) {
     float cos_i = max(a.i.z, 1e-6f);
-    return lobe_value_of(p->scale * (cos_i + p->wrap) / cos_i, 0.0f, warp_mixed_pdf(p->uniform_part, a.i));
+    return lobe_value_of(p->scale * (cos_i + p->wrap) / cos_i, 0.0f,
+                         warp_uniform_cosine_pdf(p->uniform_part, a.i));
 }
 FN Dir wrap_sample(const WrapPrepared *p, const WrapView *w, Dir o, float u, float v) {
-    return warp_mixed(p->uniform_part, u, v);
+    return warp_uniform_cosine(p->uniform_part, u, v);
 }
 
 #endif

@@ -17,12 +17,12 @@ FN Dir facet(float sin_h, float cos_h, float v) {
     return dir(sin_h * cos(phi), sin_h * sin(phi), cos_h);
 }
 
-FN Dir facet_seen(Dir o, Dir h) {
+FN Dir facet_towards(Dir o, Dir h) {
     float turn = dir_dot(o, h) < 0.0f ? -1.0f : 1.0f;
     return dir(turn * h.x, turn * h.y, h.z);
 }
 
-/* Density of the wi that mirrors wo about a facet_seen whose h has the density d_cos, D cos_h. The least a.d
+/* Density of the wi that mirrors wo about a normal of facet_towards, whose density is d_cos = D cos_h. The least a.d
  * that counts is 1e-6: below it both directions graze, and the density has no use but must be finite. */
 FN float facet_pdf(float d_cos, Angles a) {
     bool twice =

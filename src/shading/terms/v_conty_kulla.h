@@ -47,13 +47,13 @@ FN float conty_kulla_log_lambda(ContyKulla k, float x) {
 FN float conty_kulla_lambda(ContyKulla k, float x) { return exp(conty_kulla_log_lambda(k, x)); }
 
 /* V where Lambda(cos_o) is known. */
-FN float conty_kulla_seen(ContyKulla k, float lambda_o, float o, float i) {
+FN float conty_kulla_v_of(ContyKulla k, float lambda_o, float o, float i) {
     return 0.25f / ((1.0f + (lambda_o + conty_kulla_lambda(k, i))) * max(o * i, 1e-7f));
 }
 
 FN float conty_kulla_v(float alpha, float o, float i) {
     ContyKulla k = conty_kulla_of(alpha);
-    return conty_kulla_seen(k, conty_kulla_lambda(k, o), o, i);
+    return conty_kulla_v_of(k, conty_kulla_lambda(k, o), o, i);
 }
 
 #endif

@@ -1,4 +1,4 @@
-#include "shading/ambient_table.h"
+#include "shading/ambient_fit.h"
 
 #include "base/thread.h"
 

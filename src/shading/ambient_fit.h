@@ -1,0 +1,51 @@
+/* ambient_fit.h - makes the table of any lobe for ambient_table.h, from its eval and its sampler */
+#ifndef WEFT_SHADING_AMBIENT_FIT_H
+#define WEFT_SHADING_AMBIENT_FIT_H
+
+#include "shading/ambient_lobe.h"
+
+enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16, AMBIENT_SIDES = 3 };
+
+/* The planes of ambient_table.h over cos_o and one parameter. */
+typedef struct AmbientFit {
+    Lobe lobe; /* parameter 0 is not used */
+    int rows;
+    float low, high; /* the range asked for */
+    float root_low, root_high;
+    float finest; /* the greatest log2 kappa */
+    float
+        denser; /* log2 of the lobe's density over that of a lobe of its width about one axis; mean over its light */
+    bool turning; /* there are planes for AMBIENT_SIDES headings */
+    float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
+} AmbientFit;
+
+/* Fills the table of a lobe whose parameter 0 varies from low to high; if these are equal, the table has one row. The
+ * other parameters are as given. The weights w_k are those for which sum_k w_k G_k is closest to f cos_i under
+ * environments of typical spatial correlation (ambient_fit.c). Lobes with TRAIT_REFERENCE have no table. Uses `threads`
+ * threads, 0 for all; their number does not change the result. */
+void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
+
+/* Completes a fit whose texels were cached: sets all other members. */
+void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
+void ambient_fit_finish(AmbientFit *fit);
+
+/* Returns true if one fit for a single value of parameter 0 serves both lobes. */
+bool ambient_alike(const Lobe *a, const Lobe *b);
+
+/* Returns true if this is the fit of that lobe for parameter 0 over low .. high. */
+bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high);
+
+/* Returns the table as ambient_lobe.h reads it, not baked. Its texels belong to the fit. */
+AmbientTable ambient_table(const AmbientFit *fit, int strategy);
+
+/* Computes the polynomials of a fit of one row, by least squares over its nodes. */
+void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]);
+
+/* A lobe whose `denser` exceeds this is a ring or a streak, which one axis and one width describe badly. */
+#define AMBIENT_DENSER 2.5f
+
+/* Returns the strategy with the least error for a lobe (docs/environment.md). turning: it depends on azimuth. dense: its
+ * `denser` exceeds AMBIENT_DENSER. */
+int ambient_strategy(int lobe, bool turning, bool dense);
+
+#endif
