@@ -9,11 +9,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/codec.h"
+#include "image/pixel.h"
 #include "image/srgb.h"
-
-static size_t type_bytes(WeftPixelType type) {
-    return type == WEFT_PIXEL_U8 ? 1 : type == WEFT_PIXEL_U16 ? 2 : 4;
-}
 
 static size_t value_count(const WeftImage *image) {
     return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
@@ -27,7 +24,7 @@ WeftResult weft_image_create(int width, int height, int channels, WeftPixelType 
         return fail(error, WEFT_MESSAGE_DESC, "image", "%d x %d pixels of %d channels, type %d", width,
                     height, channels, (int)type);
     WeftImage image = {.width = width, .height = height, .channels = channels, .type = type};
-    image.pixels = alloc_array(value_count(&image), type_bytes(type));
+    image.pixels = alloc_array(value_count(&image), pixel_type_size(type));
     if (!image.pixels)
         return fail(error, WEFT_MESSAGE_MEMORY, "image", "%d x %d pixels of %d channels", width, height,
                     channels);

@@ -101,7 +101,7 @@ typedef struct Lookup {
     Texel texel;
 } Lookup;
 
-static bool same_placement(const Input *a, const Input *b) {
+bool input_same_texels(const Input *a, const Input *b) {
     bool same = a->texture == b->texture && a->texcoord == b->texcoord;
     for (int k = 0; same && k < 6; k++) same = a->transform[k] == b->transform[k];
     return same;
@@ -109,7 +109,7 @@ static bool same_placement(const Input *a, const Input *b) {
 
 static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *srgb) {
     const Input *last = lookup->last;
-    if (last && lookup->last_srgb == srgb && same_placement(last, input)) return &lookup->texel;
+    if (last && lookup->last_srgb == srgb && input_same_texels(last, input)) return &lookup->texel;
     const float *uv = lookup->uv[input->texcoord], *m = input->transform;
     float u = m[0] * uv[0] + m[1] * uv[1] + m[2], v = m[3] * uv[0] + m[4] * uv[1] + m[5];
     lookup->last = input;

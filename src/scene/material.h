@@ -20,6 +20,9 @@ extern const WeftInputInfo input_infos[INPUT_COUNT];
 /* Returns how many numbers the value of an input has: 3 for a colour, else 1. */
 int input_value_count(InputId input);
 
+/* Returns true if both inputs' textures, sets of coordinates and placements are one. */
+bool input_same_texels(const Input *a, const Input *b);
+
 /* Returns a material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
  * chosen. */
 Material material_default(void);

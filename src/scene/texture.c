@@ -1,9 +1,9 @@
 #include "scene/texture.h"
 
-#include <math.h>
-#include <stdint.h>
-
+#include "image/pixel.h"
 #include "image/srgb.h"
+#include "shading/loop.h"
+#include "shading/surface_rows.h"
 
 SrgbTable srgb_table(void) {
     SrgbTable table;
@@ -16,27 +16,31 @@ typedef float Channels __attribute__((vector_size(16)));
 
 /* The two texels around a coordinate and how far it is from the first. */
 typedef struct TexelSpan {
-    size_t first, second;
+    int first, second;
     float t;
 } TexelSpan;
 
-/* Returns the texels at u after wrapping, for `size` texels. Non-finite and absurd coordinates read as 0. */
-static inline TexelSpan span(float u, int size, TextureWrap wrap, bool nearest) {
-    if (!(fabsf(u) < 1e6f)) u = 0.0f;
+/* One step over either end comes back in at the other, or stays. */
+FN int step_in(int texel, int last, TextureWrap wrap) {
+    int low = wrap == WRAP_REPEAT ? last : 0, high = wrap == WRAP_REPEAT ? 0 : last;
+    return texel < 0 ? low : texel > last ? high : texel;
+}
+
+/* Returns the texels at u after wrapping, for `size` texels; step is 1, or 0 for the nearest alone. Non-finite and
+ * absurd coordinates read as 0. */
+FN TexelSpan span_at(float u, int size, TextureWrap wrap, int step) {
+    const uint32_t absurd = 0x49742400u; /* the bits of 1e6 */
+    uint32_t bits;
+    memcpy(&bits, &u, 4);
+    u = (bits & 0x7fffffffu) < absurd ? u : 0.0f;
     float period = wrap == WRAP_MIRROR ? 0.5f * u : u;
-    if (wrap != WRAP_CLAMP) u = period - floorf(period); /* in [0, 1]; rounding can reach 1 */
-    if (wrap == WRAP_MIRROR) u = 1.0f - fabsf(2.0f * u - 1.0f);
-    float x = fminf(fmaxf(u, -1.0f), 2.0f) * (float)size - (nearest ? 0.0f : 0.5f),
-          whole = floorf(x); /* texel centres */
-    int last = size - 1, first = (int)whole, second = first + 1;
-    if (wrap == WRAP_REPEAT) { /* one step over either end comes back in at the other */
-        if (first < 0) first = last;
-        if (first > last) first = 0;
-        if (second > last) second = 0;
-    }
-    first = first < 0 ? 0 : first > last ? last : first;
-    second = second < 0 ? 0 : second > last ? last : second;
-    return (TexelSpan){(size_t)first, (size_t)(nearest ? first : second), nearest ? 0.0f : x - whole};
+    float wrapped = period - floor(period); /* in [0, 1]; rounding can reach 1 */
+    wrapped = wrap == WRAP_MIRROR ? 1.0f - abs(2.0f * wrapped - 1.0f) : wrapped;
+    u = wrap == WRAP_CLAMP ? clamp(u, -1.0f, 2.0f) : wrapped;
+    float x = u * (float)size - 0.5f * (float)step, whole = floor(x); /* texel centres */
+    int first = (int)whole, last = size - 1;
+    return (TexelSpan){step_in(first, last, wrap), step_in(first + step, last, wrap),
+                       (x - whole) * (float)step};
 }
 
 static inline Channels read_u8(const uint8_t *p, const SrgbTable *srgb, int channels) {
@@ -76,19 +80,82 @@ static inline Channels read_texel(const WeftImage *image, const SrgbTable *srgb,
                            : read_u8(p, srgb, image->channels);
 }
 
+static inline Channels interpolate(const WeftImage *image, const SrgbTable *srgb, TexelSpan x, TexelSpan y) {
+    size_t left = (size_t)x.first, right = (size_t)x.second, top = (size_t)y.first, bottom = (size_t)y.second;
+    Channels c = read_texel(image, srgb, left, top);
+    c += (read_texel(image, srgb, right, top) - c) * x.t;
+    Channels below = read_texel(image, srgb, left, bottom);
+    below += (read_texel(image, srgb, right, bottom) - below) * x.t;
+    return c + (below - c) * y.t;
+}
+
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u,
                     float v) {
     const WeftImage *image = &images[texture->image];
-    TexelSpan x = span(u, image->width, texture->wrap_u, texture->nearest);
-    TexelSpan y = span(v, image->height, texture->wrap_v, texture->nearest);
-    Channels c = read_texel(image, srgb, x.first, y.first);
-    if (!texture->nearest) {
-        Channels right = read_texel(image, srgb, x.second, y.first);
-        Channels below = read_texel(image, srgb, x.first, y.second);
-        Channels across = read_texel(image, srgb, x.second, y.second);
-        c += (right - c) * x.t;
-        below += (across - below) * x.t;
-        c += (below - c) * y.t;
-    }
+    TexelSpan x = span_at(u, image->width, texture->wrap_u, !texture->nearest);
+    TexelSpan y = span_at(v, image->height, texture->wrap_v, !texture->nearest);
+    Channels c = interpolate(image, srgb, x, y);
     return (Texel){{c[0], c[1], c[2], c[3]}};
+}
+
+typedef struct SpanRows {
+    int first[ROW_ROOM], second[ROW_ROOM];
+    float t[ROW_ROOM];
+} SpanRows;
+
+FN void spans(const float *u, int size, TextureWrap wrap, int step, int n, SpanRows *restrict rows) {
+    EACH(k, (size_t)n) {
+        TexelSpan s = span_at(u[k], size, wrap, step);
+        rows->first[k] = s.first;
+        rows->second[k] = s.second;
+        rows->t[k] = s.t;
+    }
+}
+CLONES static void spans_repeat_n(const float *u, int size, int step, int n, SpanRows *rows) {
+    spans(u, size, WRAP_REPEAT, step, n, rows);
+}
+CLONES static void spans_mirror_n(const float *u, int size, int step, int n, SpanRows *rows) {
+    spans(u, size, WRAP_MIRROR, step, n, rows);
+}
+CLONES static void spans_clamp_n(const float *u, int size, int step, int n, SpanRows *rows) {
+    spans(u, size, WRAP_CLAMP, step, n, rows);
+}
+
+static void take_spans(const float *u, int size, TextureWrap wrap, int step, int n, SpanRows *rows) {
+    if (wrap == WRAP_REPEAT)
+        spans_repeat_n(u, size, step, n, rows);
+    else if (wrap == WRAP_MIRROR)
+        spans_mirror_n(u, size, step, n, rows);
+    else
+        spans_clamp_n(u, size, step, n, rows);
+}
+
+static TexelSpan span_of(const SpanRows *rows, int k) {
+    return (TexelSpan){rows->first[k], rows->second[k], rows->t[k]};
+}
+
+/* Asks for the cache lines of a texel and the one below it, which most lookups of a path tracer miss. */
+static void prefetch(const WeftImage *image, size_t texel, int x, int y, int below) {
+    const char *pixels = (const char *)image->pixels;
+    size_t width = (size_t)image->width;
+    __builtin_prefetch(pixels + ((size_t)y * width + (size_t)x) * texel);
+    __builtin_prefetch(pixels + ((size_t)below * width + (size_t)x) * texel);
+}
+
+void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
+                        const float *u, const float *v, float *texels) {
+    enum { AHEAD = 16 };
+    const WeftImage *image = &images[texture->image];
+    size_t texel = (size_t)image->channels * pixel_type_size(image->type);
+    SpanRows x = {0}, y = {0};
+    int step = texture->nearest ? 0 : 1;
+    take_spans(u, image->width, texture->wrap_u, step, row_whole(n), &x);
+    take_spans(v, image->height, texture->wrap_v, step, row_whole(n), &y);
+    for (int k = -AHEAD; k < n; k++) {
+        int next = k + AHEAD;
+        if (next < n) prefetch(image, texel, x.first[next], y.first[next], y.second[next]);
+        if (k < 0) continue;
+        Channels t = interpolate(image, srgb, span_of(&x, k), span_of(&y, k));
+        for (int channel = 0; channel < 4; channel++) texels[channel * ROW_ROOM + k] = t[channel];
+    }
 }

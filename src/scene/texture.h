@@ -33,4 +33,9 @@ SrgbTable srgb_table(void);
  * Non-finite coordinates read as 0. */
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v);
 
+/* Looks up n <= ROW_MOST places (shading/surface_rows.h), in arrays with room up to row_whole(n). Channel c of place k
+ * is texels[c * ROW_ROOM + k]. */
+void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
+                        const float *u, const float *v, float *texels);
+
 #endif

@@ -71,6 +71,9 @@ typedef struct ChunkSource {
 void chunk_place(Chunk *chunk, const ChunkSource *source);
 void chunk_turn(Chunk *chunk, const ChunkSource *source);
 
+/* inputs.c: fills n rows of the material's inputs. */
+void chunk_take_inputs(Chunk *chunk, const ChunkSource *source, int n);
+
 /* lit.c: adds what the surface itself sends out, and the light of one group; returns how many rays that took.
  */
 void chunk_add_emission(Chunk *chunk, const ChunkSource *source, Light4 *light);

@@ -238,28 +238,37 @@ bool geometry_occluded(const Geometry *geometry, Ray ray) {
     return r.tfar < 0.0f;
 }
 
-/* The rays from `first` on, `left` of them or as many as a packet has. Those that are not sound stay idle;
- * but with AVX2 Embree makes sure of idle rays too. */
-static void fill_packet(const RayRows *rays, int first, int left, int *valid, struct RTCRay16 *q) {
-    const float *const *o = rays->o, *const *d = rays->d;
+/* Sets the fields that all rays have in common. */
+static void start_packet(struct RTCRay16 *q) {
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        int j = first + k;
-        float far = rays->far ? rays->far[j] : INFINITY;
-        bool sound = k < left && far >= 0.0f;
-        for (int c = 0; c < 3; c++) sound &= fabsf(o[c][j]) <= RAY_REACH && fabsf(d[c][j]) <= RAY_REACH;
-        valid[k] = sound ? -1 : 0;
-        q->org_x[k] = sound ? o[0][j] : 0.0f;
-        q->org_y[k] = sound ? o[1][j] : 0.0f;
-        q->org_z[k] = sound ? o[2][j] : 0.0f;
-        q->dir_x[k] = sound ? d[0][j] : 0.0f;
-        q->dir_y[k] = sound ? d[1][j] : 0.0f;
-        q->dir_z[k] = sound ? d[2][j] : 1.0f;
         q->tnear[k] = 0.0f;
-        q->tfar[k] = sound ? far : 0.0f;
         q->time[k] = 0.0f;
         q->mask[k] = ~0u;
-        q->id[k] = rays->key[j];
         q->flags[k] = 0;
+    }
+}
+
+/* The rays from `first` on, `left` of them or as many as a packet has. Those that are not sound stay idle;
+ * but with AVX2 Embree makes sure of idle rays too. A loop of vectors. */
+static void fill_packet(const RayRows *rays, int first, int left, int *restrict valid,
+                        struct RTCRay16 *restrict q) {
+    const float *ox = rays->o[0] + first, *oy = rays->o[1] + first, *oz = rays->o[2] + first;
+    const float *dx = rays->d[0] + first, *dy = rays->d[1] + first, *dz = rays->d[2] + first;
+    const uint32_t *key = rays->key + first;
+    for (int k = 0; k < GEOMETRY_PACKET; k++) q->tfar[k] = rays->far ? rays->far[first + k] : INFINITY;
+    for (int k = 0; k < GEOMETRY_PACKET; k++) {
+        bool sound = (k < left) & (q->tfar[k] >= 0.0f) & (fabsf(ox[k]) <= RAY_REACH) &
+                     (fabsf(oy[k]) <= RAY_REACH) & (fabsf(oz[k]) <= RAY_REACH) & (fabsf(dx[k]) <= RAY_REACH) &
+                     (fabsf(dy[k]) <= RAY_REACH) & (fabsf(dz[k]) <= RAY_REACH);
+        valid[k] = sound ? -1 : 0;
+        q->org_x[k] = sound ? ox[k] : 0.0f;
+        q->org_y[k] = sound ? oy[k] : 0.0f;
+        q->org_z[k] = sound ? oz[k] : 0.0f;
+        q->dir_x[k] = sound ? dx[k] : 0.0f;
+        q->dir_y[k] = sound ? dy[k] : 0.0f;
+        q->dir_z[k] = sound ? dz[k] : 1.0f;
+        q->tfar[k] = sound ? q->tfar[k] : 0.0f;
+        q->id[k] = key[k];
     }
 }
 
@@ -305,6 +314,7 @@ void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, con
     Query query = packet_query(geometry, rays);
     struct RTCRayHit16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
+    start_packet(&q.ray);
     for (int first = 0; first < count; first += GEOMETRY_PACKET) {
         fill_packet(rays, first, count - first, valid, &q.ray);
         for (int k = 0; k < GEOMETRY_PACKET; k++) q.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
@@ -317,6 +327,7 @@ void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int coun
     Query query = packet_query(geometry, rays);
     struct RTCRay16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
+    start_packet(&q);
     for (int first = 0; first < count; first += GEOMETRY_PACKET) {
         fill_packet(rays, first, count - first, valid, &q);
         rtcOccluded16(valid, geometry->accel, &query.context, &q);

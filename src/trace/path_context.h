@@ -14,6 +14,8 @@ typedef struct PathMaterial {
     Surface plain;     /* all its textures left out */
     Choices choices;
     bool textured;         /* has any, or a mesh that wears it has colours */
+    bool colored;          /* a mesh that wears it has colors */
+    bool texcoords[2];     /* the sets of texture coordinates that its textures use */
     bool shines;           /* may send out light */
     bool bent;             /* a normal map or anisotropy turns the shading frame */
     TableRef sheen_e;      /* TABLE_NONE without a sheen */

@@ -106,8 +106,11 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         known->material.inputs[INPUT_opacity].texture = 0;   /* opacity is decided by the hit itself */
         known->plain = material_plain(material);
         known->choices = material_choices(material);
-        for (int input = 0; input < INPUT_COUNT; input++)
-            known->textured |= known->material.inputs[input].texture != 0;
+        for (int input = 0; input < INPUT_COUNT; input++) {
+            const Input *of = &known->material.inputs[input];
+            known->textured |= of->texture != 0;
+            known->texcoords[of->texcoord] |= of->texture != 0;
+        }
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
@@ -116,8 +119,11 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         known->bent =
             !known->kind || known->material.inputs[INPUT_normal].texture || known->plain.anisotropy > 0.0f;
     }
-    for (int k = 0; k < scene->mesh_count; k++)
-        render->materials[scene->meshes[k].material].textured |= scene->meshes[k].color != NULL;
+    for (int k = 0; k < scene->mesh_count; k++) {
+        PathMaterial *known = &render->materials[scene->meshes[k].material];
+        known->colored |= scene->meshes[k].color != NULL;
+        known->textured |= known->colored;
+    }
     return WEFT_OK;
 }
 

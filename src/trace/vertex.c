@@ -1,7 +1,6 @@
-/* vertex.c - the points that paths hit: position, normal, the material's inputs there, and the frame */
+/* vertex.c - the points that paths hit: position, normal, and the frame */
 #include "trace/chunk.h"
 
-#include "scene/shade.h"
 #include "shading/frame.h"
 #include "shading/loop.h"
 
@@ -109,34 +108,12 @@ CLONES static void place_n(Chunk *restrict c, int n) {
     }
 }
 
-static Hit hit_of(const Chunk *c, int k) {
-    return (Hit){.t = c->t[k], .mesh = c->mesh[k], .triangle = c->triangle[k], .u = c->u[k], .v = c->v[k]};
-}
-
-/* The material's inputs at each vertex, or those that all have. */
-static void take_inputs(Chunk *c, const ChunkSource *from, int n) {
-    const WeftScene *scene = from->context->scene;
-    const PathMaterial *material = &from->context->materials[from->material];
-    int have = c->filled == from->material + 1 && !material->textured ? c->filled_rows : 0;
-    for (int k = have; k < n; k++) {
-        Surface surface = material->plain;
-        if (material->textured) {
-            Hit hit = hit_of(c, k);
-            Attributes at = geometry_attributes(&scene->meshes[hit.mesh], &hit);
-            material_textures(scene, &material->material, at.uv, at.color, &surface);
-        }
-        surface_to_row(&c->vertices.surface, (size_t)k, &surface);
-    }
-    c->filled = from->material + 1;
-    c->filled_rows = n > have ? n : have;
-}
-
 void chunk_place(Chunk *c, const ChunkSource *from) {
     int n = row_whole(from->n);
     take_paths(c, from, n);
     take_corners(c, from->context->scene, n);
     place_n(c, n);
-    take_inputs(c, from, n);
+    chunk_take_inputs(c, from, n);
 }
 
 static void take_tangents(Chunk *c, const WeftScene *scene, int n) {

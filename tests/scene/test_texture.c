@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "scene/texture.h"
+#include "shading/surface_rows.h"
 
 static WeftImage image_of(int width, int height, int channels, WeftPixelType type) {
     WeftImage image;
@@ -100,12 +101,46 @@ static void wild_coordinates_are_harmless(void **state) {
     weft_image_free(&image);
 }
 
+/* Rows give what single lookups give: every type, number of channels, wrap and filter, wild coordinates among them. */
+static void rows_agree_with_single_lookups(void **state) {
+    (void)state;
+    static float u[ROW_ROOM], v[ROW_ROOM], c[4][ROW_ROOM];
+    static const float wild[] = {NAN, INFINITY, -INFINITY, 1e30f, 1e6f, -1e6f, -0.0f, 1.0f};
+    SrgbTable srgb = srgb_table();
+    for (uint32_t run = 0; run < 3 * 4 * 9 * 2 * 2; run++) {
+        int type = (int)(run % 3), channels = 1 + (int)(run / 3 % 4), wraps = (int)(run / 12 % 9);
+        bool decode = run / 216 == 1;
+        WeftImage image = image_of(7, 5, channels, (WeftPixelType)type);
+        size_t bytes = (size_t)(35 * channels) * (type == WEFT_PIXEL_F32   ? 4
+                                                  : type == WEFT_PIXEL_U16 ? 2
+                                                                           : 1);
+        for (size_t k = 0; k < bytes; k++) ((uint8_t *)image.pixels)[k] = (uint8_t)hash32((uint32_t)k);
+        for (int k = 0; type == WEFT_PIXEL_F32 && k < 35 * channels; k++)
+            ((float *)image.pixels)[k] = unit_float(hash32((uint32_t)k));
+        Texture texture = {.wrap_u = (TextureWrap)(wraps % 3),
+                           .wrap_v = (TextureWrap)(wraps / 3),
+                           .nearest = run / 108 % 2 == 1};
+        int n = 1 + (int)(hash32(run) % ROW_MOST);
+        for (int k = 0; k < row_whole(n); k++) {
+            u[k] = k < 64 ? wild[k % 8] : 6.0f * unit_float(hash32((uint32_t)k)) - 3.0f;
+            v[k] = k < 64 ? wild[k / 8] : 6.0f * unit_float(hash32((uint32_t)k + 999)) - 3.0f;
+        }
+        texture_fetch_rows(&texture, &image, decode ? &srgb : NULL, n, u, v, c[0]);
+        for (int k = 0; k < n; k++) {
+            Texel t = texture_fetch(&texture, &image, decode ? &srgb : NULL, u[k], v[k]);
+            for (int a = 0; a < 4; a++) assert_true(fabsf(c[a][k] - t.c[a]) < 1e-5f);
+        }
+        weft_image_free(&image);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formats_agree),
         cmocka_unit_test(wrapping_follows_the_sampler),
         cmocka_unit_test(nearest_does_not_blend),
         cmocka_unit_test(wild_coordinates_are_harmless),
+        cmocka_unit_test(rows_agree_with_single_lookups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,14 @@
+/* pixel.h - sizes of pixels in memory */
+#ifndef WEFT_IMAGE_PIXEL_H
+#define WEFT_IMAGE_PIXEL_H
+
+#include <stddef.h>
+
+#include "weft/image.h"
+
+/* Bytes of one channel. */
+static inline size_t pixel_type_size(WeftPixelType type) {
+    return type == WEFT_PIXEL_U8 ? 1 : type == WEFT_PIXEL_U16 ? 2 : 4;
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* inputs.c - the material's inputs at the vertices of a chunk, from its numbers, textures and vertex colors */
+#include "trace/chunk.h"
+
+#include "shading/loop.h"
+#include "shading/texel.h"
+
+/* The last texture that was looked up: inputs that share one and its placement share the texels. */
+typedef struct TexelRows {
+    const WeftScene *scene;
+    Row uv[2][2]; /* texture coordinates, by set */
+    const Input *last;
+    const SrgbTable *last_srgb;
+    Row place[2], texel[4]; /* after the input's placement; RGBA */
+    int n;
+} TexelRows;
+
+/* Texture coordinates as geometry_attributes has them. */
+static void take_texcoords(const Chunk *c, const WeftScene *scene, int set, int n, Row uv[2]) {
+    for (int k = 0; k < n; k++) {
+        const Mesh *mesh = &scene->meshes[c->mesh[k]];
+        const uint32_t *index = mesh->index + 3 * (size_t)c->triangle[k];
+        float weight[3] = {1.0f - c->u[k] - c->v[k], c->u[k], c->v[k]}, at[2] = {0};
+        for (int corner = 0; mesh->texcoord[set] && corner < 3; corner++) {
+            const float *of = mesh->texcoord[set] + 2 * (size_t)index[corner];
+            for (int a = 0; a < 2; a++) at[a] += of[a] * weight[corner];
+        }
+        for (int a = 0; a < 2; a++) uv[a][k] = at[a];
+    }
+}
+
+CLONES static void place_uv_n(const Row uv[2], const float m[6], int n, Row *restrict place) {
+    EACH(k, (size_t)n) {
+        float u = uv[0][k], v = uv[1][k];
+        place[0][k] = m[0] * u + m[1] * v + m[2];
+        place[1][k] = m[3] * u + m[4] * v + m[5];
+    }
+}
+
+static void fetch(TexelRows *lookup, const Input *input, const SrgbTable *srgb) {
+    const Input *last = lookup->last;
+    if (last && lookup->last_srgb == srgb && input_same_texels(last, input)) return;
+    const WeftScene *scene = lookup->scene;
+    place_uv_n((const Row *)lookup->uv[input->texcoord], input->transform, row_whole(lookup->n),
+               lookup->place);
+    texture_fetch_rows(&scene->textures[input->texture - 1], scene->images, srgb, lookup->n, lookup->place[0],
+                       lookup->place[1], lookup->texel[0]);
+    lookup->last = input;
+    lookup->last_srgb = srgb;
+}
+
+static void scale(const Row from, float factor, int n, float *restrict to) {
+    EACH(k, (size_t)n) { to[k] = factor * from[k]; }
+}
+
+static void read_SCALAR(TexelRows *lookup, const Input *input, Row to) {
+    fetch(lookup, input, NULL);
+    scale(lookup->texel[input->channel], input->value[0], row_whole(lookup->n), to);
+}
+
+static void read_ANGLE(TexelRows *lookup, const Input *input, Row to) { read_SCALAR(lookup, input, to); }
+
+static void read_COLOR(TexelRows *lookup, const Input *input, Row to[3]) {
+    fetch(lookup, input, &lookup->scene->srgb);
+    for (int a = 0; a < 3; a++) scale(lookup->texel[a], input->value[a], row_whole(lookup->n), to[a]);
+}
+
+CLONES static void normals_n(const Row texel[4], float strength, int n, Row *restrict to) {
+    EACH(k, (size_t)n) {
+        Dir d = texel_normal(texel[0][k], texel[1][k], texel[2][k], strength);
+        to[0][k] = d.x;
+        to[1][k] = d.y;
+        to[2][k] = d.z;
+    }
+}
+
+static void read_NORMAL(TexelRows *lookup, const Input *input, Row to[3]) {
+    fetch(lookup, input, NULL);
+    normals_n((const Row *)lookup->texel, input->value[0], row_whole(lookup->n), to);
+}
+
+static void read_DIRECTION(TexelRows *lookup, const Input *input, Row to[3]) {
+    fetch(lookup, input, NULL);
+    float x = cos(input->value[0]), y = sin(input->value[0]);
+    for (int k = 0; k < lookup->n; k++) {
+        Dir d = texel_direction(lookup->texel[0][k], lookup->texel[1][k], x, y);
+        to[0][k] = d.x;
+        to[1][k] = d.y;
+        to[2][k] = d.z;
+    }
+}
+
+/* Multiplies the base color by the color of the mesh, interpolated. */
+static void tint_base(Chunk *c, const WeftScene *scene, int n) {
+    SurfaceRows *s = &c->vertices.surface;
+    for (int k = 0; k < n; k++) {
+        Hit hit = {.t = c->t[k], .mesh = c->mesh[k], .triangle = c->triangle[k], .u = c->u[k], .v = c->v[k]};
+        Attributes at = geometry_attributes(&scene->meshes[hit.mesh], &hit);
+        for (int a = 0; a < 3; a++) s->base_color[a][k] *= at.color[a];
+    }
+}
+
+/* Fills the rows with what the material has without textures; those that it filled last are so still, but for
+ * the base color under the colors of meshes. */
+static void fill_plain(Chunk *c, const ChunkSource *from, int n) {
+    const PathMaterial *material = &from->context->materials[from->material];
+    int have = c->filled == from->material + 1 && !material->colored ? c->filled_rows : 0;
+    for (int k = have; k < n; k++) surface_to_row(&c->vertices.surface, (size_t)k, &material->plain);
+    c->filled = from->material + 1;
+    c->filled_rows = n > have ? n : have;
+}
+
+void chunk_take_inputs(Chunk *c, const ChunkSource *from, int n) {
+    const WeftScene *scene = from->context->scene;
+    const PathMaterial *material = &from->context->materials[from->material];
+    const Input *inputs = material->material.inputs;
+    fill_plain(c, from, n);
+    if (!material->textured) return;
+    TexelRows lookup;
+    lookup.scene = scene;
+    lookup.last = NULL;
+    lookup.last_srgb = NULL;
+    lookup.n = n;
+    for (int set = 0; set < 2; set++)
+        if (material->texcoords[set]) take_texcoords(c, scene, set, n, lookup.uv[set]);
+#define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
+    if (inputs[INPUT_##name].texture) read_##kind(&lookup, &inputs[INPUT_##name], c->vertices.surface.name);
+    SURFACE_INPUTS(READ_INPUT)
+    if (material->colored) tint_base(c, scene, n);
+}
