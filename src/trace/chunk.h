@@ -30,6 +30,16 @@ typedef struct PathKeys {
 
 typedef float Row[ROW_ROOM];
 
+/* Textures looked up at a chunk's vertices. Inputs that share a texture and its placement share the texels. */
+typedef struct TexelRows {
+    const WeftScene *scene;
+    const Input *last;          /* the input that was looked up last; NULL: none */
+    const SrgbTable *last_srgb; /* how it was decoded; NULL: not */
+    int n;
+    Row uv[2][2];           /* texture coordinates, by set */
+    Row place[2], texel[4]; /* after the input's placement; RGBA */
+} TexelRows;
+
 /* Directions and positions are the world's but for those of `vertices`, which are the shading frame's. */
 typedef struct Chunk {
     uint32_t id[ROW_ROOM], key[ROW_ROOM], pixel[ROW_ROOM], sample[ROW_ROOM];
@@ -52,6 +62,7 @@ typedef struct Chunk {
         uint32_t key[ROW_ROOM];
     } shadow;
     int filled, filled_rows; /* the material, + 1, whose inputs vertices.surface has, and in how many rows */
+    TexelRows textures;
     Stack stack;
     StackView view;
 } Chunk;

@@ -4,16 +4,6 @@
 #include "shading/loop.h"
 #include "shading/texel.h"
 
-/* The last texture that was looked up: inputs that share one and its placement share the texels. */
-typedef struct TexelRows {
-    const WeftScene *scene;
-    Row uv[2][2]; /* texture coordinates, by set */
-    const Input *last;
-    const SrgbTable *last_srgb;
-    Row place[2], texel[4]; /* after the input's placement; RGBA */
-    int n;
-} TexelRows;
-
 /* Texture coordinates as geometry_attributes has them. */
 static void take_texcoords(const Chunk *c, const WeftScene *scene, int set, int n, Row uv[2]) {
     for (int k = 0; k < n; k++) {
@@ -115,15 +105,14 @@ void chunk_take_inputs(Chunk *c, const ChunkSource *from, int n) {
     const Input *inputs = material->material.inputs;
     fill_plain(c, from, n);
     if (!material->textured) return;
-    TexelRows lookup;
-    lookup.scene = scene;
-    lookup.last = NULL;
-    lookup.last_srgb = NULL;
-    lookup.n = n;
+    TexelRows *lookup = &c->textures;
+    lookup->scene = scene;
+    lookup->last = NULL;
+    lookup->n = n;
     for (int set = 0; set < 2; set++)
-        if (material->texcoords[set]) take_texcoords(c, scene, set, n, lookup.uv[set]);
+        if (material->texcoords[set]) take_texcoords(c, scene, set, n, lookup->uv[set]);
 #define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
-    if (inputs[INPUT_##name].texture) read_##kind(&lookup, &inputs[INPUT_##name], c->vertices.surface.name);
+    if (inputs[INPUT_##name].texture) read_##kind(lookup, &inputs[INPUT_##name], c->vertices.surface.name);
     SURFACE_INPUTS(READ_INPUT)
     if (material->colored) tint_base(c, scene, n);
 }
