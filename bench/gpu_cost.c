@@ -20,7 +20,7 @@
 
 /* The cycles are those of the busiest unit: so many multiplications beside the lines in question make sure
  * that it is the one that computes, not the one that reads. */
-enum { BALLAST = 256, INPUTS_MOST = 6 + LOBE_PARAMS_MAX };
+enum { BALLAST = 256, INPUTS_MOST = 8 + LOBE_PARAMS_MAX };
 
 typedef struct Cost {
     double instructions, registers, cycles;
@@ -308,12 +308,16 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
 
 /* Fibres as an engine has them, beside the tightest transformed cosine: tables are filtered by the GPU, four
  * numbers a texel, and what belongs to the material alone lies in a uniform buffer. Fibres stand upright.
- * u[6] is the row of a table that is read by pixel, u[6 .. 9] what was kept of wo. Those that lean are no
- * sharper than alpha 0.19. */
+ * u[6] is the row of a table that is read by pixel, u[6] and further what was kept of wo. Those that lean are
+ * no sharper than alpha 0.19. */
 #define UPRIGHT "    FibreModel m = model;\n    m.s = 0.0;\n    m.n.thin = 0.0;\n"
 #define SINGLE  "    f = flake_single_upright(flakes, a.o, a.i);\n"
 #define MULTIPLE(o)                                                                                          \
     "    f += fibre_multiple(m, " o ", fibre_side(m, a.i.z, a.i.z), a.o.x * a.i.x + a.o.y * a.i.y);\n"
+#define LEANING "    FibrePrepared p = leaning;\n    p.model.n.thin = 0.0;\n    FibreView w;\n"
+#define COLOURED                                                                                             \
+    "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"                    \
+    "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
 static const struct {
     const char *name;
     int inputs;
@@ -337,10 +341,11 @@ static const struct {
      ANGLES UPRIGHT SINGLE
      "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
     {"fibre, fixed material, leaning, in a colour", 6,
-     ANGLES "    FibrePrepared p = leaning;\n    p.model.n.thin = 0.0;\n    FibreView w;\n"
-            "    fibre_view(p, a.o, w);\n"
-            "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"
-            "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"},
+     ANGLES LEANING "    fibre_view(p, a.o, w);\n" COLOURED},
+    {"fibre, fixed material, leaning, in a colour, view side kept", 16,
+     ANGLES LEANING
+     "    w.side = FibreSide(a.o.z, u[6], u[7], u[8], u[9], u[10], u[11], u[12], u[13], u[14]);\n"
+     "    w.sigma = u[15];\n" COLOURED},
 };
 
 static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {

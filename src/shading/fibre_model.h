@@ -31,13 +31,30 @@ STRUCT(FibreModel) {
  * probability q that light meets another flake, and exponents again. */
 STRUCT(FibreSide) { float mu, nu, a, h, g, k, q, v, u, c; };
 
+/* Adds the terms of a lean that are alike for all directions of one u to those of upright fibres. */
+FN FibreNumbers fibre_leaning(FibreNumbers n, float s) {
+    n.a0 = n.a0 + s * n.na1;
+    n.a1 = n.a1 + s * n.na4;
+    n.a2 = n.a2 + s * n.na8;
+    n.a3 = n.a3 + s * n.na13;
+    n.h0 = n.h0 + s * n.nh1;
+    n.h1 = n.h1 + s * n.nh4;
+    n.h2 = n.h2 + s * n.nh8;
+    n.g0 = n.g0 + s * n.ng1;
+    n.g1 = n.g1 + s * n.ng4;
+    n.g2 = n.g2 + s * n.ng8;
+    n.k0 = n.k0 + s * n.nk1;
+    n.na24 = s * n.na24;
+    return n;
+}
+
 FN FibreModel fibre_model(float alpha, float density, float tilt) {
     FibreModel m;
     float t = 1.0f + 0.44703414f * log2(alpha); /* -1 at 0.045, 1 at 1 */
     float sine = sin(tilt), s2 = alpha * alpha;
     m.s = 2.0f * sine * sine;
     m.hold = 16.0f * m.s * ((1.0f - alpha) * (1.0f - alpha)) * ((1.0f - alpha) * (1.0f - alpha));
-    m.n = fibre_numbers(t, 0.5f * log2(density), m.s);
+    m.n = fibre_leaning(fibre_numbers(t, 0.5f * log2(density), m.s), m.s);
     m.power = 0.26f + 0.24f * max(t, -0.4f);
     m.low = pow(1e-3f, m.power);
     m.span = 2.0f / (pow(1.001f, m.power) - m.low);
@@ -47,25 +64,21 @@ FN FibreModel fibre_model(float alpha, float density, float tilt) {
     return m;
 }
 
-/* The powers of d = nu - mu and of u by which a leaning fibre differs from an upright one; w fades from the
- * horizon. / */
+/* The powers of d = nu - mu and of u by which a leaning fibre differs from an upright one, of which fibre_model has
+ * taken those without d; w fades from the horizon. */
 FN FibreSide fibre_nap(FibreModel m, FibreSide side, float mu, float nu, float u) {
     FibreNumbers n = m.n;
-    float d = nu - mu, s = m.s, w = 0.03f / (mu + 0.03f);
-    float low = d * (n.na0 + d * (n.na3 + d * n.na6) + u * (n.na2 + d * n.na5 + u * n.na7)) +
-                s * (n.na1 + u * (n.na4 + u * (n.na8 + u * n.na13)));
-    float fourth = d * (d * (d * (n.na9 * d + n.na10 * u) + n.na11 * u * u) + n.na12 * u * u * u);
-    float fifth = d * (d * (d * (d * (n.na14 * d + n.na15 * u) + n.na16 * u * u) + n.na17 * u * u * u) +
-                       n.na18 * u * u * u * u);
-    float edge = w * (d * (n.na19 + d * (n.na20 + d * (n.na21 + d * (n.na22 + d * n.na23)))) + s * n.na24);
+    float d = nu - mu, w = 0.03f / (mu + 0.03f);
+    float first = n.na0 + u * (n.na2 + u * (n.na7 + u * (n.na12 + u * n.na18)));
+    float second = n.na3 + u * (n.na5 + u * (n.na11 + u * n.na17));
+    float third = n.na6 + u * (n.na10 + u * n.na16), fourth = n.na9 + u * n.na15;
+    float edge = d * (n.na19 + d * (n.na20 + d * (n.na21 + d * (n.na22 + d * n.na23)))) + n.na24;
     float against = max(-d, 0.0f); /* the nap nearly all light comes back, and no more may */
-    edge = edge - m.hold * w * (against * against) * (against * against);
-    side.a = side.a + low + fourth + fifth + edge;
-    side.h = side.h + d * (n.nh0 + d * (n.nh3 + d * n.nh6) + u * (n.nh2 + d * n.nh5 + u * n.nh7)) +
-             s * (n.nh1 + u * (n.nh4 + u * n.nh8));
-    side.g = side.g + d * (n.ng0 + d * (n.ng3 + d * n.ng6) + u * (n.ng2 + d * n.ng5 + u * n.ng7)) +
-             s * (n.ng1 + u * (n.ng4 + u * n.ng8));
-    side.k = side.k + d * (n.nk0 + u * n.nk2) + s * n.nk1;
+    edge = edge - m.hold * (against * against) * (against * against);
+    side.a = side.a + d * (first + d * (second + d * (third + d * (fourth + d * n.na14)))) + w * edge;
+    side.h = side.h + d * (n.nh0 + u * (n.nh2 + u * n.nh7) + d * (n.nh3 + u * n.nh5 + d * n.nh6));
+    side.g = side.g + d * (n.ng0 + u * (n.ng2 + u * n.ng7) + d * (n.ng3 + u * n.ng5 + d * n.ng6));
+    side.k = side.k + d * (n.nk0 + u * n.nk2);
     return side;
 }
 
