@@ -18,7 +18,7 @@ FN Rgb rgb_mul(Rgb a, Rgb b) { return rgb(a.r * b.r, a.g * b.g, a.b * b.b); }
 FN Rgb rgb_mix(Rgb a, Rgb b, float t) { return rgb(mix(a.r, b.r, t), mix(a.g, b.g, t), mix(a.b, b.b, t)); }
 FN Rgb rgb_min(Rgb a, float top) { return rgb(min(a.r, top), min(a.g, top), min(a.b, top)); }
 FN float rgb_max3(Rgb c) { return max(c.r, max(c.g, c.b)); }
-FN float rgb_mean(Rgb c) { return (c.r + c.g + c.b) / 3.0f; }
+FN float rgb_mean(Rgb c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
 
 /* International Telecommunication Union, Recommendation BT.709, item 3.2. */
 FN float rgb_luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }

@@ -40,8 +40,9 @@ FN ContyKulla conty_kulla_of(float alpha) {
     return k;
 }
 
+/* c is so small that x^c loses nothing by log2. */
 FN float conty_kulla_log_lambda(ContyKulla k, float x) {
-    float least = min(x, 1.0f - x), l = conty_kulla_l(k, least, pow(max(least, 1e-30f), k.c));
+    float least = min(x, 1.0f - x), l = conty_kulla_l(k, least, exp2(k.c * log2(max(least, 1e-30f))));
     return x < 0.5f ? l : k.twice_half - l;
 }
 FN float conty_kulla_lambda(ContyKulla k, float x) { return exp(conty_kulla_log_lambda(k, x)); }
