@@ -16,7 +16,7 @@ file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
 
 # Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
-# tinted, tabled, second, strips, proxy.
+# tinted, tabled, second, strips, proxy, fitted, crease.
 macro(weft_read_lobe id)
   string(REPLACE "-" "_" name ${id})
   string(TOUPPER ${name} NAME)
@@ -46,6 +46,8 @@ macro(weft_read_lobe id)
   string(FIND "${text}" "float ${name}_second(" second)
   string(FIND "${text}" "Strip ${name}_strip(" strip)
   string(FIND "${text}" "Proxy ${name}_proxy(" proxy)
+  string(FIND "${text}" "float ${name}_fitted(" fitted)
+  string(FIND "${text}" "float ${name}_crease(" crease)
   set(strips true)
   if(strip EQUAL -1)
     set(strips false)
@@ -77,7 +79,7 @@ function(weft_dispatch folder outside)
     string(APPEND includes "#include \"shading/lobes/${name}.h\" /* LOBE_${NAME} */\n")
     set(from "")
     set(defaults "")
-    set(fibres "")
+    set(named "")
     set(k 0)
     foreach(param ${params})
       set(member "m->params[${k}]")
@@ -89,8 +91,8 @@ function(weft_dispatch folder outside)
       endif()
       string(APPEND from "r.${param} = ${read}; ")
       string(APPEND defaults "m.params[${k}] = ${default}; ")
-      if(k GREATER 0 AND param MATCHES "^(density|tilt|azimuth)$")
-        string(APPEND fibres "m.params[${k}] = clamp(${param}, ${hard_${param}}); ")
+      if((k GREATER 0 AND param MATCHES "^(density|tilt|azimuth)$") OR param MATCHES "^(beta|wrap)$")
+        string(APPEND named "if (n.${param} >= 0.0f) m.params[${k}] = clamp(n.${param}, ${hard_${param}}); ")
       endif()
       math(EXPR k "${k} + 1")
     endforeach()
@@ -112,8 +114,11 @@ function(weft_dispatch folder outside)
       endif()
       weft_case(rough_cases "m.params[0] = clamp(${value}, ${hard_${param}}); break;")
     endif()
-    if(NOT fibres STREQUAL "")
-      weft_case(fibres_cases "${fibres}break;")
+    if(NOT named STREQUAL "")
+      weft_case(named_cases "${named}break;")
+    endif()
+    if("${types}" MATCHES "Term")
+      weft_case(composed_cases "return true;")
     endif()
     string(APPEND prepared_members "    ${Name}Prepared ${name}; /* LOBE_${NAME} */\n")
     string(APPEND view_members "    ${Name}View ${name}; /* LOBE_${NAME} */\n")
@@ -191,6 +196,12 @@ foreach(id ${WEFT_LOBE_IDS})
   string(APPEND tables "static const WeftParamInfo ${name}_params[] = {${NAME}_PARAMS(PARAM_INFO){NULL, NULL, 0, 0, 0, 0, 0, NULL}};\n")
   string(APPEND infos "    {\"${id}\", ${NAME}_TRAITS, (int)(sizeof ${name}_params / sizeof *${name}_params) - 1, ${name}_params},\n")
   string(APPEND names "    {\"${name}\", \"${Name}\", \"${NAME}\", ${strips}},\n")
+  if(NOT fitted EQUAL -1)
+    weft_case(fitted_cases "return ${name}_fitted(${name}_of(m));")
+  endif()
+  if(NOT crease EQUAL -1)
+    weft_case(crease_cases "return ${name}_crease(k);")
+  endif()
   if(is_REFERENCE)
     weft_case(walked_cases "return ${name}_albedo(${name}_of(m), o, walks);")
     continue()
@@ -223,7 +234,7 @@ file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_ids.gen.h @ONLY CONTENT
 
 @places@")
 file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_infos.gen.h @ONLY CONTENT
-"/* lobe_infos.gen.h - made by cmake/lobes.cmake: what the lobes say of themselves, as data, and E of those that walk */
+"/* lobe_infos.gen.h - made by cmake/lobes.cmake: what the lobes say of themselves, as data, and what few of them have */
 @tables@static const WeftLobeInfo own_infos[LOBE_COUNT] = {
 @infos@};
 static const LobeNames own_names[LOBE_COUNT] = {
@@ -232,6 +243,18 @@ static const LobeNames own_names[LOBE_COUNT] = {
 float lobe_walked_albedo(const Lobe *m, Dir o, int walks) {
     switch (m->id) {
 @walked_cases@    default: return 0.0f;
+    }
+}
+
+float lobe_fitted_first(const Lobe *m) {
+    switch (m->id) {
+@fitted_cases@    default: return m->params[0];
+    }
+}
+
+static float crease_of(int id, int k) {
+    switch (id) {
+@crease_cases@    default: return 0.0f;
     }
 }
 ")

@@ -103,8 +103,10 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
     if (result != WEFT_OK) return result;
     model->surface = material_plain(&model->material);
     model->choices = material_choices(&model->material);
-    if (is_walk(model->choices.sheen_lobe) || is_walk(model->choices.diffuse))
-        return fail(error, WEFT_MESSAGE_EXPORT_LOBE, "fibre-walk", NULL);
+    const int chosen[] = {model->choices.sheen_lobe, model->choices.diffuse};
+    for (int k = 0; k < 2; k++)
+        if (is_walk(chosen[k]))
+            return fail(error, WEFT_MESSAGE_EXPORT_LOBE, weft_lobe_info(chosen[k])->id, NULL);
     find_zeros(draft, model);
     find_facts(draft, model);
     model->slots = composition_slots(&model->choices, model->zero, false);

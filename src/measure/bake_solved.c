@@ -43,10 +43,11 @@ WeftResult bake_solved(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *
     int w = desc->width, h = desc->height, mus = desc->form.transposed ? h : w,
         alphas = desc->form.transposed ? w : h;
     Lobe lobe = lobe_default(LOBE_FIBRE);
-    if (desc->lobe && desc->lobe->lobe != LOBE_FIBRE && desc->lobe->lobe != LOBE_FIBRE_WALK)
+    if (desc->lobe && (weft_lobe_param_find(desc->lobe->lobe, "density") != FIBRE_DENSITY ||
+                       weft_lobe_param_find(desc->lobe->lobe, "tilt") != FIBRE_TILT))
         return fail(error, WEFT_MESSAGE_DESC, "fibre-truth", "density is that of fibre or fibre-walk");
     if (desc->lobe) lobe_of(desc->lobe, &lobe);
-    if (lobe.params[2] > 0.0f)
+    if (lobe.params[FIBRE_TILT] > 0.0f)
         return fail(error, WEFT_MESSAGE_DESC, "tilt", "the table is of upright fibres");
     double *block = alloc_array((size_t)mus + (size_t)alphas * (1 + 2 * (size_t)mus), sizeof *block);
     if (!block) return fail(error, WEFT_MESSAGE_MEMORY, "fibre-truth", NULL);
@@ -62,7 +63,7 @@ WeftResult bake_solved(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *
     }
     SolvedSets t = {.desc = desc,
                     .out = out,
-                    .density = (double)lobe.params[1],
+                    .density = (double)lobe.params[FIBRE_DENSITY],
                     .mu = mu,
                     .alpha = alpha,
                     .mus = mus,

@@ -25,7 +25,7 @@ FN float compose_ior(const Surface *s) {
 /* A lobe of facets as the composition that it is. */
 FN Lobe compose_facets(Lobe lobe) {
     Proxy p = lobe_proxy(&lobe);
-    if (lobe.id == LOBE_COOK_TORRANCE || p.fit != PROXY_FACETS) return lobe;
+    if (lobe_is_composed(lobe.id) || p.fit != PROXY_FACETS) return lobe;
     Lobe m = lobe_rough(LOBE_COOK_TORRANCE, sqrt(p.ay));
     if (p.ax < p.ay || p.ax > p.ay) {
         m.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
@@ -55,14 +55,14 @@ FN void compose_surface(Surface *s, Choices c) {
 
 /* Returns true where terms of the sheen are chosen, or the lobe that is made of terms. */
 FN bool compose_sheen_is_free(Choices c) {
-    return c.sheen_lobe == LOBE_COOK_TORRANCE || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
+    return lobe_is_composed(c.sheen_lobe) || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
 }
 
 /* A sheen of free terms. What is not chosen is that of the workflow's or profile's sheen where that is such a
  * composition and stays, and else of charlie-neubelt. */
 FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     Lobe m = lobe;
-    if (c.sheen_lobe >= 0 || lobe.id != LOBE_COOK_TORRANCE) {
+    if (c.sheen_lobe >= 0 || !lobe_is_composed(lobe.id)) {
         m = lobe_rough(LOBE_COOK_TORRANCE, s->sheen_roughness);
         m.params[COOK_TORRANCE_D] = to_float(D_CHARLIE);
         m.params[COOK_TORRANCE_V] = to_float(V_NEUBELT);
@@ -77,9 +77,9 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         Lobe lobe = m->sheen.lobe;
         if (c.sheen_lobe >= 0) {
             lobe = lobe_rough(c.sheen_lobe, s->sheen_roughness);
-            lobe = lobe_fibres(lobe, s->sheen_density, s->nap, azimuth_of(s->nap_direction));
-            if (s->sheen_beta > 0.0f && (lobe.id == LOBE_EXPONENTIAL || lobe.id == LOBE_EXPONENTIAL_LIT))
-                lobe.params[0] = max(s->sheen_beta, 0.01f);
+            float beta = s->sheen_beta > 0.0f ? s->sheen_beta : -1.0f;
+            lobe = lobe_named(
+                lobe, lobe_named_of(s->sheen_density, s->nap, azimuth_of(s->nap_direction), beta, -1.0f));
         }
         if (free) lobe = compose_sheen(lobe, s, c);
         m->nap = nap_of(s->nap, s->nap_direction);
@@ -98,7 +98,8 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         m->specular.lobe = compose_terms(compose_facets(m->specular.lobe), c.d, c.v, c.f, s);
     }
     if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
-        Lobe lobe = lobe_rough(c.diffuse, c.diffuse == LOBE_WRAP ? s->subsurface : s->roughness);
+        Lobe lobe = lobe_named(lobe_rough(c.diffuse, s->roughness),
+                               lobe_named_of(-1.0f, -1.0f, -1.0f, -1.0f, s->subsurface));
         Rgb color = m->diffuse.f0;
         slot_make(&m->diffuse, lobe, color, color, 1.0f, m->diffuse.normal, m->diffuse.grazing);
     }
@@ -118,7 +119,7 @@ FN SheenE stack_albedo(const Stack *m, Dir w) {
 FN void compose_dust(Stack *m, const Surface *s) {
     if (s->dust <= DUST_LEAST) return;
     m->dust_amount = s->dust;
-    slot_even(&m->dust, lobe_rough(LOBE_LTC_FIBRE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
+    slot_even(&m->dust, lobe_rough(DUST_LOBE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
     m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
 }
 

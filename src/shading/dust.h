@@ -16,6 +16,9 @@
 
 #include "shading/surface.h"
 
+/* The lobe of a slab of it (dust_lobe.h). */
+#define DUST_LOBE LOBE_LTC_FIBRE
+
 /* Up to this there is none: nobody sees it, and it gets no samples. */
 #define DUST_LEAST 1e-5f
 

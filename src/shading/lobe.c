@@ -83,13 +83,11 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
 }
 
 void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log) {
-    if (lobe->id != LOBE_FIBRE) return;
-    const float *p = lobe->params;
-    float taken = fibre_nap_of(p[0], p[2], p[3]).alpha;
-    if (taken > p[0])
+    float taken = lobe_fitted_first(lobe), given = lobe->params[0];
+    if (taken > given)
         warn(log, WEFT_MESSAGE_PARAM_FITTED, name,
              "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk has no such bound",
-             (double)p[0], (double)taken);
+             (double)given, (double)taken);
 }
 
 void weft_lobe_fitted(const WeftLobe *lobe, const char *name, const WeftLog *log) {

@@ -40,6 +40,15 @@
  *
  *   Proxy name_proxy(Name m)
  *
+ * One that computes with another first parameter than it is given where it was not fitted says with which:
+ *
+ *   float name_fitted(Name m)
+ *
+ * One whose f bends as a function of cos_i, since it mixes what is between the columns of a table linearly,
+ * lists these cosines, rising, and then 0:
+ *
+ *   float name_crease(int k)
+ *
  * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
 
 /* The most that a lobe has. */
@@ -50,6 +59,20 @@ STRUCT(Lobe) {
     int id; /* one of LOBE_... */
     float params[LOBE_PARAMS_MAX];
 };
+
+/* The numbers that a material gives the parameters of these names; one below 0 leaves its parameter as it is.
+ * Angles are radians. Density, tilt and azimuth leave the first parameter alone, which is the roughness's. */
+STRUCT(LobeNamed) { float density, tilt, azimuth, beta, wrap; };
+
+FN LobeNamed lobe_named_of(float density, float tilt, float azimuth, float beta, float wrap) {
+    LobeNamed n;
+    n.density = density;
+    n.tilt = tilt;
+    n.azimuth = azimuth;
+    n.beta = beta;
+    n.wrap = wrap;
+    return n;
+}
 
 /* Whoever makes a lobe makes the tables that it reads; a shader has them already. */
 #ifndef LOBE_TABLES_MAKE

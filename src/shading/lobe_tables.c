@@ -47,13 +47,6 @@ static TableRef make_fibre(void) {
                        log2(alpha->hard_high), planes);
 }
 
-int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]) {
-    if (id != LOBE_FIBRE_TABLE) return 0;
-    int last = table_fibre_table_width - 1;
-    for (int k = 1; k < last; k++) cosines[k - 1] = fibre_table_cosine((float)k / (float)last);
-    return last - 1;
-}
-
 static void make_baked(void) {
     lobe_table_refs[1] = make_ltc_fibre();
     lobe_table_refs[2] = make_fibre();
@@ -62,10 +55,13 @@ static void make_baked(void) {
 
 static void make_computed(void) { lobe_table_refs[0] = make_charlie_neubelt(); }
 
+/* The lobe that reads the table which takes a while to make. */
+static const int computed_for = LOBE_CHARLIE_NEUBELT_NORMALISED;
+
 void lobe_tables_make_for(int id) {
     static pthread_once_t baked = PTHREAD_ONCE_INIT, computed = PTHREAD_ONCE_INIT;
     pthread_once(&baked, make_baked);
-    if (id == LOBE_CHARLIE_NEUBELT_NORMALISED) pthread_once(&computed, make_computed);
+    if (id == computed_for) pthread_once(&computed, make_computed);
 }
 
-void lobe_tables_make(void) { lobe_tables_make_for(LOBE_CHARLIE_NEUBELT_NORMALISED); }
+void lobe_tables_make(void) { lobe_tables_make_for(computed_for); }

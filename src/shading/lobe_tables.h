@@ -23,11 +23,6 @@ void lobe_tables_make(void);
 /* Makes the tables that a lobe reads, and all that need no computing. */
 void lobe_tables_make_for(int id);
 
-/* The cosines, rising, at which f of a lobe bends as a function of cos_i, since what is between the columns
- * of its table is mixed linearly; their number, 0 for most lobes. */
-enum { LOBE_CREASES_MOST = 62 };
-int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]);
-
 #define LOBE_TABLE_GET(name, index)                                                                          \
     FN TableRef lobe_table_##name(void) { return lobe_table_refs[index]; }
 LOBE_TABLES(LOBE_TABLE_GET)

@@ -55,12 +55,12 @@ void outside_rough(Lobe *m, float roughness) {
     m->params[0] = clamp(value, p->hard_low, p->hard_high);
 }
 
-void outside_fibres(Lobe *m, float density, float tilt, float azimuth) {
-    static const char *const names[] = {"density", "tilt", "azimuth"};
-    const float values[] = {density, tilt, azimuth};
-    for (int k = 0; outside_lobe(m->id) && k < 3; k++) {
+void outside_named(Lobe *m, LobeNamed n) {
+    static const char *const names[] = {"density", "tilt", "azimuth", "beta", "wrap"};
+    const float values[] = {n.density, n.tilt, n.azimuth, n.beta, n.wrap};
+    for (int k = 0; outside_lobe(m->id) && k < 5; k++) {
         int at = weft_lobe_param_find(m->id, names[k]);
-        if (at > 0) lobe_set(m, at, values[k]);
+        if (at > (k < 3 ? 0 : -1) && values[k] >= 0.0f) lobe_set(m, at, values[k]);
     }
 }
 

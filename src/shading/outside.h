@@ -39,7 +39,7 @@ typedef struct OutsideView {
 
 void outside_default(Lobe *m);
 void outside_rough(Lobe *m, float roughness);
-void outside_fibres(Lobe *m, float density, float tilt, float azimuth);
+void outside_named(Lobe *m, LobeNamed n);
 void outside_prepare(Outside m, OutsidePrepared *p);
 void outside_view(const OutsidePrepared *p, Dir o, OutsideView *w);
 LobeValue outside_value(const OutsidePrepared *p, const OutsideView *w, Angles a);

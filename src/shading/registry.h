@@ -54,6 +54,9 @@ LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
 LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
 
+static inline Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth) {
+    return lobe_named(lobe, lobe_named_of(density, tilt, azimuth, -1.0f, -1.0f));
+}
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
 
@@ -69,6 +72,13 @@ bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
 
 /* Says where a lobe computes with another number than it has: weft_lobe_fitted. */
 void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log);
+
+/* The first parameter that it computes with. */
+float lobe_fitted_first(const Lobe *lobe);
+
+/* The cosines of name_crease (lobe.h), and their number, 0 for most lobes. */
+enum { LOBE_CREASES_MOST = 62 };
+int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]);
 
 /* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
 LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);

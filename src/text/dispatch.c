@@ -3,6 +3,7 @@
 
 #include "text/dispatch.h"
 
+#include "shading/dust.h"
 #include "shading/lobe_tables.h"
 #include "shading/slots.h"
 #include "text/outside_text.h"
@@ -23,8 +24,10 @@ void text_lobe(Text *text, int id) {
 
 bool text_weight_is_cosine(int id) {
     const OutsideLobe *lobe = outside_lobe(id);
-    return lobe ? strstr(lobe->text, "fresnel_weight_of_cosine(") || strstr(lobe->text, "term_f(")
-                : id == LOBE_COOK_TORRANCE;
+    char file[128];
+    snprintf(file, sizeof file, "lobes/%s.h", lobe_names(id)->prefix);
+    const char *text = lobe ? lobe->text : weft_catalogue_text(file);
+    return strstr(text, "fresnel_weight_of_cosine(") || strstr(text, "term_f(");
 }
 
 /* The lobe whose LOBE_ constant a line names, in a comment too; -1: it is not one lobe's alone. */
@@ -124,5 +127,5 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
     text_line(text, "\nfloat lobe_f(Lobe m, Angles a) { return lobe_value(m, a).f; }\n"
                     "float lobe_fresnel_weight(Lobe m, Angles a) { return lobe_value(m, a).s; }\n"
                     "float lobe_pdf(Lobe m, Angles a) { return lobe_value(m, a).pdf; }");
-    if (!there[LOBE_LTC_FIBRE]) put_no_dust(text);
+    if (!there[DUST_LOBE]) put_no_dust(text);
 }

@@ -23,8 +23,8 @@ bool text_weight_is_cosine(int id);
  *
  * and f, s and pdf of lobe_value alone as lobe_f, lobe_fresnel_weight and lobe_pdf. Of a lobe that is not among these,
  * lobe_value is 0, lobe_second is f0, and there is no sample. A surface (compose.h) asks for LOBE_LAMBERT and
- * LOBE_GGX even where its profile then takes others in their place; and for LOBE_LTC_FIBRE where it has dust,
- * of which nothing is seen without. */
+ * LOBE_GGX even where its profile then takes others in their place; and for DUST_LOBE where it has dust, of
+ * which nothing is seen without. */
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
 /* The lobes that a slot of a stack may hold. */

@@ -39,12 +39,14 @@ static void put_common(const OutsideLobe *lobe, Buffer *out) {
                                                         : mixed,
                     out);
     }
-    buffer_print(out, "}\nFN void %s_fibres(Lobe *m, float density, float tilt, float azimuth) {\n",
-                 lobe->names.prefix);
-    for (int k = 1; k < lobe->info.param_count; k++)
-        if (strcmp(p[k].name, "density") == 0 || strcmp(p[k].name, "tilt") == 0 ||
-            strcmp(p[k].name, "azimuth") == 0)
-            put_clamped(&p[k], k, p[k].name, out);
+    buffer_print(out, "}\nFN void %s_named(Lobe *m, LobeNamed n) {\n", lobe->names.prefix);
+    for (int k = 0; k < lobe->info.param_count; k++) {
+        snprintf(mixed, sizeof mixed, " %s ", p[k].name);
+        if (!strstr(k ? " density tilt azimuth beta wrap " : " beta wrap ", mixed)) continue;
+        snprintf(mixed, sizeof mixed, "n.%s", p[k].name);
+        buffer_print(out, "    if (%s >= 0.0f)\n    ", mixed);
+        put_clamped(&p[k], k, mixed, out);
+    }
     buffer_print(out, "}\n");
 }
 

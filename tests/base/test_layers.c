@@ -1,4 +1,5 @@
-/* A folder of src/ includes only folders before it; the programs stand on the public headers alone */
+/* A folder of src/ includes only folders before it; the programs stand on the public headers alone; only the
+ * files of lobes ask which lobe it is */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,6 +64,29 @@ static bool wrong_include(int folder, const char *text, char bad[512]) {
     return false;
 }
 
+static bool ends_with(const char *text, const char *end, const char *word) {
+    size_t n = strlen(word);
+    while (end > text && end[-1] == ' ') end--;
+    return (size_t)(end - text) >= n && strncmp(end - n, word, n) == 0;
+}
+
+/* Returns true if a line compares with the number of one lobe: what holds of a lobe belongs in its file. */
+static bool asks_for_a_lobe(const char *line) {
+    static const char *const others[] = {"LOBE_COUNT", "LOBE_MOST", "LOBE_PARAMS_MAX"};
+    for (const char *c = line; (c = strstr(c, "LOBE_")); c += strlen("LOBE_")) {
+        size_t n = strspn(c, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
+        bool other = c > line && (c[-1] == '_' || (c[-1] >= 'A' && c[-1] <= 'Z'));
+        for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
+            other |= n == strlen(others[k]) && strncmp(c, others[k], n) == 0;
+        const char *after = c + n + strspn(c + n, " ");
+        if (other || n == strlen("LOBE_")) continue; /* the latter of a format */
+        if (ends_with(line, c, "==") || ends_with(line, c, "!=") || ends_with(line, c, "case") ||
+            strncmp(after, "==", 2) == 0 || strncmp(after, "!=", 2) == 0)
+            return true;
+    }
+    return false;
+}
+
 static char *read_source(const char *path) {
     FILE *stream = fopen(path, "rb");
     if (!stream) return NULL;
@@ -103,13 +127,20 @@ static int check_folder(int folder, const char *relative, bool *failed) {
             print_error("src/%s includes %s\n", inner, bad);
             *failed = true;
         }
+        const char *cursor = text;
+        char line[512];
+        while (strncmp(inner, "shading/lobes/", 14) != 0 && next_line(&cursor, line))
+            if (asks_for_a_lobe(line)) {
+                print_error("src/%s asks for a lobe by its number: %s\n", inner, line);
+                *failed = true;
+            }
         free(text);
     }
     closedir(open);
     return files;
 }
 
-static void folders_include_only_downwards(void **state) {
+static void sources_keep_the_rules(void **state) {
     (void)state;
     bool failed = false;
     int files = 0;
@@ -153,6 +184,15 @@ static void an_upward_include_is_found(void **state) {
     assert_true(wrong_include(view, "#include \"shading/registry.h\"\n", bad));
 }
 
+static void a_question_for_a_lobe_is_found(void **state) {
+    (void)state;
+    assert_true(asks_for_a_lobe("    if (id == LOBE_GGX) return;"));
+    assert_true(asks_for_a_lobe("    if (LOBE_GGX != id) return;"));
+    assert_true(asks_for_a_lobe("    case LOBE_LTC_FIBRE:"));
+    assert_false(asks_for_a_lobe("    Lobe lobe = lobe_default(LOBE_GGX);"));
+    assert_false(asks_for_a_lobe("    return id == LOBE_COUNT || m == WEFT_MESSAGE_LOBE_NAME;"));
+}
+
 /* Public headers include public headers only. */
 static void public_headers_stand_alone(void **state) {
     (void)state;
@@ -175,9 +215,8 @@ static void public_headers_stand_alone(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(folders_include_only_downwards),
-        cmocka_unit_test(every_folder_is_in_the_list),
-        cmocka_unit_test(an_upward_include_is_found),
+        cmocka_unit_test(sources_keep_the_rules),      cmocka_unit_test(a_question_for_a_lobe_is_found),
+        cmocka_unit_test(every_folder_is_in_the_list), cmocka_unit_test(an_upward_include_is_found),
         cmocka_unit_test(public_headers_stand_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -151,9 +151,8 @@ FN void fibre_view(const FibrePrepared *p, Dir o, FibreView *w) {
 }
 
 FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
-    float nu_i = dir_dot(a.i, p->nap.axis);
-    float single =
-        flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, flake_sigma(p->nap.s, nu_i), a.o, a.i);
+    float nu_i = dir_dot(a.i, p->nap.axis), sigma_i = flake_sigma(p->nap.s, nu_i);
+    float single = flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, sigma_i, a.o, a.i);
     FibreSide i = fibre_side(p->model, a.i.z, nu_i);
     float turn = fibre_turn(w->side, i, a.o, a.i), multiple = fibre_multiple(p->model, w->side, i, turn);
     LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_sample_pdf(p->nap, w->draw, w->ltc, a));
@@ -166,6 +165,8 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
 FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {
     return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
+FN float fibre_fitted(Fibre m) { return fibre_nap_of(m.alpha, m.tilt, m.azimuth).alpha; }
+
 /* Those that lean are broad: fibre_nap_of sees to that. */
 FN Proxy fibre_proxy(Fibre m) {
     if (m.tilt < 0.03f) return proxy_fibres(m.alpha);

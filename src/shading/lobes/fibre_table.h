@@ -50,6 +50,11 @@ FN float fibre_table_cosine(float column) {
     return root * root - 1e-3f;
 }
 
+FN float fibre_table_crease(int k) {
+    int last = lobe_table_fibre().columns - 1;
+    return k + 1 < last ? fibre_table_cosine(to_float(k + 1) / to_float(last)) : 0.0f;
+}
+
 /* Rows are uniform in the logarithm of alpha. */
 FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
     FibreTableSpot s;
