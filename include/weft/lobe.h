@@ -62,8 +62,8 @@ WEFT_API int weft_lobe_param_find(int lobe, const char *name);
  * A file of the same name takes the place of the one before; what is rendering goes on with that. May be
  * called from any thread, while others use lobes too; a WeftLobeInfo stays as it was. Fails with
  * WEFT_MESSAGE_LOBE_FILE, _LOBE_COMPILE, _TEXT_DIALECT, _COMPILER or as reading a file does; what there was
- * then stays. */
-WEFT_API WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error);
+ * then stays. Warns log (may be NULL) with WEFT_MESSAGE_CACHE_IGNORED where the cache cannot keep it. */
+WEFT_API WeftResult weft_lobe_load(const char *path, int *lobe, const WeftLog *log, WeftError *error);
 
 /* The layer rules by index, and a line on what each does; NULL past the end. */
 WEFT_API const char *weft_layer_name(int layer);

@@ -20,6 +20,7 @@ static void keep(const char *path) {
 }
 
 int lobes_take(Options *options) {
+    const WeftLog log = {.fn = report_warning};
     WeftError error;
     int cursor = 0, ids = 0;
     for (const char *value; (value = option_next(options, "--lobe", &cursor));) {
@@ -28,7 +29,7 @@ int lobes_take(Options *options) {
             if (ids++) return report(WEFT_USAGE, "--lobe: is given twice");
             continue;
         }
-        if (weft_lobe_load(value, NULL, &error) != WEFT_OK) return report_error(&error);
+        if (weft_lobe_load(value, NULL, &log, &error) != WEFT_OK) return report_error(&error);
         keep(value);
         option_drop(options, --cursor);
     }

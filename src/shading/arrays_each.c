@@ -4,42 +4,8 @@
  * What depends on parameters alone is made anew for each element, so these take longer than those of
  * arrays.c, which make it once. */
 #define FN_NOINLINE FN /* no loop of vectors has a call */
-#include "shading/each.h"
-#include "shading/loop.h"
+#include "shading/each_loop.h"
 #include "shading/registry.h"
-
-/* The arrays of a pair in variables of their own, as loops want them. */
-#define TAKE_PAIRS(e)                                                                                        \
-    const float *ox = (e)->o[0], *oy = (e)->o[1], *oz = (e)->o[2], *ix = (e)->i[0], *iy = (e)->i[1],         \
-                *iz = (e)->i[2];                                                                             \
-    float *r = (e)->f[0]
-#define TAKE_COLORS(e)                                                                                       \
-    const float *r0 = (e)->f0[0], *g0 = (e)->f0[1], *b0 = (e)->f0[2];                                        \
-    const float *r90 = (e)->f90[0], *g90 = (e)->f90[1], *b90 = (e)->f90[2];                                  \
-    float *g = (e)->f[1], *b = (e)->f[2]
-
-/* The colours of an element, and f in them; a lobe of one colour leaves the second alone. */
-#define PUT_COLORS(value, color)                                                                             \
-    r[k] = (value)*color(r0[k], r90[k]);                                                                     \
-    g[k] = (value)*color(g0[k], g90[k]);                                                                     \
-    b[k] = (value)*color(b0[k], b90[k])
-#define FIRST_COLOR(first, second)  ((void)(second), (first))
-#define MIXED_COLOR(first, second)  mix(first, second, s)
-#define TINTED_COLOR(first, second) ((void)(second), tint_color(t, first))
-
-#define TAKE_DRAWS(e)                                                                                        \
-    const float *ox = (e)->o[0], *oy = (e)->o[1], *oz = (e)->o[2], *us = (e)->u, *vs = (e)->v;               \
-    float *x = (e)->drawn[0], *y = (e)->drawn[1], *z = (e)->drawn[2]
-
-/* An o that counts, or the normal. */
-#define TAKE_ONE(o, counts)                                                                                  \
-    Dir o = {ox[k], oy[k], oz[k]};                                                                           \
-    bool counts = pair_counts(o, dir(0.0f, 0.0f, 1.0f));                                                     \
-    o = (Dir) { counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f }
-#define PUT_DRAWN(i, counts)                                                                                 \
-    x[k] = counts ? (i).x : 0.0f;                                                                            \
-    y[k] = counts ? (i).y : 0.0f;                                                                            \
-    z[k] = counts ? (i).z : 0.0f
 
 /* The composed lobe, one term at a time as in arrays.c. */
 #define TAKE_TERMS(e)                                                                                        \

@@ -120,8 +120,16 @@ static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *r
     no_loop(m, n, ox, oy, oz, ix, iy, iz, b);
 }
 
+static void no_each(const Each *e, size_t n) {
+    for (int c = 0; c < 3; c++) memset(e->f[c], 0, n * sizeof *e->f[c]);
+    memset(e->pdf, 0, n * sizeof *e->pdf);
+}
+static void no_drawn(const Each *e, size_t n) {
+    for (int c = 0; c < 3; c++) memset(e->drawn[c], 0, n * sizeof *e->drawn[c]);
+}
+
 const PluginLoops *outside_loops(int id) {
-    static const PluginLoops none = {no_loop, no_loop, no_loop, no_tinted};
+    static const PluginLoops none = {no_loop, no_loop, no_loop, no_tinted, no_each, no_drawn};
     const Plugin *plugin = plugin_of(id);
     return plugin ? plugin->loops : &none;
 }

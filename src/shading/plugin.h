@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "shading/lobe.h"
+#include "shading/each.h"
 #include "shading/terms/d_ggx.h"
 #include "shading/traits.h"
 
@@ -23,9 +23,12 @@ typedef void PluginTinted(const Lobe *m, const float c[3], size_t n, const float
                           const float *restrict iy, const float *restrict iz, float *restrict r,
                           float *restrict g, float *restrict b);
 
+typedef void PluginEach(const Each *e, size_t n); /* each.h */
+
 typedef struct PluginLoops {
     PluginLoop *f, *pdf, *s;
     PluginTinted *tinted;
+    PluginEach *each, *drawn_each;
 } PluginLoops;
 
 /* p and w are records of the lobe's own, of these sizes; the calls are those of lobe.h. */

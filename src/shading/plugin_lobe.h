@@ -5,7 +5,7 @@
 #ifndef WEFT_SHADING_PLUGIN_LOBE_H
 #define WEFT_SHADING_PLUGIN_LOBE_H
 
-#include "shading/loop.h"
+#include "shading/each_loop.h"
 #include "shading/plugin.h"
 
 #define PLUGIN_TAKE(type, name, ...) r.name = (type)m->params[k++];
@@ -22,12 +22,14 @@
         return r;                                                                                            \
     }
 
-#define PLUGIN_LOOPS_OF(name, Name)                                                                          \
+#define PLUGIN_LOOPS_OF(name, Name, NAME, second)                                                            \
     LOBE_LOOP(f, name, Name)                                                                                 \
     LOBE_LOOP(pdf, name, Name)                                                                               \
     LOBE_LOOP(s, name, Name)                                                                                 \
     TINTED_LOOP(name, Name)                                                                                  \
-    const PluginLoops weft_lobe_loops = {name##_f_n, name##_pdf_n, name##_s_n, name##_tinted_n};
+    EACH_LOOPS(name, Name, NAME, second)                                                                     \
+    const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_s_n,                         \
+                                         name##_tinted_n, name##_each_n, name##_drawn_each_n};
 
 #define PLUGIN_SECOND(name)                                                                                  \
     static float plugin_second(const Lobe *m, float f0, float f90) {                                         \

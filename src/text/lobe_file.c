@@ -205,12 +205,12 @@ static WeftResult take_plugin(LobeFile *own, const Plugin *plugin, const char *p
     return result;
 }
 
-static WeftResult take(LobeFile *own, const char *path, int *lobe, WeftError *error) {
+static WeftResult take(LobeFile *own, const char *path, int *lobe, const WeftLog *log, WeftError *error) {
     const Plugin *plugin;
     WeftResult result = check_names(own, path, error);
     if (result == WEFT_OK) result = check_parts(own, path, error);
     if (result == WEFT_OK) result = check_dialect(own, path, error);
-    if (result == WEFT_OK) result = plugin_make(&own->lobe.names, path, own->text, &plugin, error);
+    if (result == WEFT_OK) result = plugin_make(&own->lobe.names, path, own->text, &plugin, log, error);
     if (result == WEFT_OK) result = take_plugin(own, plugin, path, error);
     if (result == WEFT_OK && !outside_take(&own->lobe, lobe))
         return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "there are %d already, and no more fit",
@@ -218,7 +218,7 @@ static WeftResult take(LobeFile *own, const char *path, int *lobe, WeftError *er
     return result;
 }
 
-WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error) {
+WeftResult weft_lobe_load(const char *path, int *lobe, const WeftLog *log, WeftError *error) {
     char name[NAME_MOST + 1];
     FileBytes file;
     int id;
@@ -239,7 +239,7 @@ WeftResult weft_lobe_load(const char *path, int *lobe, WeftError *error) {
     free(file.data);
     if (!own) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     set_names(own, name);
-    result = take(own, path, lobe ? lobe : &id, error);
+    result = take(own, path, lobe ? lobe : &id, log, error);
     if (result != WEFT_OK) free(own);
     return result;
 }

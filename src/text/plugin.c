@@ -75,7 +75,8 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     put_file(flat, file, bytes);
     put_included(flat, "shading/plugin_lobe.h");
     buffer_print(&flat->text, "PLUGIN_RECORD(%s, %s, %s)\n", name, record, macros);
-    buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s)\n#else\n", name, record);
+    buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s, %s, %s%s)\n#else\n", name, record,
+                 macros, second ? name : "EACH_F90", second ? "_second" : "");
     if (second) buffer_print(&flat->text, "PLUGIN_SECOND(%s)\n", name);
     if (strip) buffer_print(&flat->text, "PLUGIN_STRIP(%s)\n", name);
     if (proxy) buffer_print(&flat->text, "PLUGIN_PROXY(%s)\n", name);
@@ -96,7 +97,7 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     ARCH "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",         \
         "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
 static const char *const half_flags[2][16] = {
-    {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-c"},
+    {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-DFN_NOINLINE=FN", "-c"},
     {COMMON, "-ffp-contract=off", "-shared"}};
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
@@ -275,12 +276,14 @@ static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
 }
 
 /* A library that is not kept is made again. */
-static void keep(const char *library, const char *cached) {
-    if (chmod(library, 0700) == 0) (void)rename(library, cached);
+static void keep(const char *library, const char *cached, const WeftLog *log) {
+    if (chmod(library, 0700) != 0 || rename(library, cached) != 0)
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, cached,
+             "it cannot be written; the lobe is compiled at each start");
 }
 
 static WeftResult make(const Compiler *compiler, const Buffer *text, const char *path, const char *file,
-                       const char *cached, const Plugin **out, WeftError *error) {
+                       const char *cached, const Plugin **out, const WeftLog *log, WeftError *error) {
     CompileWork work;
     if (!work_begin(&work, cached)) return fail(error, WEFT_MESSAGE_FILE_WRITE, work.folder, NULL);
     WeftResult result = compile(&work, compiler, text, path, file, error);
@@ -290,14 +293,14 @@ static WeftResult make(const Compiler *compiler, const Buffer *text, const char 
         if (!*out)
             result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded%s%s", why ? ": " : "",
                           why ? why : "");
-        if (*out && cached) keep(work.library, cached);
+        if (*out && cached) keep(work.library, cached, log);
     }
     work_end(&work);
     return result;
 }
 
 WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
-                       WeftError *error) {
+                       const WeftLog *log, WeftError *error) {
     Flat flat = {0};
     Compiler compiler;
     char cached[CACHE_PATH_SIZE], file[128];
@@ -311,9 +314,11 @@ WeftResult plugin_make(const LobeNames *names, const char *path, const char *byt
     }
     snprintf(file, sizeof file, "%s.h", names->prefix);
     bool caches = find_place(cached, key_of(&flat.text, &compiler));
+    if (!caches)
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "there is no folder of the user's own to keep it in");
     WeftResult result = WEFT_OK;
     *out = caches && cache_is_private(cached) ? load(cached) : NULL;
-    if (!*out) result = make(&compiler, &flat.text, path, file, caches ? cached : NULL, out, error);
+    if (!*out) result = make(&compiler, &flat.text, path, file, caches ? cached : NULL, out, log, error);
     buffer_free(&flat.text);
     return result;
 }

@@ -9,6 +9,6 @@
  * loads it, for as long as the program runs. path: of its file, for messages. Fails with
  * WEFT_MESSAGE_COMPILER, or with _LOBE_COMPILE and the line. */
 WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
-                       WeftError *error);
+                       const WeftLog *log, WeftError *error);
 
 #endif

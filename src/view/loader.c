@@ -194,7 +194,7 @@ static WeftResult load(Loader *self, WeftError *error) {
     const WeftLog log = {on_warning, loaded};
     const ViewDesc *desc = self->desc;
     EnvironmentState environment = environment_state_studio();
-    WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, error) : WEFT_OK;
+    WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, &log, error) : WEFT_OK;
     if (result != WEFT_OK) return result;
     loaded->taken = loaded->lobe[0] != 0;
     result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);

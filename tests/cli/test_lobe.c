@@ -262,7 +262,7 @@ static void the_toy_vectorises(void **state) {
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
     Ran ran = run_shell("XDG_CACHE_HOME=$PWD/cache CC= $0 models toy --lobe '" TOY "' >/dev/null && "
                         "'" WEFT_SOURCE_DIR
-                        "/tests/vector.sh' cache/weft/*.so 4; code=$?; rm -r cache; exit $code");
+                        "/tests/vector.sh' cache/weft/*.so 6; code=$?; rm -r cache; exit $code");
     if (ran.code != 0 && ran.code != 77) fail_msg("%s%s", ran.out, ran.err);
     ran_free(&ran);
 #else

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "weft/arrays.h"
 #include "weft/lobe.h"
 
 static char folder[] = "/tmp/weft-lobe-file-XXXXXX";
@@ -53,7 +54,7 @@ static void write_lobe(const char *name, const char *bright) {
 static int load(const char *file) {
     WeftError error;
     int lobe = -1;
-    if (weft_lobe_load(file, &lobe, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_lobe_load(file, &lobe, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     return lobe;
 }
 
@@ -90,7 +91,7 @@ static void another_file_of_the_name_takes_its_place(void **state) {
     assert_non_null(stream);
     assert_true(fputs("nonsense\n", stream) >= 0);
     assert_int_equal(fclose(stream), 0);
-    assert_int_equal(weft_lobe_load("a.h", NULL, &error), WEFT_INPUT);
+    assert_int_equal(weft_lobe_load("a.h", NULL, NULL, &error), WEFT_INPUT);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_COMPILE);
     assert_true(is(value_of(a), 2.0f)); /* what there was stays */
 }
@@ -138,16 +139,67 @@ static void there_is_room_for_eight(void **state) {
     WeftError error;
     int count = weft_lobe_count();
     write_lobe("i", "1.0f");
-    assert_int_equal(weft_lobe_load("i.h", NULL, &error), WEFT_INPUT);
+    assert_int_equal(weft_lobe_load("i.h", NULL, NULL, &error), WEFT_INPUT);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_FILE);
     assert_non_null(strstr(error.text, "there are 8 already"));
     assert_int_equal(weft_lobe_count(), count);
     assert_true(is(value_of(count), 0.0f)); /* no lobe, no light */
 }
 
+/* The loops of a lobe from outside take parameters and colours of each element, as those of the list. */
+static void elements_have_numbers_of_their_own(void **state) {
+    (void)state;
+    enum { N = 75 };
+    float o[3][N], i[3][N], u[N], v[N], level[N], red[N], f[N], pdf[N], drawn[3][N];
+    WeftError error;
+    write_lobe("a", "1.0f");
+    WeftLobes lobes = {.lobe = {.lobe = load("a.h"), .params = {1.0f}}, .params = {level}, .f0 = {red}};
+    for (int k = 0; k < N; k++) {
+        const float z = 0.1f + 0.01f * (float)k, x = 1.0f - z;
+        o[0][k] = 0.6f, o[1][k] = 0.0f, o[2][k] = 0.8f;
+        i[0][k] = x, i[1][k] = -x, i[2][k] = z;
+        u[k] = (float)k / N, v[k] = 1.0f - z, level[k] = 0.1f * (float)k, red[k] = z;
+    }
+    const WeftDirections wo = {o[0], o[1], o[2]}, wi = {i[0], i[1], i[2]};
+    assert_int_equal(weft_eval_each(&lobes, N, wo, wi, (WeftColors){f, NULL, NULL}, pdf, &error), WEFT_OK);
+    for (int k = 0; k < N; k++) {
+        const float a[3] = {o[0][k], o[1][k], o[2][k]}, b[3] = {i[0][k], i[1][k], i[2][k]};
+        assert_float_equal(f[k], level[k] * red[k], 1e-6f);
+        assert_float_equal(pdf[k], weft_lobe_pdf(&lobes.lobe, a, b), 1e-6f);
+    }
+    assert_int_equal(weft_sample_each(&lobes, N, wo, u, v, drawn[0], drawn[1], drawn[2], pdf, &error),
+                     WEFT_OK);
+    for (int k = 0; k < N; k++) {
+        const float a[3] = {o[0][k], o[1][k], o[2][k]}, at[2] = {u[k], v[k]};
+        float b[3];
+        weft_lobe_sample(&lobes.lobe, a, at, b);
+        for (int c = 0; c < 3; c++) assert_float_equal(drawn[c][k], b[c], 1e-5f);
+    }
+}
+
+static void on_warning(void *user, WeftMessage message, const char *text) {
+    (void)text;
+    *(int *)user += message == WEFT_MESSAGE_CACHE_IGNORED;
+}
+
+static void a_cache_that_keeps_nothing_is_told(void **state) {
+    (void)state;
+    int count = 0;
+    const WeftLog log = {on_warning, &count};
+    WeftError error;
+    write_lobe("a", "3.0f");
+    assert_int_equal(weft_lobe_load("a.h", NULL, &log, &error), WEFT_OK);
+    assert_int_equal(count, 0);
+    setenv("XDG_CACHE_HOME", "/dev/null", 1);
+    assert_int_equal(weft_lobe_load("a.h", NULL, &log, &error), WEFT_OK);
+    setenv("XDG_CACHE_HOME", folder, 1);
+    assert_int_equal(count, 1);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(another_file_of_the_name_takes_its_place),
-                                       cmocka_unit_test(one_that_is_used_may_change),
-                                       cmocka_unit_test(there_is_room_for_eight)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(another_file_of_the_name_takes_its_place),
+        cmocka_unit_test(one_that_is_used_may_change), cmocka_unit_test(elements_have_numbers_of_their_own),
+        cmocka_unit_test(a_cache_that_keeps_nothing_is_told), cmocka_unit_test(there_is_room_for_eight)};
     return cmocka_run_group_tests(tests, begin, end);
 }
