@@ -127,7 +127,7 @@ static int check_folder(int folder, const char *relative, bool *failed) {
             print_error("src/%s includes %s\n", inner, bad);
             *failed = true;
         }
-        const char *cursor = text;
+        const char *cursor = text ? text : "";
         char line[512];
         while (strncmp(inner, "shading/lobes/", 14) != 0 && next_line(&cursor, line))
             if (asks_for_a_lobe(line)) {
