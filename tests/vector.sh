@@ -1,7 +1,7 @@
 #!/bin/sh
 # Each loop over arrays of a lobe is one of vectors: its machine code, as built for AVX2, has a loop of packed arithmetic
-# without any of single numbers. Arguments: the compiled src/shading/arrays.c, arrays_each.c or a plugin, and the least number of loops
-# (40). Exit 77: skipped.
+# without any of single numbers. Arguments: the compiled src/shading/arrays.c, arrays_each.c or a plugin, the least number
+# of loops (40), and lobes.list with the ends of the names of the loops that each of its lobes has. Exit 77: skipped.
 set -eu
 command -v objdump >/dev/null || {
     echo "skipped: there is no objdump"
@@ -11,7 +11,14 @@ command -v objdump >/dev/null || {
 # row of its own; F = none (mixed_0) has nothing to work out.
 exceptions="charlie_neubelt_normalised_f_n charlie_neubelt_normalised_each_n ltc_fibre_each_n ltc_fibre_drawn_each_n \
 fibre_table_each_n mixed_0_n"
-objdump -d --no-show-raw-insn "$1" | awk -v exceptions="$exceptions" -v least="${2-40}" '
+# cook-torrance has a loop for each term, and fibre-walk, which walks, has none.
+wanted=
+if [ $# -gt 2 ]; then
+    for id in $(grep '^[a-z]' "$3" | grep -v -e '^cook-torrance$' -e '^fibre-walk$' | tr - _); do
+        for end in $4; do wanted="$wanted ${id}_$end"; done
+    done
+fi
+objdump -d --no-show-raw-insn "$1" | awk -v wanted="$wanted" -v exceptions="$exceptions" -v least="${2-40}" '
 function judge(k, j, packed, single, best) {
     if (name == "" || (count <= 2 && op[1] ~ /^jmp/)) return # another with the same code
     best = 0
@@ -34,7 +41,7 @@ function judge(k, j, packed, single, best) {
     name = ""
     count = 0
     split("", at)
-    if ($2 ~ /_n\.arch_x86_64_v3>:$/) { name = $2; sub(/^</, "", name); sub(/\.arch.*/, "", name) }
+    if ($2 ~ /_n\.arch_x86_64_v3>:$/) { name = $2; sub(/^</, "", name); sub(/\.arch.*/, "", name); there[name] = 1 }
 }
 name != "" && $1 ~ /:$/ {
     address = $1
@@ -47,5 +54,7 @@ name != "" && $1 ~ /:$/ {
 END {
     judge()
     print loops " loops"
+    count = split(wanted, all, " ")
+    for (k = 1; k <= count; k++) if (!(all[k] in there)) { print "there is no " all[k]; wrong = 1 }
     exit wrong || loops < least
 }'
