@@ -1,6 +1,7 @@
 #!/bin/sh
 # The glossary's rules that a program can check: no retired word in an identifier of the sources or in a symbol of what
-# was built, comments and headings that are sentences, and no header or type name that stands for two things.
+# was built, comments and headings that are sentences, no header or type name that stands for two things, and names of
+# tests that say what is tested.
 # Arguments: source folder, then files with symbols.
 set -eu
 cd "$1"
@@ -61,4 +62,9 @@ for type in $types; do
     defined=$(sources | xargs grep -lE "^(typedef )?struct $type \{|^typedef (enum|union) $type \{|^STRUCT\($type\)" | wc -l)
     [ "$defined" -le 1 ] || found "two types of one name: $type"
 done
+
+# A test says subject, condition and outcome: three words at least, the first of which is no pronoun.
+vague=$(grep -rhoE '^static void [a-z_0-9]+\(void \*\*' tests --include='test_*.c' | sed 's/static void //; s/(.*//' |
+    grep -E '^(it|its|that|they|what|whatever|whoever|which|nothing|nonsense|everything|test)_|^[a-z0-9]+(_[a-z0-9]+)?$' || true)
+for test in $vague; do found "a test whose name has no subject or no outcome: $test"; done
 exit $bad

@@ -19,7 +19,7 @@ static void count(void *user, WeftMessage message, const char *text) {
     ++*(int *)user;
 }
 
-static void numbers_come_back(void **state) {
+static void numbers_kept_under_a_key_are_found_again(void **state) {
     (void)state;
     int warnings = 0;
     const WeftLog log = {count, &warnings};
@@ -38,7 +38,7 @@ static void numbers_come_back(void **state) {
 }
 
 /* Each byte in turn, and each length. */
-static void damage_is_seen(void **state) {
+static void damaged_file_is_ignored_with_a_warning(void **state) {
     (void)state;
     int warnings = 0;
     const WeftLog log = {count, &warnings};
@@ -78,6 +78,7 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_come_back), cmocka_unit_test(damage_is_seen)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_kept_under_a_key_are_found_again),
+                                       cmocka_unit_test(damaged_file_is_ignored_with_a_warning)};
     return cmocka_run_group_tests(tests, begin, end);
 }

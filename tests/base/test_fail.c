@@ -12,7 +12,7 @@
 #include "base/fail.h"
 #include "weft/version.h"
 
-static void an_error_is_one_line(void **state) {
+static void error_text_is_one_line(void **state) {
     (void)state;
     WeftError error;
     assert_int_equal(fail(&error, WEFT_MESSAGE_FILE_OPEN, "a.png", "%s (%d)", "no such file", 2), WEFT_INPUT);
@@ -24,7 +24,7 @@ static void an_error_is_one_line(void **state) {
     assert_int_equal(fail(NULL, WEFT_MESSAGE_DESC, "x", NULL), WEFT_USAGE);
 }
 
-static void hostile_names_do_not_break_the_line(void **state) {
+static void hostile_names_leave_an_error_on_one_line(void **state) {
     (void)state;
     WeftError error;
     fail(&error, WEFT_MESSAGE_FILE_OPEN, "a\nb\033[31m%s%n\x7f", "%s", "c\r\nd");
@@ -76,7 +76,7 @@ static void every_message_has_a_text(void **state) {
     assert_string_equal(weft_message_text(WEFT_MESSAGE_COUNT), "");
 }
 
-static void the_version_is_one(void **state) {
+static void version_string_and_numbers_agree(void **state) {
     (void)state;
     int major, minor, patch;
     assert_int_equal(sscanf(weft_version(), "%d.%d.%d", &major, &minor, &patch), 3);
@@ -88,9 +88,11 @@ static void the_version_is_one(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_error_is_one_line),   cmocka_unit_test(hostile_names_do_not_break_the_line),
-        cmocka_unit_test(warnings_reach_the_log), cmocka_unit_test(every_message_has_a_text),
-        cmocka_unit_test(the_version_is_one),
+        cmocka_unit_test(error_text_is_one_line),
+        cmocka_unit_test(hostile_names_leave_an_error_on_one_line),
+        cmocka_unit_test(warnings_reach_the_log),
+        cmocka_unit_test(every_message_has_a_text),
+        cmocka_unit_test(version_string_and_numbers_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,7 +72,7 @@ static void a_file_appears_complete_or_not_at_all(void **state) {
     unlink(path);
 }
 
-static void writers_of_one_path_do_not_meet(void **state) {
+static void two_writers_of_one_path_use_different_temporary_files(void **state) {
     (void)state;
     enum { WRITERS = 50 };
     char path[128];
@@ -93,7 +93,7 @@ static void writers_of_one_path_do_not_meet(void **state) {
     unlink(path);
 }
 
-static void permissions_follow_the_umask(void **state) {
+static void written_file_has_the_permissions_of_the_umask(void **state) {
     (void)state;
     char path[128];
     struct stat status;
@@ -105,7 +105,7 @@ static void permissions_follow_the_umask(void **state) {
     unlink(path);
 }
 
-static void what_cannot_be_written_is_an_error(void **state) {
+static void unwritable_path_is_an_error(void **state) {
     (void)state;
     char path[128], inner[192];
     OutputFile file;
@@ -170,7 +170,7 @@ static void pipes_and_devices_are_refused_at_once(void **state) {
     unlink(pipe);
 }
 
-static void links_stay(void **state) {
+static void file_written_through_a_link_keeps_the_link(void **state) {
     (void)state;
     char real[128], link[128];
     struct stat status;
@@ -202,7 +202,7 @@ static void a_full_disk_is_an_error(void **state) {
     unlink(path);
 }
 
-static void what_cannot_be_read_is_an_error(void **state) {
+static void unreadable_path_is_an_error(void **state) {
     (void)state;
     char path[128];
     FileBytes bytes;
@@ -239,14 +239,14 @@ static int remove_folder(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_appears_complete_or_not_at_all),
-        cmocka_unit_test(writers_of_one_path_do_not_meet),
-        cmocka_unit_test(permissions_follow_the_umask),
-        cmocka_unit_test(what_cannot_be_written_is_an_error),
+        cmocka_unit_test(two_writers_of_one_path_use_different_temporary_files),
+        cmocka_unit_test(written_file_has_the_permissions_of_the_umask),
+        cmocka_unit_test(unwritable_path_is_an_error),
         cmocka_unit_test(only_plain_files_are_replaced),
         cmocka_unit_test(pipes_and_devices_are_refused_at_once),
-        cmocka_unit_test(links_stay),
+        cmocka_unit_test(file_written_through_a_link_keeps_the_link),
         cmocka_unit_test(a_full_disk_is_an_error),
-        cmocka_unit_test(what_cannot_be_read_is_an_error),
+        cmocka_unit_test(unreadable_path_is_an_error),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

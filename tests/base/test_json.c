@@ -23,7 +23,7 @@ static json_t *parse(bool *starved) {
 }
 
 /* Also where a number behind what was lost clears errno. */
-static void nothing_is_lost_in_silence(void **state) {
+static void parse_without_memory_is_reported(void **state) {
     (void)state;
     bool starved = false;
     allowed = -1;
@@ -43,7 +43,7 @@ static void nothing_is_lost_in_silence(void **state) {
     json_decref(whole);
 }
 
-static void damage_is_no_want_of_memory(void **state) {
+static void damaged_text_is_not_reported_as_lack_of_memory(void **state) {
     (void)state;
     json_error_t where;
     bool starved = true;
@@ -54,7 +54,7 @@ static void damage_is_no_want_of_memory(void **state) {
 int main(void) {
     json_set_alloc_funcs(allocate, free); /* as a program may that has its own */
     allowed = -1;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_lost_in_silence),
-                                       cmocka_unit_test(damage_is_no_want_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parse_without_memory_is_reported),
+                                       cmocka_unit_test(damaged_text_is_not_reported_as_lack_of_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

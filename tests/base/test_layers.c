@@ -140,7 +140,7 @@ static int check_folder(int folder, const char *relative, bool *failed) {
     return files;
 }
 
-static void sources_keep_the_rules(void **state) {
+static void sources_include_only_folders_above_their_own(void **state) {
     (void)state;
     bool failed = false;
     int files = 0;
@@ -215,8 +215,10 @@ static void public_headers_stand_alone(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sources_keep_the_rules),      cmocka_unit_test(a_question_for_a_lobe_is_found),
-        cmocka_unit_test(every_folder_is_in_the_list), cmocka_unit_test(an_upward_include_is_found),
+        cmocka_unit_test(sources_include_only_folders_above_their_own),
+        cmocka_unit_test(a_question_for_a_lobe_is_found),
+        cmocka_unit_test(every_folder_is_in_the_list),
+        cmocka_unit_test(an_upward_include_is_found),
         cmocka_unit_test(public_headers_stand_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,7 +10,7 @@
 
 #include "base/memory.h"
 
-static void products_that_overflow_are_refused(void **state) {
+static void array_sizes_that_overflow_are_refused(void **state) {
     (void)state;
     Arena arena = {0};
     static const size_t sizes[][2] = {
@@ -26,7 +26,7 @@ static void products_that_overflow_are_refused(void **state) {
     arena_free(&arena);
 }
 
-static void memory_comes_zeroed(void **state) {
+static void allocated_memory_is_zero(void **state) {
     (void)state;
     unsigned char *block = alloc_array(1000, 3);
     for (int k = 0; k < 3000; k++) assert_int_equal(block[k], 0);
@@ -67,8 +67,8 @@ static void arena_blocks_are_aligned_and_apart(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(products_that_overflow_are_refused),
-        cmocka_unit_test(memory_comes_zeroed),
+        cmocka_unit_test(array_sizes_that_overflow_are_refused),
+        cmocka_unit_test(allocated_memory_is_zero),
         cmocka_unit_test(arena_blocks_are_aligned_and_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

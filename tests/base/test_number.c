@@ -13,7 +13,7 @@
 #include "base/number.h"
 #include "base/random.h"
 
-static void numbers_are_read(void **state) {
+static void number_text_gives_its_float(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -34,7 +34,7 @@ static void numbers_are_read(void **state) {
     assert_true(!(color[2] != 0.3f));
 }
 
-static void a_locale_changes_nothing(void **state) {
+static void number_reads_alike_in_any_locale(void **state) {
     (void)state;
     static const char *const commas[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"};
     const char *set = NULL;
@@ -54,7 +54,7 @@ static void a_locale_changes_nothing(void **state) {
     assert_true(three && !(color[0] != 1.0f) && !(color[1] != 5.0f) && !(color[2] != 0.25f));
 }
 
-static void other_text_is_refused(void **state) {
+static void text_that_is_no_number_is_refused(void **state) {
     (void)state;
     static const char *const bad[] = {"",    " ",         "x",    "1x",  "1 ", "1,2", "nan", "NAN(1)",
                                       "inf", "-infinity", "1e39", "--1", "1e", "0x",  "1,"};
@@ -67,7 +67,7 @@ static void other_text_is_refused(void **state) {
         if (parse_color(colors[k], color)) fail_msg("\"%s\" passed for a colour", colors[k]);
 }
 
-static void hash32_has_no_bias_to_speak_of(void **state) {
+static void hash32_flips_each_bit_half_the_time(void **state) {
     (void)state;
     enum { SAMPLES = 200000 };
     /* each input bit flips each output bit half of the time */
@@ -86,7 +86,7 @@ static void hash32_has_no_bias_to_speak_of(void **state) {
     assert_int_not_equal(hash_combine(1, 2), hash_combine(1, 3));
 }
 
-static void unit_floats_are_in_range_and_even(void **state) {
+static void unit_floats_are_below_one_and_evenly_spread(void **state) {
     (void)state;
     assert_true(!(unit_float(0) != 0.0f));
     assert_true(unit_float(UINT32_MAX) < 1.0f);
@@ -104,11 +104,11 @@ static void unit_floats_are_in_range_and_even(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_read),
-        cmocka_unit_test(a_locale_changes_nothing),
-        cmocka_unit_test(other_text_is_refused),
-        cmocka_unit_test(hash32_has_no_bias_to_speak_of),
-        cmocka_unit_test(unit_floats_are_in_range_and_even),
+        cmocka_unit_test(number_text_gives_its_float),
+        cmocka_unit_test(number_reads_alike_in_any_locale),
+        cmocka_unit_test(text_that_is_no_number_is_refused),
+        cmocka_unit_test(hash32_flips_each_bit_half_the_time),
+        cmocka_unit_test(unit_floats_are_below_one_and_evenly_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

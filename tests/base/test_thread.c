@@ -26,7 +26,7 @@ static void body(void *user, int item, int thread) {
     }
 }
 
-static void every_item_is_done_once(void **state) {
+static void parallel_loop_does_every_item_once(void **state) {
     (void)state;
     static const int threads[] = {1, 2, 7, 64, 1000};
     for (int k = 0; k < 5; k++) {
@@ -38,7 +38,7 @@ static void every_item_is_done_once(void **state) {
     }
 }
 
-static void odd_counts_are_fine(void **state) {
+static void parallel_loop_of_no_items_or_threads_ends(void **state) {
     (void)state;
     static Work work;
     memset(&work, 0, sizeof work);
@@ -64,7 +64,7 @@ static void outer_body(void *user, int item, int thread) {
     parallel_for(3, 100, inner_body, user);
 }
 
-static void loops_nest(void **state) {
+static void nested_parallel_loops_do_every_item(void **state) {
     (void)state;
     static Work work;
     memset(&work, 0, sizeof work);
@@ -74,7 +74,7 @@ static void loops_nest(void **state) {
 
 static void note_thread(void *user) { *(pthread_t *)user = pthread_self(); }
 
-static void work_apart_is_done_in_another_thread(void **state) {
+static void background_work_runs_in_another_thread(void **state) {
     (void)state;
     pthread_t thread = pthread_self();
     run_in_thread(note_thread, &thread);
@@ -83,10 +83,10 @@ static void work_apart_is_done_in_another_thread(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_item_is_done_once),
-        cmocka_unit_test(odd_counts_are_fine),
-        cmocka_unit_test(loops_nest),
-        cmocka_unit_test(work_apart_is_done_in_another_thread),
+        cmocka_unit_test(parallel_loop_does_every_item_once),
+        cmocka_unit_test(parallel_loop_of_no_items_or_threads_ends),
+        cmocka_unit_test(nested_parallel_loops_do_every_item),
+        cmocka_unit_test(background_work_runs_in_another_thread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

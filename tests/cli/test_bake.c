@@ -50,7 +50,7 @@ static void assert_shape(const WeftImage *image, int width, int height, int chan
 
 static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 
-static void help_is_complete(void **state) {
+static void bake_help_names_every_kind(void **state) {
     (void)state;
     Ran ran = done(LIST("bake", "--help"));
     for (int k = 0; weft_bake_kind(k); k++) {
@@ -79,7 +79,7 @@ static void numbers_behind(const char *text, const char *mark, int count, double
 }
 
 /* One table in all formats: the same numbers, and the command where it can be. */
-static void all_files_hold_the_table(void **state) {
+static void every_file_format_holds_the_same_table(void **state) {
     (void)state;
     enum { W = 5, H = 3, N = W * H * 2 };
     const char command[] =
@@ -136,7 +136,7 @@ static void all_files_hold_the_table(void **state) {
 }
 
 /* What a C compiler makes of the array. */
-static void the_array_compiles(void **state) {
+static void c_array_of_the_table_compiles(void **state) {
     (void)state;
     static const char source[] =
         "#include <stdio.h>\n#include \"a b*;.h\"\nint main(void) {\n"
@@ -160,7 +160,7 @@ static void the_array_compiles(void **state) {
 }
 
 /* A .png has a scale where values pass 1, said in one line; nothing is cut off. */
-static void a_png_is_never_cut(void **state) {
+static void png_of_values_above_one_is_scaled_not_clipped(void **state) {
     (void)state;
     Ran ran =
         done(LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "s.png", "-o", "s.npy"));
@@ -179,7 +179,7 @@ static void a_png_is_never_cut(void **state) {
     assert_false(is_there("no.png"));
 }
 
-static void half_is_asked_for(void **state) {
+static void exr_is_rounded_to_half_only_with_half(void **state) {
     (void)state;
     finish(done(LIST("bake", "albedo", "wrap", "--size=9x4", "-o", "w.exr", "--half", "--quiet")));
     finish(done(LIST("bake", "albedo", "wrap", "--size=9x4", "-o", "w.npy", "--quiet")));
@@ -192,7 +192,7 @@ static void half_is_asked_for(void **state) {
     weft_image_free(&full);
 }
 
-static void json_tells_of_the_table(void **state) {
+static void json_describes_the_table(void **state) {
     (void)state;
     Ran ran = done(LIST("bake", "dfg", "charlie-neubelt", "--axes", "filament", "--size", "6x4", "-o",
                         "d.npy", "--json", "--tolerance", "1e-3"));
@@ -210,7 +210,7 @@ static void json_tells_of_the_table(void **state) {
 
 /* Auditing. */
 
-static void an_audit_measures(void **state) {
+static void audit_prints_fault_and_error_of_a_table(void **state) {
     (void)state;
     finish(done(LIST("bake", "dfg", "ashikhmin-neubelt", "--axes", "three", "--size", "12x10", "-o",
                      "three.exr", "--quiet")));
@@ -265,7 +265,7 @@ static void an_audit_measures(void **state) {
 }
 
 /* 8 bits in a file of three equal channels, and what the viewer of glTF once shipped. */
-static void pictures_are_tables_too(void **state) {
+static void picture_of_8_bits_is_audited_as_a_table(void **state) {
     (void)state;
     enum { SIDE = 8 };
     const WeftTableForm form = {0};
@@ -301,7 +301,7 @@ static void pictures_are_tables_too(void **state) {
 }
 
 /* Ctrl-C leaves nothing, an old file included. */
-static void an_interruption_writes_nothing(void **state) {
+static void interrupted_bake_writes_nothing(void **state) {
     (void)state;
     file_make("old.npy", "old", 3);
     pid_t child =
@@ -318,7 +318,7 @@ static void an_interruption_writes_nothing(void **state) {
     ran_free(&ran);
 }
 
-static void nonsense_is_refused(void **state) {
+static void bake_options_without_sense_are_refused(void **state) {
     (void)state;
     file_make("not.png", "\x89PNG\r\n", 6);
     file_make("hello.npy", "\x93NUMPY\1\0\xff\xff", 10);
@@ -401,7 +401,7 @@ static void solved_slabs_are_baked(void **state) {
 }
 
 /* Tables of the tree begin with what made them, and a kind that is text takes no options of tables. */
-static void fibres_have_their_kinds(void **state) {
+static void kinds_of_fibre_bake_the_tables_of_the_tree(void **state) {
     (void)state;
     const char *text = weft_catalogue_text("tables/fibre_model.h");
     assert_non_null(text);
@@ -415,18 +415,18 @@ static void fibres_have_their_kinds(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_is_complete),
-        cmocka_unit_test(all_files_hold_the_table),
-        cmocka_unit_test(the_array_compiles),
-        cmocka_unit_test(a_png_is_never_cut),
-        cmocka_unit_test(half_is_asked_for),
-        cmocka_unit_test(json_tells_of_the_table),
-        cmocka_unit_test(an_audit_measures),
-        cmocka_unit_test(pictures_are_tables_too),
-        cmocka_unit_test(an_interruption_writes_nothing),
-        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(bake_help_names_every_kind),
+        cmocka_unit_test(every_file_format_holds_the_same_table),
+        cmocka_unit_test(c_array_of_the_table_compiles),
+        cmocka_unit_test(png_of_values_above_one_is_scaled_not_clipped),
+        cmocka_unit_test(exr_is_rounded_to_half_only_with_half),
+        cmocka_unit_test(json_describes_the_table),
+        cmocka_unit_test(audit_prints_fault_and_error_of_a_table),
+        cmocka_unit_test(picture_of_8_bits_is_audited_as_a_table),
+        cmocka_unit_test(interrupted_bake_writes_nothing),
+        cmocka_unit_test(bake_options_without_sense_are_refused),
         cmocka_unit_test(solved_slabs_are_baked),
-        cmocka_unit_test(fibres_have_their_kinds),
+        cmocka_unit_test(kinds_of_fibre_bake_the_tables_of_the_tree),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

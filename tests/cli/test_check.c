@@ -7,7 +7,7 @@
 
 #include "weft/lobe.h"
 
-static void passport_tells_all_in_words(void **state) {
+static void passport_text_has_every_section(void **state) {
     (void)state;
     static const char *const parts[] = {"charlie-neubelt\n",
                                         "Directional albedo",
@@ -30,7 +30,7 @@ static void passport_tells_all_in_words(void **state) {
     ran_free(&ran);
 }
 
-static void only_what_exceeds_one_is_marked(void **state) {
+static void albedo_up_to_one_has_no_mark(void **state) {
     (void)state;
     Ran ran = RUN("check", "lambert", "--quick", "--no-gpu");
     assert_int_equal(ran.code, 0);
@@ -53,7 +53,7 @@ static double json_at(json_t *json, const char *outer, const char *inner) {
     return json_number_value(value);
 }
 
-static void json_has_the_numbers(void **state) {
+static void json_has_the_numbers_of_the_passport(void **state) {
     (void)state;
     Ran ran = RUN("check", "burley-sheen", "--quick", "--no-gpu", "--json");
     assert_int_equal(ran.code, 0);
@@ -79,7 +79,7 @@ static void json_has_the_numbers(void **state) {
     ran_free(&ran);
 }
 
-static void profiles_have_passports_too(void **state) {
+static void check_of_a_profile_prints_a_passport(void **state) {
     (void)state;
     Ran ran = RUN("check", "filament-cloth", "--quick", "--json");
     assert_int_equal(ran.code, 0);
@@ -91,7 +91,7 @@ static void profiles_have_passports_too(void **state) {
     ran_free(&ran);
 }
 
-static void numbers_do_not_depend_on_threads(void **state) {
+static void passport_is_the_same_with_any_number_of_threads(void **state) {
     (void)state;
     Ran one = RUN("check", "oren-nayar", "--quick", "--no-gpu", "--json", "--threads", "1");
     Ran three = RUN("check", "oren-nayar", "--quick", "--no-gpu", "--json", "--threads", "3");
@@ -101,7 +101,7 @@ static void numbers_do_not_depend_on_threads(void **state) {
 }
 
 /* A line on every lobe and profile, under a heading. WEFT_TEST_SHORT=1 passes it over. */
-static void all_has_a_line_each(void **state) {
+static void check_all_prints_a_line_for_each_lobe(void **state) {
     (void)state;
     const char *wish = getenv("WEFT_TEST_SHORT");
     if (wish && wish[0] == '1') skip();
@@ -118,7 +118,7 @@ static void all_has_a_line_each(void **state) {
     ran_free(&ran);
 }
 
-static void page_needs_nothing_else(void **state) {
+static void html_page_refers_to_no_other_file(void **state) {
     (void)state;
     size_t size;
     Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--html", "page.html");
@@ -143,7 +143,7 @@ static void page_needs_nothing_else(void **state) {
     ran_free(&ran);
 }
 
-static void broken_bounds_are_told(void **state) {
+static void exceeded_bound_is_printed_and_fails(void **state) {
     (void)state;
     Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-albedo", "1");
     assert_int_equal(ran.code, 1);
@@ -168,7 +168,7 @@ static void broken_bounds_are_told(void **state) {
 
 /* A lobe of E <= 1 keeps the bound, though additive, multiplicative and albedo-min gain by their definition,
  * and though one rule walks at random. */
-static void the_furnace_is_that_of_rules_that_conserve(void **state) {
+static void max_furnace_bounds_only_rules_that_conserve(void **state) {
     (void)state;
     static const char *const keep[] = {"ashikhmin-neubelt", "lambert", "wrap", "charlie-conty-kulla"};
     for (size_t k = 0; k < sizeof keep / sizeof *keep; k++) {
@@ -190,7 +190,7 @@ static void the_furnace_is_that_of_rules_that_conserve(void **state) {
     ran_free(&ran);
 }
 
-static void parameters_are_those_of_the_lobe(void **state) {
+static void parameters_given_to_check_reach_the_lobe(void **state) {
     (void)state;
     Ran cloth = RUN("check", "cook-torrance", "--quick", "--no-gpu", "--json", "-p", "d=charlie", "-p",
                     "v=neubelt", "-p", "f=none");
@@ -209,7 +209,7 @@ static void parameters_are_those_of_the_lobe(void **state) {
     assert_complaint(NULL, LIST("check", "ggx", "-p", "0.5"), 2, "is not name=value");
 }
 
-static void header_lines_end_a_comment(void **state) {
+static void header_option_prints_the_end_of_a_comment(void **state) {
     (void)state;
     Ran ran = RUN("check", "eon", "--header");
     assert_int_equal(ran.code, 0);
@@ -222,7 +222,7 @@ static void header_lines_end_a_comment(void **state) {
     ran_free(&ran);
 }
 
-static void nonsense_is_refused(void **state) {
+static void check_options_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("check", "charly-neubelt"), 2, "did you mean charlie-neubelt?");
     assert_complaint(NULL, LIST("check", "moleskin"), 2, "is neither a lobe nor an engine profile");
@@ -239,18 +239,18 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(passport_tells_all_in_words),
-        cmocka_unit_test(only_what_exceeds_one_is_marked),
-        cmocka_unit_test(json_has_the_numbers),
-        cmocka_unit_test(profiles_have_passports_too),
-        cmocka_unit_test(numbers_do_not_depend_on_threads),
-        cmocka_unit_test(all_has_a_line_each),
-        cmocka_unit_test(page_needs_nothing_else),
-        cmocka_unit_test(broken_bounds_are_told),
-        cmocka_unit_test(the_furnace_is_that_of_rules_that_conserve),
-        cmocka_unit_test(parameters_are_those_of_the_lobe),
-        cmocka_unit_test(header_lines_end_a_comment),
-        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(passport_text_has_every_section),
+        cmocka_unit_test(albedo_up_to_one_has_no_mark),
+        cmocka_unit_test(json_has_the_numbers_of_the_passport),
+        cmocka_unit_test(check_of_a_profile_prints_a_passport),
+        cmocka_unit_test(passport_is_the_same_with_any_number_of_threads),
+        cmocka_unit_test(check_all_prints_a_line_for_each_lobe),
+        cmocka_unit_test(html_page_refers_to_no_other_file),
+        cmocka_unit_test(exceeded_bound_is_printed_and_fails),
+        cmocka_unit_test(max_furnace_bounds_only_rules_that_conserve),
+        cmocka_unit_test(parameters_given_to_check_reach_the_lobe),
+        cmocka_unit_test(header_option_prints_the_end_of_a_comment),
+        cmocka_unit_test(check_options_without_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -22,7 +22,7 @@ static void check_write(float value) {
         fail_msg("\"%.*s\", printf \"%s\"", (int)(end - text), text, expected);
 }
 
-static void writes_as_printf_does(void **state) {
+static void decimal_writes_what_printf_writes(void **state) {
     (void)state;
     static const float special[] = {
         0.0f, -0.0f, NAN,          INFINITY, -INFINITY,      1.0f, 1e-45f, 3.4028235e38f, 1.17549435e-38f,
@@ -53,7 +53,7 @@ static void check_read(const char *text) {
                  expected_end);
 }
 
-static void reads_as_strtod_does(void **state) {
+static void decimal_reads_what_strtod_reads(void **state) {
     (void)state;
     static const char *const texts[] = {"0",
                                         "-0",
@@ -104,7 +104,7 @@ static void reads_as_strtod_does(void **state) {
 }
 
 /* A number in hexadecimal is none: it ends behind its 0. */
-static void reads_no_hexadecimal(void **state) {
+static void decimal_refuses_hexadecimal(void **state) {
     (void)state;
     static const char *const texts[] = {"0x1e", "-0X1.8p3", "00x2", "0x"};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
@@ -117,9 +117,9 @@ static void reads_no_hexadecimal(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(writes_as_printf_does),
-        cmocka_unit_test(reads_as_strtod_does),
-        cmocka_unit_test(reads_no_hexadecimal),
+        cmocka_unit_test(decimal_writes_what_printf_writes),
+        cmocka_unit_test(decimal_reads_what_strtod_reads),
+        cmocka_unit_test(decimal_refuses_hexadecimal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

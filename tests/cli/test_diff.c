@@ -52,7 +52,7 @@ static double number(const json_t *json, const char *key) {
 }
 
 /* The program says what the library finds. */
-static void json_is_what_the_library_finds(void **state) {
+static void json_has_the_values_of_the_library(void **state) {
     (void)state;
     static const char *const pairs[][2] = {{"a.exr", "b.exr"}, {"a.png", "b.png"}, {"a.exr", "b.png"}};
     for (int metric = 0; metric < WEFT_METRIC_COUNT; metric++)
@@ -113,7 +113,7 @@ static void max_decides_the_exit_code(void **state) {
 }
 
 /* What was rendered and what it was saved as are the same picture, but for half floats. */
-static void a_picture_is_its_radiance_shown(void **state) {
+static void linear_picture_equals_its_tone_mapped_form(void **state) {
     (void)state;
     json_t *json = figures(LIST("diff", "a.png", "a.exr", "--metric", "flip", "--json"), 0);
     assert_true(number(json, "value") < 0.01);
@@ -129,7 +129,7 @@ static void a_picture_is_its_radiance_shown(void **state) {
     json_decref(json), json_decref(shown);
 }
 
-static void the_map_is_written(void **state) {
+static void difference_map_is_written_as_exr(void **state) {
     (void)state;
     static const char *const names[] = {"map.exr", "map.npy"};
     for (int k = 0; k < 2; k++) {
@@ -161,7 +161,7 @@ static int count_color(const char *path, int r, int g, int b) {
 
 /* The colours' ends are in its scale; with a short scale much of the picture has the last colour, with a long
  * one none. */
-static void the_heat_map_is_drawn(void **state) {
+static void heat_map_is_written_as_png(void **state) {
     (void)state;
     Ran ran = RUN("diff", "a.png", "b.png", "--metric", "flip", "-o", "short.png", "--scale", "0.001");
     assert_int_equal(ran.code, 0);
@@ -178,7 +178,7 @@ static void the_heat_map_is_drawn(void **state) {
     assert_true(count_color("same.png", 18, 18, 20) > 1200);
 }
 
-static void wrong_commands_are_refused(void **state) {
+static void diff_commands_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("diff", "a.png"), 2, "lacks an operand");
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "c.png"), 2, "one operand too many");
@@ -203,7 +203,7 @@ static void wrong_commands_are_refused(void **state) {
     assert_null(file_bytes("x.png", &size));
 }
 
-static void help_names_every_option(void **state) {
+static void diff_help_names_every_option(void **state) {
     (void)state;
     static const char *const words[] = {"--metric", "--ppd",  "--exposure", "--tonemap", "--max", "-o",
                                         "--scale",  "--json", "relmse",     "flip",      "ssim",  "Examples"};
@@ -221,10 +221,13 @@ static void help_names_every_option(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_is_what_the_library_finds),  cmocka_unit_test(max_decides_the_exit_code),
-        cmocka_unit_test(a_picture_is_its_radiance_shown), cmocka_unit_test(the_map_is_written),
-        cmocka_unit_test(the_heat_map_is_drawn),           cmocka_unit_test(wrong_commands_are_refused),
-        cmocka_unit_test(help_names_every_option),
+        cmocka_unit_test(json_has_the_values_of_the_library),
+        cmocka_unit_test(max_decides_the_exit_code),
+        cmocka_unit_test(linear_picture_equals_its_tone_mapped_form),
+        cmocka_unit_test(difference_map_is_written_as_exr),
+        cmocka_unit_test(heat_map_is_written_as_png),
+        cmocka_unit_test(diff_commands_without_sense_are_refused),
+        cmocka_unit_test(diff_help_names_every_option),
     };
     return cmocka_run_group_tests(tests, pictures_begin, work_end);
 }

@@ -1,7 +1,7 @@
 /* docs/ says what the program says. */
 #include "run.h"
 
-static void pages_are_up_to_date(void **state) {
+static void pages_hold_the_output_of_their_commands(void **state) {
     (void)state;
     Ran ran = program_end(
         program_start("/bin/sh", NULL, LIST(WEFT_SOURCE_DIR "/script/docs", "--check", WEFT_PROGRAM)));
@@ -10,7 +10,7 @@ static void pages_are_up_to_date(void **state) {
 }
 
 /* A check that could not fail would be none: another program's words must be noticed. */
-static void other_words_are_noticed(void **state) {
+static void changed_block_of_a_page_is_noticed(void **state) {
     (void)state;
     Ran ran = program_end(
         program_start("/bin/sh", NULL, LIST(WEFT_SOURCE_DIR "/script/docs", "--check", "/bin/echo")));
@@ -20,7 +20,7 @@ static void other_words_are_noticed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pages_are_up_to_date),
-                                       cmocka_unit_test(other_words_are_noticed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pages_hold_the_output_of_their_commands),
+                                       cmocka_unit_test(changed_block_of_a_page_is_noticed)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -52,7 +52,7 @@ static bool finds(const json_t *report, const char *id) {
     return false;
 }
 
-static void tells_what_is_wrong(void **state) {
+static void asset_with_faults_prints_each_finding(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "sick.gltf");
     assert_int_equal(ran.code, 1);
@@ -78,7 +78,7 @@ static void tells_what_is_wrong(void **state) {
 }
 
 /* A scene of weft's own, which has notes at the most, and none of them with --no-notes. */
-static void says_so_when_all_is_well(void **state) {
+static void asset_without_findings_is_reported_as_healthy(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -93,7 +93,7 @@ static void says_so_when_all_is_well(void **state) {
 }
 
 /* Of two materials with a coloured reflectance the first has no sheen, which makes of it a note. */
-static void warning_is_told_though_a_note_says_the_same(void **state) {
+static void warning_is_printed_beside_a_note_of_the_same_text(void **state) {
     (void)state;
     static const char colored[] = "\"KHR_materials_specular\":{\"specularColorFactor\":[1,0.2,0.2]}",
                       pbr[] = "\"pbrMetallicRoughness\":{\"metallicFactor\":0}";
@@ -139,7 +139,7 @@ static void missing_image_is_a_finding(void **state) {
     json_decref(report);
 }
 
-static void mends_and_keeps_the_rest(void **state) {
+static void fix_changes_only_what_a_finding_names(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "sick.gltf", "--fix", "-o", "mended.gltf");
     assert_int_equal(ran.code, 1); /* it has no normals still */
@@ -159,7 +159,7 @@ static void mends_and_keeps_the_rest(void **state) {
     json_decref(now);
 }
 
-static void lists_what_there_is(void **state) {
+static void list_option_prints_every_finding(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "--list");
     assert_int_equal(ran.code, 0);
@@ -175,7 +175,7 @@ static void lists_what_there_is(void **state) {
 }
 
 /* Every finding has its paragraph in the page. */
-static void page_has_every_finding(void **state) {
+static void docs_page_has_a_paragraph_for_every_finding(void **state) {
     (void)state;
     size_t size;
     char *page = file_bytes(WEFT_SOURCE_DIR "/docs/doctor.md", &size), heading[96];
@@ -187,7 +187,7 @@ static void page_has_every_finding(void **state) {
     free(page);
 }
 
-static void refuses_what_makes_no_sense(void **state) {
+static void doctor_commands_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("doctor"), 2, "lacks an operand");
     assert_complaint(NULL, LIST("doctor", "sick.gltf", "--fix"), 2, "-o FILE");
@@ -203,14 +203,14 @@ static void refuses_what_makes_no_sense(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tells_what_is_wrong),
-        cmocka_unit_test(says_so_when_all_is_well),
-        cmocka_unit_test(warning_is_told_though_a_note_says_the_same),
+        cmocka_unit_test(asset_with_faults_prints_each_finding),
+        cmocka_unit_test(asset_without_findings_is_reported_as_healthy),
+        cmocka_unit_test(warning_is_printed_beside_a_note_of_the_same_text),
         cmocka_unit_test(missing_image_is_a_finding),
-        cmocka_unit_test(mends_and_keeps_the_rest),
-        cmocka_unit_test(lists_what_there_is),
-        cmocka_unit_test(page_has_every_finding),
-        cmocka_unit_test(refuses_what_makes_no_sense),
+        cmocka_unit_test(fix_changes_only_what_a_finding_names),
+        cmocka_unit_test(list_option_prints_every_finding),
+        cmocka_unit_test(docs_page_has_a_paragraph_for_every_finding),
+        cmocka_unit_test(doctor_commands_without_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
 }

@@ -42,7 +42,7 @@ static int begin(void **state) {
     return 0;
 }
 
-static void what_is_stronger_wins(void **state) {
+static void set_overrides_shorthand_and_shorthand_overrides_profile(void **state) {
     (void)state;
     /* --set over --sheen and --layer, in either order */
     assert_true(same(LIST("--sheen=charlie-neubelt", "--set", "cloth.sheen_lobe=ashikhmin-neubelt"),
@@ -73,14 +73,14 @@ static void what_is_stronger_wins(void **state) {
 }
 
 /* A profile reads the inputs as they are. */
-static void profiles_are_not_converted(void **state) {
+static void profile_ignores_convert(void **state) {
     (void)state;
     assert_true(same(LIST("--profile=three", "--convert=specular"), LIST("--profile=three")));
     assert_false(same(LIST("--workflow=specular", "--set=*.specular_color=0.5,0,0", "--convert=metallic"),
                       LIST("--workflow=specular", "--set=*.specular_color=0.5,0,0")));
 }
 
-static void pictures_are_put_on(void **state) {
+static void texture_option_changes_the_picture(void **state) {
     (void)state;
     Ran ran = run_shell("mkdir -p maps && \"$0\" render builtin:cloth --width 8 --height 8 --spp 1 --quiet "
                         "-o maps/Cloth_Albedo.png && cp maps/Cloth_Albedo.png =odd.png");
@@ -99,7 +99,7 @@ static void pictures_are_put_on(void **state) {
     ran_free(&ran);
 }
 
-static void files_have_any_name(void **state) {
+static void material_file_may_have_an_equals_sign_in_its_name(void **state) {
     (void)state;
     assert_true(same(LIST("--material=a=red.json"), LIST("--material=cloth=a=red.json")));
     assert_false(same(LIST("--material=a=red.json"), LIST("--material=with.json")));
@@ -113,7 +113,7 @@ static void refused(const char *const *options, int code, const char *part) {
 }
 
 /* Names of materials may hold '='; one that is cut off would be another's. */
-static void materials_have_any_name(void **state) {
+static void material_of_any_name_can_be_set(void **state) {
     (void)state;
     refused(LIST("--preset=wool=2=velvet"), 2, "wool=2");
     refused(LIST("--material=wool=2=red.json"), 2, "wool=2");
@@ -130,7 +130,7 @@ static void materials_have_any_name(void **state) {
     refused(LIST(text), 2, "too long for the name of a material");
 }
 
-static void aliases_are_taken(void **state) {
+static void alias_of_an_id_is_accepted(void **state) {
     (void)state;
     assert_true(same(LIST("--set=*.v=charlie-v", "--workflow=free"),
                      LIST("--set=*.v=conty-kulla", "--workflow=free")));
@@ -139,7 +139,7 @@ static void aliases_are_taken(void **state) {
     assert_false(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"), LIST("--workflow=free")));
 }
 
-static void mistakes_are_named(void **state) {
+static void mistyped_material_option_is_named_in_its_error(void **state) {
     (void)state;
     static const char several[] = "charlie-neubelt, charlie-conty-kulla";
     refused(LIST("--sheen=charlie"), 2, several);
@@ -179,7 +179,7 @@ static void mistakes_are_named(void **state) {
     assert_complaint(NULL, LIST("render", "scene.gltf", "--sheen=ggx,patry", "-o", "a.exr"), 2, ".png");
 }
 
-static void blanks_around_ids_are_none(void **state) {
+static void blanks_around_an_id_are_ignored(void **state) {
     (void)state;
     assert_true(same(LIST("--sheen= ashikhmin-neubelt "), LIST("--sheen=ashikhmin-neubelt")));
     assert_true(same(LIST("--layer=seed , by=channel"), LIST("--layer=seed,by=channel")));
@@ -198,7 +198,7 @@ static void warns(const char *const *options, const char *part) {
     ran_free(&ran);
 }
 
-static void choices_without_effect_are_told(void **state) {
+static void choice_without_effect_is_a_warning(void **state) {
     (void)state;
     static const char idle[] = "weft: warning: *.sheen_lobe: is not plausible: it changes nothing";
     warns(LIST("--sheen=ggx", "--set=*.sheen_color=0"), idle);
@@ -216,14 +216,14 @@ static void choices_without_effect_are_told(void **state) {
 }
 
 /* A metal by three settings is none after the first. */
-static void the_whole_is_judged(void **state) {
+static void plausibility_is_judged_after_all_settings(void **state) {
     (void)state;
     warns(LIST("--workflow=specular", "--set=*.specular_color=0.9", "--set=*.base_color=0"), NULL);
     warns(LIST("--workflow=specular", "--set=*.specular_color=0.9"), "diffuse colour of a metal");
 }
 
 /* Three inputs make one reflectance. */
-static void finding_of_several_inputs_is_told_once(void **state) {
+static void warning_about_several_inputs_is_printed_once(void **state) {
     (void)state;
     static const char text[] = "{\"metallic\": 0, \"ior\": 1.1, \"specular\": 0.9}";
     file_make("dim.json", text, sizeof text - 1);
@@ -239,7 +239,7 @@ static void finding_of_several_inputs_is_told_once(void **state) {
     }
 }
 
-static void conversion_says_what_it_loses(void **state) {
+static void conversion_prints_its_loss(void **state) {
     (void)state;
     Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
                   "--convert=specular");
@@ -301,7 +301,7 @@ static bool holds(const WeftImage *sheet, const WeftImage *image) {
 }
 
 /* A sheet holds the very pictures that single renders make. */
-static void a_sheet_holds_the_pictures(void **state) {
+static void sheet_holds_the_pictures_of_its_settings(void **state) {
     (void)state;
     static const char *const ids[] = {"ashikhmin-neubelt", "charlie-neubelt"};
     Ran ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment",
@@ -354,7 +354,7 @@ static void assert_values(const char *const *options, const char *name, const ch
     ran_free(&ran);
 }
 
-static void a_sweep_has_a_picture_for_each_value(void **state) {
+static void sweep_has_a_picture_for_each_value(void **state) {
     (void)state;
     assert_values(LIST("--set=*.roughness=0, 0.25,1"), "*.roughness", "0 0.25 1");
     assert_values(LIST("--set=*.roughness=0;1"), "*.roughness", "0 1");
@@ -409,22 +409,22 @@ static void every_axis_makes_a_sheet(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(materials_have_any_name),
-        cmocka_unit_test(what_is_stronger_wins),
-        cmocka_unit_test(files_have_any_name),
-        cmocka_unit_test(pictures_are_put_on),
-        cmocka_unit_test(profiles_are_not_converted),
-        cmocka_unit_test(aliases_are_taken),
-        cmocka_unit_test(mistakes_are_named),
-        cmocka_unit_test(finding_of_several_inputs_is_told_once),
-        cmocka_unit_test(conversion_says_what_it_loses),
-        cmocka_unit_test(a_sheet_holds_the_pictures),
-        cmocka_unit_test(a_sweep_has_a_picture_for_each_value),
+        cmocka_unit_test(material_of_any_name_can_be_set),
+        cmocka_unit_test(set_overrides_shorthand_and_shorthand_overrides_profile),
+        cmocka_unit_test(material_file_may_have_an_equals_sign_in_its_name),
+        cmocka_unit_test(texture_option_changes_the_picture),
+        cmocka_unit_test(profile_ignores_convert),
+        cmocka_unit_test(alias_of_an_id_is_accepted),
+        cmocka_unit_test(mistyped_material_option_is_named_in_its_error),
+        cmocka_unit_test(warning_about_several_inputs_is_printed_once),
+        cmocka_unit_test(conversion_prints_its_loss),
+        cmocka_unit_test(sheet_holds_the_pictures_of_its_settings),
+        cmocka_unit_test(sweep_has_a_picture_for_each_value),
         cmocka_unit_test(two_sweeps_make_rows_and_columns),
         cmocka_unit_test(every_axis_makes_a_sheet),
-        cmocka_unit_test(blanks_around_ids_are_none),
-        cmocka_unit_test(choices_without_effect_are_told),
-        cmocka_unit_test(the_whole_is_judged),
+        cmocka_unit_test(blanks_around_an_id_are_ignored),
+        cmocka_unit_test(choice_without_effect_is_a_warning),
+        cmocka_unit_test(plausibility_is_judged_after_all_settings),
     };
     return cmocka_run_group_tests(tests, begin, work_end);
 }

@@ -19,7 +19,7 @@ static void need_gl(void) {
     if (none) skip();
 }
 
-static void raster_draws(void **state) {
+static void engine_raster_writes_a_picture(void **state) {
     (void)state;
     need_gl();
     Ran ran =
@@ -37,7 +37,7 @@ static void raster_draws(void **state) {
     ran_free(&ran);
 }
 
-static void both_stand_side_by_side(void **state) {
+static void engine_both_writes_both_pictures_and_their_difference(void **state) {
     (void)state;
     need_gl();
     Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "both.png", "--engine=both",
@@ -74,7 +74,7 @@ static void white_background_is_white_in_both(void **state) {
     }
 }
 
-static void turntables_number_their_pictures(void **state) {
+static void turntable_numbers_its_pictures(void **state) {
     (void)state;
     need_gl();
     Ran ran = run_with(
@@ -101,7 +101,7 @@ static void refuses(const char *const *arguments, const char *words) {
     ran_free(&ran);
 }
 
-static void what_makes_no_sense_is_refused(void **state) {
+static void engine_options_without_sense_are_refused(void **state) {
     (void)state;
     static const char *const lights[] = {"sun",
                                          "moon;1,2,3;1,1,1",
@@ -131,8 +131,9 @@ static void what_makes_no_sense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(raster_draws), cmocka_unit_test(both_stand_side_by_side),
-        cmocka_unit_test(white_background_is_white_in_both),
-        cmocka_unit_test(turntables_number_their_pictures), cmocka_unit_test(what_makes_no_sense_is_refused)};
+        cmocka_unit_test(engine_raster_writes_a_picture),
+        cmocka_unit_test(engine_both_writes_both_pictures_and_their_difference),
+        cmocka_unit_test(white_background_is_white_in_both), cmocka_unit_test(turntable_numbers_its_pictures),
+        cmocka_unit_test(engine_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

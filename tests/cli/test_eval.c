@@ -88,7 +88,7 @@ static void evaluate(const char *const *arguments, double rows[ANGLES][4]) {
     ran_free(&ran);
 }
 
-static void lambert_is_one_over_pi(void **state) {
+static void eval_of_lambert_is_one_over_pi(void **state) {
     (void)state;
     double rows[ANGLES][4];
     evaluate(LIST("eval", "lambert", "-p", "color=1,0.5,0.25"), rows);
@@ -100,7 +100,7 @@ static void lambert_is_one_over_pi(void **state) {
     }
 }
 
-static void ggx_is_its_formula(void **state) {
+static void eval_of_ggx_is_its_formula(void **state) {
     (void)state;
     double rows[ANGLES][4];
     evaluate(LIST("eval", "ggx", "-p", "alpha=0.3", "-p", "f0=0.04,0.5,1", "-p", "f90=1"), rows);
@@ -114,7 +114,7 @@ static void ggx_is_its_formula(void **state) {
     }
 }
 
-static void charlie_neubelt_is_its_formula(void **state) {
+static void eval_of_charlie_neubelt_is_its_formula(void **state) {
     (void)state;
     double rows[ANGLES][4];
     evaluate(LIST("eval", "charlie-neubelt", "-p", "alpha=0.25"), rows);
@@ -126,7 +126,7 @@ static void charlie_neubelt_is_its_formula(void **state) {
     }
 }
 
-static void file_and_input_are_the_same(void **state) {
+static void file_and_standard_input_print_the_same(void **state) {
     (void)state;
     file_make("angles.txt", angle_lines, strlen(angle_lines));
     Ran piped = run_with(angle_lines, LIST("eval", "ggx")), filed = RUN("eval", "ggx", "angles.txt"),
@@ -137,7 +137,7 @@ static void file_and_input_are_the_same(void **state) {
     ran_free(&piped), ran_free(&filed), ran_free(&dashed);
 }
 
-static void horizon_and_beyond_are_zero(void **state) {
+static void eval_at_or_below_the_horizon_is_zero(void **state) {
     (void)state;
     static const char lines[] = "90 0 10 0\n10 0 90 0\n100 0 10 0\n10 0 91 45\n180 0 180 0\n";
     Ran ran = run_with(lines, LIST("eval", "charlie-neubelt"));
@@ -146,7 +146,7 @@ static void horizon_and_beyond_are_zero(void **state) {
     ran_free(&ran);
 }
 
-static void lines_that_say_nothing_are_passed_over(void **state) {
+static void empty_lines_and_comments_are_skipped(void **state) {
     (void)state;
     Ran ran = run_with("# angles\n\n  \t\r\n10,20, 30 ,40\r\n  10\t20 30 40", LIST("eval", "lambert"));
     assert_int_equal(ran.code, 0);
@@ -157,7 +157,7 @@ static void lines_that_say_nothing_are_passed_over(void **state) {
 }
 
 /* As spreadsheets write it in front of a table. */
-static void a_byte_order_mark_is_passed_over(void **state) {
+static void byte_order_mark_of_the_input_is_skipped(void **state) {
     (void)state;
     Ran plain = run_with("10,20,30,40\n", LIST("eval", "lambert")),
         marked = run_with("\xef\xbb\xbf"
@@ -169,7 +169,7 @@ static void a_byte_order_mark_is_passed_over(void **state) {
 }
 
 /* What comes before the bad line is answered, the line is named, nothing after it is read. */
-static void malformed_lines_are_named(void **state) {
+static void malformed_line_is_named_by_its_number(void **state) {
     (void)state;
     static const char *const wrong[] = {"1 2 3",     "1 2 3 4 5", "1 2 3 x", "1 2 3 4x", "1,,2,3,4",
                                         "1 2 3 nan", "1 2 inf 4", "1;2;3;4", ",1,2,3,4", "1 2 3 4,"};
@@ -193,7 +193,7 @@ static void malformed_lines_are_named(void **state) {
 }
 
 /* An artist's roughness in the place of a lobe's own width. */
-static void roughness_is_what_artists_have(void **state) {
+static void roughness_option_means_the_roughness_of_artists(void **state) {
     (void)state;
     const char *pairs = "30 0 60 180\n10 20 80 40\n";
     Ran own = run_with(pairs, LIST("eval", "charlie-neubelt", "-p", "alpha=0.25")),
@@ -250,7 +250,7 @@ static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
 }
 
 /* The terms of two lobes of the catalogue give these lobes, by ids and by the names of sources. */
-static void terms_make_a_lobe(void **state) {
+static void terms_given_to_cook_torrance_make_a_lobe(void **state) {
     (void)state;
     static double rows[ANGLES][4], same[ANGLES][4];
     evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie", "-p", "v=neubelt", "-p", "f=none", "-p",
@@ -269,7 +269,7 @@ static void terms_make_a_lobe(void **state) {
     assert_memory_equal(rows, same, sizeof rows);
 }
 
-static void names_that_say_too_little_are_refused(void **state) {
+static void ambiguous_names_are_refused(void **state) {
     (void)state;
     static const char several[] = "several are called so: charlie-neubelt, charlie-conty-kulla";
     assert_complaint("", LIST("eval", "charlie"), 2, several);
@@ -280,7 +280,7 @@ static void names_that_say_too_little_are_refused(void **state) {
     assert_complaint("", LIST("eval", "cook-torrance", "-p", "v=2"), 2, "2: is not a value");
 }
 
-static void implausible_parameters_are_warned_of(void **state) {
+static void implausible_parameter_is_a_warning(void **state) {
     (void)state;
     Ran ran = run_with("10 0 20 0\n", LIST("eval", "ggx", "-p", "alpha=9"));
     assert_int_equal(ran.code, 0);
@@ -294,7 +294,7 @@ static void implausible_parameters_are_warned_of(void **state) {
 }
 
 /* A number that the lobe does not compute with is told, once, whichever verb it is given to. */
-static void what_was_not_fitted_is_told(void **state) {
+static void parameters_outside_the_fitted_range_are_a_warning(void **state) {
     (void)state;
     static const char words[] =
         "fibre: is outside the range that was fitted: alpha 0.105 of fibres that lean "
@@ -323,21 +323,21 @@ static void what_was_not_fitted_is_told(void **state) {
 int main(void) {
     make_angles();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lambert_is_one_over_pi),
-        cmocka_unit_test(ggx_is_its_formula),
-        cmocka_unit_test(charlie_neubelt_is_its_formula),
-        cmocka_unit_test(file_and_input_are_the_same),
-        cmocka_unit_test(horizon_and_beyond_are_zero),
-        cmocka_unit_test(lines_that_say_nothing_are_passed_over),
-        cmocka_unit_test(a_byte_order_mark_is_passed_over),
-        cmocka_unit_test(malformed_lines_are_named),
-        cmocka_unit_test(roughness_is_what_artists_have),
+        cmocka_unit_test(eval_of_lambert_is_one_over_pi),
+        cmocka_unit_test(eval_of_ggx_is_its_formula),
+        cmocka_unit_test(eval_of_charlie_neubelt_is_its_formula),
+        cmocka_unit_test(file_and_standard_input_print_the_same),
+        cmocka_unit_test(eval_at_or_below_the_horizon_is_zero),
+        cmocka_unit_test(empty_lines_and_comments_are_skipped),
+        cmocka_unit_test(byte_order_mark_of_the_input_is_skipped),
+        cmocka_unit_test(malformed_line_is_named_by_its_number),
+        cmocka_unit_test(roughness_option_means_the_roughness_of_artists),
         cmocka_unit_test(albedo_of_lambert_is_one),
         cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),
-        cmocka_unit_test(terms_make_a_lobe),
-        cmocka_unit_test(names_that_say_too_little_are_refused),
-        cmocka_unit_test(implausible_parameters_are_warned_of),
-        cmocka_unit_test(what_was_not_fitted_is_told),
+        cmocka_unit_test(terms_given_to_cook_torrance_make_a_lobe),
+        cmocka_unit_test(ambiguous_names_are_refused),
+        cmocka_unit_test(implausible_parameter_is_a_warning),
+        cmocka_unit_test(parameters_outside_the_fitted_range_are_a_warning),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

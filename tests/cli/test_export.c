@@ -16,7 +16,7 @@ static Ran done(const char *const *arguments) {
 
 static void finish(Ran ran) { ran_free(&ran); }
 
-static void help_is_complete(void **state) {
+static void export_help_names_every_target(void **state) {
     (void)state;
     Ran ran = done(LIST("export", "--help"));
     for (int k = 0; weft_export_target_name(k); k++)
@@ -34,7 +34,7 @@ static void assert_has(const char *path, const char *part) {
     free(text);
 }
 
-static void all_models_are_found(void **state) {
+static void export_finds_every_model(void **state) {
     (void)state;
     static const char *const models[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
                                             {"khronos", "weft_khronos_shade"},
@@ -56,7 +56,7 @@ static void all_models_are_found(void **state) {
     assert_has("out.h", "0.5f, 0.25f, 0.125f");
 }
 
-static void options_are_heeded(void **state) {
+static void export_options_change_the_text(void **state) {
     (void)state;
     finish(done(LIST("export", "charlie-neubelt:alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o",
                      "a.glsl")));
@@ -102,7 +102,7 @@ static WeftImage image_of(const char *path) {
 }
 
 /* Every file holds the library's numbers: to the last bit as floats, to half a step as 16 bits. */
-static void tables_are_read_back(void **state) {
+static void exported_table_files_read_back_as_written(void **state) {
     (void)state;
     enum { HEADER = 148 };
     WeftLobe lobe;
@@ -158,7 +158,7 @@ static void tables_are_read_back(void **state) {
 }
 
 /* 16 bits: pixels times the factor in the text. */
-static void png_is_scaled(void **state) {
+static void png_table_above_one_is_scaled(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftExport plain, scaled;
@@ -211,7 +211,7 @@ static void assert_defaults_stay(const char *plain, const char *with, const char
 
 /* A setting behind a workflow or a profile changes no other default. A rule may read inputs that the model
  * alone does not, so that more lines are there. */
-static void a_setting_leaves_other_defaults(void **state) {
+static void set_parameter_leaves_other_defaults(void **state) {
     (void)state;
     static char plain[8192], with[8192];
     static const char none[] = "no line";
@@ -249,7 +249,7 @@ static void two_lobes_share_one_record_of_values(void **state) {
     }
 }
 
-static void nonsense_is_refused(void **state) {
+static void export_options_without_sense_are_refused(void **state) {
     (void)state;
     const struct {
         const char *const *arguments;
@@ -289,14 +289,14 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_is_complete),
-        cmocka_unit_test(all_models_are_found),
-        cmocka_unit_test(options_are_heeded),
+        cmocka_unit_test(export_help_names_every_target),
+        cmocka_unit_test(export_finds_every_model),
+        cmocka_unit_test(export_options_change_the_text),
         cmocka_unit_test(several_models_make_one_file),
-        cmocka_unit_test(tables_are_read_back),
-        cmocka_unit_test(png_is_scaled),
-        cmocka_unit_test(nonsense_is_refused),
-        cmocka_unit_test(a_setting_leaves_other_defaults),
+        cmocka_unit_test(exported_table_files_read_back_as_written),
+        cmocka_unit_test(png_table_above_one_is_scaled),
+        cmocka_unit_test(export_options_without_sense_are_refused),
+        cmocka_unit_test(set_parameter_leaves_other_defaults),
         cmocka_unit_test(two_lobes_share_one_record_of_values),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);

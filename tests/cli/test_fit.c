@@ -23,7 +23,7 @@ static int table_begin(void **state) {
     return code;
 }
 
-static void a_lobe_is_found(void **state) {
+static void fit_finds_the_lobe_that_made_the_data(void **state) {
     (void)state;
     Ran ran = RUN("fit", "table.csv", "--lobe", "ashikhmin-neubelt", "--json", "-o", "m.json");
     if (ran.code != 0) fail_msg("%s", ran.err);
@@ -57,7 +57,7 @@ static void a_lobe_is_found(void **state) {
     ran_free(&ran);
 }
 
-static void the_table_is_printed(void **state) {
+static void fit_prints_a_table_of_lobes_by_error(void **state) {
     (void)state;
     Ran ran = RUN("fit", "table.csv", "--lobe", "charlie-neubelt", "--metric", "cosine");
     assert_int_equal(ran.code, 0);
@@ -68,7 +68,7 @@ static void the_table_is_printed(void **state) {
 }
 
 /* That of Schlick ends at white, whatever f90 is. */
-static void no_f90_is_told_of_where_none_is_read(void **state) {
+static void f90_is_printed_only_for_lobes_that_read_it(void **state) {
     (void)state;
     Ran ran = run_shell("\"$0\" eval cook-torrance -p v=smith-ggx-correlated -p f=schlick -p alpha=0.3 -p "
                         "color=0.8,0.5,0.2 angles.txt >f2.txt && paste -d' ' angles.txt f2.txt | cut -d' ' "
@@ -102,7 +102,7 @@ static void make_measured(const char *path) {
 }
 
 /* The data, the fit and the baseline in two rows, below each the differences. */
-static void slices_are_drawn(void **state) {
+static void plot_option_writes_slices(void **state) {
     (void)state;
     make_measured("cloth.binary");
     Ran ran = RUN("fit", "cloth.binary", "--lobe", "charlie-neubelt", "--plot", "slices.png");
@@ -125,7 +125,7 @@ static void slices_are_drawn(void **state) {
     weft_image_free(&sheet);
 }
 
-static void complaints(void **state) {
+static void fit_of_bad_data_or_options_is_refused(void **state) {
     (void)state;
     file_make("bad.csv", "1,2,3\n", 6);
     file_make("short.binary", "abc", 3);
@@ -142,7 +142,7 @@ static void complaints(void **state) {
 }
 
 /* In the midst of the longest fit. */
-static void ctrl_c_ends_it(void **state) {
+static void interrupted_fit_ends(void **state) {
     (void)state;
     pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("fit", "table.csv", "--lobe", "threads"));
     sleep_seconds(0.5);
@@ -156,11 +156,11 @@ static void ctrl_c_ends_it(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_found),
-                                       cmocka_unit_test(the_table_is_printed),
-                                       cmocka_unit_test(no_f90_is_told_of_where_none_is_read),
-                                       cmocka_unit_test(slices_are_drawn),
-                                       cmocka_unit_test(ctrl_c_ends_it),
-                                       cmocka_unit_test(complaints)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fit_finds_the_lobe_that_made_the_data),
+                                       cmocka_unit_test(fit_prints_a_table_of_lobes_by_error),
+                                       cmocka_unit_test(f90_is_printed_only_for_lobes_that_read_it),
+                                       cmocka_unit_test(plot_option_writes_slices),
+                                       cmocka_unit_test(interrupted_fit_ends),
+                                       cmocka_unit_test(fit_of_bad_data_or_options_is_refused)};
     return cmocka_run_group_tests(tests, table_begin, work_end);
 }

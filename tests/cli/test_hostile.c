@@ -31,7 +31,7 @@ static void cameras_out_of_reach_are_refused(void **state) {
 
 /* The widest scene there may be, and the narrowest picture: the camera would back off beyond Embree's
  * numbers. */
-static void a_picture_seen_from_out_of_reach_is_refused(void **state) {
+static void picture_from_a_camera_out_of_reach_is_refused(void **state) {
     (void)state;
     size_t size;
     char *text = file_bytes("scene.gltf", &size), *at = strstr(text, "{\"mesh\":0}"), wide[4096];
@@ -67,7 +67,7 @@ static void pipes_and_devices_are_refused_at_once(void **state) {
 }
 
 /* The program runs once to have its cache, of which every file becomes a pipe. */
-static void caches_that_are_pipes_are_passed_over(void **state) {
+static void cache_file_that_is_a_pipe_is_ignored(void **state) {
     (void)state;
     Ran ran = run_shell("export XDG_CACHE_HOME=$PWD/cache && $0 bake ltc ggx --size 4x4 -o a.npy --quiet && "
                         "cd cache/weft && for f in *.ltc; do rm $f && mkfifo $f; done && cd ../.. && "
@@ -80,7 +80,7 @@ static void caches_that_are_pipes_are_passed_over(void **state) {
     ran_free(&ran);
 }
 
-static void damaged_caches_are_told(void **state) {
+static void damaged_cache_is_a_warning(void **state) {
     (void)state;
     Ran ran = run_shell("export XDG_CACHE_HOME=$PWD/cache && $0 bake ltc ggx --size 4x4 -o a.npy --quiet && "
                         "for f in cache/weft/*.ltc; do echo x >> $f; done && "
@@ -94,7 +94,7 @@ static void damaged_caches_are_told(void **state) {
 }
 
 /* eval reads lines as they come and may wait for them; a signal ends that. */
-static void eval_that_waits_for_a_pipe_ends_by_a_signal(void **state) {
+static void eval_waiting_for_a_pipe_ends_by_a_signal(void **state) {
     (void)state;
     assert_int_equal(mkfifo("lines", 0600), 0);
     pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("eval", "ggx", "lines"));
@@ -118,7 +118,7 @@ static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state)
     ran_free(&ran);
 }
 
-static void a_report_that_cannot_be_written_is_told(void **state) {
+static void unwritable_report_is_an_error(void **state) {
     (void)state;
     Ran found = run_shell("$0 doctor scene.gltf > /dev/null"),
         lost = run_shell("$0 doctor scene.gltf > /dev/full");
@@ -128,7 +128,7 @@ static void a_report_that_cannot_be_written_is_told(void **state) {
     ran_free(&found), ran_free(&lost);
 }
 
-static void a_damaged_picture_is_no_lack_of_memory(void **state) {
+static void damaged_picture_is_not_reported_as_lack_of_memory(void **state) {
     (void)state;
     const char *folder = getenv("WEFT_DATA");
     char path[1024];
@@ -144,14 +144,14 @@ static void a_damaged_picture_is_no_lack_of_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_out_of_reach_are_refused),
-        cmocka_unit_test(a_picture_seen_from_out_of_reach_is_refused),
+        cmocka_unit_test(picture_from_a_camera_out_of_reach_is_refused),
         cmocka_unit_test(pipes_and_devices_are_refused_at_once),
-        cmocka_unit_test(caches_that_are_pipes_are_passed_over),
-        cmocka_unit_test(damaged_caches_are_told),
-        cmocka_unit_test(eval_that_waits_for_a_pipe_ends_by_a_signal),
+        cmocka_unit_test(cache_file_that_is_a_pipe_is_ignored),
+        cmocka_unit_test(damaged_cache_is_a_warning),
+        cmocka_unit_test(eval_waiting_for_a_pipe_ends_by_a_signal),
         cmocka_unit_test(a_file_beyond_its_limit_is_one_line_and_leaves_nothing),
-        cmocka_unit_test(a_report_that_cannot_be_written_is_told),
-        cmocka_unit_test(a_damaged_picture_is_no_lack_of_memory),
+        cmocka_unit_test(unwritable_report_is_an_error),
+        cmocka_unit_test(damaged_picture_is_not_reported_as_lack_of_memory),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -31,7 +31,7 @@ static double keep(const char *seed, Bytes kept[OUTPUTS]) {
     return seconds;
 }
 
-static void killed_at_any_moment(void **state) {
+static void killed_render_leaves_old_or_new_files_complete(void **state) {
     (void)state;
     Bytes old[OUTPUTS], fresh[OUTPUTS];
     keep("1", old);
@@ -55,6 +55,6 @@ static void killed_at_any_moment(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(killed_at_any_moment)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(killed_render_leaves_old_or_new_files_complete)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

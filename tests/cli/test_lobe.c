@@ -156,7 +156,7 @@ static void a_file_is_plotted_matched_and_fitted(void **state) {
     ran_free(&ran);
 }
 
-static void a_passport_is_that_of_a_row(void **state) {
+static void passport_of_a_file_is_that_of_a_row(void **state) {
     (void)state;
     char file[64], own[64];
     make_twin(1, file, own);
@@ -182,7 +182,7 @@ static void assert_near(double x, double expected) {
     if (!(x > expected - 1e-6 && x < expected + 1e-6)) fail_msg("%g is not %g", x, expected);
 }
 
-static void the_toy_is_a_lobe(void **state) {
+static void toy_loaded_from_a_file_is_listed_as_a_lobe(void **state) {
     (void)state;
     double f[4];
     Ran ran = run_with("60 0 0 0\n",
@@ -227,7 +227,7 @@ static const char writer_main[] =
     "    return 0;\n"
     "}\n";
 
-static void what_is_written_is_exported(void **state) {
+static void exported_c_of_a_lobe_file_evaluates_as_the_lobe(void **state) {
     (void)state;
     done(LIST("export", "writer", "--target", "c", "-o", "writer.c", "--lobe", WRITER));
     file_make("main.c", writer_main, strlen(writer_main));
@@ -257,7 +257,7 @@ static void what_is_written_is_exported(void **state) {
 }
 
 /* Its loops over arrays are ones of vectors, as those of the catalogue: the test vector. */
-static void the_toy_vectorises(void **state) {
+static void toy_loaded_from_a_file_compiles_to_vector_loops(void **state) {
     (void)state;
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
     Ran ran = run_shell("XDG_CACHE_HOME=$PWD/cache CC= $0 models toy --lobe '" TOY "' >/dev/null && "
@@ -288,7 +288,7 @@ static void refused(const char *file, int code, const char *part) {
     assert_complaint("0 0 0 0\n", LIST("eval", "lambert", "--lobe", file), code, part);
 }
 
-static void bad_files_are_told_in_one_line(void **state) {
+static void bad_lobe_file_is_an_error_of_one_line(void **state) {
     (void)state;
     refused("nowhere.h", 3, "nowhere.h: cannot be opened");
     assert_int_equal(mkdir("folder.h", 0700), 0);
@@ -317,7 +317,7 @@ static void bad_files_are_told_in_one_line(void **state) {
 }
 
 /* The cache is new and $PATH has no cc, or $CC no program. */
-static void without_a_compiler_that_is_said(void **state) {
+static void lobe_file_without_a_compiler_is_an_error(void **state) {
     (void)state;
     static const char *const none[] = {
         "mkdir -p cache bin && ln -sf /usr/bin/env bin/env && XDG_CACHE_HOME=$PWD/cache CC= PATH=$PWD/bin "
@@ -343,12 +343,12 @@ int main(void) {
         cmocka_unit_test(a_file_exports_as_a_row),
         cmocka_unit_test(a_file_renders_as_a_row),
         cmocka_unit_test(a_file_is_plotted_matched_and_fitted),
-        cmocka_unit_test(a_passport_is_that_of_a_row),
-        cmocka_unit_test(the_toy_is_a_lobe),
-        cmocka_unit_test(what_is_written_is_exported),
-        cmocka_unit_test(the_toy_vectorises),
-        cmocka_unit_test(bad_files_are_told_in_one_line),
-        cmocka_unit_test(without_a_compiler_that_is_said),
+        cmocka_unit_test(passport_of_a_file_is_that_of_a_row),
+        cmocka_unit_test(toy_loaded_from_a_file_is_listed_as_a_lobe),
+        cmocka_unit_test(exported_c_of_a_lobe_file_evaluates_as_the_lobe),
+        cmocka_unit_test(toy_loaded_from_a_file_compiles_to_vector_loops),
+        cmocka_unit_test(bad_lobe_file_is_an_error_of_one_line),
+        cmocka_unit_test(lobe_file_without_a_compiler_is_an_error),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

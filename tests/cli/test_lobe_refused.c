@@ -16,7 +16,7 @@ static void refused(const char *file, const char *part) {
     assert_complaint("0 0 0 0\n", LIST("eval", "lambert", "--lobe", file), 3, part);
 }
 
-static void a_name_that_others_have(void **state) {
+static void lobe_name_that_is_taken_or_malformed_is_refused(void **state) {
     (void)state;
     static const char *const names[][4] = {
         {"toy_", "Toy", "TOY_", "lower-case letters, digits and single _ between"},
@@ -48,7 +48,7 @@ static void toy_refused(const char *order, const char *part) {
     refused("toy2.h", part);
 }
 
-static void a_parameter_that_is_none(void **state) {
+static void lobe_parameter_without_sense_is_refused(void **state) {
     (void)state;
     static const char terms[] = "parameter fade has a range or a default that its terms do not have";
     static const char help[] = "parameter fade has a help text with a control character or the end of";
@@ -62,7 +62,7 @@ static void a_parameter_that_is_none(void **state) {
     toy_refused("s/how much of the second/how\\\\nmuch/", help);
 }
 
-static void bytes_that_are_no_text(void **state) {
+static void lobe_file_with_a_zero_byte_is_refused(void **state) {
     (void)state;
     toy_as("toy2", "Toy2", "TOY2", "");
     Ran ran = run_shell("printf '\\0//' >>toy2.h");
@@ -85,7 +85,7 @@ static void done(const char *line, int code, const char *part) {
 #define TOY   WEFT_SOURCE_DIR "/tests/lobes/toy.h"
 #define CACHE "export XDG_CACHE_HOME=$PWD/cache; rm -rf cache; "
 
-static void compilers_that_cannot_be_run(void **state) {
+static void compiler_that_cannot_run_is_an_error(void **state) {
     (void)state;
     done(CACHE "env --ignore-signal=CHLD $0 models toy --lobe " TOY, 0, "toy");
     done(CACHE "CC='cc 1 2 3 4 5 6 7 8' $0 models toy --lobe " TOY, 4, "255 characters or 8 words");
@@ -105,7 +105,7 @@ static void compilers_that_cannot_be_run(void **state) {
           " >/dev/null && cp hostile.so cache/weft/*.so && chmod 700 cache/weft/*.so; "
 #define RUN_IT "$0 models toy --lobe " TOY "; rm -r cache"
 
-static void a_library_of_somebody_else_is_not_run(void **state) {
+static void cached_library_of_another_user_is_not_run(void **state) {
     (void)state;
     done("echo '#include <stdio.h>\n__attribute__((constructor)) static void run(void) { puts(\"RUN\"); }' "
          ">hostile.c && cc -shared -fPIC hostile.c -o hostile.so && " HOSTILE RUN_IT,
@@ -125,7 +125,7 @@ static void a_library_of_somebody_else_is_not_run(void **state) {
          0, "toy"); /* what is made is private */
 }
 
-static void what_was_interrupted_is_removed(void **state) {
+static void interrupted_compilation_leaves_no_files(void **state) {
     (void)state;
     done(CACHE "mkdir -p cache && chmod 700 cache && mkdir -m 700 cache/weft cache/weft/lobe-old "
                "cache/weft/lobe-new && touch cache/weft/lobe-old/lobe.c && "
@@ -135,11 +135,11 @@ static void what_was_interrupted_is_removed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_name_that_others_have),
-                                       cmocka_unit_test(a_parameter_that_is_none),
-                                       cmocka_unit_test(bytes_that_are_no_text),
-                                       cmocka_unit_test(compilers_that_cannot_be_run),
-                                       cmocka_unit_test(a_library_of_somebody_else_is_not_run),
-                                       cmocka_unit_test(what_was_interrupted_is_removed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lobe_name_that_is_taken_or_malformed_is_refused),
+                                       cmocka_unit_test(lobe_parameter_without_sense_is_refused),
+                                       cmocka_unit_test(lobe_file_with_a_zero_byte_is_refused),
+                                       cmocka_unit_test(compiler_that_cannot_run_is_an_error),
+                                       cmocka_unit_test(cached_library_of_another_user_is_not_run),
+                                       cmocka_unit_test(interrupted_compilation_leaves_no_files)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -31,7 +31,7 @@ static double error_of(const json_t *json, const char *side) {
     return number(json_object_get(json, side), "error");
 }
 
-static void a_lobe_is_itself(void **state) {
+static void match_of_a_lobe_with_itself_keeps_its_parameters(void **state) {
     (void)state;
     json_t *json = printed(LIST("match", "charlie-neubelt:alpha=0.37,color=0.9,0.4,0.2", "charlie-neubelt",
                                 "--json", "--metric", "log"));
@@ -41,7 +41,7 @@ static void a_lobe_is_itself(void **state) {
     json_decref(json);
 }
 
-static void a_match_is_closer(void **state) {
+static void matched_lobe_is_closer_than_the_copied_one(void **state) {
     (void)state;
     json_t *json = printed(LIST("match", "khronos:sheen_roughness=0.4", "three", "--json", "-o", "m.json"));
     assert_true(fabs(value_of(json, "copied", "sheen_roughness") - 0.4) < 1e-6);
@@ -58,7 +58,7 @@ static void a_match_is_closer(void **state) {
     json_decref(json);
 }
 
-static void pictures_are_written(void **state) {
+static void match_writes_its_comparison_sheet(void **state) {
     (void)state;
     Ran ran = RUN("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "-o", "m.png");
     if (ran.code != 0) fail_msg("%s", ran.err);
@@ -76,7 +76,7 @@ static void pictures_are_written(void **state) {
 }
 
 /* The sheen of a file, for another engine: only its factors change. */
-static void an_asset_is_rewritten(void **state) {
+static void matched_asset_is_written(void **state) {
     (void)state;
     json_t *json = printed(
         LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
@@ -131,7 +131,7 @@ static void many_make(int count) {
 }
 
 /* Either would take minutes. */
-static void ctrl_c_ends_many_materials(void **state) {
+static void interrupted_match_of_many_materials_ends(void **state) {
     (void)state;
     const char *const *const verbs[] = {
         LIST("match", "many.gltf", "--from", "khronos", "--to", "three", "-o", "never.gltf"),
@@ -170,7 +170,7 @@ static double flip(const WeftImage *image, const WeftImage *reference) {
 }
 
 /* The chair: drawn by the other engine it is closer to what it was than with its own numbers. */
-static void the_chair_looks_as_it_did(void **state) {
+static void matched_chair_is_closer_in_the_other_engine_than_copied(void **state) {
     (void)state;
     const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth",
                                                                   "filament-sheen"};
@@ -196,7 +196,7 @@ static void the_chair_looks_as_it_did(void **state) {
     weft_image_free(&original);
 }
 
-static void complaints(void **state) {
+static void match_options_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("match", "ggx"), 2, "FROM and TO");
     assert_complaint(NULL, LIST("match", "--table", "ggx"), 2, "takes no names");
@@ -226,12 +226,13 @@ static void complaints(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lobe_is_itself),
-                                       cmocka_unit_test(a_match_is_closer),
-                                       cmocka_unit_test(pictures_are_written),
-                                       cmocka_unit_test(an_asset_is_rewritten),
-                                       cmocka_unit_test(ctrl_c_ends_many_materials),
-                                       cmocka_unit_test(the_chair_looks_as_it_did),
-                                       cmocka_unit_test(complaints)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(match_of_a_lobe_with_itself_keeps_its_parameters),
+        cmocka_unit_test(matched_lobe_is_closer_than_the_copied_one),
+        cmocka_unit_test(match_writes_its_comparison_sheet),
+        cmocka_unit_test(matched_asset_is_written),
+        cmocka_unit_test(interrupted_match_of_many_materials_ends),
+        cmocka_unit_test(matched_chair_is_closer_in_the_other_engine_than_copied),
+        cmocka_unit_test(match_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -12,7 +12,7 @@ static json_t *parsed(const char *text) {
     return value;
 }
 
-static void text_names_everything(void **state) {
+static void text_names_every_model(void **state) {
     (void)state;
     Ran ran = RUN("models");
     assert_int_equal(ran.code, 0);
@@ -24,7 +24,7 @@ static void text_names_everything(void **state) {
     ran_free(&ran);
 }
 
-static void json_names_everything(void **state) {
+static void json_names_every_model(void **state) {
     (void)state;
     Ran ran = RUN("models", "--json");
     assert_int_equal(ran.code, 0);
@@ -42,7 +42,7 @@ static void json_names_everything(void **state) {
 }
 
 /* Every number of every parameter table comes through as the same float. */
-static void parameters_come_through(void **state) {
+static void json_has_every_number_of_the_parameter_tables(void **state) {
     (void)state;
     for (int k = 0; k < weft_lobe_count(); k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
@@ -115,7 +115,7 @@ static bool has_row(const char *text, const char *id) {
 }
 
 /* Each is listed, has a page under KIND:ID and under its id alone, and the page of a model holds a source. */
-static void every_promised_id_has_a_page(void **state) {
+static void every_listed_id_has_a_page(void **state) {
     (void)state;
     Ran all = RUN("models");
     for (size_t k = 0; k < sizeof promised / sizeof *promised; k++) {
@@ -137,7 +137,7 @@ static void every_promised_id_has_a_page(void **state) {
     ran_free(&all);
 }
 
-static void an_id_of_several_shows_all(void **state) {
+static void id_of_several_catalogues_prints_all_pages(void **state) {
     (void)state;
     Ran ran = RUN("models", "cook-torrance");
     assert_int_equal(ran.code, 0);
@@ -167,7 +167,7 @@ static void an_id_of_several_shows_all(void **state) {
 }
 
 /* What preset:NAME prints is a material file that dresses a scene just so. */
-static void presets_can_be_taken_away(void **state) {
+static void printed_preset_is_a_material_file_with_the_same_picture(void **state) {
     (void)state;
     size_t size;
     Ran ran = run_shell(
@@ -184,8 +184,11 @@ static void presets_can_be_taken_away(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_names_everything),      cmocka_unit_test(json_names_everything),
-        cmocka_unit_test(parameters_come_through),    cmocka_unit_test(every_promised_id_has_a_page),
-        cmocka_unit_test(an_id_of_several_shows_all), cmocka_unit_test(presets_can_be_taken_away)};
+        cmocka_unit_test(text_names_every_model),
+        cmocka_unit_test(json_names_every_model),
+        cmocka_unit_test(json_has_every_number_of_the_parameter_tables),
+        cmocka_unit_test(every_listed_id_has_a_page),
+        cmocka_unit_test(id_of_several_catalogues_prints_all_pages),
+        cmocka_unit_test(printed_preset_is_a_material_file_with_the_same_picture)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

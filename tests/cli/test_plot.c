@@ -19,7 +19,7 @@ static void assert_begins(const char *path, const char *magic) {
     unlink(path);
 }
 
-static void every_kind_is_written(void **state) {
+static void every_kind_of_plot_is_written(void **state) {
     (void)state;
     static const char *const files[][2] = {
         {"a.png", "\x89PNG"}, {"a.svg", "<?xml"}, {"a.pdf", "%PDF"}, {"A.PNG", "\x89PNG"}};
@@ -35,7 +35,7 @@ static void every_kind_is_written(void **state) {
     }
 }
 
-static void models_of_all_kinds_stand_together(void **state) {
+static void models_of_all_kinds_share_one_figure(void **state) {
     (void)state;
     Ran ran =
         RUN("plot", "polar", "fibre", "three:sheen_roughness=0.4", "preset:velvet", "--view", "30", "--view",
@@ -52,7 +52,7 @@ static void models_of_all_kinds_stand_together(void **state) {
     assert_begins("page.html", "<!DOCTYPE html>");
 }
 
-static void json_is_what_is_drawn(void **state) {
+static void json_has_the_numbers_that_are_drawn(void **state) {
     (void)state;
     Ran ran = RUN("plot", "cartesian", "lambert:color=0.5", "ggx:alpha=0.3", "--view", "45", "--json");
     assert_int_equal(ran.code, 0);
@@ -85,7 +85,7 @@ static void json_is_what_is_drawn(void **state) {
 }
 
 /* Lines that start with a heading, each of as many fields. */
-static void csv_is_a_table(void **state) {
+static void csv_has_one_row_for_each_sample(void **state) {
     (void)state;
     static const char *const headings[][3] = {{"polar", "panel,series,x,y\n", "lambert"},
                                               {"difference", "panel,channel,x,y,value\n", "max(A, B)"},
@@ -130,7 +130,7 @@ static void two_runs_write_the_same_bytes(void **state) {
     }
 }
 
-static void wrong_commands_are_refused(void **state) {
+static void plot_commands_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("plot"), 2, "lacks an operand");
     assert_complaint(NULL, LIST("plot", "polar"), 2, "lacks an operand");
@@ -169,7 +169,7 @@ static void wrong_commands_are_refused(void **state) {
     assert_null(file_bytes("a.png", &size));
 }
 
-static void help_lists_the_kinds(void **state) {
+static void plot_help_lists_the_kinds(void **state) {
     (void)state;
     Ran ran = RUN("plot", "--help");
     assert_int_equal(ran.code, 0);
@@ -186,10 +186,13 @@ static void help_lists_the_kinds(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_is_written),         cmocka_unit_test(models_of_all_kinds_stand_together),
-        cmocka_unit_test(json_is_what_is_drawn),         cmocka_unit_test(csv_is_a_table),
-        cmocka_unit_test(two_runs_write_the_same_bytes), cmocka_unit_test(wrong_commands_are_refused),
-        cmocka_unit_test(help_lists_the_kinds),
+        cmocka_unit_test(every_kind_of_plot_is_written),
+        cmocka_unit_test(models_of_all_kinds_share_one_figure),
+        cmocka_unit_test(json_has_the_numbers_that_are_drawn),
+        cmocka_unit_test(csv_has_one_row_for_each_sample),
+        cmocka_unit_test(two_runs_write_the_same_bytes),
+        cmocka_unit_test(plot_commands_without_sense_are_refused),
+        cmocka_unit_test(plot_help_lists_the_kinds),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -37,7 +37,7 @@ static char *on_terminal(unsigned short columns, const char *const *arguments, i
     return text;
 }
 
-static void line_is_drawn_and_erased(void **state) {
+static void progress_line_is_drawn_and_erased(void **state) {
     (void)state;
     const double limit = 1.5;
     int code, drawn = 0;
@@ -60,7 +60,7 @@ static void line_is_drawn_and_erased(void **state) {
 }
 
 /* Other long work counts other things, in the same line. */
-static void texels_are_counted(void **state) {
+static void progress_of_bake_counts_texels(void **state) {
     (void)state;
     int code;
     char *text = on_terminal(100, LIST("bake", "albedo", "ggx", "--size=128x128", "-o", "a.npy"), &code);
@@ -72,7 +72,7 @@ static void texels_are_counted(void **state) {
 }
 
 /* Of work whose amount only the file says. */
-static void shares_are_drawn(void **state) {
+static void progress_of_unknown_length_is_drawn_in_per_cent(void **state) {
     (void)state;
     int code;
     char *text = on_terminal(
@@ -86,7 +86,7 @@ static void shares_are_drawn(void **state) {
     free(text);
 }
 
-static void quiet_is_quiet(void **state) {
+static void quiet_option_draws_no_progress(void **state) {
     (void)state;
     int code;
     char *text =
@@ -97,8 +97,9 @@ static void quiet_is_quiet(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(line_is_drawn_and_erased),
-                                       cmocka_unit_test(texels_are_counted),
-                                       cmocka_unit_test(shares_are_drawn), cmocka_unit_test(quiet_is_quiet)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(progress_line_is_drawn_and_erased),
+                                       cmocka_unit_test(progress_of_bake_counts_texels),
+                                       cmocka_unit_test(progress_of_unknown_length_is_drawn_in_per_cent),
+                                       cmocka_unit_test(quiet_option_draws_no_progress)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

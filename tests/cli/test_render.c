@@ -49,7 +49,7 @@ static void quietly(const char *const *arguments) {
     ran_free(&ran);
 }
 
-static void builtin_scene_comes_out_in_three_formats(void **state) {
+static void builtin_scene_is_written_in_three_formats(void **state) {
     (void)state;
     Ran ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr"));
     assert_string_equal(ran.out, "");
@@ -65,7 +65,7 @@ static void builtin_scene_comes_out_in_three_formats(void **state) {
     ran_free(&ran);
 }
 
-static void seed_alone_decides(void **state) {
+static void picture_depends_on_the_seed_alone(void **state) {
     (void)state;
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.png", "-o", "a.exr", "--threads", "1"));
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.png", "-o", "b.exr", "--seed=0",
@@ -92,7 +92,7 @@ static float mean(const char *path) {
     return (float)(sum / (pixels * colors));
 }
 
-static void light_and_picture_options_work(void **state) {
+static void light_and_picture_options_change_the_picture(void **state) {
     (void)state;
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "dark.exr", "--env", "0,0,0",
                  "--background=environment"));
@@ -118,7 +118,7 @@ static void crop_is_a_part_of_the_whole(void **state) {
     assert_size("crop.exr", 16, 12);
 }
 
-static void materials_can_be_set(void **state) {
+static void set_option_changes_a_material(void **state) {
     (void)state;
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.exr", "--camera=front"));
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.exr", "--camera=0", "--set",
@@ -134,7 +134,7 @@ static void materials_can_be_set(void **state) {
 }
 
 /* Alone, or beside a picture, which is that of what was saved. */
-static void scenes_are_saved(void **state) {
+static void save_option_writes_the_scene(void **state) {
     (void)state;
     quietly(LIST("render", "builtin:cloth", "--preset=denim", "--save=saved.glb", "--save=saved.gltf",
                  "--save=saved.json"));
@@ -156,7 +156,7 @@ static void scenes_are_saved(void **state) {
     assert_complaint(NULL, LIST("render", "none.gltf", "--save=a.glb"), 3, "none.gltf");
 }
 
-static void json_holds_the_figures(void **state) {
+static void json_has_samples_and_seconds(void **state) {
     (void)state;
     static const char odd[] = "o\"\\\n\xc3\xa4\xff.png"; /* quote, backslash, newline, UTF-8 and not */
     Ran ran =
@@ -190,7 +190,7 @@ static void json_holds_the_figures(void **state) {
     ran_free(&ran);
 }
 
-static void time_limit_ends_it_well(void **state) {
+static void time_limit_ends_a_render_with_a_picture(void **state) {
     (void)state;
     Ran ran = done(LIST("render", "scene.gltf", "--width=32", "--height=24", "--time-limit=0.3", "--json",
                         "-o", "a.png"));
@@ -208,7 +208,7 @@ static void time_limit_ends_it_well(void **state) {
 }
 
 /* Interrupts a long render after some seconds; longer and longer until it had taken a sample. */
-static void interrupt_writes_what_there_is(void **state) {
+static void interrupted_render_writes_the_samples_so_far(void **state) {
     (void)state;
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     for (int s = 0; s < 3; s++) {
@@ -244,7 +244,7 @@ static void an_ignored_hangup_stays_ignored(void **state) {
 }
 
 /* A sheet of which only the first picture was begun: that picture, and no word on differences. */
-static void interrupted_sheets_show_what_there_is(void **state) {
+static void interrupted_sheet_shows_the_pictures_so_far(void **state) {
     (void)state;
     Ran ran = {0};
     bool early = true;
@@ -267,7 +267,7 @@ static void interrupted_sheets_show_what_there_is(void **state) {
 }
 
 /* Interrupts are heeded before anything is loaded, and the sky is large: its loading cannot be over then. */
-static void interrupted_while_loading(void **state) {
+static void render_interrupted_while_loading_ends(void **state) {
     (void)state;
     enum { WIDTH = 2048, HEIGHT = 1024 };
     WeftImage sky;
@@ -287,7 +287,7 @@ static void interrupted_while_loading(void **state) {
     ran_free(&ran);
 }
 
-static void failures_keep_the_old_picture(void **state) {
+static void failed_render_keeps_the_old_picture(void **state) {
     (void)state;
     file_make("a.png", "old", 3);
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
@@ -310,7 +310,7 @@ static void failures_keep_the_old_picture(void **state) {
 }
 
 /* No scene is there to be read, so exit 4 shows that the outputs come first. */
-static void outputs_are_tried_first(void **state) {
+static void unwritable_output_is_refused_before_the_scene_is_read(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "no/folder/a.png"), 4,
                      "no/folder/a.png: cannot be written");
@@ -329,7 +329,7 @@ static void outputs_are_tried_first(void **state) {
                      "link.exr: is a link that leads nowhere");
 }
 
-static void links_are_followed(void **state) {
+static void output_through_a_link_replaces_its_target(void **state) {
     (void)state;
     struct stat status;
     file_make("real.png", "old", 3);
@@ -341,21 +341,21 @@ static void links_are_followed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(builtin_scene_comes_out_in_three_formats),
-        cmocka_unit_test(seed_alone_decides),
-        cmocka_unit_test(light_and_picture_options_work),
+        cmocka_unit_test(builtin_scene_is_written_in_three_formats),
+        cmocka_unit_test(picture_depends_on_the_seed_alone),
+        cmocka_unit_test(light_and_picture_options_change_the_picture),
         cmocka_unit_test(crop_is_a_part_of_the_whole),
-        cmocka_unit_test(materials_can_be_set),
-        cmocka_unit_test(scenes_are_saved),
-        cmocka_unit_test(json_holds_the_figures),
-        cmocka_unit_test(time_limit_ends_it_well),
-        cmocka_unit_test(interrupt_writes_what_there_is),
+        cmocka_unit_test(set_option_changes_a_material),
+        cmocka_unit_test(save_option_writes_the_scene),
+        cmocka_unit_test(json_has_samples_and_seconds),
+        cmocka_unit_test(time_limit_ends_a_render_with_a_picture),
+        cmocka_unit_test(interrupted_render_writes_the_samples_so_far),
         cmocka_unit_test(an_ignored_hangup_stays_ignored),
-        cmocka_unit_test(interrupted_sheets_show_what_there_is),
-        cmocka_unit_test(interrupted_while_loading),
-        cmocka_unit_test(failures_keep_the_old_picture),
-        cmocka_unit_test(outputs_are_tried_first),
-        cmocka_unit_test(links_are_followed),
+        cmocka_unit_test(interrupted_sheet_shows_the_pictures_so_far),
+        cmocka_unit_test(render_interrupted_while_loading_ends),
+        cmocka_unit_test(failed_render_keeps_the_old_picture),
+        cmocka_unit_test(unwritable_output_is_refused_before_the_scene_is_read),
+        cmocka_unit_test(output_through_a_link_replaces_its_target),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

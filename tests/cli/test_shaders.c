@@ -47,7 +47,7 @@ static void write_broken(const char *from, const char *to, char place[64]) {
     snprintf(place, 64, "weft: %s:%d: ", path, line);
 }
 
-static void broken_text_ends_with_its_line(void **state) {
+static void broken_shader_text_is_an_error_with_its_line(void **state) {
     (void)state;
     static const char *const changes[][2] = {
         {"1.0f / PI", "1.0f +"},
@@ -69,6 +69,6 @@ static void broken_text_ends_with_its_line(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_text_ends_with_its_line)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_shader_text_is_an_error_with_its_line)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -76,7 +76,7 @@ static int try_all(bool on) {
     return wrong;
 }
 
-static void any_allocation_may_fail(void **state) {
+static void command_without_memory_ends_with_one_line(void **state) {
     (void)state;
     pid_t children[2];
     for (int on = 0; on < 2; on++) {
@@ -101,6 +101,6 @@ int main(void) {
         print_message("sanitizers have an allocator of their own\n");
         return 0;
     }
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_allocation_may_fail)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(command_without_memory_ends_with_one_line)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -26,7 +26,7 @@ static void check_help(const char *verb, const char *const *options) {
     ran_free(&ran);
 }
 
-static void help_is_complete(void **state) {
+static void help_of_every_verb_names_its_options(void **state) {
     (void)state;
     check_help("render", render_options);
     check_help("models", LIST("--json", "--help"));
@@ -42,7 +42,7 @@ static void help_is_complete(void **state) {
     ran_free(&ran);
 }
 
-static void words_do_as_options(void **state) {
+static void help_and_version_work_as_words_and_as_options(void **state) {
     (void)state;
     static const struct {
         const char *words[3], *options[3];
@@ -60,7 +60,7 @@ static void words_do_as_options(void **state) {
 }
 
 /* What is empty has no name to begin a line with. */
-static void empty_words_are_quoted(void **state) {
+static void empty_argument_is_quoted_in_its_error(void **state) {
     (void)state;
     assert_complaint(NULL, LIST(""), 2, "weft: \"\": is not a verb");
     assert_complaint(NULL, LIST("models", ""), 2, "weft: \"\": is no operand");
@@ -71,7 +71,7 @@ static void empty_words_are_quoted(void **state) {
     assert_complaint(NULL, LIST("check", "lambert", "--html="), 2, "weft: --html: \"\" is no value");
 }
 
-static void usage_errors_are_one_line(void **state) {
+static void usage_error_is_one_line(void **state) {
     (void)state;
     assert_complaint(NULL, (const char *const[]){NULL}, 2, "weft --help");
     assert_complaint(NULL, LIST("rendr"), 2, "did you mean render?");
@@ -98,7 +98,7 @@ static void usage_errors_are_one_line(void **state) {
 }
 
 /* Every wrong number is refused before anything is read: there is no a.glb. */
-static void numbers_are_checked(void **state) {
+static void numbers_outside_their_range_are_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {
         "--width=0",         "--width=65537",     "--width=1.5",       "--height=-3",
@@ -120,7 +120,7 @@ static void numbers_are_checked(void **state) {
     }
 }
 
-static void what_belongs_to_a_floor_needs_one(void **state) {
+static void floor_options_without_a_floor_are_refused(void **state) {
     (void)state;
     static const char *const verbs[] = {"render", "view"};
     for (int k = 0; k < 2; k++) {
@@ -131,7 +131,7 @@ static void what_belongs_to_a_floor_needs_one(void **state) {
     }
 }
 
-static void pipes_end_quietly(void **state) {
+static void closed_pipe_ends_a_command_quietly(void **state) {
     (void)state;
     Ran ran = run_shell("\"$0\" models | head -n 1");
     assert_int_equal(ran.code, 0);
@@ -143,7 +143,7 @@ static void pipes_end_quietly(void **state) {
     ran_free(&ran);
 }
 
-static void full_output_is_reported(void **state) {
+static void full_disk_is_an_error(void **state) {
     (void)state;
     static const char *const lines[] = {"\"$0\" models > /dev/full", "\"$0\" --help > /dev/full",
                                         "yes 30 0 60 180 | \"$0\" eval lambert > /dev/full"};
@@ -157,10 +157,14 @@ static void full_output_is_reported(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_is_complete),        cmocka_unit_test(usage_errors_are_one_line),
-        cmocka_unit_test(numbers_are_checked),     cmocka_unit_test(pipes_end_quietly),
-        cmocka_unit_test(full_output_is_reported), cmocka_unit_test(words_do_as_options),
-        cmocka_unit_test(empty_words_are_quoted),  cmocka_unit_test(what_belongs_to_a_floor_needs_one),
+        cmocka_unit_test(help_of_every_verb_names_its_options),
+        cmocka_unit_test(usage_error_is_one_line),
+        cmocka_unit_test(numbers_outside_their_range_are_refused),
+        cmocka_unit_test(closed_pipe_ends_a_command_quietly),
+        cmocka_unit_test(full_disk_is_an_error),
+        cmocka_unit_test(help_and_version_work_as_words_and_as_options),
+        cmocka_unit_test(empty_argument_is_quoted_in_its_error),
+        cmocka_unit_test(floor_options_without_a_floor_are_refused),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -11,7 +11,7 @@ static void assert_ends(const char *const *arguments, int code, const char *said
 
 static void wif_make(const char *path, const char *text) { file_make(path, text, strlen(text)); }
 
-static void figures_are_printed_as_json(void **state) {
+static void json_has_the_properties_of_the_draft(void **state) {
     (void)state;
     Ran ran = run_with(NULL, LIST("weave", "satin 8/3; sett 40 20", "--json"));
     assert_int_equal(ran.code, 0);
@@ -25,7 +25,7 @@ static void figures_are_printed_as_json(void **state) {
 }
 
 /* The words, the file they are written to, and the file turned over twice are one draft. */
-static void drafts_pass_from_form_to_form(void **state) {
+static void draft_written_in_another_form_reads_as_the_same(void **state) {
     (void)state;
     static const char rows[] = "..##\n.##.\n##..\n#..#\n", back[] = "..##\n#..#\n##..\n.##.\n";
     size_t size;
@@ -42,7 +42,7 @@ static void drafts_pass_from_form_to_form(void **state) {
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.svg"), 0, "");
 }
 
-static void what_cannot_be_done_ends_in_one_line(void **state) {
+static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     (void)state;
     wif_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n");
     assert_ends(LIST("weave", "broken.wif"), 3, "line 4");
@@ -68,9 +68,9 @@ static void what_cannot_be_done_ends_in_one_line(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_printed_as_json),
-        cmocka_unit_test(drafts_pass_from_form_to_form),
-        cmocka_unit_test(what_cannot_be_done_ends_in_one_line),
+        cmocka_unit_test(json_has_the_properties_of_the_draft),
+        cmocka_unit_test(draft_written_in_another_form_reads_as_the_same),
+        cmocka_unit_test(impossible_weave_commands_are_errors_of_one_line),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

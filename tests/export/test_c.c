@@ -86,20 +86,20 @@ static void agree(const char *compiler) {
     dlclose(library);
 }
 
-static void gcc_agrees(void **state) {
+static void c_text_compiled_by_gcc_agrees_with_the_library(void **state) {
     (void)state;
     compile("gcc", "-std=c99 -O1 -shared -fPIC all.c -o gcc.so -lm");
     agree("gcc");
 }
 
-static void clang_agrees(void **state) {
+static void c_text_compiled_by_clang_agrees_with_the_library(void **state) {
     (void)state;
     compile("clang", "-std=c11 -O0 -shared -fPIC all.c -o clang.so -lm");
     agree("clang");
 }
 
 /* In a C++ compiler's eyes too; every header guards itself. */
-static void is_cpp(void **state) {
+static void c_text_is_valid_cpp(void **state) {
     (void)state;
     compile("g++", "-std=c++11 -fsyntax-only -x c++ all.c");
 }
@@ -130,7 +130,8 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gcc_agrees), cmocka_unit_test(clang_agrees),
-                                       cmocka_unit_test(is_cpp)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(c_text_compiled_by_gcc_agrees_with_the_library),
+                                       cmocka_unit_test(c_text_compiled_by_clang_agrees_with_the_library),
+                                       cmocka_unit_test(c_text_is_valid_cpp)};
     return cmocka_run_group_tests(tests, begin, end);
 }

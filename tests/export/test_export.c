@@ -29,7 +29,7 @@ static void assert_text(const Exported *s, const char *target, const char *text)
     assert_true(defines <= 1);
 }
 
-static void texts_are_clean(void **state) {
+static void exported_text_has_no_macro_or_include(void **state) {
     (void)state;
     for (int k = 0; k < model_count; k++) {
         const Exported *s = &models[k];
@@ -50,7 +50,7 @@ static void texts_are_clean(void **state) {
 }
 
 /* A text has the functions that its model calls, and no others: each name is there twice or more. */
-static void nothing_is_idle(void **state) {
+static void exported_text_has_no_unused_function(void **state) {
     (void)state;
     for (int k = 0; k < model_count && models[k].is_lobe; k++) {
         WeftExportDesc desc = model_desc(&models[k], WEFT_EXPORT_C);
@@ -142,7 +142,7 @@ static void records_nest_as_webgl_takes_them(void **state) {
 
 /* No name of a language's own, no call where it has an operator, no number in the notation of C, no record
  * that is filled or idle. */
-static void texts_read_natively(void **state) {
+static void exported_text_uses_operators_of_its_language(void **state) {
     (void)state;
     static const char *const banned[] = {"rgb_add(",  "rgb_mul(",  "rgb_scale(", "rgb_grey(",
                                          "rgb_mix(",  "dir_dot(",  "dir_add(",   "dir_scale(",
@@ -183,7 +183,7 @@ static void texts_read_natively(void **state) {
 }
 
 /* C with pi folded, times a light over pi, against C with pi explicit, times the light. */
-static void pi_gives_one_picture(void **state) {
+static void folded_and_explicit_pi_agree(void **state) {
     (void)state;
     char folder[] = "/tmp/weft-test-export-XXXXXX", path[128], command[256];
     static const char *const ids[] = {"charlie-neubelt", "ggx", "fibre", "filament-cloth", "unreal4"};
@@ -253,7 +253,7 @@ static void pi_gives_one_picture(void **state) {
 }
 
 /* One text of several models, and each in a text of its own, beside each other in one program of C. */
-static void several_share_one_text(void **state) {
+static void several_models_share_one_text(void **state) {
     (void)state;
     enum { COUNT = 5 };
     static const char *const ids[COUNT] = {"khronos", "disney", "hdrp-cotton", "ggx", "charlie-neubelt"};
@@ -342,7 +342,7 @@ static void several_share_one_text(void **state) {
 }
 
 /* GLSL keeps names with "__" for itself, and any program may call a material anything. */
-static void no_name_has_two_underscores(void **state) {
+static void exported_names_have_no_two_underscores(void **state) {
     (void)state;
     static const char *const names[] = {"my  cloth", "__", "-rim-", "9 lives_", "\xc3\xa9t\xc3\xa9"};
     WeftMaterial material;
@@ -362,7 +362,7 @@ static void no_name_has_two_underscores(void **state) {
         }
 }
 
-static void nonsense_is_refused(void **state) {
+static void export_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     WeftLobe ggx, walk, none = {.lobe = 9999};
     WeftMaterial material;
@@ -402,14 +402,14 @@ static void nonsense_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_are_clean),
-        cmocka_unit_test(nothing_is_idle),
-        cmocka_unit_test(texts_read_natively),
+        cmocka_unit_test(exported_text_has_no_macro_or_include),
+        cmocka_unit_test(exported_text_has_no_unused_function),
+        cmocka_unit_test(exported_text_uses_operators_of_its_language),
         cmocka_unit_test(records_nest_as_webgl_takes_them),
-        cmocka_unit_test(pi_gives_one_picture),
-        cmocka_unit_test(several_share_one_text),
-        cmocka_unit_test(no_name_has_two_underscores),
-        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(folded_and_explicit_pi_agree),
+        cmocka_unit_test(several_models_share_one_text),
+        cmocka_unit_test(exported_names_have_no_two_underscores),
+        cmocka_unit_test(export_descriptors_without_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, begin, NULL);
 }

@@ -186,7 +186,7 @@ static void agree(Way way) {
     free(body);
 }
 
-static void glsl_compiles(void **state) {
+static void glsl_text_of_every_model_compiles(void **state) {
     (void)state;
     if (!has_program("glslangValidator")) skip();
     for (int k = 0; k < model_count; k++)
@@ -201,7 +201,7 @@ static void glsl_compiles(void **state) {
     shell("glslangValidator -S frag *.frag >log 2>&1 || { grep -B1 ERROR log | head -6; exit 1; }");
 }
 
-static void hlsl_compiles(void **state) {
+static void hlsl_text_of_every_model_compiles(void **state) {
     (void)state;
     if (!has_program("glslangValidator")) skip();
     for (int k = 0; k < model_count; k++) hlsl_put(&models[k], &exported[WAY_HLSL][k]);
@@ -210,17 +210,17 @@ static void hlsl_compiles(void **state) {
           "{ grep ERROR log | head -3; exit 1; }; done");
 }
 
-static void glsl_agrees(void **state) {
+static void glsl_text_agrees_with_the_library(void **state) {
     (void)state;
     agree(WAY_GLSL);
 }
 
-static void essl_agrees(void **state) {
+static void essl_text_agrees_with_the_library(void **state) {
     (void)state;
     agree(WAY_ESSL);
 }
 
-static void hlsl_agrees(void **state) {
+static void hlsl_text_agrees_with_the_library(void **state) {
     (void)state;
     if (!has_program("spirv-cross") || !has_program("glslangValidator")) skip();
     shell("for f in *.spv; do spirv-cross --version 330 --no-es $f >${f%.spv}.cross || exit 1; done");
@@ -260,8 +260,11 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(glsl_compiles), cmocka_unit_test(hlsl_compiles), cmocka_unit_test(glsl_agrees),
-        cmocka_unit_test(essl_agrees),   cmocka_unit_test(hlsl_agrees),
+        cmocka_unit_test(glsl_text_of_every_model_compiles),
+        cmocka_unit_test(hlsl_text_of_every_model_compiles),
+        cmocka_unit_test(glsl_text_agrees_with_the_library),
+        cmocka_unit_test(essl_text_agrees_with_the_library),
+        cmocka_unit_test(hlsl_text_agrees_with_the_library),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -136,7 +136,7 @@ static void assert_wgsl(const char *name, const WeftExport *made) {
     free(code);
 }
 
-static void every_text_is_wgsl(void **state) {
+static void wgsl_text_of_every_model_is_valid(void **state) {
     (void)state;
     for (int k = 0; k < model_count; k++) {
         WeftExportDesc desc = model_desc(&models[k], WEFT_EXPORT_WGSL);
@@ -153,7 +153,7 @@ static int find_model(const char *id) {
     return 0;
 }
 
-static void several_are_wgsl(void **state) {
+static void wgsl_text_of_several_models_is_valid(void **state) {
     (void)state;
     static const char *const ids[] = {"khronos", "disney", "ggx", "charlie-neubelt"};
     WeftExportDesc descs[4];
@@ -168,7 +168,7 @@ static void several_are_wgsl(void **state) {
 
 /* Up to 2,047 texels are in the text where arrays are asked for; each of the others has a number of its own.
  */
-static void tables_are_where_they_fit(void **state) {
+static void small_tables_stand_in_the_wgsl_text_and_large_ones_outside(void **state) {
     (void)state;
     for (int inside = 0; inside < 2; inside++) {
         WeftExportDesc desc = model_desc(&models[find_model("babylon")], WEFT_EXPORT_WGSL);
@@ -199,9 +199,9 @@ static int begin(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_text_is_wgsl),
-        cmocka_unit_test(several_are_wgsl),
-        cmocka_unit_test(tables_are_where_they_fit),
+        cmocka_unit_test(wgsl_text_of_every_model_is_valid),
+        cmocka_unit_test(wgsl_text_of_several_models_is_valid),
+        cmocka_unit_test(small_tables_stand_in_the_wgsl_text_and_large_ones_outside),
     };
     return cmocka_run_group_tests(tests, begin, NULL);
 }

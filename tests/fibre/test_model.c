@@ -63,7 +63,7 @@ static float unit(uint32_t seed, uint32_t k) { return unit_float(hash_combine(se
 
 static const double white = 1.0, degree = 3.14159265358979 / 180.0;
 
-static void white_fibres_are_the_slab(void **state) {
+static void fitted_model_follows_the_slab_for_white_fibres(void **state) {
     (void)state;
     const double alpha[] = {0.23, 0.41, 0.83}, low[] = {0.06, 0.085, 0.12, 0.165};
     expect("white", error_of(&(SolvedGrid){3, 1, 0, 1, 21, 5, alpha, &white, NULL, 1.0}), 0.004, 0.03, 2e-3);
@@ -71,7 +71,7 @@ static void white_fibres_are_the_slab(void **state) {
            1e-2);
 }
 
-static void density_is_the_slabs(void **state) {
+static void fitted_model_follows_the_slab_in_density(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.3, 0.7};
@@ -79,7 +79,7 @@ static void density_is_the_slabs(void **state) {
            1e-2);
 }
 
-static void colour_saturates(void **state) {
+static void fitted_model_follows_the_slab_in_colour(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.35, 0.8}, albedo[] = {0.3, 0.75, 1.0};
@@ -87,7 +87,7 @@ static void colour_saturates(void **state) {
 }
 
 /* Coloured fibres sharper than what the stage of colour is fitted to. */
-static void thin_colour_saturates(void **state) {
+static void fitted_model_follows_thin_slabs_in_colour(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.09, 0.15}, albedo[] = {0.3, 0.8, 1.0};
@@ -118,7 +118,7 @@ static double color_excess(double alpha, double density, double albedo, double m
     return (fabs((double)e[0] - back.mean) - 4.0 * back.error) / fmax(back.mean, 1e-3);
 }
 
-static void thin_colour_is_what_walks_find(void **state) {
+static void thin_coloured_slab_agrees_with_random_walks(void **state) {
     (void)state;
     double walks = getenv("WEFT_TEST_SHORT") ? 1e5 : 1e6, worst = 0.0;
     for (int k = 0; k < 3; k++)
@@ -134,7 +134,7 @@ static void thin_colour_is_what_walks_find(void **state) {
     assert_true(worst <= 0.1);
 }
 
-static void nap_leans(void **state) {
+static void fitted_model_follows_the_slab_under_a_nap(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.5, 0.8}, tilt[] = {12.0 * degree, 33.0 * degree};
@@ -150,7 +150,7 @@ static Dir random_dir(uint32_t seed, uint32_t k) {
 }
 
 /* Any alpha, density and lean: nothing infinite or negative, the same both ways round to a few roundings. */
-static void the_lobe_is_reciprocal(void **state) {
+static void fitted_model_is_reciprocal(void **state) {
     (void)state;
     double worst = 0.0;
     for (uint32_t k = 0; k < 20000; k++) {
@@ -170,7 +170,7 @@ static void the_lobe_is_reciprocal(void **state) {
 
 /* E of the lobe by quadrature, over its whole range of parameters: against the nap too, where the slab sends
  * nearly all back. */
-static void nothing_is_made_of_nothing(void **state) {
+static void fitted_model_reflects_no_more_than_it_receives(void **state) {
     (void)state;
     int cases = getenv("WEFT_TEST_LONG") ? 4000 : getenv("WEFT_TEST_SHORT") ? 20 : 120;
     double most = 0.0;
@@ -194,7 +194,7 @@ static void nothing_is_made_of_nothing(void **state) {
 }
 
 /* (A^T A + 1) x = b, solved, gives b again. */
-static void matrices_are_solved(void **state) {
+static void ridge_solution_satisfies_its_equations(void **state) {
     (void)state;
     enum { N = 101, M = 7 };
     static double a[N * N], s[N * N], l[N * N], x[N * M], b[N * M], back[N * M];
@@ -214,15 +214,15 @@ static void matrices_are_solved(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrices_are_solved),
-        cmocka_unit_test(the_lobe_is_reciprocal),
-        cmocka_unit_test(nothing_is_made_of_nothing),
-        cmocka_unit_test(white_fibres_are_the_slab),
-        cmocka_unit_test(density_is_the_slabs),
-        cmocka_unit_test(colour_saturates),
-        cmocka_unit_test(thin_colour_saturates),
-        cmocka_unit_test(thin_colour_is_what_walks_find),
-        cmocka_unit_test(nap_leans),
+        cmocka_unit_test(ridge_solution_satisfies_its_equations),
+        cmocka_unit_test(fitted_model_is_reciprocal),
+        cmocka_unit_test(fitted_model_reflects_no_more_than_it_receives),
+        cmocka_unit_test(fitted_model_follows_the_slab_for_white_fibres),
+        cmocka_unit_test(fitted_model_follows_the_slab_in_density),
+        cmocka_unit_test(fitted_model_follows_the_slab_in_colour),
+        cmocka_unit_test(fitted_model_follows_thin_slabs_in_colour),
+        cmocka_unit_test(thin_coloured_slab_agrees_with_random_walks),
+        cmocka_unit_test(fitted_model_follows_the_slab_under_a_nap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

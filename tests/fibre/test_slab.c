@@ -24,7 +24,7 @@ static double albedo(Slab slab, SlabEffort effort, double mu, double *through, d
 }
 
 /* f of the single scattering, its modes summed, against the closed form. */
-static void modes_sum_to_single_scattering(void **state) {
+static void modes_of_a_thin_slab_sum_to_single_scattering(void **state) {
     (void)state;
     Slab slab = {0.6, 0.7, 1.3};
     for (int k = 0; k < 8; k++) {
@@ -37,7 +37,7 @@ static void modes_sum_to_single_scattering(void **state) {
 }
 
 /* White fibres lose nothing, dark ones all but what meets one. */
-static void light_is_conserved(void **state) {
+static void white_slab_conserves_light(void **state) {
     (void)state;
     double through, defect, mu[] = {1e-3, 0.05, 0.4, 0.95};
     for (double alpha = 0.1; alpha < 1.01; alpha += 0.3)
@@ -56,7 +56,7 @@ static void light_is_conserved(void **state) {
 
 /* alpha 1 is a slab of isotropic scatterers but for 1 / (4 pi) D = 1 / pi: R of the half-space limit grows
  * to 1. */
-static void deep_slabs_return_all(void **state) {
+static void deep_white_slab_returns_all_light(void **state) {
     (void)state;
     double before = 0.0;
     for (double depth = 1.0; depth < 600.0; depth *= 8.0) {
@@ -68,7 +68,7 @@ static void deep_slabs_return_all(void **state) {
 }
 
 /* Depths come from one run as they do from one each. */
-static void kept_depths_are_depths(void **state) {
+static void several_depths_of_one_run_equal_runs_of_one_depth(void **state) {
     (void)state;
     double mu[] = {0.2, 0.8}, r[3 * 4], one[4];
     assert_true(
@@ -82,7 +82,7 @@ static void kept_depths_are_depths(void **state) {
 
 /* R and f do not move when the quadrature doubles: where this fails is where the solver is not to be trusted.
  */
-static void quadrature_has_settled(void **state) {
+static void doubled_quadrature_changes_nothing(void **state) {
     (void)state;
     const double mu[] = {0.01, 0.2, 0.7};
     for (double alpha = 0.065; alpha < 1.0; alpha *= 2.4) {
@@ -110,7 +110,7 @@ static double upright_f(const Slab *slab, double mu_i, double mu_o, double phi) 
 }
 
 /* The two solvers have no line in common but the doubling. */
-static void upright_fibres_are_fibres_not_tilted(void **state) {
+static void tilted_solver_without_tilt_equals_the_upright_one(void **state) {
     (void)state;
     Slab slab = {0.6, 0.9, 1.5};
     Heading at[] = {{0.3, 0.4}, {0.7, 2.0}};
@@ -176,7 +176,7 @@ static void case_run(Score *score, uint32_t seed, bool tilts, long long walks) {
 }
 
 /* 1 % that any of the points is out by chance: 1 - (1 - 0.01)^(1 / n), two-sided; 4.1 for 300. */
-static void walk_agrees(void **state) {
+static void slab_solver_agrees_with_random_walks(void **state) {
     (void)state;
     int cases = getenv("WEFT_TEST_LONG") ? 64 : getenv("WEFT_TEST_SHORT") ? 2 : 4;
     long long walks = getenv("WEFT_TEST_LONG") ? 4000000 : 40000;
@@ -188,13 +188,13 @@ static void walk_agrees(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modes_sum_to_single_scattering),
-        cmocka_unit_test(light_is_conserved),
-        cmocka_unit_test(deep_slabs_return_all),
-        cmocka_unit_test(kept_depths_are_depths),
-        cmocka_unit_test(quadrature_has_settled),
-        cmocka_unit_test(upright_fibres_are_fibres_not_tilted),
-        cmocka_unit_test(walk_agrees),
+        cmocka_unit_test(modes_of_a_thin_slab_sum_to_single_scattering),
+        cmocka_unit_test(white_slab_conserves_light),
+        cmocka_unit_test(deep_white_slab_returns_all_light),
+        cmocka_unit_test(several_depths_of_one_run_equal_runs_of_one_depth),
+        cmocka_unit_test(doubled_quadrature_changes_nothing),
+        cmocka_unit_test(tilted_solver_without_tilt_equals_the_upright_one),
+        cmocka_unit_test(slab_solver_agrees_with_random_walks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

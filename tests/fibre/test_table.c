@@ -21,7 +21,7 @@ static Lobe lobe_at_alpha(int id, double alpha) {
     return lobe;
 }
 
-static void the_lobe_is_the_solved_slab(void **state) {
+static void lobe_from_the_table_follows_the_solved_slab(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     enum { ALPHAS = 4 };
@@ -63,7 +63,7 @@ static WeftImage baked(const char *kind, const WeftLobe *lobe, int width, int he
 }
 
 /* The same on any number of threads, every number a half float. */
-static void small_tables_are_made_again(void **state) {
+static void small_table_is_baked_the_same_again(void **state) {
     (void)state;
     WeftImage one = baked("fibre-table", NULL, 4, 2, 1), two = baked("fibre-table", NULL, 4, 2, 2);
     const float *a = one.pixels, *b = two.pixels;
@@ -102,7 +102,7 @@ static void transformed_cosines_keep_the_albedo(void **state) {
 }
 
 /* The file's first line, carried out again. */
-static void the_file_is_what_its_command_makes(void **state) {
+static void table_file_is_what_its_command_makes(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     setenv("XDG_CACHE_HOME", "/dev/null", 1); /* no fit that was kept */
@@ -122,7 +122,7 @@ static void the_file_is_what_its_command_makes(void **state) {
     weft_image_free(&again);
 }
 
-static void the_catalogues_table_is_what_its_command_makes(void **state) {
+static void table_of_the_catalogue_is_what_its_command_makes(void **state) {
     (void)state;
     if (!getenv("WEFT_TEST_LONG")) skip();
     lobe_tables_make();
@@ -137,11 +137,11 @@ static void the_catalogues_table_is_what_its_command_makes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_lobe_is_the_solved_slab),
-        cmocka_unit_test(small_tables_are_made_again),
+        cmocka_unit_test(lobe_from_the_table_follows_the_solved_slab),
+        cmocka_unit_test(small_table_is_baked_the_same_again),
         cmocka_unit_test(transformed_cosines_keep_the_albedo),
-        cmocka_unit_test(the_file_is_what_its_command_makes),
-        cmocka_unit_test(the_catalogues_table_is_what_its_command_makes),
+        cmocka_unit_test(table_file_is_what_its_command_makes),
+        cmocka_unit_test(table_of_the_catalogue_is_what_its_command_makes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

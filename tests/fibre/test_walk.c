@@ -77,7 +77,7 @@ static WalkMedium flake_medium(int k, double wi[3]) {
 }
 
 /* Heitz et al., equation of the phase function: the integral of D / (4 sigma) over wo is 1. */
-static void the_phase_function_integrates_to_one(void **state) {
+static void phase_function_integrates_to_one(void **state) {
     (void)state;
     enum { CELLS = 500 };
     for (int k = 0; k < FLAKES; k++) {
@@ -136,7 +136,7 @@ static double turn_p(int k, void (*turn)(const WalkMedium *, const double *, uin
     return chi_square_bins(bins, BINS * BINS);
 }
 
-static void flakes_turn_light_as_the_phase_function_says(void **state) {
+static void sampled_flakes_follow_the_phase_function(void **state) {
     (void)state;
     double least = 1.0, limit = 1.0 - (pow)(0.99, 1.0 / (2 * FLAKES));
     for (int k = 0; k < 2 * FLAKES; k++) {
@@ -150,7 +150,7 @@ static void flakes_turn_light_as_the_phase_function_says(void **state) {
 }
 
 /* The same formulas in single and in double precision, and what the text does at its ends. */
-static void the_shading_text_is_the_same_medium(void **state) {
+static void medium_of_the_shading_text_is_that_of_the_walks(void **state) {
     (void)state;
     uint64_t stream = stream_start(3, 0);
     double worst = 0.0;
@@ -175,7 +175,7 @@ static void the_shading_text_is_the_same_medium(void **state) {
 }
 
 /* Down to what lobes may be asked, all is finite; where x is small, 1 - exp(-x) keeps its digits. */
-static void the_shading_text_has_no_bad_ends(void **state) {
+static void medium_of_the_shading_text_is_finite_at_its_limits(void **state) {
     (void)state;
     static const float cosines[] = {1e-30f, 1e-20f, 1e-7f, 1e-3f, 0.5f, 0.999999f, 1.0f};
     static const float tilts[] = {0.0f, 1e-4f, 0.7f, 1.57079633f};
@@ -225,7 +225,7 @@ static double single(int k, const double wo[3], const double wi[3]) {
 }
 
 /* R of one flake: a midpoint sum of f1 mu over mu = x^2 and phi. */
-static void one_flake_sends_back_f1(void **state) {
+static void walks_of_one_flake_return_single_scattering(void **state) {
     (void)state;
     enum { CELLS = 300 };
     for (int k = 0; k < SLABS; k++) {
@@ -244,7 +244,7 @@ static void one_flake_sends_back_f1(void **state) {
 }
 
 /* The same at single directions: what next-event estimation finds from the second flake on, and f1. */
-static void f_is_f1_and_the_rest(void **state) {
+static void f_of_walks_is_single_plus_multiple_scattering(void **state) {
     (void)state;
     enum { PLACES = 3 };
     for (int k = 0; k < SLABS; k++) {
@@ -266,7 +266,7 @@ static void f_is_f1_and_the_rest(void **state) {
 /* ---- all flakes
  * -------------------------------------------------------------------------------------------- */
 
-static void every_walk_ends_somewhere(void **state) {
+static void every_walk_ends_above_below_or_absorbed(void **state) {
     (void)state;
     for (int k = 0; k < SLABS; k++) {
         WalkCount c = run(slab_of(k), slabs[k][4], slabs[k][5], 2e4, NULL);
@@ -289,7 +289,7 @@ static void every_walk_ends_somewhere(void **state) {
 }
 
 /* The walk forth and the walk back share nothing but the medium. */
-static void f_is_reciprocal(void **state) {
+static void f_of_walks_is_reciprocal(void **state) {
     (void)state;
     static const double pairs[][3] = {{0.15, 0.6, 0.5}, {0.3, 0.3, 3.0}, {0.9, 0.4, 1.5}};
     for (int k = 0; k < SLABS; k++)
@@ -307,7 +307,7 @@ static void f_is_reciprocal(void **state) {
 }
 
 /* f mu over the hemisphere is what the walks count: a midpoint sum over mu = x^2 and phi. */
-static void f_integrates_to_r(void **state) {
+static void f_of_walks_integrates_to_their_albedo(void **state) {
     (void)state;
     enum { RINGS = 16, SPOKES = 12, PLACES = RINGS * SPOKES };
     for (int k = 1; k < SLABS; k += 3) {
@@ -338,7 +338,7 @@ static void f_integrates_to_r(void **state) {
 
 /* R by a program that knows no chance, which adds and doubles layers: alpha, thickness, albedo, tilt, mu,
  * phi, R and how well that is known; and the walks to take. */
-static void another_program_has_the_same_r(void **state) {
+static void albedo_of_walks_equals_published_doubling(void **state) {
     (void)state;
     static const double figures[][9] = {
         {1.0 / 31.0, 1.0, 1.0, 0.0, 0.01, 0.0, 0.29060, 1e-4, 3e4},
@@ -363,7 +363,7 @@ static void another_program_has_the_same_r(void **state) {
 /* Zeltner, Burley and Chiang's table of R (the program is published with the talk): a walk ends with its 16th
  * flake, and what is then inside counts as reflected where the last direction points up. Their values at
  * three entries come out by that rule, and by no other. */
-static void the_talk_cuts_walks_off(void **state) {
+static void walks_cut_after_16_flakes_give_the_published_table(void **state) {
     (void)state;
     static const double entries[][3] = {
         {1.0 / 31.0, 0.01, 0.05839}, {2.0 / 31.0, 0.01, 0.38834}, {3.0 / 31.0, 1.0 / 31.0, 0.29827}};
@@ -392,7 +392,7 @@ static void the_talk_cuts_walks_off(void **state) {
 /* ---- the estimates themselves
  * -------------------------------------------------------------------------------- */
 
-static void threads_do_not_matter(void **state) {
+static void walks_with_any_number_of_threads_are_the_same(void **state) {
     (void)state;
     double wi[3];
     WalkEstimate f[2];
@@ -408,7 +408,7 @@ static void threads_do_not_matter(void **state) {
 }
 
 /* Runs of other seeds scatter about their mean as their standard errors say. */
-static void errors_are_as_large_as_they_say(void **state) {
+static void standard_errors_of_walks_match_their_scatter(void **state) {
     (void)state;
     enum { RUNS = 200 };
     double wi[3], mean = 0.0, squares = 0.0, said = 0.0;
@@ -429,7 +429,7 @@ static void errors_are_as_large_as_they_say(void **state) {
 }
 
 /* A test that cannot fail would be none: a medium wrong by a fiftieth is found. */
-static void a_wrong_medium_is_found(void **state) {
+static void walks_in_a_wrong_medium_are_told_apart(void **state) {
     (void)state;
     WalkCount right = run(slab(0.5, 1.0, 1.0, 0.0), 0.4, 0.0, 4e5, NULL);
     WalkCount wrong = run(slab(0.51, 1.0, 1.0, 0.0), 0.4, 0.0, 4e5, NULL);
@@ -446,20 +446,20 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_phase_function_integrates_to_one),
-        cmocka_unit_test(flakes_turn_light_as_the_phase_function_says),
-        cmocka_unit_test(the_shading_text_is_the_same_medium),
-        cmocka_unit_test(the_shading_text_has_no_bad_ends),
-        cmocka_unit_test(one_flake_sends_back_f1),
-        cmocka_unit_test(f_is_f1_and_the_rest),
-        cmocka_unit_test(every_walk_ends_somewhere),
-        cmocka_unit_test(f_is_reciprocal),
-        cmocka_unit_test(f_integrates_to_r),
-        cmocka_unit_test(another_program_has_the_same_r),
-        cmocka_unit_test(the_talk_cuts_walks_off),
-        cmocka_unit_test(threads_do_not_matter),
-        cmocka_unit_test(errors_are_as_large_as_they_say),
-        cmocka_unit_test(a_wrong_medium_is_found),
+        cmocka_unit_test(phase_function_integrates_to_one),
+        cmocka_unit_test(sampled_flakes_follow_the_phase_function),
+        cmocka_unit_test(medium_of_the_shading_text_is_that_of_the_walks),
+        cmocka_unit_test(medium_of_the_shading_text_is_finite_at_its_limits),
+        cmocka_unit_test(walks_of_one_flake_return_single_scattering),
+        cmocka_unit_test(f_of_walks_is_single_plus_multiple_scattering),
+        cmocka_unit_test(every_walk_ends_above_below_or_absorbed),
+        cmocka_unit_test(f_of_walks_is_reciprocal),
+        cmocka_unit_test(f_of_walks_integrates_to_their_albedo),
+        cmocka_unit_test(albedo_of_walks_equals_published_doubling),
+        cmocka_unit_test(walks_cut_after_16_flakes_give_the_published_table),
+        cmocka_unit_test(walks_with_any_number_of_threads_are_the_same),
+        cmocka_unit_test(standard_errors_of_walks_match_their_scatter),
+        cmocka_unit_test(walks_in_a_wrong_medium_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, end);
 }

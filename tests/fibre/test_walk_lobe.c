@@ -67,7 +67,7 @@ static void mean_add(Mean *m, double x) {
 }
 static double mean_error(const Mean *m) { return (sqrt)(m->squares) / (double)m->n; }
 
-static void means_of_f_are_f(void **state) {
+static void mean_of_random_f_is_f_of_walks(void **state) {
     (void)state;
     for (int k = 0; k < PLACES; k++) {
         double wi[3];
@@ -90,7 +90,7 @@ static void means_of_f_are_f(void **state) {
 }
 
 /* What is not random is there in full: f1 is the least that f can be, and often all. */
-static void one_flake_is_exact(void **state) {
+static void walk_lobe_has_exact_single_scattering(void **state) {
     (void)state;
     for (int k = 0; k < PLACES; k++) {
         Lobe lobe = lobe_at_place(k);
@@ -109,7 +109,7 @@ static void one_flake_is_exact(void **state) {
 }
 
 /* E by walks alone, and by f and the samples of the lobe. */
-static void e_is_what_walks_bring_back(void **state) {
+static void albedo_of_the_walk_lobe_is_that_of_walks(void **state) {
     (void)state;
     for (int k = 0; k < PLACES; k++) {
         const int walks = 40000;
@@ -139,7 +139,7 @@ static void e_is_what_walks_bring_back(void **state) {
 }
 
 /* Fibres that lean look different from there, and upright ones do not. */
-static void only_fibres_that_lean_see_azimuth(void **state) {
+static void walk_lobe_depends_on_azimuth_only_if_fibres_lean(void **state) {
     (void)state;
     double e[2][2];
     for (int leans = 0; leans < 2; leans++)
@@ -153,7 +153,7 @@ static void only_fibres_that_lean_see_azimuth(void **state) {
 }
 
 /* The table that layer rules read, off its nodes. */
-static void the_table_of_e_errs_by_its_walks(void **state) {
+static void albedo_table_of_the_walk_lobe_errs_by_its_noise(void **state) {
     (void)state;
     static AlbedoTable table;
     Lobe lobe = lobe_at_place(0);
@@ -175,11 +175,11 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(means_of_f_are_f),
-        cmocka_unit_test(one_flake_is_exact),
-        cmocka_unit_test(e_is_what_walks_bring_back),
-        cmocka_unit_test(only_fibres_that_lean_see_azimuth),
-        cmocka_unit_test(the_table_of_e_errs_by_its_walks),
+        cmocka_unit_test(mean_of_random_f_is_f_of_walks),
+        cmocka_unit_test(walk_lobe_has_exact_single_scattering),
+        cmocka_unit_test(albedo_of_the_walk_lobe_is_that_of_walks),
+        cmocka_unit_test(walk_lobe_depends_on_azimuth_only_if_fibres_lean),
+        cmocka_unit_test(albedo_table_of_the_walk_lobe_errs_by_its_noise),
     };
     return cmocka_run_group_tests(tests, NULL, end);
 }

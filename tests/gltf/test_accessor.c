@@ -60,7 +60,7 @@ static void assert_not_decoded(Decoded *d, WeftMessage message, const char *part
     release(d);
 }
 
-static void reads_every_component(void **state) {
+static void accessor_of_every_component_type_is_read(void **state) {
     (void)state;
     static const struct {
         int type;
@@ -87,7 +87,7 @@ static void reads_every_component(void **state) {
                       cases[i].value, 2);
 }
 
-static void reads_every_shape(void **state) {
+static void accessor_of_every_shape_is_read(void **state) {
     (void)state;
     /* Columns of matrices start at multiples of 4 bytes: 9 marks what must be skipped. */
     static const struct {
@@ -130,7 +130,7 @@ static void reads_every_shape(void **state) {
         }
 }
 
-static void reads_interleaved(void **state) {
+static void interleaved_accessors_are_read(void **state) {
     (void)state;
     float bytes[16];
     for (int i = 0; i < 16; i++) bytes[i] = (float)i;
@@ -152,7 +152,7 @@ static void reads_interleaved(void **state) {
                        WEFT_MESSAGE_GLTF_SCHEMA, "stride of 4");
 }
 
-static void reads_sparse(void **state) {
+static void sparse_accessor_is_read(void **state) {
     (void)state;
     static const struct {
         float base[4], values[2];
@@ -186,7 +186,7 @@ static void reads_sparse(void **state) {
     free(text);
 }
 
-static void refuses_nonsense(void **state) {
+static void malformed_accessors_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *rest;
@@ -253,7 +253,7 @@ static Decoded *decode_compressed(unsigned char *encoded, size_t size, size_t st
     return d;
 }
 
-static void decompresses(void **state) {
+static void meshopt_streams_of_every_mode_are_decoded(void **state) {
     (void)state;
     unsigned char encoded[4096] = {0};
     uint16_t vertices[33][4];
@@ -287,7 +287,7 @@ static void decompresses(void **state) {
     }
 }
 
-static void filters(void **state) {
+static void meshopt_filters_are_undone(void **state) {
     (void)state;
     unsigned char encoded[1024] = {0};
     static const float units[8] = {0.6f, 0.0f, 0.8f, 0.0f, -0.48f, 0.6f, -0.64f, 0.0f};
@@ -318,7 +318,7 @@ static void filters(void **state) {
     release(d);
 }
 
-static void refuses_compressed_nonsense(void **state) {
+static void malformed_meshopt_views_are_refused(void **state) {
     (void)state;
     static const struct {
         size_t stride, count;
@@ -346,14 +346,14 @@ static void refuses_compressed_nonsense(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_every_component),
-        cmocka_unit_test(reads_every_shape),
-        cmocka_unit_test(reads_interleaved),
-        cmocka_unit_test(reads_sparse),
-        cmocka_unit_test(refuses_nonsense),
-        cmocka_unit_test(decompresses),
-        cmocka_unit_test(filters),
-        cmocka_unit_test(refuses_compressed_nonsense),
+        cmocka_unit_test(accessor_of_every_component_type_is_read),
+        cmocka_unit_test(accessor_of_every_shape_is_read),
+        cmocka_unit_test(interleaved_accessors_are_read),
+        cmocka_unit_test(sparse_accessor_is_read),
+        cmocka_unit_test(malformed_accessors_are_refused),
+        cmocka_unit_test(meshopt_streams_of_every_mode_are_decoded),
+        cmocka_unit_test(meshopt_filters_are_undone),
+        cmocka_unit_test(malformed_meshopt_views_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static Reading *read_asset(const char *name) {
     return read_gltf(path, NULL, 0);
 }
 
-static void loads_samples(void **state) {
+static void sample_assets_load_with_known_counts(void **state) {
     (void)state;
     need_data();
     static const struct {
@@ -78,7 +78,7 @@ static void loads_samples(void **state) {
     }
 }
 
-static void refuses_draco(void **state) {
+static void assets_with_draco_are_refused(void **state) {
     (void)state;
     need_data();
     assert_refused(read_asset("gltf/Box-Draco/Box.gltf"), WEFT_MESSAGE_GLTF_EXTENSION,
@@ -103,7 +103,7 @@ static void assert_same_surface(const Mesh *a, const Mesh *b, float tolerance) {
     }
 }
 
-static void boxes_agree(void **state) {
+static void boxes_of_three_encodings_load_as_the_same_mesh(void **state) {
     (void)state;
     need_data();
     static const char *const others[] = {"gltf/BoxInterleaved.glb", "gltf/BoxMeshopt.glb"};
@@ -123,7 +123,7 @@ static void boxes_agree(void **state) {
     done(box);
 }
 
-static void chair_has_velvets(void **state) {
+static void sheen_chair_has_its_sheen_materials(void **state) {
     (void)state;
     need_data();
     Reading *reading = read_asset("gltf/SheenChair/SheenChair.gltf");
@@ -193,7 +193,7 @@ static int check_folder(const char *name) {
     return count;
 }
 
-static void survives_malformed(void **state) {
+static void malformed_assets_are_refused_or_read(void **state) {
     (void)state;
     need_data();
     assert_true(check_folder("") >= 43);
@@ -201,9 +201,11 @@ static void survives_malformed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_samples),      cmocka_unit_test(refuses_draco),
-        cmocka_unit_test(boxes_agree),        cmocka_unit_test(chair_has_velvets),
-        cmocka_unit_test(survives_malformed),
+        cmocka_unit_test(sample_assets_load_with_known_counts),
+        cmocka_unit_test(assets_with_draco_are_refused),
+        cmocka_unit_test(boxes_of_three_encodings_load_as_the_same_mesh),
+        cmocka_unit_test(sheen_chair_has_its_sheen_materials),
+        cmocka_unit_test(malformed_assets_are_refused_or_read),
     };
     return cmocka_run_group_tests(tests, find_data, NULL);
 }

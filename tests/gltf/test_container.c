@@ -35,7 +35,7 @@ static const char triangle_text[] =
     "[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0}]}";
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-static void reads_glb(void **state) {
+static void glb_chunks_are_read(void **state) {
     (void)state;
     unsigned char bytes[1024];
     size_t size = glb(bytes, triangle_text, triangle, sizeof triangle);
@@ -53,7 +53,7 @@ static void reads_glb(void **state) {
     done(reading);
 }
 
-static void refuses_damaged_glb(void **state) {
+static void damaged_glb_is_refused(void **state) {
     (void)state;
     unsigned char bytes[1024];
     size_t size = glb(bytes, triangle_text, triangle, sizeof triangle);
@@ -78,7 +78,7 @@ static void refuses_damaged_glb(void **state) {
     assert_refused(read_gltf("short.glb", bytes, size), WEFT_MESSAGE_GLTF_BOUNDS, "buffers[0]: 32 of 36");
 }
 
-static void refuses_text(void **state) {
+static void text_that_is_no_gltf_is_refused(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -111,7 +111,7 @@ static void refuses_text(void **state) {
     free(text);
 }
 
-static void names_extensions(void **state) {
+static void unsupported_required_extension_is_named(void **state) {
     (void)state;
     assert_refused(read_rest("'extensionsRequired':['KHR_draco_mesh_compression']"),
                    WEFT_MESSAGE_GLTF_EXTENSION, "KHR_draco_mesh_compression");
@@ -127,7 +127,7 @@ static void names_extensions(void **state) {
     done(reading);
 }
 
-static void decodes_base64(void **state) {
+static void base64_data_uri_is_decoded(void **state) {
     (void)state;
     static const char *const good[] = {"AAAA", "AAAAAAAA", "////", "AAA=", "AAA", "AA=="};
     static const char *const bad[] = {"AAA?", "A", "AAAAA", "AA AA", "AA=A", "===="};
@@ -202,7 +202,7 @@ static int remove_folder(void **state) {
     return 0;
 }
 
-static void finds_files(void **state) {
+static void relative_uris_find_their_files(void **state) {
     (void)state;
     static const char *const good[] = {"in%20side.bin",           "in side.bin",
                                        "./sub/../in%20side.bin",  "sub/%C3%A9%25.bin",
@@ -216,7 +216,7 @@ static void finds_files(void **state) {
     assert_refused(read_referring("sub"), WEFT_MESSAGE_FILE_READ, "folder");
 }
 
-static void stays_in_folder(void **state) {
+static void uris_outside_the_folder_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *uri, *reason;
@@ -244,7 +244,7 @@ static void stays_in_folder(void **state) {
 }
 
 /* Many names of one large file, of which little is wanted: it is read once, and no more than that of it. */
-static void reads_files_once(void **state) {
+static void file_used_twice_is_read_once(void **state) {
     (void)state;
     enum { SIZE = 4 << 20, NAMES = 1000 };
     char path[256], *large = calloc(SIZE, 1), *text = malloc((size_t)NAMES * 80);
@@ -271,7 +271,7 @@ static void reads_files_once(void **state) {
 }
 
 /* No data are not a file, whatever they are called. */
-static void memory_is_no_file(void **state) {
+static void scene_from_no_bytes_is_refused_whatever_its_name(void **state) {
     (void)state;
     WeftScene *scene = NULL;
     WeftError error;
@@ -285,11 +285,15 @@ static void memory_is_no_file(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_glb),         cmocka_unit_test(refuses_damaged_glb),
-        cmocka_unit_test(refuses_text),      cmocka_unit_test(names_extensions),
-        cmocka_unit_test(decodes_base64),    cmocka_unit_test(finds_files),
-        cmocka_unit_test(stays_in_folder),   cmocka_unit_test(reads_files_once),
-        cmocka_unit_test(memory_is_no_file),
+        cmocka_unit_test(glb_chunks_are_read),
+        cmocka_unit_test(damaged_glb_is_refused),
+        cmocka_unit_test(text_that_is_no_gltf_is_refused),
+        cmocka_unit_test(unsupported_required_extension_is_named),
+        cmocka_unit_test(base64_data_uri_is_decoded),
+        cmocka_unit_test(relative_uris_find_their_files),
+        cmocka_unit_test(uris_outside_the_folder_are_refused),
+        cmocka_unit_test(file_used_twice_is_read_once),
+        cmocka_unit_test(scene_from_no_bytes_is_refused_whatever_its_name),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

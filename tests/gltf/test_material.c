@@ -33,7 +33,7 @@ static void assert_input(const Reading *reading, InputId id, float r, float g, f
     if (channel >= 0) assert_int_equal(input->channel, channel);
 }
 
-static void has_the_defaults(void **state) {
+static void material_without_members_has_the_defaults(void **state) {
     (void)state;
     Reading *reading = read_material("", "");
     assert_read(reading);
@@ -68,7 +68,7 @@ static void has_the_defaults(void **state) {
     done(reading);
 }
 
-static void reads_everything(void **state) {
+static void material_with_every_extension_is_read(void **state) {
     (void)state;
     Reading *reading = read_material(
         textures(),
@@ -131,7 +131,7 @@ static void reads_everything(void **state) {
 }
 
 /* extras belong to whoever wrote them; ours are in extras.weft. */
-static void reads_the_nap(void **state) {
+static void nap_of_the_extras_is_read(void **state) {
     (void)state;
     enum { R, G, B };
     Reading *reading = read_material(textures(), "'extras':{'weft':{'sheenDensity':2.5,'nap':0.7,"
@@ -166,7 +166,7 @@ static void reads_the_nap(void **state) {
                    WEFT_MESSAGE_GLTF_REFERENCE, "napTexture.index: 0 of 0");
 }
 
-static void reads_the_dust(void **state) {
+static void dust_of_the_extras_is_read(void **state) {
     (void)state;
     enum { R };
     Reading *reading = read_material(
@@ -197,7 +197,7 @@ static void reads_the_dust(void **state) {
                    "materials[0].extras.weft.dustColor");
 }
 
-static void transforms_textures(void **state) {
+static void texture_transform_is_applied(void **state) {
     (void)state;
     Reading *reading = read_material(
         textures(), "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':1,'extensions':{"
@@ -215,7 +215,7 @@ static void transforms_textures(void **state) {
     done(reading);
 }
 
-static void repairs_ranges(void **state) {
+static void factors_outside_their_range_are_repaired_with_a_warning(void **state) {
     (void)state;
     Reading *reading = read_material("", "'pbrMetallicRoughness':{'roughnessFactor':1.5,'baseColorFactor':"
                                          "[2,-1,0.5,1]},'extensions':{'KHR_materials_ior':{'ior':0.5}}");
@@ -237,7 +237,7 @@ static void repairs_ranges(void **state) {
     done(reading);
 }
 
-static void names_wrong_types(void **state) {
+static void material_members_of_wrong_type_are_named(void **state) {
     (void)state;
     static const struct {
         const char *material;
@@ -274,7 +274,7 @@ static void names_wrong_types(void **state) {
 
 #define MAPPED "'normalTexture':{'index':0}"
 
-static void finds_images(void **state) {
+static void images_in_views_uris_and_files_are_found(void **state) {
     (void)state;
     /* In a buffer view. */
     static const unsigned char bytes[] = {
@@ -328,7 +328,7 @@ static void finds_images(void **state) {
 }
 
 /* Headers that together promise 2 GiB, each within what is believed of one: refused before any is decoded. */
-static void limits_images(void **state) {
+static void images_of_too_many_pixels_together_are_refused(void **state) {
     (void)state;
     static const unsigned char header[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00,
                                            0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x20, 0x00, 0x00, 0x00,
@@ -354,7 +354,7 @@ static void limits_images(void **state) {
 }
 
 /* Containers that cannot be read are offers: the plain source counts. */
-static void falls_back(void **state) {
+static void texture_of_an_unreadable_container_falls_back_to_its_source(void **state) {
     (void)state;
     char *first = json("'extensionsUsed':['KHR_texture_basisu'],'images':[{'uri':'%s'},{'uri':'x.ktx2'}],"
                        "'textures':[{'source':0,'extensions':{'KHR_texture_basisu':{'source':1}}}],",
@@ -373,7 +373,7 @@ static void falls_back(void **state) {
     done(reading);
 }
 
-static void reads_variants(void **state) {
+static void material_variants_are_read(void **state) {
     (void)state;
     static const char form[] = SQUARE_DATA
         ",'extensions':{'KHR_materials_variants':{'variants':[{'name':'Mango'},{'name':'Peacock'},"
@@ -396,7 +396,7 @@ static void reads_variants(void **state) {
 }
 
 /* What weft_scene_save writes: whole inputs and choices, kept within what they may be. */
-static void reads_what_was_saved(void **state) {
+static void saved_material_reads_as_it_was(void **state) {
     (void)state;
     Reading *reading = read_material(
         textures(), "'extras':{'weft':{'choices':{'workflow':'cloth','layer':'of the future','nothing':'x'},"
@@ -443,12 +443,18 @@ static void reads_what_was_saved(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(has_the_defaults),    cmocka_unit_test(reads_everything),
-        cmocka_unit_test(transforms_textures), cmocka_unit_test(repairs_ranges),
-        cmocka_unit_test(names_wrong_types),   cmocka_unit_test(finds_images),
-        cmocka_unit_test(limits_images),       cmocka_unit_test(falls_back),
-        cmocka_unit_test(reads_variants),      cmocka_unit_test(reads_the_nap),
-        cmocka_unit_test(reads_the_dust),      cmocka_unit_test(reads_what_was_saved),
+        cmocka_unit_test(material_without_members_has_the_defaults),
+        cmocka_unit_test(material_with_every_extension_is_read),
+        cmocka_unit_test(texture_transform_is_applied),
+        cmocka_unit_test(factors_outside_their_range_are_repaired_with_a_warning),
+        cmocka_unit_test(material_members_of_wrong_type_are_named),
+        cmocka_unit_test(images_in_views_uris_and_files_are_found),
+        cmocka_unit_test(images_of_too_many_pixels_together_are_refused),
+        cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
+        cmocka_unit_test(material_variants_are_read),
+        cmocka_unit_test(nap_of_the_extras_is_read),
+        cmocka_unit_test(dust_of_the_extras_is_read),
+        cmocka_unit_test(saved_material_reads_as_it_was),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

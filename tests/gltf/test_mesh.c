@@ -36,7 +36,7 @@ static void assert_consistent(const Mesh *mesh) {
     }
 }
 
-static void reads_modes(void **state) {
+static void primitives_of_every_mode_become_triangles(void **state) {
     (void)state;
     static const struct {
         const char *indices;
@@ -76,7 +76,7 @@ static void reads_modes(void **state) {
                    "meshes[0].primitives[0].mode");
 }
 
-static void refuses_attributes(void **state) {
+static void malformed_attributes_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *primitive;
@@ -118,7 +118,7 @@ static void refuses_attributes(void **state) {
     done(reading);
 }
 
-static void transforms_agree(void **state) {
+static void matrix_and_translation_rotation_scale_agree(void **state) {
     (void)state;
     /* 0.6 = sin, 0.8 = cos of half the angle about x: the whole angle has cosine 0.28 and sine 0.96. */
     Reading *trs =
@@ -141,7 +141,7 @@ static void transforms_agree(void **state) {
                    "expected an array of 16");
 }
 
-static void mirrors(void **state) {
+static void mirrored_node_keeps_its_front(void **state) {
     (void)state;
     static const char *const nodes[] = {",'scale':[-1,1,1]", ",'scale':[1,1,-1]", ",'scale':[-2,-3,-1]",
                                         ",'scale':[-1,-1,1]", ",'scale':[1,1,1],'rotation':[0,0,0,0]"};
@@ -158,7 +158,7 @@ static void mirrors(void **state) {
     }
 }
 
-static void survives_singular(void **state) {
+static void flattened_nodes_keep_what_has_an_area(void **state) {
     (void)state;
     /* Flattened along the normal: what is left is still a surface, with a normal. */
     Reading *reading = read_square(",'scale':[1,1,0]", SQUARE_PRIMITIVE);
@@ -173,7 +173,7 @@ static void survives_singular(void **state) {
     done(reading);
 }
 
-static void repairs_normals(void **state) {
+static void missing_or_zero_normals_are_repaired(void **state) {
     (void)state;
     struct Square bad = square;
     memset(bad.normal, 0, sizeof bad.normal);
@@ -188,7 +188,7 @@ static void repairs_normals(void **state) {
     done(reading);
 }
 
-static void reads_colors(void **state) {
+static void vertex_colours_are_read(void **state) {
     (void)state;
     static const struct {
         int component, rows;
@@ -222,7 +222,7 @@ static void reads_colors(void **state) {
 }
 
 /* KHR_mesh_quantization: positions of int8 with a node that undoes the scale, coordinates of uint16. */
-static void reads_quantized(void **state) {
+static void quantized_attributes_are_read(void **state) {
     (void)state;
     static const int8_t bytes[] = {0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 0, 127, 0, 127, 127, 0};
     Reading *reading = read_rest(
@@ -259,7 +259,7 @@ static void assert_tangents(const Mesh *mesh, float x, float y, float w) {
 
 static const char with_normals[] = "'POSITION':0,'NORMAL':1,'TEXCOORD_0':2";
 
-static void makes_tangents(void **state) {
+static void missing_tangents_are_made(void **state) {
     (void)state;
     /* An upright image: u to the right, v down, so that the bitangent cross(n, t) is up. */
     Reading *reading = read_mapped(&square, with_normals, "");
@@ -297,7 +297,7 @@ static void makes_tangents(void **state) {
 }
 
 /* Two halves with mirrored coordinates share the edge 1-2: its vertices must part. */
-static void splits_mirrored(void **state) {
+static void vertices_shared_by_mirrored_maps_are_split(void **state) {
     (void)state;
     struct Square mirrored = square;
     memcpy(mirrored.texcoord + 6, square.texcoord, 2 * sizeof(float)); /* vertex 3 as vertex 0 */
@@ -317,7 +317,7 @@ static void splits_mirrored(void **state) {
 }
 
 /* Coordinates that are all one point: some tangent across the normal, never NaN. */
-static void survives_degenerate_map(void **state) {
+static void degenerate_texture_coordinates_give_finite_tangents(void **state) {
     (void)state;
     struct Square flat = square;
     memset(flat.texcoord, 0, sizeof flat.texcoord);
@@ -340,7 +340,7 @@ static void survives_degenerate_map(void **state) {
 }
 
 /* The file's own tangents: kept, made unit and square to the normals, turned around by a mirroring node. */
-static void keeps_tangents(void **state) {
+static void tangents_of_the_file_are_kept(void **state) {
     (void)state;
     static const float tangents[16] = {2, 0, 0.5f, 1, 0, 3, 0, -1, 0, 0, 1, 1, 0, 0, 0, -1};
     static const char form[] =
@@ -366,7 +366,7 @@ static void keeps_tangents(void **state) {
 
 /* --- rest pose --- */
 
-static void poses_skins(void **state) {
+static void skinned_vertices_are_posed_at_rest(void **state) {
     (void)state;
     /* Vertex 0 follows joint 0, vertex 1 joint 1, vertex 2 both, vertex 3 neither (joint 0 then). */
     static const struct {
@@ -403,7 +403,7 @@ static void poses_skins(void **state) {
                    "skins[0].joints[1]");
 }
 
-static void poses_morphs(void **state) {
+static void morph_targets_are_applied_at_rest(void **state) {
     (void)state;
     static const char form[] = SQUARE_DATA ",'meshes':[{'weights':[0.5,3],'primitives':[{'attributes':"
                                            "{'POSITION':0,'NORMAL':1},'indices':3,'targets':[{'POSITION':1},"
@@ -424,7 +424,7 @@ static void poses_morphs(void **state) {
 /* --- limits --- */
 
 /* Triangles of the last three vertices only: the first is not in the scene, and all attributes move along. */
-static void drops_unused_vertices(void **state) {
+static void unused_vertices_are_dropped(void **state) {
     (void)state;
     struct Square part = square;
     memcpy(part.index, (const uint16_t[6]){3, 2, 1, 1, 3, 2}, 12);
@@ -451,7 +451,7 @@ static uint32_t inverse(uint32_t a) {
 
 /* Vertices whose v is chosen so that the hash of each vertex is the same: welding must not become quadratic.
  */
-static void welds_crafted_vertices(void **state) {
+static void vertices_of_equal_hash_are_welded_in_linear_time(void **state) {
     (void)state;
     enum { COUNT = 90000 };
     WeftScene scene = {0};
@@ -490,7 +490,7 @@ static void welds_crafted_vertices(void **state) {
 }
 
 /* Nodes times primitives beyond the limit: refused before anybody walks them all. */
-static void limits_surfaces(void **state) {
+static void surfaces_beyond_the_limit_are_refused(void **state) {
     (void)state;
     enum { COUNT = 100000 };
     char *text = malloc((size_t)COUNT * 32);
@@ -505,7 +505,7 @@ static void limits_surfaces(void **state) {
     free(text);
 }
 
-static void limits_zeros(void **state) {
+static void accessors_without_data_beyond_the_limit_are_refused(void **state) {
     (void)state;
     assert_refused(
         read_rest("'accessors':[{'componentType':5126,'count':400000000,'type':'VEC3'}],"
@@ -514,7 +514,7 @@ static void limits_zeros(void **state) {
 }
 
 /* 64 nodes that each show the same large mesh: the tree multiplies what the file holds. */
-static void limits_instances(void **state) {
+static void instances_beyond_the_limit_of_memory_are_refused(void **state) {
     (void)state;
     char nodes[2048];
     int used = snprintf(nodes, sizeof nodes, "{'mesh':0}");
@@ -527,25 +527,25 @@ static void limits_instances(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_modes),
-        cmocka_unit_test(refuses_attributes),
-        cmocka_unit_test(transforms_agree),
-        cmocka_unit_test(mirrors),
-        cmocka_unit_test(survives_singular),
-        cmocka_unit_test(repairs_normals),
-        cmocka_unit_test(reads_colors),
-        cmocka_unit_test(reads_quantized),
-        cmocka_unit_test(makes_tangents),
-        cmocka_unit_test(splits_mirrored),
-        cmocka_unit_test(survives_degenerate_map),
-        cmocka_unit_test(keeps_tangents),
-        cmocka_unit_test(poses_skins),
-        cmocka_unit_test(poses_morphs),
-        cmocka_unit_test(limits_zeros),
-        cmocka_unit_test(limits_instances),
-        cmocka_unit_test(drops_unused_vertices),
-        cmocka_unit_test(welds_crafted_vertices),
-        cmocka_unit_test(limits_surfaces),
+        cmocka_unit_test(primitives_of_every_mode_become_triangles),
+        cmocka_unit_test(malformed_attributes_are_refused),
+        cmocka_unit_test(matrix_and_translation_rotation_scale_agree),
+        cmocka_unit_test(mirrored_node_keeps_its_front),
+        cmocka_unit_test(flattened_nodes_keep_what_has_an_area),
+        cmocka_unit_test(missing_or_zero_normals_are_repaired),
+        cmocka_unit_test(vertex_colours_are_read),
+        cmocka_unit_test(quantized_attributes_are_read),
+        cmocka_unit_test(missing_tangents_are_made),
+        cmocka_unit_test(vertices_shared_by_mirrored_maps_are_split),
+        cmocka_unit_test(degenerate_texture_coordinates_give_finite_tangents),
+        cmocka_unit_test(tangents_of_the_file_are_kept),
+        cmocka_unit_test(skinned_vertices_are_posed_at_rest),
+        cmocka_unit_test(morph_targets_are_applied_at_rest),
+        cmocka_unit_test(accessors_without_data_beyond_the_limit_are_refused),
+        cmocka_unit_test(instances_beyond_the_limit_of_memory_are_refused),
+        cmocka_unit_test(unused_vertices_are_dropped),
+        cmocka_unit_test(vertices_of_equal_hash_are_welded_in_linear_time),
+        cmocka_unit_test(surfaces_beyond_the_limit_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

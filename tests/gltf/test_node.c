@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static void refuses_cycles(void **state) {
+static void cycles_of_nodes_are_refused(void **state) {
     (void)state;
     static const char *const nodes[] = {
         "{'children':[0]}",
@@ -29,7 +29,7 @@ static void refuses_cycles(void **state) {
 
 /* A chain of 20000 nodes, each one step along x, the camera at its end; children before parents, so that no
  * order of the file helps. */
-static void walks_deep_chains(void **state) {
+static void deep_chains_of_nodes_are_read(void **state) {
     (void)state;
     enum { DEPTH = 20000 };
     size_t size = (size_t)DEPTH * 64, used = 0;
@@ -49,7 +49,7 @@ static void walks_deep_chains(void **state) {
     done(reading);
 }
 
-static void shows_one_scene(void **state) {
+static void only_the_default_scene_is_shown(void **state) {
     (void)state;
     static const char form[] =
         SQUARE_DATA ",'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':3"
@@ -75,7 +75,7 @@ static void shows_one_scene(void **state) {
     }
 }
 
-static void reads_cameras(void **state) {
+static void cameras_are_read(void **state) {
     (void)state;
     Reading *reading =
         read_rest("'cameras':[{'name':'near','type':'perspective','perspective':{'yfov':0.5,'znear':0.1}},"
@@ -111,7 +111,7 @@ static void reads_cameras(void **state) {
 }
 
 /* Where they are read from a picture, Embree would stop the program. */
-static void what_stands_too_far_away_is_refused(void **state) {
+static void nodes_too_far_away_are_refused(void **state) {
     (void)state;
     static const char camera[] = "'cameras':[{'type':'perspective','perspective':{'yfov':1}}],"
                                  "'nodes':[{'camera':0,'translation':[%s]}]",
@@ -132,7 +132,7 @@ static void what_stands_too_far_away_is_refused(void **state) {
 #define LIGHTS             "'extensions':{'KHR_lights_punctual':{'lights':[%s]}},'nodes':[%s]"
 #define LIGHT(index, rest) "{'extensions':{'KHR_lights_punctual':{'light':" #index "}}" rest "}"
 
-static void reads_lights(void **state) {
+static void punctual_lights_are_read(void **state) {
     (void)state;
     Reading *reading = read_rest(
         LIGHTS,
@@ -169,12 +169,9 @@ static void reads_lights(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refuses_cycles),
-        cmocka_unit_test(walks_deep_chains),
-        cmocka_unit_test(shows_one_scene),
-        cmocka_unit_test(reads_cameras),
-        cmocka_unit_test(what_stands_too_far_away_is_refused),
-        cmocka_unit_test(reads_lights),
+        cmocka_unit_test(cycles_of_nodes_are_refused),     cmocka_unit_test(deep_chains_of_nodes_are_read),
+        cmocka_unit_test(only_the_default_scene_is_shown), cmocka_unit_test(cameras_are_read),
+        cmocka_unit_test(nodes_too_far_away_are_refused),  cmocka_unit_test(punctual_lights_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,13 +46,13 @@ static void assert_patched(const char *text, const char *meant, const char *expe
     json_decref(now);
 }
 
-static void unedited_text_is_itself(void **state) {
+static void unedited_text_is_unchanged(void **state) {
     (void)state;
     assert_patched(odd, odd, odd);
     assert_patched("[]", "[ ]", "[]");
 }
 
-static void only_what_changed_differs(void **state) {
+static void edited_text_differs_only_at_the_edit(void **state) {
     (void)state;
     assert_patched("{ \"a\" : 0.10 , \"b\":1e2 }", "{\"a\":0.1,\"b\":7.5}", "{ \"a\" : 0.10 , \"b\":7.5 }");
     assert_patched("{\"a\":[1.0, 2.0 ,3.0],\"b\":[ ]}", "{\"a\":[1.0,2.25,3.0],\"b\":[]}",
@@ -62,7 +62,7 @@ static void only_what_changed_differs(void **state) {
     assert_patched("[0.5]", "[0.1]", "[0.1]");
 }
 
-static void members_come_and_go(void **state) {
+static void added_and_removed_members_keep_the_layout(void **state) {
     (void)state;
     assert_patched("{\n  \"a\": 1,\n  \"b\": 2,\n  \"c\": 3\n}", "{\"b\":2,\"c\":3}",
                    "{\n  \"b\": 2,\n  \"c\": 3\n}");
@@ -80,7 +80,7 @@ static void members_come_and_go(void **state) {
 }
 
 /* Of two members of one name the last counts: so the object is written anew, and means the same. */
-static void names_may_come_twice(void **state) {
+static void object_with_a_repeated_name_is_rewritten(void **state) {
     (void)state;
     assert_patched("{\"a\":1,\"a\":2}", "{\"a\":2}", "{\"a\":1,\"a\":2}");
     assert_patched("{\"a\":1,\"a\":2}", "{\"a\":3}", "{\"a\": 3}");
@@ -114,7 +114,7 @@ static json_t *mangled(json_t *value, uint32_t *salt, int depth) {
     return json_incref(value);
 }
 
-static void any_edit_means_what_was_meant(void **state) {
+static void text_of_any_edit_parses_to_the_edited_value(void **state) {
     (void)state;
     char *text = strdup(odd);
     for (uint32_t round = 0; round < 20000; round++) {
@@ -133,9 +133,11 @@ static void any_edit_means_what_was_meant(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unedited_text_is_itself),       cmocka_unit_test(only_what_changed_differs),
-        cmocka_unit_test(members_come_and_go),           cmocka_unit_test(names_may_come_twice),
-        cmocka_unit_test(any_edit_means_what_was_meant),
+        cmocka_unit_test(unedited_text_is_unchanged),
+        cmocka_unit_test(edited_text_differs_only_at_the_edit),
+        cmocka_unit_test(added_and_removed_members_keep_the_layout),
+        cmocka_unit_test(object_with_a_repeated_name_is_rewritten),
+        cmocka_unit_test(text_of_any_edit_parses_to_the_edited_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ static int watch(void *user, double fraction) {
     return ++seen->calls == seen->stop;
 }
 
-static void a_load_can_be_watched_and_stopped(void **state) {
+static void load_reports_progress_and_can_be_stopped(void **state) {
     (void)state;
     static const char *const paths[] = {WEFT_SOURCE_DIR "/scenes/sewing.glb", "builtin:cloth"};
     for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
@@ -48,6 +48,6 @@ static void a_load_can_be_watched_and_stopped(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_load_can_be_watched_and_stopped)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(load_reports_progress_and_can_be_stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

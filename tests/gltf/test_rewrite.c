@@ -106,7 +106,7 @@ static void roughen(Rewrite *rewrite) {
     json_object_set_new(sheen_of(rewrite), "sheenRoughnessFactor", json_real(0.3));
 }
 
-static void one_number_more_is_all(void **state) {
+static void rewritten_asset_differs_by_the_added_number_alone(void **state) {
     (void)state;
     make_square();
     assert_rewritten("in/square.gltf", NULL, "in/same.gltf");
@@ -122,7 +122,7 @@ static void one_number_more_is_all(void **state) {
     free(now.data);
 }
 
-static void files_come_along(void **state) {
+static void files_of_the_asset_are_copied(void **state) {
     (void)state;
     make_square();
     mkdir("out", 0777);
@@ -159,7 +159,7 @@ static Reading *same_scene(const char *path, const char *other) {
     return b;
 }
 
-static void packs_and_unpacks(void **state) {
+static void gltf_to_glb_and_back_is_the_same_scene(void **state) {
     (void)state;
     make_square();
     mkdir("packed", 0777);
@@ -177,7 +177,7 @@ static void packs_and_unpacks(void **state) {
 }
 
 /* Views, and what compresses them, are led to where the bytes are; what nobody can pack stays. */
-static void leads_references_along(void **state) {
+static void packed_buffers_keep_their_references(void **state) {
     (void)state;
     char *text = json(
         "{'asset':{'version':'2.0'},'buffers':[{'byteLength':4,'uri':'%s'},{'byteLength':8,'extensions':"
@@ -207,7 +207,7 @@ static void leads_references_along(void **state) {
 }
 
 /* A chunk of somebody's behind the bytes stays behind them. */
-static void keeps_unknown_chunks(void **state) {
+static void unknown_chunks_of_a_glb_are_kept(void **state) {
     (void)state;
     make_square();
     WeftError error;
@@ -237,7 +237,7 @@ static void add_picture(Rewrite *rewrite) {
     assert_int_equal(json_array_size(json_object_get(rewrite->root, "extensionsUsed")), 1);
 }
 
-static void new_pictures_go_in(void **state) {
+static void new_pictures_are_written_beside_the_asset(void **state) {
     (void)state;
     make_square();
     mkdir("pictured", 0777);
@@ -266,7 +266,7 @@ static void new_pictures_go_in(void **state) {
     gltf_close(&asset);
 }
 
-static void refuses_other_suffixes(void **state) {
+static void output_of_another_suffix_is_refused(void **state) {
     (void)state;
     make_square();
     WeftError error;
@@ -279,10 +279,13 @@ static void refuses_other_suffixes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_number_more_is_all), cmocka_unit_test(files_come_along),
-        cmocka_unit_test(packs_and_unpacks),      cmocka_unit_test(leads_references_along),
-        cmocka_unit_test(keeps_unknown_chunks),   cmocka_unit_test(new_pictures_go_in),
-        cmocka_unit_test(refuses_other_suffixes),
+        cmocka_unit_test(rewritten_asset_differs_by_the_added_number_alone),
+        cmocka_unit_test(files_of_the_asset_are_copied),
+        cmocka_unit_test(gltf_to_glb_and_back_is_the_same_scene),
+        cmocka_unit_test(packed_buffers_keep_their_references),
+        cmocka_unit_test(unknown_chunks_of_a_glb_are_kept),
+        cmocka_unit_test(new_pictures_are_written_beside_the_asset),
+        cmocka_unit_test(output_of_another_suffix_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

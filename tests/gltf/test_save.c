@@ -109,7 +109,7 @@ static void assert_same(const WeftScene *a, const WeftScene *b, const char *name
     weft_image_free(&q);
 }
 
-static void built_in_scenes_come_back(void **state) {
+static void saved_built_in_scenes_read_as_they_were(void **state) {
     (void)state;
     for (int k = 0; weft_builtin_name(k); k++) {
         char path[64];
@@ -126,7 +126,7 @@ static void built_in_scenes_come_back(void **state) {
     }
 }
 
-static void presets_come_back(void **state) {
+static void saved_presets_read_as_they_were(void **state) {
     (void)state;
     for (int k = 0; weft_preset_name(k); k++) {
         char path[64];
@@ -159,7 +159,7 @@ static float roll(void) {
 }
 
 /* Whatever numbers, maps and choices there are. */
-static void anything_comes_back(void **state) {
+static void saved_scene_of_random_values_reads_as_it_was(void **state) {
     (void)state;
     WeftError error;
     WeftScene *scene = load("builtin:spheres");
@@ -235,7 +235,7 @@ static int file_count(void) {
     return count;
 }
 
-static void what_cannot_be_written_leaves_nothing(void **state) {
+static void failed_save_leaves_no_files(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -271,8 +271,9 @@ static void what_cannot_be_written_leaves_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(built_in_scenes_come_back), cmocka_unit_test(presets_come_back),
-        cmocka_unit_test(anything_comes_back), cmocka_unit_test(what_cannot_be_written_leaves_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(saved_built_in_scenes_read_as_they_were),
+                                       cmocka_unit_test(saved_presets_read_as_they_were),
+                                       cmocka_unit_test(saved_scene_of_random_values_reads_as_it_was),
+                                       cmocka_unit_test(failed_save_leaves_no_files)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -311,7 +311,7 @@ static void bright_flip_is_the_largest_over_exposures(void **state) {
 }
 
 /* Even pictures have no features, and what is left can be said in closed form. */
-static void flip_of_even_pictures(void **state) {
+static void flip_of_even_pictures_is_the_colour_difference(void **state) {
     (void)state;
     WeftImage linear[4] = {flat(30, 20, 0.0f, 0.0f, 0.0f), flat(30, 20, 1.0f, 1.0f, 1.0f),
                            flat(30, 20, 0.0f, 1.0f, 0.0f), flat(30, 20, 0.0f, 0.0f, 1.0f)};
@@ -380,7 +380,7 @@ static void metrics_are_monotone_and_symmetric(void **state) {
 }
 
 /* A pattern of single pixels dissolves into its mean for one who stands far away. */
-static void flip_knows_the_distance(void **state) {
+static void flip_depends_on_the_viewing_distance(void **state) {
     (void)state;
     WeftImage fine = flat(64, 64, 0.0f, 0.0f, 0.0f), even = flat(64, 64, 0.5f, 0.5f, 0.5f);
     for (size_t k = 0; k < 64 * 64; k++)
@@ -457,7 +457,7 @@ static void ssim_is_its_formula(void **state) {
 }
 
 /* Of even pictures only brightness counts; a negative has the structure turned round. */
-static void ssim_of_even_pictures_and_negatives(void **state) {
+static void ssim_of_even_pictures_and_negatives_is_known(void **state) {
     (void)state;
     WeftImage dark = make_image(20, 20, 1, WEFT_PIXEL_U8), light = make_image(20, 20, 1, WEFT_PIXEL_U8);
     WeftImage image = make_image(20, 20, 1, WEFT_PIXEL_U8), negative = make_image(20, 20, 1, WEFT_PIXEL_U8);
@@ -498,7 +498,7 @@ static void relmse_is_its_formula(void **state) {
 /* Pictures of different kinds. */
 
 /* A linear picture beside one of it, both of all kinds of channels, is the same picture. */
-static void linear_pictures_are_shown(void **state) {
+static void linear_picture_compares_as_its_tone_mapped_form(void **state) {
     (void)state;
     WeftImage linear = make_image(32, 24, 4, WEFT_PIXEL_F32), shown;
     noise_state = 12;
@@ -531,7 +531,7 @@ static void linear_pictures_are_shown(void **state) {
     weft_image_free(&linear), weft_image_free(&shown), weft_image_free(&other), weft_image_free(&other_shown);
 }
 
-static void channels_and_alpha(void **state) {
+static void pictures_of_other_channels_compare_as_their_colours(void **state) {
     (void)state;
     WeftImage grey = make_image(16, 16, 1, WEFT_PIXEL_U8), grey_alpha = make_image(16, 16, 2, WEFT_PIXEL_U8),
               color = make_image(16, 16, 3, WEFT_PIXEL_U16), both = make_image(16, 16, 4, WEFT_PIXEL_U8),
@@ -572,7 +572,7 @@ static void channels_and_alpha(void **state) {
 
 /* What is told of a map. */
 
-static void figures_of_a_map(void **state) {
+static void mean_percentiles_and_largest_are_those_of_the_map(void **state) {
     (void)state;
     WeftImage b = flat(20, 20, 0.5f, 0.5f, 0.5f), a = flat(20, 20, 0.5f, 0.5f, 0.5f), map;
     for (int k = 0; k < 8; k++) ((float *)a.pixels)[3 * (50 + 7 * k)] += 0.01f * (float)(8 - k);
@@ -617,7 +617,7 @@ static void ranks_are_those_of_sorting(void **state) {
     }
 }
 
-static void powers_are_near(void **state) {
+static void fast_power_is_near_pow(void **state) {
     (void)state;
     static const float exponents[] = {1.0f / 3.0f, 0.7f, 1.0f / 2.4f, 0.01f, 1.0f, 3.0f, -0.5f};
     noise_state = 5;
@@ -631,7 +631,7 @@ static void powers_are_near(void **state) {
     assert_near(power(1.0f, 0.3f), 1.0f, 0.0f);
 }
 
-static void threads_change_nothing(void **state) {
+static void metrics_with_any_number_of_threads_are_the_same(void **state) {
     (void)state;
     WeftImage b = scenery(300, 40, 6), a = noisy(&b, 0.2f, 8);
     for (int metric = 0; metric < WEFT_METRIC_COUNT; metric++) {
@@ -649,7 +649,7 @@ static void threads_change_nothing(void **state) {
 }
 
 /* Whatever the pixels hold, what comes out is finite. */
-static void odd_numbers(void **state) {
+static void metrics_of_odd_numbers_are_finite(void **state) {
     (void)state;
     static const float odd[] = {NAN,    INFINITY, -INFINITY, FLT_MAX, -FLT_MAX,
                                 1e-45f, -1.0f,    0.0f,      1e30f,   1e-20f};
@@ -674,7 +674,7 @@ static void odd_numbers(void **state) {
     weft_image_free(&a), weft_image_free(&b);
 }
 
-static void refusals(void **state) {
+static void pictures_that_do_not_match_are_refused(void **state) {
     (void)state;
     WeftImage a = flat(4, 3, 0.0f, 0.0f, 0.0f), b = flat(3, 4, 0.0f, 0.0f, 0.0f), none = {0};
     const WeftDiffDesc wrong[] = {{.image = &a},
@@ -715,20 +715,20 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flip_is_its_formula),
         cmocka_unit_test(bright_flip_is_the_largest_over_exposures),
-        cmocka_unit_test(flip_of_even_pictures),
+        cmocka_unit_test(flip_of_even_pictures_is_the_colour_difference),
         cmocka_unit_test(metrics_are_monotone_and_symmetric),
-        cmocka_unit_test(flip_knows_the_distance),
+        cmocka_unit_test(flip_depends_on_the_viewing_distance),
         cmocka_unit_test(ssim_is_its_formula),
-        cmocka_unit_test(ssim_of_even_pictures_and_negatives),
+        cmocka_unit_test(ssim_of_even_pictures_and_negatives_is_known),
         cmocka_unit_test(relmse_is_its_formula),
-        cmocka_unit_test(linear_pictures_are_shown),
-        cmocka_unit_test(channels_and_alpha),
-        cmocka_unit_test(figures_of_a_map),
+        cmocka_unit_test(linear_picture_compares_as_its_tone_mapped_form),
+        cmocka_unit_test(pictures_of_other_channels_compare_as_their_colours),
+        cmocka_unit_test(mean_percentiles_and_largest_are_those_of_the_map),
         cmocka_unit_test(ranks_are_those_of_sorting),
-        cmocka_unit_test(powers_are_near),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(odd_numbers),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(fast_power_is_near_pow),
+        cmocka_unit_test(metrics_with_any_number_of_threads_are_the_same),
+        cmocka_unit_test(metrics_of_odd_numbers_are_finite),
+        cmocka_unit_test(pictures_that_do_not_match_are_refused),
     };
     make_matrix();
     return cmocka_run_group_tests_name("difference", tests, NULL, NULL);

@@ -179,7 +179,7 @@ static const float *pixel(const WeftImage *image, int x, int y) {
 #define RGB_HALF .channels = {"B", "G", "R"}, .types = {EXR_PIXEL_HALF, EXR_PIXEL_HALF, EXR_PIXEL_HALF}
 
 /* Every compression, type, tiling and set of channels: what is no loss comes back exactly. */
-static void test_all_forms(void **state) {
+static void exr_of_every_compression_type_and_tiling_is_read(void **state) {
     (void)state;
     static const struct {
         const char *channels[CHANNELS_MAX + 1];
@@ -217,7 +217,7 @@ static void test_all_forms(void **state) {
 }
 
 /* The display window is the image; what the data window lacks is 0, what it has beyond is dropped. */
-static void test_windows(void **state) {
+static void exr_display_window_is_the_image(void **state) {
     (void)state;
     static const struct {
         int window[4], display[4];
@@ -253,7 +253,7 @@ static float half_covered(int channel, int x, int y) {
 }
 
 /* Colours times alpha in the file, straight in the image; light without cover stays. */
-static void test_alpha(void **state) {
+static void exr_with_alpha_is_divided_by_it(void **state) {
     (void)state;
     Bytes bytes = exr_make((Form){.channels = {"A", "B", "G", "R"},
                                   .types = {EXR_PIXEL_HALF, EXR_PIXEL_HALF, EXR_PIXEL_HALF, EXR_PIXEL_HALF},
@@ -271,7 +271,7 @@ static void test_alpha(void **state) {
     weft_image_free(&image);
 }
 
-static void test_layers_and_parts(void **state) {
+static void exr_with_layers_or_parts_reads_the_first_colours(void **state) {
     (void)state;
     const exr_pixel_type_t half = EXR_PIXEL_HALF;
     static const struct {
@@ -314,7 +314,7 @@ static void patch(Bytes *bytes, const char *name, const char *type, const void *
     fail_msg("no attribute %s", name);
 }
 
-static void test_refusals(void **state) {
+static void unsupported_exr_is_refused(void **state) {
     (void)state;
     const exr_pixel_type_t half = EXR_PIXEL_HALF;
     Bytes bytes = exr_make((Form){.channels = {"BY", "RY", "Y"}, .types = {half, half, half}});
@@ -332,7 +332,7 @@ static void test_refusals(void **state) {
     }
 }
 
-static void test_claims(void **state) {
+static void exr_that_claims_too_many_pixels_is_refused(void **state) {
     (void)state;
     static const int32_t windows[][4] = {{0, 0, 65536, 0},
                                          {0, 0, 59999, 59999},
@@ -362,7 +362,7 @@ static void test_claims(void **state) {
     refuse(&bytes, WEFT_MESSAGE_IMAGE_SIZE);
 }
 
-static void test_damage(void **state) {
+static void damaged_exr_is_refused_or_read(void **state) {
     (void)state;
     for (int tiled = 0; tiled < 2; tiled++) {
         Bytes bytes = exr_make((Form){.compression = EXR_COMPRESSION_ZIP, .tiled = tiled, RGB_HALF});
@@ -387,7 +387,7 @@ static float wild(int channel, int x, int y) {
     return x == 1 ? NAN : x == 2 ? INFINITY : x == 3 && channel == 0 ? -INFINITY : 2.0f;
 }
 
-static void test_not_finite(void **state) {
+static void exr_values_that_are_not_finite_become_finite(void **state) {
     (void)state;
     for (exr_pixel_type_t type = EXR_PIXEL_HALF; type <= EXR_PIXEL_FLOAT; type++) {
         Bytes bytes = exr_make((Form){.channels = {"B", "G", "R"},
@@ -411,7 +411,7 @@ static void test_not_finite(void **state) {
 }
 
 /* All finite halves, subnormal ones too, survive writing and reading. */
-static void test_every_half(void **state) {
+static void exr_reads_every_half_float(void **state) {
     (void)state;
     WeftImage image = make_image(31 * 64, 2, 3, WEFT_PIXEL_F32);
     float *values = image.pixels;
@@ -429,7 +429,7 @@ static void test_every_half(void **state) {
     weft_image_free(&image);
 }
 
-static void test_round_trip(void **state) {
+static void exr_reads_what_it_wrote(void **state) {
     (void)state;
     for (int channels = 1; channels <= 4; channels++)
         for (int height = 1; height <= 33; height += 16) {
@@ -449,7 +449,7 @@ static void test_round_trip(void **state) {
 }
 
 /* Among these lines are some that compress to exactly their own size. */
-static void test_incompressible(void **state) {
+static void exr_lines_that_do_not_compress_read_back(void **state) {
     (void)state;
     uint32_t random = 1;
     for (int width = 9; width < 40; width += 2)
@@ -466,7 +466,7 @@ static void test_incompressible(void **state) {
         }
 }
 
-static void test_clamped(void **state) {
+static void exr_writes_values_beyond_half_clamped(void **state) {
     (void)state;
     static const float odd[] = {1e30f, -1e30f, INFINITY, -INFINITY, NAN, 65520.0f};
     static const float want[] = {65504.0f, -65504.0f, 65504.0f, -65504.0f, 0.0f, 65504.0f};
@@ -479,7 +479,7 @@ static void test_clamped(void **state) {
 }
 
 /* Data: every bit of a float, and no product with alpha, by which the reader divides. */
-static void test_data(void **state) {
+static void exr_of_data_keeps_every_bit(void **state) {
     (void)state;
     const WeftImageWriting how = {.data = 1, .single = 1, .comment = "weft bake \"this\""};
     for (int channels = 1; channels <= 4; channels++) {
@@ -502,13 +502,19 @@ static void test_data(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_forms),      cmocka_unit_test(test_windows),
-        cmocka_unit_test(test_alpha),          cmocka_unit_test(test_layers_and_parts),
-        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_claims),
-        cmocka_unit_test(test_damage),         cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_every_half),     cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_incompressible), cmocka_unit_test(test_clamped),
-        cmocka_unit_test(test_data),
+        cmocka_unit_test(exr_of_every_compression_type_and_tiling_is_read),
+        cmocka_unit_test(exr_display_window_is_the_image),
+        cmocka_unit_test(exr_with_alpha_is_divided_by_it),
+        cmocka_unit_test(exr_with_layers_or_parts_reads_the_first_colours),
+        cmocka_unit_test(unsupported_exr_is_refused),
+        cmocka_unit_test(exr_that_claims_too_many_pixels_is_refused),
+        cmocka_unit_test(damaged_exr_is_refused_or_read),
+        cmocka_unit_test(exr_values_that_are_not_finite_become_finite),
+        cmocka_unit_test(exr_reads_every_half_float),
+        cmocka_unit_test(exr_reads_what_it_wrote),
+        cmocka_unit_test(exr_lines_that_do_not_compress_read_back),
+        cmocka_unit_test(exr_writes_values_beyond_half_clamped),
+        cmocka_unit_test(exr_of_data_keeps_every_bit),
     };
     return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

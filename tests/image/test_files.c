@@ -36,7 +36,7 @@ static void assert_rgb(const WeftImage *image, int x, int y, float r, float g, f
     assert_near(at[2], b, 1e-3f);
 }
 
-static void test_png(void **state) {
+static void png_samples_have_their_texels(void **state) {
     (void)state;
     WeftImage image = read_file("images/png/acid2.png"); /* yellow and clear, in a chequer */
     assert_shape(&image, 2, 2, 4, WEFT_PIXEL_U8);
@@ -53,7 +53,7 @@ static void test_png(void **state) {
     weft_image_free(&image);
 }
 
-static void test_tga(void **state) {
+static void tga_samples_have_their_texels(void **state) {
     (void)state;
     WeftImage image = read_file("images/tga/black_white.tga"); /* white above black */
     assert_shape(&image, 1280, 720, 3, WEFT_PIXEL_U8);
@@ -62,7 +62,7 @@ static void test_tga(void **state) {
     weft_image_free(&image);
 }
 
-static void test_hdr(void **state) {
+static void hdr_sample_has_its_texels(void **state) {
     (void)state;
     WeftImage image = read_file("images/hdr/rgbr4x4.hdr");
     assert_shape(&image, 4, 4, 3, WEFT_PIXEL_F32);
@@ -80,7 +80,7 @@ static void test_hdr(void **state) {
     weft_image_free(&image);
 }
 
-static void test_environments(void **state) {
+static void environment_files_have_their_size_and_brightness(void **state) {
     (void)state;
     static const char *const names[] = {"env/studio_small_03_1k.hdr", "env/venice_sunset_1k.hdr",
                                         "env/OrientationLatLong.exr"};
@@ -126,7 +126,7 @@ static int malformed(const char *folder) {
     return count;
 }
 
-static void test_malformed(void **state) {
+static void malformed_sample_files_are_refused_or_read(void **state) {
     (void)state;
     assert_true(malformed("image-rs") >= 3);
     assert_true(malformed("openexr-damaged") >= 9);
@@ -136,8 +136,11 @@ static void test_malformed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),          cmocka_unit_test(test_tga),       cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_environments), cmocka_unit_test(test_malformed),
+        cmocka_unit_test(png_samples_have_their_texels),
+        cmocka_unit_test(tga_samples_have_their_texels),
+        cmocka_unit_test(hdr_sample_has_its_texels),
+        cmocka_unit_test(environment_files_have_their_size_and_brightness),
+        cmocka_unit_test(malformed_sample_files_are_refused_or_read),
     };
     return cmocka_run_group_tests_name("files", tests, NULL, NULL);
 }

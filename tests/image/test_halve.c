@@ -32,7 +32,7 @@ static double counted(const float *from, int width, double x0, double x1, double
     return sum / STEPS / STEPS;
 }
 
-static void texels_are_means_of_what_they_cover(void **state) {
+static void halved_texels_are_means_of_what_they_cover(void **state) {
     (void)state;
     for (int n = 0; n < SIDES; n++) {
         int w = sides[n][0], h = sides[n][1], v = halved(w), u = halved(h);
@@ -58,7 +58,7 @@ static double code(double linear) {
     return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055);
 }
 
-static void colors_are_averaged_as_light(void **state) {
+static void halved_colours_are_averaged_as_light(void **state) {
     (void)state;
     uint32_t seed = 3u;
     for (int n = 0; n < 2000; n++) {
@@ -76,7 +76,7 @@ static void colors_are_averaged_as_light(void **state) {
     }
 }
 
-static void one_value_stays(void **state) {
+static void even_picture_halves_to_the_same_value(void **state) {
     (void)state;
     for (int n = 0; n < SIDES; n++)
         for (int value = 0; value < 256; value++)
@@ -90,8 +90,8 @@ static void one_value_stays(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(texels_are_means_of_what_they_cover),
-                                       cmocka_unit_test(colors_are_averaged_as_light),
-                                       cmocka_unit_test(one_value_stays)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(halved_texels_are_means_of_what_they_cover),
+                                       cmocka_unit_test(halved_colours_are_averaged_as_light),
+                                       cmocka_unit_test(even_picture_halves_to_the_same_value)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static void put_pixel(Bytes *bytes, int n) {
     put(bytes, (unsigned char[]){(unsigned char)(2 * (n + 1)), 64, 0, 128 + 7}, 4);
 }
 
-static void test_orientations(void **state) {
+static void hdr_of_every_orientation_is_read_upright(void **state) {
     (void)state;
     enum { WIDTH = 3, HEIGHT = 2 };
     for (int i = 0; i < 8; i++) {
@@ -50,7 +50,7 @@ static void test_orientations(void **state) {
 }
 
 /* A pixel and a run; two markers count 5 + 1 * 256. */
-static void test_old_runs(void **state) {
+static void hdr_old_run_lengths_are_read(void **state) {
     (void)state;
     Bytes bytes = header("", "-Y 2 +X 262");
     put_pixel(&bytes, 0);
@@ -75,7 +75,7 @@ static void test_old_runs(void **state) {
     refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
 }
 
-static void test_new_runs(void **state) {
+static void hdr_new_run_lengths_are_read(void **state) {
     (void)state;
     Bytes bytes = header("", "-Y 1 +X 9");
     const size_t start = bytes.size;
@@ -103,7 +103,7 @@ static void test_new_runs(void **state) {
 }
 
 /* Radiance is what is stored divided by all EXPOSURE and COLORCORR factors. */
-static void test_exposure(void **state) {
+static void hdr_exposure_and_colour_correction_are_undone(void **state) {
     (void)state;
     Bytes bytes = header("EXPOSURE=2\nCOLORCORR= 1 4 1\nEXPOSURE=0.25\n", "-Y 1 +X 1");
     put_pixel(&bytes, 0);
@@ -122,7 +122,7 @@ static void test_exposure(void **state) {
     }
 }
 
-static void test_not_finite(void **state) {
+static void hdr_values_that_are_not_finite_are_a_warning(void **state) {
     (void)state;
     Bytes bytes = header("EXPOSURE=1e-20\n", "-Y 1 +X 2");
     put(&bytes, (unsigned char[]){200, 0, 100, 255, 128, 128, 128, 128}, 8);
@@ -136,7 +136,7 @@ static void test_not_finite(void **state) {
     weft_image_free(&image);
 }
 
-static void test_refusals(void **state) {
+static void malformed_hdr_is_refused(void **state) {
     (void)state;
     Bytes bytes = {.size = 0};
     put_text(&bytes, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n....");
@@ -159,7 +159,7 @@ static void test_refusals(void **state) {
 
 /* Written values come back within half a step of the shared exponent, for widths in and out of what runs can
  * code, and lines that mix runs with noise. */
-static void test_round_trip(void **state) {
+static void hdr_reads_what_it_wrote(void **state) {
     (void)state;
     static const int widths[] = {1, 7, 8, 127, 128, 129, 131, 300, 32768};
     for (size_t i = 0; i < sizeof widths / sizeof *widths; i++)
@@ -183,7 +183,7 @@ static void test_round_trip(void **state) {
         }
 }
 
-static void test_extremes(void **state) {
+static void hdr_writes_extreme_values_finite(void **state) {
     (void)state;
     WeftImage image = make_image(8, 1, 3, WEFT_PIXEL_F32);
     float *values = image.pixels;
@@ -206,10 +206,14 @@ static void test_extremes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orientations), cmocka_unit_test(test_old_runs),
-        cmocka_unit_test(test_new_runs),     cmocka_unit_test(test_exposure),
-        cmocka_unit_test(test_not_finite),   cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_extremes),
+        cmocka_unit_test(hdr_of_every_orientation_is_read_upright),
+        cmocka_unit_test(hdr_old_run_lengths_are_read),
+        cmocka_unit_test(hdr_new_run_lengths_are_read),
+        cmocka_unit_test(hdr_exposure_and_colour_correction_are_undone),
+        cmocka_unit_test(hdr_values_that_are_not_finite_are_a_warning),
+        cmocka_unit_test(malformed_hdr_is_refused),
+        cmocka_unit_test(hdr_reads_what_it_wrote),
+        cmocka_unit_test(hdr_writes_extreme_values_finite),
     };
     return cmocka_run_group_tests_name("hdr", tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@
 #define WEFT_LIBM /* as tonemap.c has it */
 #include "shading/tone.h"
 
-static void test_create(void **state) {
+static void new_image_is_black_and_freed(void **state) {
     (void)state;
     WeftImage image = make_image(3, 2, 4, WEFT_PIXEL_U16);
     assert_shape(&image, 3, 2, 4, WEFT_PIXEL_U16);
@@ -33,7 +33,7 @@ static void test_create(void **state) {
     }
 }
 
-static void test_suffixes(void **state) {
+static void suffixes_choose_the_format(void **state) {
     (void)state;
     static const struct {
         const char *path;
@@ -47,7 +47,7 @@ static void test_suffixes(void **state) {
     }
 }
 
-static void test_unknown_content(void **state) {
+static void unknown_content_is_refused(void **state) {
     (void)state;
     refuse_bytes("", 0, WEFT_MESSAGE_IMAGE_FORMAT);
     refuse_bytes("hello, this is a text and not an image", 38, WEFT_MESSAGE_IMAGE_FORMAT);
@@ -64,7 +64,7 @@ static void test_unknown_content(void **state) {
     assert_int_equal(error.message, WEFT_MESSAGE_FILE_READ);
 }
 
-static void test_believable(void **state) {
+static void header_that_claims_more_than_the_file_can_hold_is_refused(void **state) {
     (void)state;
     const ImageSource small = {.size = 1000, .name = "small"}, large = {.size = 100 << 20, .name = "large"};
     WeftError error = {0};
@@ -79,7 +79,7 @@ static void test_believable(void **state) {
     assert_int_equal(image_reachable(&small, 1001, &error), WEFT_INPUT);
 }
 
-static void test_convert(void **state) {
+static void converted_pixels_have_the_values_of_the_original(void **state) {
     (void)state;
     for (int channels = 1; channels <= 4; channels++)
         for (int deep = 0; deep < 2; deep++)
@@ -109,7 +109,7 @@ static void test_convert(void **state) {
             }
 }
 
-static void test_srgb(void **state) {
+static void srgb_decodes_what_it_encodes(void **state) {
     (void)state;
     assert_near(tone_encode(0.0f), 0.0f, 0.0f);
     assert_near(tone_encode(1.0f), 1.0f, 1e-6f);
@@ -118,7 +118,7 @@ static void test_srgb(void **state) {
         assert_near(srgb_decode(tone_encode((float)i / 1000.0f)), (float)i / 1000.0f, 1e-6f);
 }
 
-static void test_write_refusals(void **state) {
+static void pixels_that_a_format_cannot_hold_are_refused(void **state) {
     (void)state;
     WeftImage floats = make_image(2, 2, 3, WEFT_PIXEL_F32), bytes = make_image(2, 2, 3, WEFT_PIXEL_U8);
     WeftImage grey = make_image(2, 2, 1, WEFT_PIXEL_F32), none = {0};
@@ -157,7 +157,7 @@ static int entry_count(const char *folder) {
 
 /* A folder that is not there, a folder in the place of the file, and a disk that is full: FILE_WRITE, and no
  * temporary file stays. */
-static void test_unwritable(void **state) {
+static void unwritable_path_is_an_error_without_temporary_files(void **state) {
     (void)state;
     WeftImage image = make_image(600, 600, 3, WEFT_PIXEL_F32), bytes = make_image(600, 600, 3, WEFT_PIXEL_U8);
     char folder[256], path[300];
@@ -182,7 +182,7 @@ static void test_unwritable(void **state) {
 }
 
 /* The writers themselves say so when their stream does not take the bytes. */
-static void test_full_disk(void **state) {
+static void write_to_a_full_disk_is_an_error(void **state) {
     (void)state;
     WeftImage image = make_image(600, 600, 3, WEFT_PIXEL_F32), bytes = make_image(600, 600, 3, WEFT_PIXEL_U8);
     for (size_t i = 0; i < value_total(&image);
@@ -208,7 +208,7 @@ static void test_full_disk(void **state) {
 }
 
 /* A failed write leaves the old file as it was. */
-static void test_old_file_stands(void **state) {
+static void failed_write_leaves_the_old_file(void **state) {
     (void)state;
     WeftImage bytes = make_image(4, 4, 3, WEFT_PIXEL_U8), grey = make_image(4, 4, 1, WEFT_PIXEL_F32), back;
     char folder[256], path[300];
@@ -236,7 +236,7 @@ static void test_old_file_stands(void **state) {
     weft_image_free(&bytes);
 }
 
-static void formats_that_are_not_read_are_named(void **state) {
+static void unsupported_formats_are_named(void **state) {
     (void)state;
     static const struct {
         const char *bytes, *name;
@@ -257,17 +257,17 @@ static void formats_that_are_not_read_are_named(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_create),
-        cmocka_unit_test(test_suffixes),
-        cmocka_unit_test(test_unknown_content),
-        cmocka_unit_test(test_believable),
-        cmocka_unit_test(test_convert),
-        cmocka_unit_test(test_srgb),
-        cmocka_unit_test(test_write_refusals),
-        cmocka_unit_test(test_unwritable),
-        cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_old_file_stands),
-        cmocka_unit_test(formats_that_are_not_read_are_named),
+        cmocka_unit_test(new_image_is_black_and_freed),
+        cmocka_unit_test(suffixes_choose_the_format),
+        cmocka_unit_test(unknown_content_is_refused),
+        cmocka_unit_test(header_that_claims_more_than_the_file_can_hold_is_refused),
+        cmocka_unit_test(converted_pixels_have_the_values_of_the_original),
+        cmocka_unit_test(srgb_decodes_what_it_encodes),
+        cmocka_unit_test(pixels_that_a_format_cannot_hold_are_refused),
+        cmocka_unit_test(unwritable_path_is_an_error_without_temporary_files),
+        cmocka_unit_test(write_to_a_full_disk_is_an_error),
+        cmocka_unit_test(failed_write_leaves_the_old_file),
+        cmocka_unit_test(unsupported_formats_are_named),
     };
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);
 }

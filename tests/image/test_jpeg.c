@@ -56,7 +56,7 @@ static const Form forms[] = {
 
 static const unsigned char value[4] = {220, 140, 60, 200};
 
-static void test_all_forms(void **state) {
+static void jpeg_of_every_sampling_is_read(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         Bytes bytes = jpeg_make(forms[i], value);
@@ -75,7 +75,7 @@ static void test_all_forms(void **state) {
 }
 
 /* Without Adobe's mark the numbers are ink. */
-static void test_plain_cmyk(void **state) {
+static void jpeg_of_plain_cmyk_is_read_as_ink(void **state) {
     (void)state;
     Bytes bytes = jpeg_make(forms[5], value), plain = {.size = 0};
     size_t at = 2;
@@ -91,7 +91,7 @@ static void test_plain_cmyk(void **state) {
 }
 
 /* A cut file is refused, or read with a warning once its picture has begun. */
-static void test_cut(void **state) {
+static void truncated_jpeg_is_refused_or_read_with_a_warning(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         Bytes bytes = jpeg_make(forms[i], value);
@@ -115,7 +115,7 @@ static void test_cut(void **state) {
 }
 
 /* Many scans that each refine nothing new: libjpeg alone would visit all blocks for each. */
-static void test_scan_bomb(void **state) {
+static void jpeg_with_too_many_scans_is_refused(void **state) {
     (void)state;
     Bytes bytes = jpeg_make(forms[1], value);
     size_t start = 2, end;
@@ -130,7 +130,7 @@ static void test_scan_bomb(void **state) {
     refuse(&bomb, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
 }
 
-static void test_claims(void **state) {
+static void jpeg_that_claims_too_many_pixels_is_refused(void **state) {
     (void)state;
     Bytes bytes = jpeg_make(forms[2], value);
     size_t frame = 2;
@@ -155,8 +155,11 @@ static void test_claims(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_forms), cmocka_unit_test(test_plain_cmyk), cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_scan_bomb), cmocka_unit_test(test_claims),
+        cmocka_unit_test(jpeg_of_every_sampling_is_read),
+        cmocka_unit_test(jpeg_of_plain_cmyk_is_read_as_ink),
+        cmocka_unit_test(truncated_jpeg_is_refused_or_read_with_a_warning),
+        cmocka_unit_test(jpeg_with_too_many_scans_is_refused),
+        cmocka_unit_test(jpeg_that_claims_too_many_pixels_is_refused),
     };
     return cmocka_run_group_tests_name("jpeg", tests, NULL, NULL);
 }

@@ -58,7 +58,7 @@ static void check_pixels(const WeftImage *image, char kind, int size) {
     }
 }
 
-static void test_all_forms(void **state) {
+static void npy_of_every_type_and_shape_is_read(void **state) {
     (void)state;
     static const struct {
         char kind;
@@ -95,7 +95,7 @@ static void test_all_forms(void **state) {
 }
 
 /* The dictionary may be written in other ways. */
-static void test_dictionaries(void **state) {
+static void npy_dictionary_in_any_spelling_is_read(void **state) {
     (void)state;
     static const char *const good[] = {
         "{'shape': (1, 2), 'fortran_order': False, 'descr': '|u1'}",
@@ -113,7 +113,7 @@ static void test_dictionaries(void **state) {
     }
 }
 
-static void test_hostile_headers(void **state) {
+static void npy_with_a_hostile_header_is_refused(void **state) {
     (void)state;
     static const struct {
         const char *dictionary;
@@ -165,7 +165,7 @@ static void test_hostile_headers(void **state) {
     refuse_bytes("\x93NUMPY\2\0\xff\xff\xff\xff{", 13, WEFT_MESSAGE_IMAGE_DAMAGED);
 }
 
-static void test_values_become_finite(void **state) {
+static void npy_values_become_finite(void **state) {
     (void)state;
     Bytes bytes = npy_begin(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 4)}");
     const double values[] = {(double)NAN, -(double)INFINITY, 1e300, 0.25};
@@ -180,7 +180,7 @@ static void test_values_become_finite(void **state) {
 }
 
 /* What the format's specification makes of two small images, written out by hand. */
-static void test_written_bytes(void **state) {
+static void npy_writes_the_bytes_of_the_specification(void **state) {
     (void)state;
     static const char grey[] = "\x93NUMPY\1\0v\0{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }",
                       color[] =
@@ -211,7 +211,7 @@ static void test_written_bytes(void **state) {
     }
 }
 
-static void test_round_trip(void **state) {
+static void npy_reads_what_it_wrote(void **state) {
     (void)state;
     for (int channels = 1; channels <= 4; channels++) {
         WeftImage image = make_image(37, 21, channels, WEFT_PIXEL_F32);
@@ -227,9 +227,12 @@ static void test_round_trip(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_forms),       cmocka_unit_test(test_dictionaries),
-        cmocka_unit_test(test_hostile_headers), cmocka_unit_test(test_values_become_finite),
-        cmocka_unit_test(test_written_bytes),   cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(npy_of_every_type_and_shape_is_read),
+        cmocka_unit_test(npy_dictionary_in_any_spelling_is_read),
+        cmocka_unit_test(npy_with_a_hostile_header_is_refused),
+        cmocka_unit_test(npy_values_become_finite),
+        cmocka_unit_test(npy_writes_the_bytes_of_the_specification),
+        cmocka_unit_test(npy_reads_what_it_wrote),
     };
     return cmocka_run_group_tests_name("npy", tests, NULL, NULL);
 }

@@ -72,7 +72,7 @@ static unsigned expected(int type, int depth, int x, int y, int c, int channels,
     return sample(x, y, c, depth) * (depth < 8 ? 255 / ((1u << depth) - 1) : 1);
 }
 
-static void test_all_types(void **state) {
+static void png_of_every_type_and_depth_is_read(void **state) {
     (void)state;
     static const struct {
         int type, depth, channels;
@@ -104,7 +104,7 @@ static void test_all_types(void **state) {
         }
 }
 
-static void test_damage(void **state) {
+static void damaged_png_is_refused(void **state) {
     (void)state;
     Bytes bytes = png_make(PNG_COLOR_TYPE_RGB, 8, 3, 0, 0);
     refuse_prefixes(&bytes);
@@ -121,7 +121,7 @@ static void test_damage(void **state) {
 }
 
 /* A header that claims much with nothing behind it. */
-static void test_claims(void **state) {
+static void png_that_claims_too_many_pixels_is_refused(void **state) {
     (void)state;
     Bytes bytes = png_make(PNG_COLOR_TYPE_GRAY, 8, 1, 0, 0);
     assert_true(bytes.size < 4096);
@@ -138,7 +138,7 @@ static void test_claims(void **state) {
     refuse(&bytes, WEFT_MESSAGE_IMAGE_SIZE);
 }
 
-static void test_round_trip(void **state) {
+static void png_reads_what_it_wrote(void **state) {
     (void)state;
     for (int channels = 1; channels <= 4; channels++)
         for (int deep = 0; deep < 2; deep++) {
@@ -156,10 +156,10 @@ static void test_round_trip(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_types),
-        cmocka_unit_test(test_damage),
-        cmocka_unit_test(test_claims),
-        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(png_of_every_type_and_depth_is_read),
+        cmocka_unit_test(damaged_png_is_refused),
+        cmocka_unit_test(png_that_claims_too_many_pixels_is_refused),
+        cmocka_unit_test(png_reads_what_it_wrote),
     };
     return cmocka_run_group_tests_name("png", tests, NULL, NULL);
 }

@@ -60,7 +60,7 @@ static void assert_colors(const WeftImage *image, int descriptor) {
 }
 
 /* Types 2 and 10, with and without attribute bits, from all four corners. */
-static void test_true_color(void **state) {
+static void tga_of_true_colour_is_read(void **state) {
     (void)state;
     static const int depths[] = {15, 16, 24, 32};
     for (int i = 0; i < 4 * 2 * 2 * 4; i++) {
@@ -85,7 +85,7 @@ static void test_true_color(void **state) {
 }
 
 /* Types 1 and 9: indices of 8 and 16 bits into maps of every depth that do not start at 0. */
-static void test_mapped(void **state) {
+static void tga_with_a_colour_map_is_read(void **state) {
     (void)state;
     static const int depths[] = {15, 16, 24, 32};
     for (int i = 0; i < 4 * 2 * 2; i++) {
@@ -121,7 +121,7 @@ static void test_mapped(void **state) {
 }
 
 /* Types 3 and 11. */
-static void test_grey(void **state) {
+static void tga_of_grey_is_read(void **state) {
     (void)state;
     for (int i = 0; i < 4; i++) {
         const int packed = i % 2, bits = i / 2 ? 16 : 8, step = bits / 8;
@@ -147,7 +147,7 @@ static void test_grey(void **state) {
     }
 }
 
-static void test_lying_headers(void **state) {
+static void tga_with_a_lying_header_is_refused(void **state) {
     (void)state;
     const Header good = {.type = 3, .width = WIDTH, .height = HEIGHT, .bits = 8, .descriptor = 0x20};
     Header h = good;
@@ -186,10 +186,10 @@ static void test_lying_headers(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_true_color),
-        cmocka_unit_test(test_mapped),
-        cmocka_unit_test(test_grey),
-        cmocka_unit_test(test_lying_headers),
+        cmocka_unit_test(tga_of_true_colour_is_read),
+        cmocka_unit_test(tga_with_a_colour_map_is_read),
+        cmocka_unit_test(tga_of_grey_is_read),
+        cmocka_unit_test(tga_with_a_lying_header_is_refused),
     };
     return cmocka_run_group_tests_name("tga", tests, NULL, NULL);
 }

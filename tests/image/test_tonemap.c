@@ -39,7 +39,7 @@ static void mean(float r, float g, float b, WeftTonemap curve, float exposure, d
     weft_image_free(&image);
 }
 
-static void test_monotone_and_grey(void **state) {
+static void tone_curves_are_monotone_and_keep_grey(void **state) {
     (void)state;
     for (int k = 0; k < 3; k++) {
         WeftImage before = flat(0.0f, 0.0f, 0.0f), last = tonemapped(&before, curves[k], 0.0f);
@@ -61,7 +61,7 @@ static void test_monotone_and_grey(void **state) {
     }
 }
 
-static void test_background_is_shown_as_it_is(void **state) {
+static void tone_mapped_background_is_unchanged(void **state) {
     (void)state;
     static const float white[3] = {1.0f, 1.0f, 1.0f}, grey[3] = {0.25f, 0.25f, 0.25f};
     float pixels[3 * 4] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.5f, 0.3f, 0.3f, 0.3f, 1.0f};
@@ -89,7 +89,7 @@ static void test_background_is_shown_as_it_is(void **state) {
 
 /* Khronos' aim: a base colour of 0.08 to 0.76, lit by 1, plus the 4 % of a dielectric's reflection, shows as
  * the base colour. */
-static void test_neutral_keeps_base_colors(void **state) {
+static void neutral_keeps_base_colours(void **state) {
     (void)state;
     for (int i = 0; i <= 6; i++)
         for (int j = 0; j <= 5; j++) {
@@ -102,7 +102,7 @@ static void test_neutral_keeps_base_colors(void **state) {
 }
 
 /* Values worked out by hand from the published formulas. */
-static void test_published_values(void **state) {
+static void tone_curves_have_their_published_values(void **state) {
     (void)state;
     double shown[3];
     mean(1.0f, 1.0f, 1.0f, WEFT_TONEMAP_ACES, 0.0f, shown);
@@ -120,7 +120,7 @@ static void test_published_values(void **state) {
 }
 
 /* A bright colour goes to white, and no curve gives a grey a hue. */
-static void test_neutral_desaturates(void **state) {
+static void neutral_desaturates_bright_colours(void **state) {
     (void)state;
     double dim[3], bright[3];
     mean(0.5f, 0.1f, 0.1f, WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, dim);
@@ -129,7 +129,7 @@ static void test_neutral_desaturates(void **state) {
     assert_true(bright[1] > 0.97 * bright[0]);
 }
 
-static void test_exposure_is_in_stops(void **state) {
+static void exposure_is_in_stops(void **state) {
     (void)state;
     for (int k = 0; k < 3; k++) {
         WeftImage one = flat(0.2f, 0.05f, 0.11f), two = flat(0.4f, 0.1f, 0.22f);
@@ -144,7 +144,7 @@ static void test_exposure_is_in_stops(void **state) {
 
 /* Half way between two bytes both come up equally often; a byte's own value always gives that byte; the same
  * input gives the same output. */
-static void test_dither(void **state) {
+static void dither_is_even_exact_and_repeatable(void **state) {
     (void)state;
     for (int byte = 1; byte < 255; byte += 23) {
         double shown[3];
@@ -168,7 +168,7 @@ static void test_dither(void **state) {
     weft_image_free(&white);
 }
 
-static void test_odd_numbers(void **state) {
+static void tone_curves_of_odd_numbers_are_finite(void **state) {
     (void)state;
     static const float odd[] = {NAN, -NAN, -INFINITY, -3.0f, -1e-30f, INFINITY, 3e38f, 1e-40f};
     for (int k = 0; k < 3; k++)
@@ -188,7 +188,7 @@ static void test_odd_numbers(void **state) {
             }
 }
 
-static void test_alpha_is_linear(void **state) {
+static void tone_mapped_alpha_is_linear(void **state) {
     (void)state;
     WeftImage image = make_image(5, 1, 4, WEFT_PIXEL_F32);
     float *values = image.pixels;
@@ -200,7 +200,7 @@ static void test_alpha_is_linear(void **state) {
     weft_image_free(&image);
 }
 
-static void test_refusals(void **state) {
+static void tone_mapping_of_unsuitable_images_is_refused(void **state) {
     (void)state;
     WeftImage grey = make_image(1, 1, 2, WEFT_PIXEL_F32), bytes = make_image(1, 1, 3, WEFT_PIXEL_U8);
     WeftImage good = make_image(1, 1, 3, WEFT_PIXEL_F32), out;
@@ -218,16 +218,16 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_background_is_shown_as_it_is),
-        cmocka_unit_test(test_monotone_and_grey),
-        cmocka_unit_test(test_neutral_keeps_base_colors),
-        cmocka_unit_test(test_published_values),
-        cmocka_unit_test(test_neutral_desaturates),
-        cmocka_unit_test(test_exposure_is_in_stops),
-        cmocka_unit_test(test_dither),
-        cmocka_unit_test(test_odd_numbers),
-        cmocka_unit_test(test_alpha_is_linear),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(tone_mapped_background_is_unchanged),
+        cmocka_unit_test(tone_curves_are_monotone_and_keep_grey),
+        cmocka_unit_test(neutral_keeps_base_colours),
+        cmocka_unit_test(tone_curves_have_their_published_values),
+        cmocka_unit_test(neutral_desaturates_bright_colours),
+        cmocka_unit_test(exposure_is_in_stops),
+        cmocka_unit_test(dither_is_even_exact_and_repeatable),
+        cmocka_unit_test(tone_curves_of_odd_numbers_are_finite),
+        cmocka_unit_test(tone_mapped_alpha_is_linear),
+        cmocka_unit_test(tone_mapping_of_unsuitable_images_is_refused),
     };
     return cmocka_run_group_tests_name("tonemap", tests, NULL, NULL);
 }

@@ -152,7 +152,7 @@ static WeftImage right(const char *lobe_id, const char *axes) {
 
 /* ---- nothing is wrong ---- */
 
-static void what_is_right_is_right(void **state) {
+static void right_table_has_no_fault(void **state) {
     (void)state;
     WeftImage table = right("charlie-neubelt", "filament");
     WeftAudit audit = audited(&table, "charlie-neubelt", NULL, 0.0);
@@ -165,7 +165,7 @@ static void what_is_right_is_right(void **state) {
 }
 
 /* Each convention is told from the others by the numbers alone. */
-static void forms_are_found(void **state) {
+static void form_of_a_table_is_found_from_its_numbers(void **state) {
     (void)state;
     for (int k = 0; weft_table_form_name(k); k += stride()) {
         WeftImage table = right("ashikhmin-neubelt", weft_table_form_name(k));
@@ -180,7 +180,7 @@ static void forms_are_found(void **state) {
     assert_near(audit.largest, 0.0, 1e-4);
 }
 
-static void bits_are_allowed_for(void **state) {
+static void quantised_table_is_right_within_its_bits(void **state) {
     (void)state;
     for (int deep = 0; deep < 2; deep++) {
         WeftImage table = right("ashikhmin-neubelt", "gltf"), whole;
@@ -202,7 +202,7 @@ static void bits_are_allowed_for(void **state) {
 }
 
 /* Which of the two parts of a lobe a channel holds is found too. */
-static void parts_are_found(void **state) {
+static void part_that_a_channel_holds_is_found(void **state) {
     (void)state;
     const WeftLobe ggx = lobe_of_id("ggx");
     const WeftTablePart parts[2][2] = {{WEFT_TABLE_F0, WEFT_TABLE_F90}, {WEFT_TABLE_F90, WEFT_TABLE_SUM}};
@@ -224,7 +224,7 @@ static void parts_are_found(void **state) {
 
 /* ---- the classic faults ---- */
 
-static void black_tables_are_named(void **state) {
+static void black_table_is_named(void **state) {
     (void)state;
     WeftImage table = table_make(SIDE, SIDE);
     WeftAudit audit = audited(&table, "charlie-neubelt", NULL, 0.0);
@@ -244,7 +244,7 @@ static void black_tables_are_named(void **state) {
     assert_fault(&audit, WEFT_TABLE_NONE, "it is right");
 }
 
-static void wrong_axes_are_named(void **state) {
+static void table_with_exchanged_axes_is_named(void **state) {
     (void)state;
     static const struct {
         const char *made, *said, *words;
@@ -266,7 +266,7 @@ static void wrong_axes_are_named(void **state) {
     }
 }
 
-static void a_shift_is_named(void **state) {
+static void table_shifted_by_half_a_texel_is_named(void **state) {
     (void)state;
     WeftImage table = table_make(SIDE, SIDE);
     for (int y = 0; y < SIDE; y++)
@@ -277,7 +277,7 @@ static void a_shift_is_named(void **state) {
     assert_fault(&audit, WEFT_TABLE_LATE, "the next one up");
 }
 
-static void a_factor_is_named(void **state) {
+static void table_scaled_by_a_factor_is_named(void **state) {
     (void)state;
     WeftImage table = right("charlie-khronos", "three");
     for (size_t n = 0; n < count_of(&table); n++) ((float *)table.pixels)[n] /= (float)(2.0 * pi);
@@ -286,7 +286,7 @@ static void a_factor_is_named(void **state) {
     assert_string_equal(weft_table_form_name(weft_table_form_find(&audit.form)), "three");
 }
 
-static void an_encoded_table_is_named(void **state) {
+static void table_encoded_as_srgb_is_named(void **state) {
     (void)state;
     WeftImage table = right("ashikhmin-neubelt", "gltf");
     for (size_t n = 0; n < count_of(&table); n++) {
@@ -298,7 +298,7 @@ static void an_encoded_table_is_named(void **state) {
     assert_fault(&audit, WEFT_TABLE_ENCODED, "sRGB");
 }
 
-static void a_cut_is_named(void **state) {
+static void table_clipped_at_one_is_named(void **state) {
     (void)state;
     WeftImage table = right("charlie-neubelt", "gltf");
     for (size_t n = 0; n < count_of(&table); n++)
@@ -307,7 +307,7 @@ static void a_cut_is_named(void **state) {
     assert_fault(&audit, WEFT_TABLE_CLIPPED, "cut off at 1");
 }
 
-static void another_lobe_is_named(void **state) {
+static void table_of_another_lobe_is_named(void **state) {
     (void)state;
     WeftImage table = right("ashikhmin-neubelt", "materialx");
     WeftAudit audit = audited(&table, "charlie-neubelt", "materialx", 0.0);
@@ -321,7 +321,7 @@ static void another_lobe_is_named(void **state) {
 }
 
 /* The generator is off by what it was measured to be, and more samples do not mend it. */
-static void the_biased_generator_is_the_known_one(void **state) {
+static void biased_generator_is_the_known_one(void **state) {
     (void)state;
     static const struct {
         double o, r, excess, tolerance;
@@ -339,7 +339,7 @@ static void the_biased_generator_is_the_known_one(void **state) {
     }
 }
 
-static void a_bias_is_told_from_noise(void **state) {
+static void bias_of_a_table_is_distinguished_from_noise(void **state) {
     (void)state;
     static const char *const lobes[] = {"charlie-khronos", "charlie-neubelt"};
     for (int k = 0; k < 2; k += stride()) {
@@ -365,7 +365,7 @@ static void a_bias_is_told_from_noise(void **state) {
     assert_true(deviation[1] < 0.7 * deviation[0]); /* and so they do, but for the tail */
 }
 
-static void a_corner_is_named(void **state) {
+static void error_in_a_corner_is_named(void **state) {
     (void)state;
     WeftImage table = right("ashikhmin-neubelt", "gltf");
     ((float *)table.pixels)[7 * SIDE + 2] += 0.1f;
@@ -381,7 +381,7 @@ static void a_corner_is_named(void **state) {
     assert_near(audit.beyond, 1.0 / (double)audit.texels, 1e-9);
 }
 
-static void the_map_holds_error_table_and_albedo(void **state) {
+static void audit_map_holds_error_table_and_albedo(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-khronos");
     const WeftTableForm form = form_of("cos,alpha,edges");
@@ -419,7 +419,7 @@ static int stop_at_once(void *user, double fraction) {
     return 1;
 }
 
-static void nonsense_is_refused(void **state) {
+static void audit_of_unsuitable_tables_is_refused(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-neubelt"), none = {.lobe = -3};
     const WeftTableForm form = {0}, nothing = {.edges = 1};
@@ -492,7 +492,7 @@ static void a_table_of_an_unknown_lobe_is_recognised(void **state) {
 }
 
 /* Nothing is like it: the nearest is named all the same, and how far off that is. */
-static void a_table_of_nothing_has_a_nearest_lobe(void **state) {
+static void table_of_no_lobe_has_a_nearest_one(void **state) {
     (void)state;
     WeftImage table = table_make(SIDE, SIDE);
     for (int n = 0; n < SIDE * SIDE; n++)
@@ -504,7 +504,7 @@ static void a_table_of_nothing_has_a_nearest_lobe(void **state) {
 }
 
 /* Of a large table E is measured where it bends; between, it is as near as is said. */
-static void e_of_a_large_table_is_as_near_as_is_said(void **state) {
+static void albedo_of_a_large_table_has_the_stated_error(void **state) {
     (void)state;
     enum { LARGE = 200, ASKED = 60 };
     WeftImage table = table_make(LARGE, LARGE), errors;
@@ -532,25 +532,25 @@ static void e_of_a_large_table_is_as_near_as_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_right_is_right),
-        cmocka_unit_test(forms_are_found),
-        cmocka_unit_test(bits_are_allowed_for),
-        cmocka_unit_test(parts_are_found),
-        cmocka_unit_test(black_tables_are_named),
-        cmocka_unit_test(wrong_axes_are_named),
-        cmocka_unit_test(a_shift_is_named),
-        cmocka_unit_test(a_factor_is_named),
-        cmocka_unit_test(an_encoded_table_is_named),
-        cmocka_unit_test(a_cut_is_named),
-        cmocka_unit_test(another_lobe_is_named),
-        cmocka_unit_test(the_biased_generator_is_the_known_one),
-        cmocka_unit_test(a_bias_is_told_from_noise),
-        cmocka_unit_test(a_corner_is_named),
-        cmocka_unit_test(the_map_holds_error_table_and_albedo),
-        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(right_table_has_no_fault),
+        cmocka_unit_test(form_of_a_table_is_found_from_its_numbers),
+        cmocka_unit_test(quantised_table_is_right_within_its_bits),
+        cmocka_unit_test(part_that_a_channel_holds_is_found),
+        cmocka_unit_test(black_table_is_named),
+        cmocka_unit_test(table_with_exchanged_axes_is_named),
+        cmocka_unit_test(table_shifted_by_half_a_texel_is_named),
+        cmocka_unit_test(table_scaled_by_a_factor_is_named),
+        cmocka_unit_test(table_encoded_as_srgb_is_named),
+        cmocka_unit_test(table_clipped_at_one_is_named),
+        cmocka_unit_test(table_of_another_lobe_is_named),
+        cmocka_unit_test(biased_generator_is_the_known_one),
+        cmocka_unit_test(bias_of_a_table_is_distinguished_from_noise),
+        cmocka_unit_test(error_in_a_corner_is_named),
+        cmocka_unit_test(audit_map_holds_error_table_and_albedo),
+        cmocka_unit_test(audit_of_unsuitable_tables_is_refused),
         cmocka_unit_test(a_table_of_an_unknown_lobe_is_recognised),
-        cmocka_unit_test(a_table_of_nothing_has_a_nearest_lobe),
-        cmocka_unit_test(e_of_a_large_table_is_as_near_as_is_said),
+        cmocka_unit_test(table_of_no_lobe_has_a_nearest_one),
+        cmocka_unit_test(albedo_of_a_large_table_has_the_stated_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ static WeftImage baked(const WeftBakeDesc *desc, WeftBakeInfo *info) {
 
 /* Forms. */
 
-static void forms_are_read_as_they_are_written(void **state) {
+static void table_form_reads_as_it_is_written(void **state) {
     (void)state;
     int count = 0;
     for (; weft_table_form_name(count); count++) {
@@ -69,7 +69,7 @@ static void forms_are_read_as_they_are_written(void **state) {
     }
 }
 
-static void other_words_are_no_form(void **state) {
+static void malformed_table_form_is_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {"",
                                         "glTF",
@@ -93,7 +93,7 @@ static void other_words_are_no_form(void **state) {
 }
 
 /* Places worked out by hand, for charlie-neubelt, whose parameter is an alpha. */
-static void texels_are_where_engines_have_them(void **state) {
+static void texels_of_each_form_are_where_its_engine_has_them(void **state) {
     (void)state;
     static const struct {
         const char *form;
@@ -120,7 +120,7 @@ static void texels_are_where_engines_have_them(void **state) {
 }
 
 /* The rows mean what a material's roughness means, lobe by lobe. */
-static void roughness_is_that_of_materials(void **state) {
+static void baked_roughness_is_that_of_materials(void **state) {
     (void)state;
     const WeftTableForm form = {.edges = 1};
     for (int lobe = 0; lobe < weft_lobe_count(); lobe++)
@@ -180,7 +180,7 @@ static double f_bias(double alpha, double cos_o, double cos_i, double cos_h, dou
     return f_ggx(alpha, cos_o, cos_i, cos_h) * (pow)(1.0 - d, 5.0);
 }
 
-static void albedo_is_the_integral(void **state) {
+static void baked_albedo_is_the_integral(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-neubelt");
     WeftBakeInfo info;
@@ -199,7 +199,7 @@ static void albedo_is_the_integral(void **state) {
     weft_image_free(&table);
 }
 
-static void split_sum_is_the_integral(void **state) {
+static void baked_split_sum_is_the_integral(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-neubelt");
     WeftBakeDesc desc = {.kind = "dfg", .lobe = &lobe, .width = 3, .height = 3};
@@ -231,7 +231,7 @@ static void split_sum_is_the_integral(void **state) {
 }
 
 /* E of the lobe that is set, two parts where it has two colours, and 1 of Lambert whatever the view. */
-static void parameters_and_parts_are_the_lobes(void **state) {
+static void baked_albedo_has_the_parameters_and_parts_of_its_lobe(void **state) {
     (void)state;
     WeftLobe patry = lobe_of_id("patry"), ggx = lobe_of_id("ggx"), lambert = lobe_of_id("lambert");
     assert_int_equal(weft_lobe_set(&patry, "density", "2", NULL, NULL), WEFT_OK);
@@ -260,7 +260,7 @@ static void parameters_and_parts_are_the_lobes(void **state) {
     weft_image_free(&table);
 }
 
-static void ranges_end_where_the_lobe_does(void **state) {
+static void baked_range_ends_where_the_lobe_does(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-khronos"); /* alpha 0.005 to 1 */
     WeftBakeInfo info;
@@ -271,7 +271,7 @@ static void ranges_end_where_the_lobe_does(void **state) {
     weft_image_free(&table);
 }
 
-static void threads_change_nothing(void **state) {
+static void bake_with_any_number_of_threads_is_the_same(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("ashikhmin-neubelt");
     WeftBakeInfo info[2];
@@ -296,7 +296,7 @@ static void refuse(const WeftBakeDesc *desc, WeftMessage message) {
     assert_null(table.pixels);
 }
 
-static void nonsense_is_refused(void **state) {
+static void bake_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("lambert"), none = {.lobe = 1000};
     refuse(&(WeftBakeDesc){.lobe = &lobe}, WEFT_MESSAGE_BAKE_KIND);
@@ -315,7 +315,7 @@ static int stop_soon(void *user, double fraction) {
     return ++*(int *)user >= 3;
 }
 
-static void a_stop_leaves_no_table(void **state) {
+static void stopped_bake_leaves_no_table(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("lambert");
     int calls = 0;
@@ -334,17 +334,17 @@ static void a_stop_leaves_no_table(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forms_are_read_as_they_are_written),
-        cmocka_unit_test(other_words_are_no_form),
-        cmocka_unit_test(texels_are_where_engines_have_them),
-        cmocka_unit_test(roughness_is_that_of_materials),
-        cmocka_unit_test(albedo_is_the_integral),
-        cmocka_unit_test(split_sum_is_the_integral),
-        cmocka_unit_test(parameters_and_parts_are_the_lobes),
-        cmocka_unit_test(ranges_end_where_the_lobe_does),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(nonsense_is_refused),
-        cmocka_unit_test(a_stop_leaves_no_table),
+        cmocka_unit_test(table_form_reads_as_it_is_written),
+        cmocka_unit_test(malformed_table_form_is_refused),
+        cmocka_unit_test(texels_of_each_form_are_where_its_engine_has_them),
+        cmocka_unit_test(baked_roughness_is_that_of_materials),
+        cmocka_unit_test(baked_albedo_is_the_integral),
+        cmocka_unit_test(baked_split_sum_is_the_integral),
+        cmocka_unit_test(baked_albedo_has_the_parameters_and_parts_of_its_lobe),
+        cmocka_unit_test(baked_range_ends_where_the_lobe_does),
+        cmocka_unit_test(bake_with_any_number_of_threads_is_the_same),
+        cmocka_unit_test(bake_descriptors_without_sense_are_refused),
+        cmocka_unit_test(stopped_bake_leaves_no_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

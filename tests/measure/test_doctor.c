@@ -256,7 +256,7 @@ static WeftDoctor *examine(const char *text) {
 }
 
 /* Chrome beside black paint: the mean of both is darker than metals are, but no texel of metal is. */
-static void paint_beside_chrome_is_no_dark_metal(void **state) {
+static void paint_and_chrome_in_one_map_are_not_a_dark_metal(void **state) {
     (void)state;
     char *chrome = strdup(picture_uri(CHROME));
     for (int dark = 0; dark < 2; dark++) {
@@ -284,7 +284,7 @@ static void whole_words(const WeftFinding *finding) {
     assert_null(strchr(finding->words, '\n'));
 }
 
-static void each_finds_its_own(void **state) {
+static void asset_of_each_fault_has_its_finding_alone(void **state) {
     (void)state;
     for (int k = 0; k < CASES; k++) {
         char *text = case_text(&cases[k]);
@@ -360,7 +360,7 @@ static int differences(json_t *a, json_t *b) {
 }
 
 /* A file is written, and examined again: what could be fixed is gone, and nothing but that place differs. */
-static void what_is_fixed_stays_fixed(void **state) {
+static void fixed_asset_has_no_finding_left_to_fix(void **state) {
     (void)state;
     for (int k = 0; k < CASES; k++) {
         char *text = case_text(&cases[k]);
@@ -406,7 +406,7 @@ static const Case *case_of(int kind) {
 }
 
 /* The new picture holds as alpha what was painted as grey. */
-static void roughness_moves_to_alpha(void **state) {
+static void fix_moves_sheen_roughness_to_alpha(void **state) {
     (void)state;
     char *text = case_text(case_of(WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL));
     WeftDoctor *doctor = examine(text);
@@ -427,7 +427,7 @@ static void roughness_moves_to_alpha(void **state) {
 
 /* Materials that shared a picture share the one that takes its place; of another sampler they have another.
  */
-static void shared_roughness_stays_shared(void **state) {
+static void fix_keeps_a_shared_roughness_shared(void **state) {
     (void)state;
     static const int expected[] = {3, 3, 3, 4};
 #define ROUGH(texture)                                                                                       \
@@ -466,7 +466,7 @@ static void assert_same_words(const WeftFinding *a, const WeftFinding *b) {
 
 /* What is known of a material holds for its like, and for no other: not for one whose highlight alone
  * differs, nor for one of another sheen or another base. */
-static void like_materials_are_measured_once(void **state) {
+static void equal_materials_are_measured_once(void **state) {
     (void)state;
     static const char *const kinds[] = {
         "0.8,0.8,0.8,1],'roughnessFactor':1", "0.8,0.8,0.8,1],'roughnessFactor':0.3",
@@ -508,7 +508,7 @@ static void like_materials_are_measured_once(void **state) {
  * none. */
 /* A thousand sheens, none like another: two seconds of a processor are the goal, and a slower machine is
  * given three times that; it was twenty-five. */
-static void a_thousand_sheens_take_seconds(void **state) {
+static void doctor_of_a_thousand_sheens_takes_seconds(void **state) {
     (void)state;
     enum { SHEENS = 1000, ROOM = 400 };
     const char *shorter = getenv("WEFT_TEST_SHORT");
@@ -538,7 +538,7 @@ static void a_thousand_sheens_take_seconds(void **state) {
 }
 
 /* What the doctor makes of slices of light is what the material as a whole returns. */
-static void parts_make_the_whole(void **state) {
+static void slices_of_light_sum_to_the_albedo_of_the_material(void **state) {
     (void)state;
     static const char *const forms[] = {
         "'baseColorFactor':[0.8,0.5,0.2,1],'metallicFactor':0,'roughnessFactor':0.9",
@@ -575,7 +575,7 @@ static void parts_make_the_whole(void **state) {
         }
 }
 
-static void gain_is_measured(void **state) {
+static void gain_of_a_sheen_is_measured(void **state) {
     (void)state;
     char *text = case_text(case_of(WEFT_FINDING_SHEEN_GAINS));
     WeftDoctor *doctor = examine(text);
@@ -631,7 +631,7 @@ static void examine_folder(const char *path, int depth, int *files) {
     if (listing) closedir(listing);
 }
 
-static void shared_files_are_examined(void **state) {
+static void sample_assets_of_the_shared_data_are_examined(void **state) {
     (void)state;
     const char *named = getenv("WEFT_DATA");
     char path[1024];
@@ -643,7 +643,7 @@ static void shared_files_are_examined(void **state) {
     skip();
 }
 
-static void broken_files_are_refused(void **state) {
+static void doctor_refuses_broken_files(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -668,19 +668,19 @@ static void broken_files_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_finds_its_own),
+        cmocka_unit_test(asset_of_each_fault_has_its_finding_alone),
         cmocka_unit_test(every_finding_has_a_case),
-        cmocka_unit_test(paint_beside_chrome_is_no_dark_metal),
-        cmocka_unit_test(what_is_fixed_stays_fixed),
-        cmocka_unit_test(roughness_moves_to_alpha),
-        cmocka_unit_test(shared_roughness_stays_shared),
-        cmocka_unit_test(like_materials_are_measured_once),
-        cmocka_unit_test(gain_is_measured),
-        cmocka_unit_test(a_thousand_sheens_take_seconds),
-        cmocka_unit_test(parts_make_the_whole),
+        cmocka_unit_test(paint_and_chrome_in_one_map_are_not_a_dark_metal),
+        cmocka_unit_test(fixed_asset_has_no_finding_left_to_fix),
+        cmocka_unit_test(fix_moves_sheen_roughness_to_alpha),
+        cmocka_unit_test(fix_keeps_a_shared_roughness_shared),
+        cmocka_unit_test(equal_materials_are_measured_once),
+        cmocka_unit_test(gain_of_a_sheen_is_measured),
+        cmocka_unit_test(doctor_of_a_thousand_sheens_takes_seconds),
+        cmocka_unit_test(slices_of_light_sum_to_the_albedo_of_the_material),
         cmocka_unit_test(built_in_scenes_have_no_errors),
-        cmocka_unit_test(shared_files_are_examined),
-        cmocka_unit_test(broken_files_are_refused),
+        cmocka_unit_test(sample_assets_of_the_shared_data_are_examined),
+        cmocka_unit_test(doctor_refuses_broken_files),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

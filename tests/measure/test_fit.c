@@ -155,12 +155,12 @@ static void recovered(double noise) {
     assert_int_equal(lost, 0);
 }
 
-static void lobes_are_found_without_noise(void **state) {
+static void parameters_are_found_without_noise(void **state) {
     (void)state;
     recovered(0.0);
 }
 
-static void lobes_are_found_in_noise(void **state) {
+static void parameters_are_found_in_noise(void **state) {
     (void)state;
     if (!getenv("WEFT_TEST_LONG")) {
         print_message("skipped: only with WEFT_TEST_LONG\n");
@@ -170,7 +170,7 @@ static void lobes_are_found_in_noise(void **state) {
 }
 
 /* A lobe of free terms is found with the terms it was made of, not with those it begins with. */
-static void free_terms_are_found(void **state) {
+static void terms_of_cook_torrance_are_found(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftError error;
@@ -210,7 +210,7 @@ static WeftData *layered(const WeftLobe *lobe, const WeftLobe *base) {
 }
 
 /* The numbers of a base are found with those of the lobe over it, and the base among all. */
-static void bases_are_found(void **state) {
+static void base_under_a_lobe_is_found(void **state) {
     (void)state;
     WeftLobe body, sheen;
     WeftFit fit;
@@ -238,7 +238,7 @@ static void bases_are_found(void **state) {
 
 /* If only what a material can say is asked for, parameters without an input stay at their defaults, and the others are
  * fitted; a number that only mixes the two colours is free without that. */
-static void what_a_material_says_is_fitted(void **state) {
+static void fit_for_a_material_changes_only_what_it_has_inputs_for(void **state) {
     (void)state;
     WeftFitted cloth = {.lobe = coloured(weft_lobe_find("fabric"))};
     WeftFit fit;
@@ -263,7 +263,7 @@ static void what_a_material_says_is_fitted(void **state) {
 }
 
 /* What there is to say of a fit beside its error. */
-static void notes_say_what_a_number_hides(void **state) {
+static void fit_notes_name_what_its_numbers_hide(void **state) {
     (void)state;
     WeftFitted fitted = {.lobe = coloured(weft_lobe_find("ggx"))};
     assert_int_equal(weft_fitted_notes(&fitted), 0);
@@ -278,7 +278,7 @@ static void notes_say_what_a_number_hides(void **state) {
 }
 
 /* The material that is written reflects as the fit does. */
-static void a_material_says_it(void **state) {
+static void material_of_a_fit_reflects_as_the_fit(void **state) {
     (void)state;
     int said = 0;
     spread();
@@ -324,7 +324,7 @@ static void table_refused(const char *text, const char *word) {
     assert_null(strchr(error.text, '\n'));
 }
 
-static void bad_tables_end_in_one_line(void **state) {
+static void bad_table_of_a_brdf_is_an_error_of_one_line(void **state) {
     (void)state;
     table_refused("", "nothing in it");
     table_refused("# nothing\n\n", "nothing in it");
@@ -371,7 +371,7 @@ static char *lines_of(const char *first, const char *line, int count, size_t *si
 }
 
 /* As other programs write it; and as many samples as there may be, below comments and names. */
-static void tables_of_others_are_read(void **state) {
+static void table_with_other_columns_is_read(void **state) {
     (void)state;
     static const struct {
         const char *first, *line;
@@ -405,7 +405,7 @@ static void tables_of_others_are_read(void **state) {
 }
 
 /* A table of degrees gives the fit that its directions do. */
-static void a_table_is_read(void **state) {
+static void table_of_a_brdf_is_read(void **state) {
     (void)state;
     const WeftLobe lobe = coloured(weft_lobe_find("ashikhmin-neubelt"));
     enum { LINES = 600, LINE = 200 };
@@ -444,7 +444,7 @@ static void a_table_is_read(void **state) {
 
 /* Neural fits of measurements (tests/README of the data): of each fabric the ranking, and whether its first
  * beats the baseline. */
-static void fabrics_are_ranked(void **state) {
+static void measured_fabrics_are_ranked(void **state) {
     (void)state;
     static const char *const names[] = {"red-fabric",   "pink-felt",   "beige-fabric",
                                         "black-fabric", "blue-fabric", "green-fabric"};
@@ -492,16 +492,17 @@ static void fabrics_are_ranked(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lobes_are_found_without_noise),
-                                       cmocka_unit_test(lobes_are_found_in_noise),
-                                       cmocka_unit_test(free_terms_are_found),
-                                       cmocka_unit_test(bases_are_found),
-                                       cmocka_unit_test(what_a_material_says_is_fitted),
-                                       cmocka_unit_test(notes_say_what_a_number_hides),
-                                       cmocka_unit_test(a_material_says_it),
-                                       cmocka_unit_test(bad_tables_end_in_one_line),
-                                       cmocka_unit_test(a_table_is_read),
-                                       cmocka_unit_test(tables_of_others_are_read),
-                                       cmocka_unit_test(fabrics_are_ranked)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parameters_are_found_without_noise),
+        cmocka_unit_test(parameters_are_found_in_noise),
+        cmocka_unit_test(terms_of_cook_torrance_are_found),
+        cmocka_unit_test(base_under_a_lobe_is_found),
+        cmocka_unit_test(fit_for_a_material_changes_only_what_it_has_inputs_for),
+        cmocka_unit_test(fit_notes_name_what_its_numbers_hide),
+        cmocka_unit_test(material_of_a_fit_reflects_as_the_fit),
+        cmocka_unit_test(bad_table_of_a_brdf_is_an_error_of_one_line),
+        cmocka_unit_test(table_of_a_brdf_is_read),
+        cmocka_unit_test(table_with_other_columns_is_read),
+        cmocka_unit_test(measured_fabrics_are_ranked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,7 +60,7 @@ enum { ANGLES = sizeof angles / sizeof angles[0] };
         skip();                                                                                              \
     }
 
-static void rounding_here_is_that_of_half_floats(void **state) {
+static void emulated_rounding_is_that_of_half_floats(void **state) {
     (void)state;
     assert_true(h(1.0f) == 1.0f && h(65504.0f) == 65504.0f);
     assert_true(isinf(h(65520.0f)) && h(65519.0f) == 65504.0f);
@@ -69,7 +69,7 @@ static void rounding_here_is_that_of_half_floats(void **state) {
     assert_true(h(0.1f) == 0.0999755859375f && h(-0.1f) == -h(0.1f)); /* 0x2e66 */
 }
 
-static void lambert_is_one_over_pi_in_half(void **state) {
+static void half_precision_lambert_is_one_over_pi(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
     float got = ask("lambert", NULL, pair(0.3, 0.4, 1.0));
@@ -109,7 +109,7 @@ static void charlie_neubelt_is_rounded_at_each_step(void **state) {
 }
 
 /* Floors such as 1e-30 are 0 there: the reason for the whole measurement. */
-static void small_floors_vanish(void **state) {
+static void half_precision_floor_below_the_least_half_vanishes(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
     WeftLobe lobe;
@@ -121,7 +121,7 @@ static void small_floors_vanish(void **state) {
 }
 
 /* The floor that is found suits every row that it is said to suit; those below, none. */
-static void found_floors_are_the_smallest(void **state) {
+static void half_precision_floor_is_the_smallest_that_holds(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
     Bsdf bsdf;
@@ -143,12 +143,12 @@ static void found_floors_are_the_smallest(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rounding_here_is_that_of_half_floats),
-        cmocka_unit_test(lambert_is_one_over_pi_in_half),
+        cmocka_unit_test(emulated_rounding_is_that_of_half_floats),
+        cmocka_unit_test(half_precision_lambert_is_one_over_pi),
         cmocka_unit_test(burley_sheen_is_rounded_at_each_step),
         cmocka_unit_test(charlie_neubelt_is_rounded_at_each_step),
-        cmocka_unit_test(small_floors_vanish),
-        cmocka_unit_test(found_floors_are_the_smallest),
+        cmocka_unit_test(half_precision_floor_below_the_least_half_vanishes),
+        cmocka_unit_test(half_precision_floor_is_the_smallest_that_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ static bool same_words(const char *a, const char *b) {
     return *a == *b;
 }
 
-static void words_are_compared(void **state) {
+static void changed_number_of_a_header_is_noticed(void **state) {
     (void)state;
     assert_true(same_words("E at most 2.69 (alpha 0.01); x", "E at most 2.70 (alpha 0.01); x"));
     assert_false(same_words("E at most 2.69 (alpha 0.01); x", "E at most 2.71 (alpha 0.01); x"));
@@ -84,7 +84,7 @@ static bool check_lobe(const char *id) {
     return same;
 }
 
-static void headers_are_up_to_date(void **state) {
+static void headers_of_lobes_hold_their_measured_lines(void **state) {
     (void)state;
     const char *wish = getenv("WEFT_TEST_SHORT");
     bool some = wish && wish[0] == '1', same = true;
@@ -98,7 +98,7 @@ static void cut_p(char *text) {
     if (end) memmove(line, end, strlen(end) + 1);
 }
 
-static void the_passport_in_the_docs_is_up_to_date(void **state) {
+static void passport_in_the_docs_is_up_to_date(void **state) {
     (void)state;
     static const char mark[] = "<!-- passport: charlie-neubelt -->\n```text\n";
     size_t size;
@@ -121,8 +121,8 @@ static void the_passport_in_the_docs_is_up_to_date(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(words_are_compared),
-                                       cmocka_unit_test(headers_are_up_to_date),
-                                       cmocka_unit_test(the_passport_in_the_docs_is_up_to_date)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(changed_number_of_a_header_is_noticed),
+                                       cmocka_unit_test(headers_of_lobes_hold_their_measured_lines),
+                                       cmocka_unit_test(passport_in_the_docs_is_up_to_date)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -29,7 +29,7 @@ static LtcEntries random_entries(Random *random) {
 
 /* A transform is its own nearest one: always found from nearby, and from nothing but its moments in all but
  * few of the odd shapes that are drawn here. */
-static void a_transform_is_found(void **state) {
+static void known_transform_is_found(void **state) {
     (void)state;
     const int shapes = test_short() ? 15 : 60, few = shapes / 15;
     Random random = {1};
@@ -58,7 +58,7 @@ static void a_transform_is_found(void **state) {
     ltc_target_free(&target);
 }
 
-static void a_cosine_is_the_identity(void **state) {
+static void fit_of_lambert_is_the_identity(void **state) {
     (void)state;
     WeftLtc *ltc = make("lambert", 0, 6);
     WeftLtcInfo info = weft_ltc_info(ltc);
@@ -181,7 +181,7 @@ static void every_lobe_is_fitted_or_refused(void **state) {
 }
 
 /* A bend of the lobe that the user asks for makes it turn; the colours that are fitted to matter. */
-static void parameters_are_looked_at(void **state) {
+static void given_parameters_change_the_transform(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftLtc *ltc;
@@ -231,7 +231,7 @@ static LtcEntries node(const WeftLtc *ltc, int cell) {
                         weft_ltc_channel(ltc, WEFT_LTC_B)[cell], weft_ltc_channel(ltc, WEFT_LTC_R)[cell]};
 }
 
-static void nothing_nearby_is_better(void **state) {
+static void fitted_transform_is_a_local_minimum(void **state) {
     (void)state;
     static const char *const ids[] = {"ggx", "charlie-neubelt", "patry", "burley"};
     Random random = {3};
@@ -263,7 +263,7 @@ static void nothing_nearby_is_better(void **state) {
 
 /* Nor is anything far away: a search from anywhere ends no lower than the table's, which had its neighbours
  * to start from. */
-static void no_other_start_finds_less(void **state) {
+static void search_from_any_start_finds_no_better_transform(void **state) {
     (void)state;
     static const char *const ids[] = {"ggx",    "charlie-neubelt",   "patry",
                                       "burley", "ashikhmin-neubelt", "eon"};
@@ -351,7 +351,7 @@ static void tables_are_regular_between_their_nodes(void **state) {
 }
 
 /* From every side the lobe comes to the same at normal incidence, as fast as o does. */
-static void nothing_happens_at_normal_incidence(void **state) {
+static void transform_is_continuous_at_normal_incidence(void **state) {
     (void)state;
     static const char *const ids[] = {"ggx", "charlie-neubelt", "patry"};
     Random random = {6};
@@ -375,7 +375,7 @@ static void nothing_happens_at_normal_incidence(void **state) {
 }
 
 /* In the middle between nodes, a fit for that very place is hardly better. */
-static void mixing_costs_little(void **state) {
+static void interpolated_transform_is_nearly_as_good_as_a_fit(void **state) {
     (void)state;
     if (test_short()) skip(); /* it takes a table of some size */
     enum { SIDE = 16, PLACES = 16 };
@@ -403,7 +403,7 @@ static void mixing_costs_little(void **state) {
     weft_ltc_free(ltc);
 }
 
-static void threads_change_nothing(void **state) {
+static void fit_with_any_number_of_threads_is_the_same(void **state) {
     (void)state;
     WeftLobe lobe;
     assert_int_equal(weft_lobe_init("charlie-neubelt", &lobe, NULL), WEFT_OK);
@@ -424,7 +424,7 @@ static int stop_at_half(void *user, double fraction) {
     return fraction > 0.5;
 }
 
-static void progress_can_stop_it(void **state) {
+static void stopped_fit_leaves_no_table(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftLtc *ltc;
@@ -479,7 +479,7 @@ static void cached_path(const WeftLtc *ltc, char path[256]) {
     snprintf(path, 256, "%s/weft/%016llx.ltc", folder, (unsigned long long)key);
 }
 
-static void the_cache_gives_back_what_went_in(void **state) {
+static void cached_table_is_the_one_that_was_kept(void **state) {
     (void)state;
     int ignored;
     WeftLtc *first = make_cached("1", 4, &ignored);
@@ -499,7 +499,7 @@ static void the_cache_gives_back_what_went_in(void **state) {
     weft_ltc_free(first);
 }
 
-static void a_damaged_file_is_made_again(void **state) {
+static void damaged_cache_is_made_again(void **state) {
     (void)state;
     int ignored;
     WeftLtc *good = make_cached("3", 3, &ignored);
@@ -531,7 +531,7 @@ static void a_damaged_file_is_made_again(void **state) {
 }
 
 /* With a right hash, values that no table has are still refused. */
-static void values_that_cannot_be_are_refused(void **state) {
+static void impossible_values_are_refused(void **state) {
     (void)state;
     int ignored;
     for (int plane = 0; plane < WEFT_LTC_CHANNELS; plane++) {
@@ -550,7 +550,7 @@ static void values_that_cannot_be_are_refused(void **state) {
     }
 }
 
-static void a_cache_that_cannot_be_written_is_a_warning(void **state) {
+static void unwritable_cache_is_a_warning(void **state) {
     (void)state;
     int ignored;
     char blocked[128];
@@ -575,21 +575,21 @@ static void a_cache_that_cannot_be_written_is_a_warning(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_transform_is_found),
-        cmocka_unit_test(a_cosine_is_the_identity),
+        cmocka_unit_test(known_transform_is_found),
+        cmocka_unit_test(fit_of_lambert_is_the_identity),
         cmocka_unit_test(every_lobe_is_fitted_or_refused),
-        cmocka_unit_test(parameters_are_looked_at),
-        cmocka_unit_test(nothing_nearby_is_better),
-        cmocka_unit_test(no_other_start_finds_less),
+        cmocka_unit_test(given_parameters_change_the_transform),
+        cmocka_unit_test(fitted_transform_is_a_local_minimum),
+        cmocka_unit_test(search_from_any_start_finds_no_better_transform),
         cmocka_unit_test(tables_are_regular_between_their_nodes),
-        cmocka_unit_test(nothing_happens_at_normal_incidence),
-        cmocka_unit_test(mixing_costs_little),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(progress_can_stop_it),
-        cmocka_unit_test(the_cache_gives_back_what_went_in),
-        cmocka_unit_test(a_damaged_file_is_made_again),
-        cmocka_unit_test(values_that_cannot_be_are_refused),
-        cmocka_unit_test(a_cache_that_cannot_be_written_is_a_warning),
+        cmocka_unit_test(transform_is_continuous_at_normal_incidence),
+        cmocka_unit_test(interpolated_transform_is_nearly_as_good_as_a_fit),
+        cmocka_unit_test(fit_with_any_number_of_threads_is_the_same),
+        cmocka_unit_test(stopped_fit_leaves_no_table),
+        cmocka_unit_test(cached_table_is_the_one_that_was_kept),
+        cmocka_unit_test(damaged_cache_is_made_again),
+        cmocka_unit_test(impossible_values_are_refused),
+        cmocka_unit_test(unwritable_cache_is_a_warning),
     };
     return cmocka_run_group_tests(tests, begin_cache, end_cache);
 }

@@ -66,7 +66,7 @@ static WeftMaterial cloth(int profile) {
     return material;
 }
 
-static void half_is_half(void **state) {
+static void metric_of_white_and_half_grey_is_half(void **state) {
     (void)state;
     WeftLobe white = lobe_named("lambert"), grey = white;
     for (int c = 0; c < 3; c++) grey.f0[c] = 0.5f;
@@ -92,7 +92,7 @@ static void half_is_half(void **state) {
 }
 
 /* What the directions of metric cosine sum up is the bihemispherical integral: against E by quadrature. */
-static void the_sum_is_the_integral(void **state) {
+static void sum_of_metric_cosine_is_the_integral(void **state) {
     (void)state;
     const char *const ids[] = {"charlie-neubelt", "ashikhmin-conty-kulla", "ggx"};
     WeftLobe black = lobe_named("lambert");
@@ -130,7 +130,7 @@ static void the_sum_is_the_integral(void **state) {
 }
 
 /* A to A: not a digit moves. */
-static void itself_stays(void **state) {
+static void match_to_itself_changes_nothing(void **state) {
     (void)state;
     for (int index = 0; index < weft_lobe_count(); index++) {
         if (weft_lobe_info(index)->traits & WEFT_LOBE_REFERENCE) continue;
@@ -180,7 +180,7 @@ static bool found_again(const WeftLobe *lobe, const WeftLobe *found, int param) 
 
 /* From the defaults to whatever made the samples. Of fabric-lambert the roughness only scales, as the colour
  * does: the two cannot be told apart, so that the error alone counts. */
-static void lobes_come_back(void **state) {
+static void parameters_of_a_lobe_are_found_from_its_defaults(void **state) {
     (void)state;
     for (int index = 0; index < weft_lobe_count(); index++) {
         const WeftLobeInfo *info = weft_lobe_info(index);
@@ -203,7 +203,7 @@ static void lobes_come_back(void **state) {
     }
 }
 
-static void what_is_held_stays(void **state) {
+static void held_parameter_is_unchanged(void **state) {
     (void)state;
     WeftLobe from = lobe_named("charlie-neubelt"), to = lobe_named("patry");
     to.params[1] = 2.5f;
@@ -248,7 +248,7 @@ static void what_is_held_stays(void **state) {
 }
 
 /* All ordered pairs of profiles, or every 23rd. */
-static void never_worse_than_the_copy(void **state) {
+static void match_is_never_worse_than_the_copy(void **state) {
     (void)state;
     int count = 0, step = getenv("WEFT_TEST_LONG") ? 1 : 23, jobs = 0;
     while (weft_profile_name(count)) count++;
@@ -284,7 +284,7 @@ static void never_worse_than_the_copy(void **state) {
 }
 
 /* The same bytes on one thread and on many. */
-static void threads_change_nothing(void **state) {
+static void match_with_any_number_of_threads_is_the_same(void **state) {
     (void)state;
     WeftLobe lobes[2] = {lobe_named("charlie-neubelt"), lobe_named("ashikhmin-neubelt")};
     WeftReflection *from = of_lobe(&lobes[0]);
@@ -312,7 +312,7 @@ static int count_and_stop(void *calls, double fraction) {
 }
 
 /* In the midst of a search, not after it. */
-static void a_batch_is_stopped(void **state) {
+static void stopped_batch_is_interrupted_within_a_search(void **state) {
     (void)state;
     WeftLobe lobe = coloured(weft_lobe_find("threads"));
     WeftReflection *from = of_lobe(&lobe);
@@ -325,7 +325,7 @@ static void a_batch_is_stopped(void **state) {
     weft_reflection_free(from);
 }
 
-static void a_sphere_is_a_picture(void **state) {
+static void sphere_of_a_reflection_is_a_picture(void **state) {
     (void)state;
     WeftLobe lobe = lobe_named("lambert");
     WeftReflection *of = of_lobe(&lobe);
@@ -385,7 +385,7 @@ static int profile_named(const char *id) {
 
 /* A missing alpha is 1, and grey is red, green and blue: what a picture says does not hang on its channels.
  */
-static void channels_change_nothing(void **state) {
+static void match_of_a_texture_does_not_depend_on_its_channels(void **state) {
     (void)state;
     WeftAssetMatch found[4];
     char folder[] = "match-XXXXXX", picture[64], asset[64], out[64], text[sizeof textured + 16];
@@ -487,7 +487,7 @@ static void equal_materials_share_a_search(void **state) {
     unlink("cloths-out.gltf");
 }
 
-static void a_stopped_asset_is_not_written(void **state) {
+static void stopped_match_of_an_asset_writes_nothing(void **state) {
     (void)state;
     for (int most = 0; most < 12; most += 3) {
         WeftAssetMatch *report;
@@ -500,16 +500,16 @@ static void a_stopped_asset_is_not_written(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(equal_materials_share_a_search),
-                                       cmocka_unit_test(a_stopped_asset_is_not_written),
-                                       cmocka_unit_test(half_is_half),
-                                       cmocka_unit_test(the_sum_is_the_integral),
-                                       cmocka_unit_test(itself_stays),
-                                       cmocka_unit_test(lobes_come_back),
-                                       cmocka_unit_test(what_is_held_stays),
-                                       cmocka_unit_test(never_worse_than_the_copy),
-                                       cmocka_unit_test(threads_change_nothing),
-                                       cmocka_unit_test(a_sphere_is_a_picture),
-                                       cmocka_unit_test(channels_change_nothing),
-                                       cmocka_unit_test(a_batch_is_stopped)};
+                                       cmocka_unit_test(stopped_match_of_an_asset_writes_nothing),
+                                       cmocka_unit_test(metric_of_white_and_half_grey_is_half),
+                                       cmocka_unit_test(sum_of_metric_cosine_is_the_integral),
+                                       cmocka_unit_test(match_to_itself_changes_nothing),
+                                       cmocka_unit_test(parameters_of_a_lobe_are_found_from_its_defaults),
+                                       cmocka_unit_test(held_parameter_is_unchanged),
+                                       cmocka_unit_test(match_is_never_worse_than_the_copy),
+                                       cmocka_unit_test(match_with_any_number_of_threads_is_the_same),
+                                       cmocka_unit_test(sphere_of_a_reflection_is_a_picture),
+                                       cmocka_unit_test(match_of_a_texture_does_not_depend_on_its_channels),
+                                       cmocka_unit_test(stopped_batch_is_interrupted_within_a_search)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

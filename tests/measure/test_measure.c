@@ -22,7 +22,7 @@ static void assert_near(double got, double expected, double tolerance) {
     if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);
 }
 
-static void lambert_is_found_right(void **state) {
+static void lambert_passes_every_measurement(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     WeftPassport p = fake_passport(&bsdf);
@@ -43,7 +43,7 @@ static void one_sided_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) f[k] = i.z[k] > 0.0f ? view->o.z / PI : 0.0f;
 }
 
-static void what_is_not_reciprocal_is_found(void **state) {
+static void model_that_is_not_reciprocal_is_found(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.f = one_sided_f;
@@ -60,7 +60,7 @@ static void gaining_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t k = 0; k < i.n; k++) f[k] *= view->o.z < 0.03f ? 1.1f : 0.9f;
 }
 
-static void gain_is_found_where_it_is(void **state) {
+static void albedo_above_one_is_found_where_it_is(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.f = gaining_f;
@@ -89,7 +89,7 @@ static void large_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] *= 1.02f;
 }
 
-static void a_pdf_of_more_than_one_is_found(void **state) {
+static void pdf_that_integrates_to_more_than_one_is_found(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.pdf = large_pdf;
@@ -123,7 +123,7 @@ static Dir halved_sample(const BsdfView *view, float u, float v) {
     return dir(fabsf(i.x), i.y, i.z);
 }
 
-static void what_samples_miss_is_found(void **state) {
+static void directions_that_samples_miss_are_found(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.pdf = halved_pdf;
@@ -146,7 +146,7 @@ static void broken_pdf(const BsdfView *view, Dirs i, float *pdf) {
         if (i.x[k] > 0.5f && view->o.z < 0.5f && view->o.z > 0.3f) pdf[k] = NAN;
 }
 
-static void no_nan_gets_lost(void **state) {
+static void nan_of_a_model_is_reported(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.f = broken_f;
@@ -167,7 +167,7 @@ static void wild_f(const BsdfView *view, Dirs i, float *f) {
         f[k] = i.z[k] > 0.99f ? HUGE_VALF : i.z[k] < -0.99f ? 1.0f : i.z[k] > 0.9f ? -1.0f : 0.0f;
 }
 
-static void the_sweep_counts_what_is_wild(void **state) {
+static void sweep_counts_infinite_and_negative_values(void **state) {
     (void)state;
     Bsdf bsdf = fake_lambert();
     bsdf.f = wild_f;
@@ -176,7 +176,7 @@ static void the_sweep_counts_what_is_wild(void **state) {
     assert_true(sweep.infinite + sweep.negative + sweep.below < sweep.count);
 }
 
-static void the_sweep_is_as_hard_as_it_says(void **state) {
+static void sweep_has_grazing_and_normal_directions(void **state) {
     (void)state;
     bool grazes = false, normal = false, axis = false;
     for (int k = 0; k < SWEEP_DIRS; k++) {
@@ -216,7 +216,7 @@ static void variances_are_those_of_closed_forms(void **state) {
     assert_near(weight.own, 13.5 * ((log)(2.0) - 7.0 / 12.0) - 1.0, 1e-4);
 }
 
-static void the_grid_covers_the_hemisphere_once(void **state) {
+static void grid_covers_the_hemisphere_once(void **state) {
     (void)state;
     static Grid grid;
     static Ring ring;
@@ -242,7 +242,7 @@ static void the_grid_covers_the_hemisphere_once(void **state) {
 
 /* Quantiles from tables of the distribution; Wilson and Hilferty's cube root is good to a few per cent of the
  * tail. */
-static void tails_are_those_of_the_distribution(void **state) {
+static void chi_square_tails_are_those_of_the_distribution(void **state) {
     (void)state;
     assert_near(chi_square_tail(18.307, 10), 0.05, 0.001);
     assert_near(chi_square_tail(29.588, 10), 0.001, 0.0001);
@@ -254,7 +254,7 @@ static void tails_are_those_of_the_distribution(void **state) {
 
 /* A sheen that reflects nothing leaves the white base as it is, whatever the rule; one of E = 1 over it gives
  * 2 where nothing is taken away. */
-static void the_furnace_of_no_sheen_is_one(void **state) {
+static void furnace_of_a_black_sheen_is_one(void **state) {
     (void)state;
     static AlbedoTable table;
     Lobe sheen = lobe_default(weft_lobe_find("charlie-neubelt"));
@@ -271,7 +271,7 @@ static void the_furnace_of_no_sheen_is_one(void **state) {
 
 /* Over white Lambert all bounces sum up to what the rule reciprocal has: the noise that is told is the
  * distance. */
-static void random_walks_know_their_noise(void **state) {
+static void noise_of_random_walks_is_estimated(void **state) {
     (void)state;
     static AlbedoTable table;
     Lobe sheen = lobe_rough(weft_lobe_find("ashikhmin-neubelt"), 0.5f);
@@ -290,21 +290,21 @@ static void random_walks_know_their_noise(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lambert_is_found_right),
-        cmocka_unit_test(what_is_not_reciprocal_is_found),
-        cmocka_unit_test(gain_is_found_where_it_is),
+        cmocka_unit_test(lambert_passes_every_measurement),
+        cmocka_unit_test(model_that_is_not_reciprocal_is_found),
+        cmocka_unit_test(albedo_above_one_is_found_where_it_is),
         cmocka_unit_test(wrong_samples_are_found),
-        cmocka_unit_test(a_pdf_of_more_than_one_is_found),
+        cmocka_unit_test(pdf_that_integrates_to_more_than_one_is_found),
         cmocka_unit_test(impossible_samples_are_found),
-        cmocka_unit_test(what_samples_miss_is_found),
-        cmocka_unit_test(no_nan_gets_lost),
-        cmocka_unit_test(the_sweep_counts_what_is_wild),
-        cmocka_unit_test(the_sweep_is_as_hard_as_it_says),
+        cmocka_unit_test(directions_that_samples_miss_are_found),
+        cmocka_unit_test(nan_of_a_model_is_reported),
+        cmocka_unit_test(sweep_counts_infinite_and_negative_values),
+        cmocka_unit_test(sweep_has_grazing_and_normal_directions),
         cmocka_unit_test(variances_are_those_of_closed_forms),
-        cmocka_unit_test(the_grid_covers_the_hemisphere_once),
-        cmocka_unit_test(tails_are_those_of_the_distribution),
-        cmocka_unit_test(the_furnace_of_no_sheen_is_one),
-        cmocka_unit_test(random_walks_know_their_noise),
+        cmocka_unit_test(grid_covers_the_hemisphere_once),
+        cmocka_unit_test(chi_square_tails_are_those_of_the_distribution),
+        cmocka_unit_test(furnace_of_a_black_sheen_is_one),
+        cmocka_unit_test(noise_of_random_walks_is_estimated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,7 +73,7 @@ static WeftLobe velvet(void) {
     return lobe;
 }
 
-static void a_lobe_comes_back(void **state) {
+static void lobe_written_as_merl_reads_as_it_was(void **state) {
     (void)state;
     const WeftLobe lobe = velvet();
     Merl merl;
@@ -148,7 +148,7 @@ static void refused(size_t size, const char *word) {
     merl_free(&merl);
 }
 
-static void bad_files_end_in_one_line(void **state) {
+static void bad_merl_file_is_an_error_of_one_line(void **state) {
     (void)state;
     const WeftLobe lobe = velvet();
     synthesise(&lobe);
@@ -172,7 +172,7 @@ static void bad_files_end_in_one_line(void **state) {
     assert_null(none);
 }
 
-static void fabrics_are_read(void **state) {
+static void merl_fabrics_are_read(void **state) {
     (void)state;
     const char *folder = getenv("WEFT_DATA");
     char command[1024], path[] = "fabric-XXXXXX";
@@ -212,10 +212,10 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lobe_comes_back),
+        cmocka_unit_test(lobe_written_as_merl_reads_as_it_was),
         cmocka_unit_test(reflections_of_lobe_and_file_agree),
-        cmocka_unit_test(bad_files_end_in_one_line),
-        cmocka_unit_test(fabrics_are_read),
+        cmocka_unit_test(bad_merl_file_is_an_error_of_one_line),
+        cmocka_unit_test(merl_fabrics_are_read),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

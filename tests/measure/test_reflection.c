@@ -72,7 +72,7 @@ static double seconds(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void parts_sum_up(void **state) {
+static void parts_of_a_reflection_sum_to_the_whole(void **state) {
     (void)state;
     const float wo[3] = {0.6f, 0.0f, 0.8f};
     spread();
@@ -113,7 +113,7 @@ static void parts_sum_up(void **state) {
 }
 
 /* White velvet under profiles, as weft_passport_measure has it. */
-static void albedo_is_the_passports(void **state) {
+static void albedo_of_a_reflection_is_that_of_the_passport(void **state) {
     (void)state;
     static const char *const profiles[] = {"khronos", "filament-cloth", "unreal4"};
     static WeftPassport passport;
@@ -145,7 +145,7 @@ static void albedo_is_the_passports(void **state) {
     }
 }
 
-static void it_is_reciprocal(void **state) {
+static void reflection_of_a_reciprocal_material_is_reciprocal(void **state) {
     (void)state;
     WeftMaterial m = plain();
     set(&m, INPUT_sheen_color, 0.6f);
@@ -170,7 +170,7 @@ static void it_is_reciprocal(void **state) {
     weft_reflection_free(r);
 }
 
-static void what_cannot_be_is_refused(void **state) {
+static void impossible_reflections_are_refused(void **state) {
     (void)state;
     WeftMaterial m = plain();
     WeftReflection *r;
@@ -187,8 +187,9 @@ static void what_cannot_be_is_refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_sum_up), cmocka_unit_test(albedo_is_the_passports),
-        cmocka_unit_test(it_is_reciprocal), cmocka_unit_test(what_cannot_be_is_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_of_a_reflection_sum_to_the_whole),
+                                       cmocka_unit_test(albedo_of_a_reflection_is_that_of_the_passport),
+                                       cmocka_unit_test(reflection_of_a_reciprocal_material_is_reciprocal),
+                                       cmocka_unit_test(impossible_reflections_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

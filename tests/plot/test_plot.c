@@ -7,7 +7,7 @@
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* Black is drawn as nothing: what is drawn is the lobe. */
-static void nothing_is_drawn_of_black(void **state) {
+static void figure_of_a_black_lobe_is_empty(void **state) {
     (void)state;
     Cloth white = {.reflection = NULL}, black = {.reflection = NULL};
     cloth_of_lobe(&white, "charlie-neubelt", NULL, NULL);
@@ -53,7 +53,7 @@ static void assert_near(double a, double b, double share) {
     if (!(fabs(a - b) <= share * fabs(b) + 1e-6)) fail_msg("%.7g is not %.7g", a, b);
 }
 
-static void curves_are_the_lobe(void **state) {
+static void curves_hold_values_of_the_lobe(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "ggx", "color", "0.9,0.4,0.2");
@@ -82,7 +82,7 @@ static void curves_are_the_lobe(void **state) {
     cloth_free(&cloth);
 }
 
-static void axes_fit_what_is_told(void **state) {
+static void axes_fit_the_range_of_the_curves(void **state) {
     (void)state;
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "ggx", "alpha", "0.01");
@@ -121,7 +121,7 @@ static void axes_fit_what_is_told(void **state) {
     for (int k = 0; k < 2; k++) cloth_free(&cloth[k]);
 }
 
-static void albedo_and_furnace_are_the_library_s(void **state) {
+static void albedo_and_furnace_are_those_of_the_library(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "charlie-neubelt", "alpha", "0.25");
@@ -162,7 +162,7 @@ static void albedo_and_furnace_are_the_library_s(void **state) {
     cloth_free(&cloth);
 }
 
-static void maps_are_the_lobe(void **state) {
+static void maps_hold_values_of_the_lobe(void **state) {
     (void)state;
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "burley", NULL, NULL);
@@ -215,7 +215,7 @@ static void maps_are_the_lobe(void **state) {
     for (int k = 0; k < 2; k++) cloth_free(&cloth[k]);
 }
 
-static void samples_follow_their_pdf(void **state) {
+static void plotted_samples_follow_their_pdf(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL};
     cloth_of_lobe(&cloth, "ashikhmin-neubelt", NULL, NULL);
@@ -290,7 +290,7 @@ static void assert_xml(const char *text) {
     assert_true(elements > 20);
 }
 
-static void files_are_valid_and_the_same_twice(void **state) {
+static void figure_files_are_valid_and_repeatable(void **state) {
     (void)state;
     static const char *const suffixes[] = {"png", "svg", "pdf"};
     Cloth cloth = {.reflection = NULL};
@@ -330,7 +330,7 @@ static void files_are_valid_and_the_same_twice(void **state) {
     cloth_free(&cloth);
 }
 
-static void the_report_stands_alone(void **state) {
+static void report_page_refers_to_no_other_file(void **state) {
     (void)state;
     Cloth cloth[2] = {{.reflection = NULL}, {.reflection = NULL}};
     cloth_of_lobe(&cloth[0], "charlie-neubelt", NULL, NULL);
@@ -377,7 +377,7 @@ static void assert_refused(const WeftPlotDesc *desc, const char *part) {
     assert_null(image.pixels);
 }
 
-static void nonsense_is_refused(void **state) {
+static void plot_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     Cloth cloth = {.reflection = NULL}, whole = {.reflection = NULL};
     cloth_of_lobe(&cloth, "lambert", NULL, NULL);
@@ -410,7 +410,7 @@ static void nonsense_is_refused(void **state) {
 }
 
 /* From a stamp to a poster: no size is too small to be drawn. */
-static void any_size_is_drawn(void **state) {
+static void figure_of_any_size_is_drawn(void **state) {
     (void)state;
     static const int sizes[][2] = {{1, 1}, {8, 400}, {64, 64}, {3000, 200}, {0, 700}};
     Cloth cloth = {.reflection = NULL};
@@ -445,16 +445,16 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_is_drawn_of_black),
-        cmocka_unit_test(curves_are_the_lobe),
-        cmocka_unit_test(axes_fit_what_is_told),
-        cmocka_unit_test(albedo_and_furnace_are_the_library_s),
-        cmocka_unit_test(maps_are_the_lobe),
-        cmocka_unit_test(samples_follow_their_pdf),
-        cmocka_unit_test(files_are_valid_and_the_same_twice),
-        cmocka_unit_test(the_report_stands_alone),
-        cmocka_unit_test(nonsense_is_refused),
-        cmocka_unit_test(any_size_is_drawn),
+        cmocka_unit_test(figure_of_a_black_lobe_is_empty),
+        cmocka_unit_test(curves_hold_values_of_the_lobe),
+        cmocka_unit_test(axes_fit_the_range_of_the_curves),
+        cmocka_unit_test(albedo_and_furnace_are_those_of_the_library),
+        cmocka_unit_test(maps_hold_values_of_the_lobe),
+        cmocka_unit_test(plotted_samples_follow_their_pdf),
+        cmocka_unit_test(figure_files_are_valid_and_repeatable),
+        cmocka_unit_test(report_page_refers_to_no_other_file),
+        cmocka_unit_test(plot_descriptors_without_sense_are_refused),
+        cmocka_unit_test(figure_of_any_size_is_drawn),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

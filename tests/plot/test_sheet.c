@@ -69,7 +69,7 @@ static WeftImage compose(const WeftSheetDesc *desc) {
     return sheet;
 }
 
-static void pictures_stay_as_they_are(void **state) {
+static void pictures_on_a_sheet_are_unchanged(void **state) {
     (void)state;
     WeftImage one = pattern(250, 60, 3), two = pattern(250, 60, 4);
     WeftPanel panels[3] = {{.image = &one}, {.image = &two, .title = "charlie"}, {.image = &one}};
@@ -90,7 +90,7 @@ static void pictures_stay_as_they_are(void **state) {
     weft_image_free(&two);
 }
 
-static void what_is_transparent_shows_the_sheet(void **state) {
+static void transparent_picture_shows_the_sheet(void **state) {
     (void)state;
     WeftImage image = pattern(240, 20, 4);
     for (int k = 0; k < 240 * 20; k++) ((uint8_t *)image.pixels)[4 * k + 3] = 0;
@@ -102,7 +102,7 @@ static void what_is_transparent_shows_the_sheet(void **state) {
 }
 
 /* Type never leaves the place of its panel, whatever the text. */
-static void labels_stay_in_their_place(void **state) {
+static void long_labels_stay_inside_their_panel(void **state) {
     (void)state;
     char longest[2000];
     memset(longest, 'M', sizeof longest - 1);
@@ -159,7 +159,7 @@ static void long_titles_take_two_lines(void **state) {
     assert_int_equal(two, one);
 }
 
-static void wrong_sheets_are_refused(void **state) {
+static void sheet_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     WeftImage image = pattern(8, 8, 3), linear = image_of(8, 8, 3, WEFT_PIXEL_F32), sheet;
     WeftImage wide = image_of(20000, 1, 3, WEFT_PIXEL_U8);
@@ -181,7 +181,7 @@ static void wrong_sheets_are_refused(void **state) {
 }
 
 /* A grey reference of 0.5, and an image that is 0.1 off in green of one pixel in four. */
-static void figures_follow_their_formula(void **state) {
+static void figures_below_a_picture_follow_their_formula(void **state) {
     (void)state;
     enum { COUNT = 400 };
     WeftImage a = image_of(20, 20, 4, WEFT_PIXEL_F32), b = image_of(20, 20, 4, WEFT_PIXEL_F32);
@@ -218,7 +218,7 @@ static float luma(const uint8_t *p) {
 }
 
 /* Brighter is red before blue, darker blue before red; both lighter the more, and the ends stay. */
-static void colors_tell_sign_and_size(void **state) {
+static void difference_colours_show_sign_and_size(void **state) {
     (void)state;
     enum { STEPS = 41 };
     WeftImage a = image_of(STEPS, 1, 3, WEFT_PIXEL_F32), b = image_of(STEPS, 1, 3, WEFT_PIXEL_F32), map;
@@ -246,7 +246,7 @@ static void colors_tell_sign_and_size(void **state) {
 }
 
 /* The scale of a sheet shows the colours of the maps, from one end to the other. */
-static void the_scale_is_drawn(void **state) {
+static void scale_of_the_map_is_drawn(void **state) {
     (void)state;
     WeftImage image = pattern(300, 80, 3);
     WeftPanel panels[2] = {{.scale = 0.5f, .title = "difference"}, {.image = &image}};
@@ -265,7 +265,7 @@ static void the_scale_is_drawn(void **state) {
 
 /* A map's colours begin at `none` with black and end at `most`, whichever is larger; so do those of its
  * legend, which stands below. */
-static void maps_become_heat(void **state) {
+static void map_is_drawn_with_heat_colours(void **state) {
     (void)state;
     static const float ends[][2] = {{0.0f, 0.5f}, {1.0f, 0.5f}, {-1.0f, 3.0f}};
     WeftImage map = image_of(300, 40, 1, WEFT_PIXEL_F32), heat;
@@ -303,14 +303,14 @@ static void maps_become_heat(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_become_heat),
-        cmocka_unit_test(pictures_stay_as_they_are),
-        cmocka_unit_test(what_is_transparent_shows_the_sheet),
-        cmocka_unit_test(labels_stay_in_their_place),
-        cmocka_unit_test(wrong_sheets_are_refused),
-        cmocka_unit_test(figures_follow_their_formula),
-        cmocka_unit_test(colors_tell_sign_and_size),
-        cmocka_unit_test(the_scale_is_drawn),
+        cmocka_unit_test(map_is_drawn_with_heat_colours),
+        cmocka_unit_test(pictures_on_a_sheet_are_unchanged),
+        cmocka_unit_test(transparent_picture_shows_the_sheet),
+        cmocka_unit_test(long_labels_stay_inside_their_panel),
+        cmocka_unit_test(sheet_descriptors_without_sense_are_refused),
+        cmocka_unit_test(figures_below_a_picture_follow_their_formula),
+        cmocka_unit_test(difference_colours_show_sign_and_size),
+        cmocka_unit_test(scale_of_the_map_is_drawn),
         cmocka_unit_test(long_titles_take_two_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -164,7 +164,7 @@ static bool choice_agrees(ChoiceId choice, const char *name, int step) {
     return good;
 }
 
-static void on_spheres(void **state) {
+static void engines_agree_on_spheres(void **state) {
     (void)state;
     need_gl();
     static const struct {
@@ -191,7 +191,7 @@ static void on_spheres(void **state) {
     assert_true(good);
 }
 
-static void on_a_textured_cloth(void **state) {
+static void engines_agree_on_a_textured_cloth(void **state) {
     (void)state;
     need_gl();
     const char *path = WEFT_SOURCE_DIR "/../shared/data/gltf/SheenCloth/SheenCloth.gltf";
@@ -228,6 +228,7 @@ static int begin(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(on_spheres), cmocka_unit_test(on_a_textured_cloth)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(engines_agree_on_spheres),
+                                       cmocka_unit_test(engines_agree_on_a_textured_cloth)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }

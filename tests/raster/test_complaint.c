@@ -44,7 +44,7 @@ static void assert_said(const Text *text, const char *form, int line, const char
     assert_string_equal(error.text, expected);
 }
 
-static void every_form_is_read(void **state) {
+static void line_of_every_driver_is_read(void **state) {
     (void)state;
     static const struct {
         const char *form, *words;
@@ -76,7 +76,7 @@ static void every_form_is_read(void **state) {
 }
 
 /* A line of the caller's, no line, no such line, no text: the driver's own words. */
-static void what_has_no_file_stays(void **state) {
+static void log_without_a_line_of_ours_is_unchanged(void **state) {
     (void)state;
     static const char *const logs[] = {"0:%d(7): error: wrong",
                                        "linking with an error at %d",
@@ -103,7 +103,7 @@ static void what_has_no_file_stays(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_form_is_read),
-                                       cmocka_unit_test(what_has_no_file_stays)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(line_of_every_driver_is_read),
+                                       cmocka_unit_test(log_without_a_line_of_ours_is_unchanged)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ static void copies_are_exact(TextLanguage language, size_t n) {
     context_destroy(context);
 }
 
-static void what_goes_in_comes_out(void **state) {
+static void compute_returns_its_inputs_exactly(void **state) {
     (void)state;
     static const size_t sizes[] = {1, 1023, 1024, 5000, 1024 * 256, 1024 * 256 + 1500};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
@@ -97,7 +97,7 @@ static void what_goes_in_comes_out(void **state) {
 }
 
 /* Tables of several sizes; a second set replaces the first. */
-static void tables_are_read_as_they_are(void **state) {
+static void compute_reads_tables_exactly(void **state) {
     (void)state;
     for (int l = 0; l < LANGUAGES; l++) {
         GlContext *context = context_or_skip(languages[l]);
@@ -134,7 +134,7 @@ static void tables_are_read_as_they_are(void **state) {
     }
 }
 
-static void errors_are_one_line(void **state) {
+static void compute_error_is_one_line(void **state) {
     (void)state;
     for (int l = 0; l < LANGUAGES; l++) {
         GlContext *context = context_or_skip(languages[l]);
@@ -167,7 +167,7 @@ static void errors_are_one_line(void **state) {
 
 /* Both languages in one thread, used in turn; what was current stays current; destroying one leaves the
  * others. */
-static void contexts_live_side_by_side(void **state) {
+static void two_contexts_compute_side_by_side(void **state) {
     (void)state;
     GlContext *a = context_or_skip(TEXT_GLSL_330), *b = context_or_skip(TEXT_GLSL_ES_300),
               *c = context_or_skip(TEXT_GLSL_330);
@@ -209,10 +209,10 @@ static void contexts_live_side_by_side(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_goes_in_comes_out),
-        cmocka_unit_test(tables_are_read_as_they_are),
-        cmocka_unit_test(errors_are_one_line),
-        cmocka_unit_test(contexts_live_side_by_side),
+        cmocka_unit_test(compute_returns_its_inputs_exactly),
+        cmocka_unit_test(compute_reads_tables_exactly),
+        cmocka_unit_test(compute_error_is_one_line),
+        cmocka_unit_test(two_contexts_compute_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

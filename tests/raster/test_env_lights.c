@@ -108,7 +108,7 @@ static void compare(WeftScene *scene, WeftRaster *raster, WeftRaster *without, f
     weft_image_free(&plain);
 }
 
-static void shadows_are_those_of_the_path_tracer(void **state) {
+static void shadows_of_environment_lights_are_those_of_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = wall();
@@ -121,6 +121,7 @@ static void shadows_are_those_of_the_path_tracer(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_are_those_of_the_path_tracer)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shadows_of_environment_lights_are_those_of_the_path_tracer)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

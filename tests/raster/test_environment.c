@@ -235,18 +235,18 @@ static void rest_is_that_of_c(TextLanguage language) {
     context_destroy(context);
 }
 
-static void test_rest_is_that_of_c(void **state) {
+static void residual_is_that_of_c(void **state) {
     (void)state;
     for (int k = 0; k < LANGUAGES; k++) rest_is_that_of_c(languages[k]);
 }
 
-static void test_look_ups_are_sums(void **state) {
+static void environment_lookups_are_sums_of_texels(void **state) {
     (void)state;
     for (int k = 0; k < LANGUAGES; k++) look_ups_are_sums(languages[k]);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_look_ups_are_sums),
-                                       cmocka_unit_test(test_rest_is_that_of_c)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(environment_lookups_are_sums_of_texels),
+                                       cmocka_unit_test(residual_is_that_of_c)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,7 +104,7 @@ static float difference(const WeftImage *a, const WeftImage *b, int square) {
     return most;
 }
 
-static void families_look_as_each_alone(void **state) {
+static void materials_drawn_together_look_as_each_alone(void **state) {
     (void)state;
     need_gl();
     for (int gl = WEFT_GL_DESKTOP; gl <= WEFT_GL_ES; gl++) {
@@ -153,7 +153,7 @@ static WeftScene *even_square(bool mapped) {
 }
 
 /* A factor of 1 on a map leaves nothing out that the map brings. */
-static void even_maps_are_numbers(void **state) {
+static void even_map_with_a_factor_of_one_is_its_number(void **state) {
     (void)state;
     need_gl();
     WeftImage images[2];
@@ -174,7 +174,7 @@ static void even_maps_are_numbers(void **state) {
 }
 
 /* Squares that are seen from one side or cut out: six programs. */
-static void threads_make_no_difference(void **state) {
+static void compiling_in_any_number_of_threads_gives_the_same_picture(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = squares(-1);
@@ -226,9 +226,10 @@ static void thousands_of_materials_are_drawn_in_seconds(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(families_look_as_each_alone),
-                                       cmocka_unit_test(even_maps_are_numbers),
-                                       cmocka_unit_test(threads_make_no_difference),
-                                       cmocka_unit_test(thousands_of_materials_are_drawn_in_seconds)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(materials_drawn_together_look_as_each_alone),
+        cmocka_unit_test(even_map_with_a_factor_of_one_is_its_number),
+        cmocka_unit_test(compiling_in_any_number_of_threads_gives_the_same_picture),
+        cmocka_unit_test(thousands_of_materials_are_drawn_in_seconds)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

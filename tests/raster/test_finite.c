@@ -55,7 +55,7 @@ static int odd_pixels(const char *lobe) {
     return odd + least;
 }
 
-static void every_pixel_is_a_number(void **state) {
+static void pixels_of_extreme_materials_are_finite(void **state) {
     (void)state;
     need_gl();
     int odd = 0;
@@ -67,6 +67,6 @@ static void every_pixel_is_a_number(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_pixel_is_a_number)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_of_extreme_materials_are_finite)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

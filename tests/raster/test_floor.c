@@ -98,7 +98,7 @@ static WeftRasterView floor_seen(WeftBackground background, float reflection, fl
                             .floor = {1, reflection, roughness}};
 }
 
-static void shadow_of_each_light_is_the_path_tracers(void **state) {
+static void shadow_of_each_light_is_that_of_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     WeftRasterView clear = floor_seen(WEFT_BACKGROUND_TRANSPARENT, 0.0f, 0.0f);
@@ -112,7 +112,7 @@ static void shadow_of_each_light_is_the_path_tracers(void **state) {
     same("polygon", scene, &clear, 0.05f);
 }
 
-static void mirror_image_is_the_path_tracers(void **state) {
+static void mirror_image_in_the_floor_is_that_of_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     WeftRasterView smooth = floor_seen(WEFT_BACKGROUND_COLOR, 0.6f, 0.0f),
@@ -121,7 +121,7 @@ static void mirror_image_is_the_path_tracers(void **state) {
     same("rough mirror", ball(0.5f), &rough, 0.03f);
 }
 
-static void environment_behind_the_floor_is_darkened(void **state) {
+static void floor_darkens_the_environment_behind_it(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = ball(0.5f);
@@ -147,9 +147,9 @@ static void hidden_light_is_looked_through_in_both(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadow_of_each_light_is_the_path_tracers),
-        cmocka_unit_test(mirror_image_is_the_path_tracers),
-        cmocka_unit_test(environment_behind_the_floor_is_darkened),
+        cmocka_unit_test(shadow_of_each_light_is_that_of_the_path_tracer),
+        cmocka_unit_test(mirror_image_in_the_floor_is_that_of_the_path_tracer),
+        cmocka_unit_test(floor_darkens_the_environment_behind_it),
         cmocka_unit_test(hidden_light_is_looked_through_in_both),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);

@@ -105,7 +105,7 @@ static double compare(int corners, bool shadows_drawn, bool shadows_traced) {
     return off / sum;
 }
 
-static void both_engines_agree(void **state) {
+static void polygon_lights_agree_with_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     for (int corners = 3; corners <= 8; corners += corners == 4 ? 4 : 1) {
@@ -116,7 +116,7 @@ static void both_engines_agree(void **state) {
 }
 
 /* Penumbras: blockers by their mean distance are not the path tracer's, but near them. */
-static void soft_shadows_are_near(void **state) {
+static void soft_shadows_are_near_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     double off = compare(4, true, true), without = compare(4, false, true);
@@ -155,7 +155,7 @@ static void change(WeftScene *scene, int step) {
     }
 }
 
-static void updates_are_as_new(void **state) {
+static void updated_lights_draw_as_new_ones(void **state) {
     (void)state;
     need_gl();
     enum { CHANGES = 11 };
@@ -183,8 +183,8 @@ static void updates_are_as_new(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(both_engines_agree),
-                                       cmocka_unit_test(soft_shadows_are_near),
-                                       cmocka_unit_test(updates_are_as_new)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(polygon_lights_agree_with_the_path_tracer),
+                                       cmocka_unit_test(soft_shadows_are_near_the_path_tracer),
+                                       cmocka_unit_test(updated_lights_draw_as_new_ones)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

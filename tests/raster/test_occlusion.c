@@ -55,7 +55,7 @@ static int files(void) {
     return system(command) != 0;
 }
 
-static void half_of_the_sky_is_found_again(void **state) {
+static void occlusion_of_a_corner_is_found_in_the_cache(void **state) {
     (void)state;
     WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
     float first[ALL], again[ALL];
@@ -90,7 +90,7 @@ static void half_of_the_sky_is_found_again(void **state) {
 }
 
 /* What is transparent by its textures is looked at anew each time. */
-static void only_opaque_scenes_are_kept(void **state) {
+static void occlusion_of_transparent_scenes_is_not_cached(void **state) {
     (void)state;
     char command[96];
     snprintf(command, sizeof command, "rm -rf %s/weft", folder);
@@ -116,7 +116,7 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(half_of_the_sky_is_found_again),
-                                       cmocka_unit_test(only_opaque_scenes_are_kept)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(occlusion_of_a_corner_is_found_in_the_cache),
+                                       cmocka_unit_test(occlusion_of_transparent_scenes_is_not_cached)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -276,7 +276,7 @@ static const Model lobes = {
 
 static bool on_gpu(int id) { return !(weft_lobe_info(id)->traits & TRAIT_REFERENCE); }
 
-static void lobes_agree(void **state) {
+static void lobes_in_glsl_agree_with_c(void **state) {
     (void)state;
     need_gpu();
     bool good = true;
@@ -314,7 +314,7 @@ static void answer_any_lobe(int which, const float *row, float *answers) {
 }
 
 /* The chain of questions finds each lobe, with its defaults and its own meaning of roughness. */
-static void lobes_are_told_apart(void **state) {
+static void dispatch_in_glsl_finds_each_lobe(void **state) {
     (void)state;
     static const Model model = {
         .body = ANGLES "    Lobe m = lobe_default(int(in2.x));\n"
@@ -388,7 +388,7 @@ static const Model f_terms = {
     .answer = answer_f,
 };
 
-static void terms_agree(void **state) {
+static void terms_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model *const models[] = {
         [WEFT_TERM_D] = &d_terms, [WEFT_TERM_V] = &v_terms, [WEFT_TERM_F] = &f_terms};
@@ -418,7 +418,7 @@ static void answer_layer(int which, const float *row, float *answers) {
     answers[0] = layer_base(which, row[0], row[1], row[2], row[3]);
 }
 
-static void layers_agree(void **state) {
+static void layer_rules_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body = "    out0.x = layer_base(LAYER, in0.x, in0.y, in0.z, in0.w);\n",
@@ -556,7 +556,7 @@ static void answer_stack(int which, const float *row, float *answers) {
 
 /* All that a renderer asks of a surface: with each workflow and each profile, and with choices of all kinds
  * mixed. */
-static void stacks_agree(void **state) {
+static void stacks_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
@@ -614,7 +614,7 @@ static void answer_dust(int which, const float *row, float *answers) {
 }
 
 /* The noise has the same patches to 1e-4, the hash below it the same whole numbers. */
-static void dust_agrees(void **state) {
+static void dust_in_glsl_agrees_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body =
@@ -674,7 +674,7 @@ static void answer_tables(int which, const float *row, float *answers) {
 }
 
 /* Each table is found in its own layer and mixed alike; one that the text was not given is 0. */
-static void tables_agree(void **state) {
+static void tables_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body =
@@ -721,7 +721,7 @@ static void answer_nap(int which, const float *row, float *answers) {
     memcpy(answers, e, sizeof e);
 }
 
-static void naps_agree(void **state) {
+static void nap_tables_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body =
@@ -743,7 +743,7 @@ static void naps_agree(void **state) {
 }
 
 /* A term whose text says something else by a thousandth, laid over the library's. */
-static void a_wrong_text_is_found(void **state) {
+static void parity_finds_a_wrong_text(void **state) {
     (void)state;
     need_gpu();
     char folder[] = "/tmp/weft-test-parity-XXXXXX", path[128], command[128];
@@ -805,15 +805,11 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_agree),
-        cmocka_unit_test(lobes_are_told_apart),
-        cmocka_unit_test(terms_agree),
-        cmocka_unit_test(layers_agree),
-        cmocka_unit_test(stacks_agree),
-        cmocka_unit_test(tables_agree),
-        cmocka_unit_test(naps_agree),
-        cmocka_unit_test(dust_agrees),
-        cmocka_unit_test(a_wrong_text_is_found),
+        cmocka_unit_test(lobes_in_glsl_agree_with_c),      cmocka_unit_test(dispatch_in_glsl_finds_each_lobe),
+        cmocka_unit_test(terms_in_glsl_agree_with_c),      cmocka_unit_test(layer_rules_in_glsl_agree_with_c),
+        cmocka_unit_test(stacks_in_glsl_agree_with_c),     cmocka_unit_test(tables_in_glsl_agree_with_c),
+        cmocka_unit_test(nap_tables_in_glsl_agree_with_c), cmocka_unit_test(dust_in_glsl_agrees_with_c),
+        cmocka_unit_test(parity_finds_a_wrong_text),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -140,7 +140,7 @@ static void choices_sum_up(WeftScene *scene, WeftRaster *raster, const char *cho
     assert_int_equal(weft_scene_set(scene, target, "auto", NULL, &error), WEFT_OK);
 }
 
-static void catalogue_sums_up(void **state) {
+static void parts_of_every_stack_sum_to_the_whole(void **state) {
     (void)state;
     need_gl();
     static const char *const choices[] = {"layer", "sheen_lobe", "profile", "workflow", "diffuse"};
@@ -162,7 +162,7 @@ static double mean_of(const WeftImage *image) {
 }
 
 /* What of the sky is ambient light and what is reflections is the same in the path tracer. */
-static void the_sky_is_parted_as_it_is_traced(void **state) {
+static void parts_of_the_environment_are_those_of_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     static const float factors[2][2] = {{1.0f, 0.0f}, {0.0f, 1.0f}};
@@ -191,7 +191,7 @@ static void the_sky_is_parted_as_it_is_traced(void **state) {
 }
 
 /* Beside emission, which no part has. */
-static void emission_is_of_all_alone(void **state) {
+static void emission_belongs_to_no_part(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = dusty_ball();
@@ -217,7 +217,7 @@ static void shows(WeftRaster *raster, int part, int x, int y, float r, float g, 
     weft_image_free(&image);
 }
 
-static void properties_are_as_they_are(void **state) {
+static void property_views_show_the_inputs(void **state) {
     (void)state;
     need_gl();
     static const float corners[8] = {1.25f, 3.5f, 1.25f, 3.5f, 1.25f, 3.5f, 1.25f, 3.5f};
@@ -245,7 +245,7 @@ static void properties_are_as_they_are(void **state) {
     weft_scene_free(scene);
 }
 
-static void crops_are_cut_out(void **state) {
+static void crop_is_a_part_of_the_picture(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = dusty_ball();
@@ -284,8 +284,9 @@ static void crops_are_cut_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(catalogue_sums_up), cmocka_unit_test(the_sky_is_parted_as_it_is_traced),
-        cmocka_unit_test(emission_is_of_all_alone), cmocka_unit_test(properties_are_as_they_are),
-        cmocka_unit_test(crops_are_cut_out)};
+        cmocka_unit_test(parts_of_every_stack_sum_to_the_whole),
+        cmocka_unit_test(parts_of_the_environment_are_those_of_the_path_tracer),
+        cmocka_unit_test(emission_belongs_to_no_part), cmocka_unit_test(property_views_show_the_inputs),
+        cmocka_unit_test(crop_is_a_part_of_the_picture)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -45,7 +45,7 @@ static float at(const WeftImage *image, int x, int y) {
     return ((const float *)image->pixels)[4 * (y * SIDE + x)];
 }
 
-static void steps_within_quads_are_as_large_as_between_them(void **state) {
+static void penumbra_steps_within_quads_are_as_large_as_between_them(void **state) {
     (void)state;
     need_gl();
     WeftImage image = edge();
@@ -79,7 +79,7 @@ static void penumbra_is_even_along_the_edge(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_within_quads_are_as_large_as_between_them),
+        cmocka_unit_test(penumbra_steps_within_quads_are_as_large_as_between_them),
         cmocka_unit_test(penumbra_is_even_along_the_edge),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);

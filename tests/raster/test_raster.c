@@ -66,7 +66,7 @@ static WeftScene *two_squares(WeftAlphaMode mode, float opacity) {
 static const WeftRasterView front_view = {
     .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,3;0,0,0;30"};
 
-static void alpha_is_as_told(void **state) {
+static void alpha_mode_decides_the_coverage(void **state) {
     (void)state;
     need_gl();
     const struct {
@@ -87,7 +87,7 @@ static void alpha_is_as_told(void **state) {
 }
 
 /* One square alone: what is behind it has the alpha and the colour that were asked for. */
-static void background_is_as_told(void **state) {
+static void background_has_the_colour_and_alpha_of_its_kind(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = test_scene();
@@ -112,7 +112,7 @@ static void background_is_as_told(void **state) {
 }
 
 /* The studio out of focus: as the path tracer has it, and what backdrop.h says it is. */
-static void the_environment_may_be_blurred(void **state) {
+static void blurred_background_is_smooth(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = test_scene();
@@ -160,7 +160,7 @@ static void the_environment_may_be_blurred(void **state) {
 }
 
 /* Row 0 is the top and column 0 the left, as in every image. */
-static void pictures_are_upright(void **state) {
+static void picture_is_upright(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = test_scene();
@@ -196,7 +196,7 @@ static WeftScene *under_a_lamp(void) {
     return scene;
 }
 
-static void polygons_light_as_the_path_tracer_has_it(void **state) {
+static void polygon_light_agrees_with_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = under_a_lamp();
@@ -241,7 +241,7 @@ static void polygons_light_as_the_path_tracer_has_it(void **state) {
     weft_scene_free(scene);
 }
 
-static void steady_frames_make_nothing(void **state) {
+static void steady_frames_create_no_objects(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = under_a_lamp();
@@ -268,7 +268,7 @@ static void steady_frames_make_nothing(void **state) {
     weft_scene_free(scene);
 }
 
-static void descriptors_are_checked(void **state) {
+static void raster_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = two_squares(WEFT_ALPHA_OPAQUE, 1.0f);
@@ -321,7 +321,7 @@ static ShaderKey whole_key(void) {
     return key;
 }
 
-static void shaders_are_of_their_version(void **state) {
+static void shaders_compile_as_their_version(void **state) {
     (void)state;
     if (system("command -v glslangValidator >/dev/null 2>&1") != 0) {
         print_message("glslangValidator is not installed\n");
@@ -355,13 +355,13 @@ static void shaders_are_of_their_version(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_is_as_told),
-                                       cmocka_unit_test(background_is_as_told),
-                                       cmocka_unit_test(the_environment_may_be_blurred),
-                                       cmocka_unit_test(pictures_are_upright),
-                                       cmocka_unit_test(polygons_light_as_the_path_tracer_has_it),
-                                       cmocka_unit_test(steady_frames_make_nothing),
-                                       cmocka_unit_test(descriptors_are_checked),
-                                       cmocka_unit_test(shaders_are_of_their_version)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_mode_decides_the_coverage),
+                                       cmocka_unit_test(background_has_the_colour_and_alpha_of_its_kind),
+                                       cmocka_unit_test(blurred_background_is_smooth),
+                                       cmocka_unit_test(picture_is_upright),
+                                       cmocka_unit_test(polygon_light_agrees_with_the_path_tracer),
+                                       cmocka_unit_test(steady_frames_create_no_objects),
+                                       cmocka_unit_test(raster_descriptors_without_sense_are_refused),
+                                       cmocka_unit_test(shaders_compile_as_their_version)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

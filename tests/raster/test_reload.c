@@ -167,19 +167,19 @@ static void text_is_taken_anew(WeftGl gl) {
     weft_scene_free(scene);
 }
 
-static void desktop_takes_text_anew(void **state) {
+static void changed_shader_text_is_compiled_by_opengl(void **state) {
     (void)state;
     need_gl();
     text_is_taken_anew(WEFT_GL_DESKTOP);
 }
 
-static void es_takes_text_anew(void **state) {
+static void changed_shader_text_is_compiled_by_opengl_es(void **state) {
     (void)state;
     need_gl();
     text_is_taken_anew(WEFT_GL_ES);
 }
 
-static void without_a_folder_nothing_changes(void **state) {
+static void raster_without_a_shader_folder_changes_nothing(void **state) {
     (void)state;
     need_gl();
     WeftRaster *raster;
@@ -196,7 +196,7 @@ static void in_folder(const char *name, char path[256]) { snprintf(path, 256, "%
 static int look(FolderWatch *watch) { return watch_poll(watch, folder); }
 
 /* Only text counts; links and folders without end do no harm. */
-static void a_look_counts_changes(void **state) {
+static void folder_watch_counts_changed_files(void **state) {
     (void)state;
     FolderWatch watch = {0};
     char path[256], to[256];
@@ -230,10 +230,10 @@ static void a_look_counts_changes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(desktop_takes_text_anew),
-        cmocka_unit_test(es_takes_text_anew),
-        cmocka_unit_test(without_a_folder_nothing_changes),
-        cmocka_unit_test(a_look_counts_changes),
+        cmocka_unit_test(changed_shader_text_is_compiled_by_opengl),
+        cmocka_unit_test(changed_shader_text_is_compiled_by_opengl_es),
+        cmocka_unit_test(raster_without_a_shader_folder_changes_nothing),
+        cmocka_unit_test(folder_watch_counts_changed_files),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -200,17 +200,17 @@ static void shows_what_tonemap_makes(WeftGl gl) {
     close_window(&w);
 }
 
-static void desktop_shows_what_tonemap_makes(void **state) {
+static void shown_pixels_are_those_of_tonemap_in_opengl(void **state) {
     (void)state;
     shows_what_tonemap_makes(WEFT_GL_DESKTOP);
 }
-static void es_shows_what_tonemap_makes(void **state) {
+static void shown_pixels_are_those_of_tonemap_in_opengl_es(void **state) {
     (void)state;
     shows_what_tonemap_makes(WEFT_GL_ES);
 }
 
 /* What is left and right of a border may come from two shows; and a picture may be made larger. */
-static void pictures_are_clipped_and_scaled(void **state) {
+static void shown_picture_is_clipped_and_scaled(void **state) {
     (void)state;
     need_egl();
     Window w = open_window(WEFT_GL_DESKTOP);
@@ -371,18 +371,18 @@ static void any_state_will_do(WeftGl gl, bool lit) {
     close_window(&w);
 }
 
-static void any_state_will_do_for_desktop(void **state) {
+static void show_works_in_any_state_of_opengl(void **state) {
     (void)state;
     any_state_will_do(WEFT_GL_DESKTOP, false);
     any_state_will_do(WEFT_GL_DESKTOP, true);
 }
-static void any_state_will_do_for_es(void **state) {
+static void show_works_in_any_state_of_opengl_es(void **state) {
     (void)state;
     any_state_will_do(WEFT_GL_ES, false);
 }
 
 /* Two in one context, a third beside them in its own: all draw the same. */
-static void rasters_share_a_context(void **state) {
+static void two_rasters_share_a_context(void **state) {
     (void)state;
     need_egl();
     Window w = open_window(WEFT_GL_DESKTOP);
@@ -410,7 +410,7 @@ static void rasters_share_a_context(void **state) {
 }
 
 /* What other threads make for it, as shaders are, is there in it. */
-static void objects_are_shared_with_it(void **state) {
+static void context_shares_objects_with_the_window(void **state) {
     (void)state;
     need_egl();
     for (int gl = WEFT_GL_DESKTOP; gl <= WEFT_GL_ES; gl++) {
@@ -433,7 +433,7 @@ static void objects_are_shared_with_it(void **state) {
     }
 }
 
-static void a_context_must_be_there(void **state) {
+static void show_without_a_context_is_refused(void **state) {
     (void)state;
     need_egl();
     WeftScene *scene = gradients();
@@ -465,7 +465,7 @@ static void a_context_must_be_there(void **state) {
     weft_scene_free(scene);
 }
 
-static void wrong_shows_are_refused(void **state) {
+static void show_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     need_egl();
     Window w = open_window(WEFT_GL_DESKTOP);
@@ -491,7 +491,7 @@ static void wrong_shows_are_refused(void **state) {
 }
 
 /* Frames of a window make nothing, nor does an update that finds nothing. */
-static void steady_frames_make_nothing(void **state) {
+static void steady_shows_create_no_objects(void **state) {
     (void)state;
     need_egl();
     Window w = open_window(WEFT_GL_DESKTOP);
@@ -527,7 +527,7 @@ static void write_text(const char *path, const char *text) {
 }
 
 /* The pass is text in the shader_dir as any other: broken, it leaves the one before in use. */
-static void text_is_taken_anew(void **state) {
+static void changed_show_text_is_compiled_and_broken_text_ignored(void **state) {
     (void)state;
     need_egl();
     char folder[] = "/tmp/weft-test-show-XXXXXX", path[96], command[128];
@@ -570,16 +570,17 @@ static void text_is_taken_anew(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(desktop_shows_what_tonemap_makes),
-                                       cmocka_unit_test(es_shows_what_tonemap_makes),
-                                       cmocka_unit_test(pictures_are_clipped_and_scaled),
-                                       cmocka_unit_test(any_state_will_do_for_desktop),
-                                       cmocka_unit_test(any_state_will_do_for_es),
-                                       cmocka_unit_test(rasters_share_a_context),
-                                       cmocka_unit_test(objects_are_shared_with_it),
-                                       cmocka_unit_test(a_context_must_be_there),
-                                       cmocka_unit_test(wrong_shows_are_refused),
-                                       cmocka_unit_test(steady_frames_make_nothing),
-                                       cmocka_unit_test(text_is_taken_anew)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl),
+        cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl_es),
+        cmocka_unit_test(shown_picture_is_clipped_and_scaled),
+        cmocka_unit_test(show_works_in_any_state_of_opengl),
+        cmocka_unit_test(show_works_in_any_state_of_opengl_es),
+        cmocka_unit_test(two_rasters_share_a_context),
+        cmocka_unit_test(context_shares_objects_with_the_window),
+        cmocka_unit_test(show_without_a_context_is_refused),
+        cmocka_unit_test(show_descriptors_without_sense_are_refused),
+        cmocka_unit_test(steady_shows_create_no_objects),
+        cmocka_unit_test(changed_show_text_is_compiled_and_broken_text_ignored)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }

@@ -218,13 +218,13 @@ static void take_steps(WeftScene *scene, const Step *all, int count) {
     weft_scene_free(scene);
 }
 
-static void pictures_are_as_new(void **state) {
+static void changed_textures_draw_as_new_ones(void **state) {
     (void)state;
     need_gl();
     take_steps(under_lights(), steps, STEPS);
 }
 
-static void fits_are_as_new(void **state) {
+static void changed_fits_draw_as_new_ones(void **state) {
     (void)state;
     need_gl();
     take_steps(under_sky(), fitted_steps, FITTED_STEPS);
@@ -239,7 +239,7 @@ static int on_progress(void *user, double done) {
 }
 
 /* Turning and dimming filters nothing; another image does, once. What hides its lights is found again. */
-static void environments_are_as_new(void **state) {
+static void changed_environment_draws_as_a_new_one(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = test_scene();
@@ -303,7 +303,7 @@ static const struct {
 
 /* Other pixels in the place of a texture's are seen, the same kind of them without another texture made: of a
  * coloured map, of one that lets light pass, and of one that shines. */
-static void pixels_are_as_new(void **state) {
+static void updated_scene_draws_as_a_new_one(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = under_lights();
@@ -357,8 +357,9 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_are_as_new),
-                                       cmocka_unit_test(fits_are_as_new), cmocka_unit_test(pixels_are_as_new),
-                                       cmocka_unit_test(environments_are_as_new)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(changed_textures_draw_as_new_ones),
+                                       cmocka_unit_test(changed_fits_draw_as_new_ones),
+                                       cmocka_unit_test(updated_scene_draws_as_a_new_one),
+                                       cmocka_unit_test(changed_environment_draws_as_a_new_one)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -13,7 +13,7 @@
 #include "shading/workflow.h"
 #include "weft/weft.h"
 
-static void entries_are_complete_and_their_numbers_agree(void **state) {
+static void chart_entries_are_complete_and_their_numbers_agree(void **state) {
     (void)state;
     int metals = 0, others = 0;
     const WeftChartEntry *e;
@@ -43,7 +43,7 @@ static double brightness(const WeftChartEntry *e) {
     return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
 }
 
-static void entries_go_from_dark_to_bright(void **state) {
+static void chart_entries_go_from_dark_to_bright(void **state) {
     (void)state;
     const WeftChartEntry *e, *before = weft_chart(0);
     for (int k = 1; (e = weft_chart(k)); k++) {
@@ -99,7 +99,7 @@ static void wear(WeftMaterial *material, const WeftChartEntry *e, const char *wo
         set_number(material, "ior", e->ior);
 }
 
-static void no_entry_but_a_gem_is_called_implausible(void **state) {
+static void chart_entries_other_than_gems_are_plausible(void **state) {
     (void)state;
     static const char *const workflows[] = {"metallic", "disney", "specular"};
     const WeftChartEntry *e;
@@ -115,9 +115,9 @@ static void no_entry_but_a_gem_is_called_implausible(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(entries_go_from_dark_to_bright),
-        cmocka_unit_test(entries_are_complete_and_their_numbers_agree),
-        cmocka_unit_test(no_entry_but_a_gem_is_called_implausible),
+        cmocka_unit_test(chart_entries_go_from_dark_to_bright),
+        cmocka_unit_test(chart_entries_are_complete_and_their_numbers_agree),
+        cmocka_unit_test(chart_entries_other_than_gems_are_plausible),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

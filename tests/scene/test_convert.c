@@ -66,7 +66,7 @@ static Surface random_surface(void) {
 static const Choices to_specular = {.workflow = CHOICE_AUTO, .convert = CONVERT_SPECULAR},
                      to_metallic = {.workflow = WORKFLOW_SPECULAR, .convert = CONVERT_METALLIC};
 
-static void to_specular_loses_nothing(void **state) {
+static void conversion_to_specular_loses_nothing(void **state) {
     (void)state;
     for (int k = 0; k < 20000; k++) {
         Surface s = random_surface();
@@ -82,7 +82,7 @@ static void to_specular_loses_nothing(void **state) {
 
 /* What was metallic comes back as it was, unless its base is darker than the dielectric reflects: such an f
  * is none of a metal in part. */
-static void the_way_back_is_the_way(void **state) {
+static void conversion_there_and_back_is_the_same(void **state) {
     (void)state;
     for (int k = 0; k < 20000; k++) {
         Surface s = random_surface(), t = convert_surface(convert_surface(s, to_specular), to_metallic);
@@ -93,7 +93,7 @@ static void the_way_back_is_the_way(void **state) {
 }
 
 /* Any pair of colours: the loss that is told is the one that is there, and no input leaves its range. */
-static void the_loss_is_told(void **state) {
+static void conversion_loss_is_the_one_reported(void **state) {
     (void)state;
     double greatest = 0.0;
     for (int k = 0; k < 20000; k++) {
@@ -130,7 +130,7 @@ static WeftScene *load(void) {
     return scene;
 }
 
-static void a_scene_looks_as_before(void **state) {
+static void converted_scene_looks_as_before(void **state) {
     (void)state;
     WeftScene *scene = load();
     WeftError error;
@@ -148,7 +148,7 @@ static void a_scene_looks_as_before(void **state) {
     weft_scene_free(scene);
 }
 
-static void other_workflows_stay(void **state) {
+static void materials_of_other_workflows_are_not_converted(void **state) {
     (void)state;
     WeftScene *scene = load();
     WeftError error;
@@ -165,9 +165,11 @@ static void other_workflows_stay(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(to_specular_loses_nothing), cmocka_unit_test(the_way_back_is_the_way),
-        cmocka_unit_test(the_loss_is_told),          cmocka_unit_test(a_scene_looks_as_before),
-        cmocka_unit_test(other_workflows_stay),
+        cmocka_unit_test(conversion_to_specular_loses_nothing),
+        cmocka_unit_test(conversion_there_and_back_is_the_same),
+        cmocka_unit_test(conversion_loss_is_the_one_reported),
+        cmocka_unit_test(converted_scene_looks_as_before),
+        cmocka_unit_test(materials_of_other_workflows_are_not_converted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

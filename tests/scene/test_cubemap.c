@@ -101,7 +101,7 @@ static void looks_right(const char *path) {
     weft_image_free(&image);
 }
 
-static void test_faces_land_where_opengl_has_them(void **state) {
+static void cubemap_faces_land_where_opengl_has_them(void **state) {
     (void)state;
     write_all(plain);
     assert_true(cubemap_named(folder));
@@ -109,7 +109,7 @@ static void test_faces_land_where_opengl_has_them(void **state) {
     looks_right(name_of("negz.exr"));
 }
 
-static void test_names_may_be_short_and_of_any_case(void **state) {
+static void cubemap_names_may_be_short_and_of_any_case(void **state) {
     (void)state;
     write_all(mixed);
     write_face("posx.exr", 0, SIDE, SIDE); /* fewer of this kind */
@@ -121,7 +121,7 @@ static void test_names_may_be_short_and_of_any_case(void **state) {
     assert_false(cubemap_named("studio.hdr"));
 }
 
-static void test_what_is_wrong_is_said(void **state) {
+static void wrong_cubemap_is_an_error(void **state) {
     (void)state;
     write_all(plain);
     write_face("negy.exr", 3, SIDE, SIDE / 2);
@@ -143,7 +143,7 @@ static void test_what_is_wrong_is_said(void **state) {
 }
 
 /* Bytes go through the sRGB curve, and the scene takes the cube for its light. */
-static void test_scene_takes_a_cube(void **state) {
+static void scene_takes_a_cubemap_as_environment(void **state) {
     (void)state;
     clear();
     for (int k = 0; k < 6; k++) {
@@ -165,10 +165,10 @@ static void test_scene_takes_a_cube(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_faces_land_where_opengl_has_them),
-        cmocka_unit_test(test_names_may_be_short_and_of_any_case),
-        cmocka_unit_test(test_what_is_wrong_is_said),
-        cmocka_unit_test(test_scene_takes_a_cube),
+        cmocka_unit_test(cubemap_faces_land_where_opengl_has_them),
+        cmocka_unit_test(cubemap_names_may_be_short_and_of_any_case),
+        cmocka_unit_test(wrong_cubemap_is_an_error),
+        cmocka_unit_test(scene_takes_a_cubemap_as_environment),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -15,7 +15,7 @@ static void choose(Material *material, ChoiceId choice, const char *id) {
 
 static float value(const Material *material, InputId id) { return material->inputs[id].value[0]; }
 
-static void defaults_come_and_go(void **state) {
+static void untouched_inputs_follow_the_defaults_of_the_workflow(void **state) {
     (void)state;
     Material m = material_default();
     choose(&m, CHOICE_workflow, "disney");
@@ -34,7 +34,7 @@ static void defaults_come_and_go(void **state) {
     assert_float_equal(value(&m, INPUT_sheen), 1.0f, 0.0f);
 }
 
-static void what_was_given_stays(void **state) {
+static void given_inputs_keep_their_values(void **state) {
     (void)state;
     Material m = material_default();
     m.inputs[INPUT_sheen].given = true;       /* the default itself, but meant */
@@ -49,8 +49,8 @@ static void what_was_given_stays(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_come_and_go),
-        cmocka_unit_test(what_was_given_stays),
+        cmocka_unit_test(untouched_inputs_follow_the_defaults_of_the_workflow),
+        cmocka_unit_test(given_inputs_keep_their_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

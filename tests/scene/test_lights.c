@@ -69,7 +69,7 @@ static void holds_together(const WeftScene *scene, const WeftLight *given, int c
     }
 }
 
-static void lists_hold_together(void **state) {
+static void light_list_reads_as_it_is_written(void **state) {
     (void)state;
     WeftScene *scene = floor_scene();
     WeftLight given[MOST];
@@ -101,7 +101,7 @@ static void lists_hold_together(void **state) {
 }
 
 /* Of each count of corners: one polygon of that area, shining that way, the first axis level. */
-static void polygons_are_as_told(void **state) {
+static void light_of_any_corner_count_has_its_area_and_direction(void **state) {
     (void)state;
     for (int corners = 3; corners <= LIGHT_CORNERS; corners++) {
         WeftScene *scene = floor_scene();
@@ -129,7 +129,7 @@ static void polygons_are_as_told(void **state) {
     }
 }
 
-static void level_rectangles_are_level(void **state) {
+static void rectangle_light_of_a_level_scene_is_level(void **state) {
     (void)state;
     WeftScene *scene = floor_scene();
     WeftLight light = panel;
@@ -141,7 +141,7 @@ static void level_rectangles_are_level(void **state) {
     weft_scene_free(scene);
 }
 
-static void wrong_lights_are_refused(void **state) {
+static void lights_without_sense_are_refused(void **state) {
     (void)state;
     WeftScene *scene = floor_scene();
     WeftLight wrong[7], out;
@@ -172,7 +172,7 @@ static void wrong_lights_are_refused(void **state) {
 }
 
 /* What is for all materials leaves those of lights alone. */
-static void materials_of_lights_are_their_own(void **state) {
+static void each_light_has_a_material_of_its_own(void **state) {
     (void)state;
     WeftScene *scene = floor_scene();
     WeftError error;
@@ -187,7 +187,7 @@ static void materials_of_lights_are_their_own(void **state) {
     weft_scene_free(scene);
 }
 
-static void cameras_are_told(void **state) {
+static void camera_text_is_read(void **state) {
     (void)state;
     WeftScene *scene = floor_scene();
     WeftCamera camera;
@@ -209,11 +209,11 @@ static void cameras_are_told(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_hold_together),
-                                       cmocka_unit_test(polygons_are_as_told),
-                                       cmocka_unit_test(level_rectangles_are_level),
-                                       cmocka_unit_test(wrong_lights_are_refused),
-                                       cmocka_unit_test(materials_of_lights_are_their_own),
-                                       cmocka_unit_test(cameras_are_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(light_list_reads_as_it_is_written),
+                                       cmocka_unit_test(light_of_any_corner_count_has_its_area_and_direction),
+                                       cmocka_unit_test(rectangle_light_of_a_level_scene_is_level),
+                                       cmocka_unit_test(lights_without_sense_are_refused),
+                                       cmocka_unit_test(each_light_has_a_material_of_its_own),
+                                       cmocka_unit_test(camera_text_is_read)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

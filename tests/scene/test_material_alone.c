@@ -18,7 +18,7 @@ static int input(const char *name) {
     return -1;
 }
 
-static void the_default_is_that_of_the_inputs(void **state) {
+static void default_material_has_the_default_inputs(void **state) {
     (void)state;
     WeftMaterial m;
     WeftInputInfo info;
@@ -32,7 +32,7 @@ static void the_default_is_that_of_the_inputs(void **state) {
 }
 
 /* What a preset is alone is what it is on a scene. */
-static void presets_are_as_on_a_scene(void **state) {
+static void preset_on_a_material_equals_preset_on_a_scene(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -89,8 +89,8 @@ static void inputs_and_choices_are_set_by_name(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_is_that_of_the_inputs),
-        cmocka_unit_test(presets_are_as_on_a_scene),
+        cmocka_unit_test(default_material_has_the_default_inputs),
+        cmocka_unit_test(preset_on_a_material_equals_preset_on_a_scene),
         cmocka_unit_test(inputs_and_choices_are_set_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -39,7 +39,7 @@ static void near(const Input *input, float r, float g, float b) {
             fail_msg("channel %d is %g, not %g", c, (double)input->value[c], (double)expected[c]);
 }
 
-static void values_have_every_form(void **state) {
+static void values_of_every_form_are_read(void **state) {
     (void)state;
     MaterialFile file =
         file_of("{\"base_color\":[0.1,0.2,0.3],\"sheen_color\":\"#ff0080\",\"specular_color\":0.5,"
@@ -72,14 +72,14 @@ static void values_have_every_form(void **state) {
 }
 
 /* Editors of one large house put it there. */
-static void a_byte_order_mark_is_passed_over(void **state) {
+static void byte_order_mark_of_a_material_file_is_skipped(void **state) {
     (void)state;
     MaterialFile file = file_of("\xef\xbb\xbf{\"roughness\":0.75}", 0);
     assert_true(file.material.inputs[INPUT_roughness].value[0] == 0.75f);
     material_file_free(&file);
 }
 
-static void choices_are_ids_and_aliases(void **state) {
+static void choices_of_a_material_file_are_ids_and_aliases(void **state) {
     (void)state;
     MaterialFile file =
         file_of("{\"v\":\"charlie-v\",\"d\":\"charlie-d\",\"sheen_lobe\":\"ashikhmin-neubelt\","
@@ -101,7 +101,7 @@ static void choices_are_ids_and_aliases(void **state) {
     material_file_free(&file);
 }
 
-static void warnings_name_what_is_hardly_real(void **state) {
+static void implausible_values_of_a_file_are_named_in_warnings(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -208,7 +208,7 @@ static const struct {
     {"{\"roughness\":{\"texture\":\"a.png\",\"nearest\":1}}", "nearest"},
 };
 
-static void what_is_wrong_is_said_in_one_line(void **state) {
+static void wrong_material_file_is_an_error_of_one_line(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         MaterialFile file;
@@ -234,7 +234,7 @@ static WeftResult dress(WeftScene *scene, const char *material, const char *text
     return weft_scene_assign_material_memory(scene, material, text, strlen(text), "mine.json", NULL, error);
 }
 
-static void the_cloth_is_dressed_and_its_shape_stays(void **state) {
+static void material_file_changes_materials_and_keeps_meshes(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -262,7 +262,7 @@ static void the_cloth_is_dressed_and_its_shape_stays(void **state) {
     weft_scene_free(scene);
 }
 
-static void a_failure_changes_nothing(void **state) {
+static void failed_material_file_changes_nothing(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -290,7 +290,7 @@ static void write_text(const char *path, const char *text) {
 }
 
 /* A picture of one byte a channel beside the file; two inputs look at it, and it is read once. */
-static void textures_lie_beside_the_file(void **state) {
+static void textures_are_found_beside_the_material_file(void **state) {
     (void)state;
     char picture[64], json[64];
     assert_non_null(mkdtemp(folder));
@@ -342,7 +342,7 @@ static void textures_lie_beside_the_file(void **state) {
 }
 
 /* Every preset is a clean file; every file of scenes/presets is a preset, to the byte. */
-static void presets_are_clean(void **state) {
+static void presets_load_without_warnings(void **state) {
     (void)state;
     int count = 0;
     for (; weft_preset_name(count); count++) {
@@ -373,15 +373,15 @@ static void presets_are_clean(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_have_every_form),
-        cmocka_unit_test(a_byte_order_mark_is_passed_over),
-        cmocka_unit_test(choices_are_ids_and_aliases),
-        cmocka_unit_test(warnings_name_what_is_hardly_real),
-        cmocka_unit_test(what_is_wrong_is_said_in_one_line),
-        cmocka_unit_test(the_cloth_is_dressed_and_its_shape_stays),
-        cmocka_unit_test(a_failure_changes_nothing),
-        cmocka_unit_test(textures_lie_beside_the_file),
-        cmocka_unit_test(presets_are_clean),
+        cmocka_unit_test(values_of_every_form_are_read),
+        cmocka_unit_test(byte_order_mark_of_a_material_file_is_skipped),
+        cmocka_unit_test(choices_of_a_material_file_are_ids_and_aliases),
+        cmocka_unit_test(implausible_values_of_a_file_are_named_in_warnings),
+        cmocka_unit_test(wrong_material_file_is_an_error_of_one_line),
+        cmocka_unit_test(material_file_changes_materials_and_keeps_meshes),
+        cmocka_unit_test(failed_material_file_changes_nothing),
+        cmocka_unit_test(textures_are_found_beside_the_material_file),
+        cmocka_unit_test(presets_load_without_warnings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

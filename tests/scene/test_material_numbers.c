@@ -52,7 +52,7 @@ static void set_value(WeftMaterial *material, const char *input, float value) {
     for (int c = 0; c < 3; c++) material->inputs[input_of(input)].value[c] = value;
 }
 
-static void infos_are_those_of_the_inputs(void **state) {
+static void input_infos_are_those_of_the_table(void **state) {
     (void)state;
     WeftInputInfo info;
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -64,7 +64,7 @@ static void infos_are_those_of_the_inputs(void **state) {
     assert_false(weft_material_input_info(-1, &info));
 }
 
-static void numbers_go_out_and_back(void **state) {
+static void number_that_is_set_is_read_back(void **state) {
     (void)state;
     WeftError error;
     for (int k = 0; weft_builtin_name(k); k++) {
@@ -82,7 +82,7 @@ static void numbers_go_out_and_back(void **state) {
     }
 }
 
-static void what_cannot_be_is_refused(void **state) {
+static void impossible_numbers_are_refused(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftMaterial good, bad, now;
@@ -117,7 +117,7 @@ static void what_cannot_be_is_refused(void **state) {
     weft_scene_free(scene);
 }
 
-static void choosing_moves_defaults(void **state) {
+static void choice_changes_the_defaults_of_untouched_inputs(void **state) {
     (void)state;
     WeftMaterial material = plain(), before = material;
     weft_material_choose(&material, -1, 0);
@@ -153,7 +153,7 @@ static int said_of(const WeftMaterial *material) {
     return heard.count;
 }
 
-static void what_is_hardly_real_is_said_once(void **state) {
+static void implausible_number_is_a_warning_once(void **state) {
     (void)state;
     WeftMaterial material = plain();
     assert_int_equal(said_of(&material), 0);
@@ -190,7 +190,7 @@ static void assert_reads(const WeftMaterial *material, const char *inputs) {
     }
 }
 
-static void workflows_read_their_own(void **state) {
+static void workflow_reads_only_its_inputs(void **state) {
     (void)state;
     WeftMaterial m = plain();
     assert_reads(&m,
@@ -242,7 +242,7 @@ static void workflows_read_their_own(void **state) {
     assert_reads(&m, "extinction ior reflectance");
 }
 
-static void profiles_read_their_own(void **state) {
+static void profile_reads_only_its_inputs(void **state) {
     (void)state;
     WeftMaterial m = plain();
     set_choice(&m, "workflow", "disney");
@@ -283,7 +283,7 @@ static void profiles_read_their_own(void **state) {
     for (int i = 0; i < INPUT_COUNT; i++) weft_material_reads(&m, i);
 }
 
-static void reading_is_asked_in_no_time(void **state) {
+static void query_of_read_inputs_takes_microseconds(void **state) {
     (void)state;
     WeftMaterial m = plain();
     struct timespec start, end;
@@ -305,7 +305,7 @@ static void count_fitted(void *user, WeftMessage message, const char *text) {
 
 /* Fibres that lean were not fitted below alpha 0.38: a material that asks for them is named, whatever makes
  * it do so; a texture may be as dark as it likes. */
-static void sharp_fibres_that_lean_are_told(void **state) {
+static void sharp_leaning_fibres_are_a_warning(void **state) {
     (void)state;
     int told = 0;
     const WeftLog log = {.fn = count_fitted, .user = &told};
@@ -335,11 +335,15 @@ static void sharp_fibres_that_lean_are_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(infos_are_those_of_the_inputs),    cmocka_unit_test(numbers_go_out_and_back),
-        cmocka_unit_test(what_cannot_be_is_refused),        cmocka_unit_test(choosing_moves_defaults),
-        cmocka_unit_test(what_is_hardly_real_is_said_once), cmocka_unit_test(workflows_read_their_own),
-        cmocka_unit_test(profiles_read_their_own),          cmocka_unit_test(reading_is_asked_in_no_time),
-        cmocka_unit_test(sharp_fibres_that_lean_are_told),
+        cmocka_unit_test(input_infos_are_those_of_the_table),
+        cmocka_unit_test(number_that_is_set_is_read_back),
+        cmocka_unit_test(impossible_numbers_are_refused),
+        cmocka_unit_test(choice_changes_the_defaults_of_untouched_inputs),
+        cmocka_unit_test(implausible_number_is_a_warning_once),
+        cmocka_unit_test(workflow_reads_only_its_inputs),
+        cmocka_unit_test(profile_reads_only_its_inputs),
+        cmocka_unit_test(query_of_read_inputs_takes_microseconds),
+        cmocka_unit_test(sharp_leaning_fibres_are_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,7 +73,7 @@ static void save_and_compare(const WeftScene *scene, const char *file, const cha
     weft_scene_free(fresh);
 }
 
-static void presets_come_back(void **state) {
+static void saved_presets_read_as_they_were(void **state) {
     (void)state;
     WeftError error;
     for (int k = 0; weft_preset_name(k); k++) {
@@ -92,7 +92,7 @@ static float roll(void) {
     return (float)(dice >> 8) * 0x1p-24f;
 }
 
-static void anything_comes_back(void **state) {
+static void saved_material_of_random_values_reads_as_it_was(void **state) {
     (void)state;
     WeftError error;
     for (int round = 0; round < 30; round++) {
@@ -137,7 +137,7 @@ static void anything_comes_back(void **state) {
 }
 
 /* A picture that has a file is named from where the material lies, and not written again. */
-static void files_are_named_from_there(void **state) {
+static void textures_of_a_saved_material_are_relative_to_it(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -167,7 +167,7 @@ static void files_are_named_from_there(void **state) {
     weft_scene_free(scene);
 }
 
-static void what_cannot_be_written_leaves_nothing(void **state) {
+static void failed_save_leaves_no_file(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -184,9 +184,9 @@ static void what_cannot_be_written_leaves_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(presets_come_back),
-                                       cmocka_unit_test(anything_comes_back),
-                                       cmocka_unit_test(files_are_named_from_there),
-                                       cmocka_unit_test(what_cannot_be_written_leaves_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(saved_presets_read_as_they_were),
+                                       cmocka_unit_test(saved_material_of_random_values_reads_as_it_was),
+                                       cmocka_unit_test(textures_of_a_saved_material_are_relative_to_it),
+                                       cmocka_unit_test(failed_save_leaves_no_file)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -55,7 +55,7 @@ static float check_all(const LightPolygons *lights) {
     return sum;
 }
 
-static void a_quad_is_one(void **state) {
+static void emissive_quad_is_one_polygon(void **state) {
     (void)state;
     static const float position[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0};
     static const uint32_t index[] = {0, 1, 2, 0, 2, 3};
@@ -82,7 +82,7 @@ static void a_quad_is_one(void **state) {
     light_polygons_free(&lights);
 }
 
-static void what_shines_not_is_none(void **state) {
+static void mesh_without_emission_is_no_polygon(void **state) {
     (void)state;
     static const float position[] = {0, 0, 0, 2, 0, 0, 2, 1, 0};
     static const uint32_t index[] = {0, 1, 2};
@@ -100,7 +100,7 @@ static void what_shines_not_is_none(void **state) {
 }
 
 /* Vertices are not shared here, as where a corner has several normals. */
-static void an_l_is_two(void **state) {
+static void emissive_l_shape_is_two_polygons(void **state) {
     (void)state;
     static const float position[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 0, 0, 2, 1, 0, 0, 1, 0,
                                      0, 1, 0, 1, 1, 0, 1, 2, 0, 0, 1, 0, 1, 2, 0, 0, 2, 0};
@@ -141,13 +141,13 @@ static void a_ring(int corners, int expected) {
     light_polygons_free(&lights);
 }
 
-static void rings_are_one_or_few(void **state) {
+static void emissive_ring_is_one_or_few_polygons(void **state) {
     (void)state;
     for (int corners = 3; corners <= 8; corners++) a_ring(corners, 1);
     a_ring(16, 3);
 }
 
-static void a_grid_is_one(void **state) {
+static void emissive_flat_grid_is_one_polygon(void **state) {
     (void)state;
     enum { SIDE = 8, ACROSS = SIDE + 1 };
     float position[3 * ACROSS * ACROSS];
@@ -183,7 +183,7 @@ static void degenerate_triangles_are_left_out(void **state) {
     light_polygons_free(&lights);
 }
 
-static void a_box_is_six(void **state) {
+static void emissive_box_is_six_polygons(void **state) {
     (void)state;
     static const float position[] = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 0, 0, 0, 3, 1, 0, 3, 1, 2, 3, 0, 2, 3};
     static const uint32_t index[] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
@@ -204,7 +204,7 @@ static void a_box_is_six(void **state) {
 }
 
 /* Half of the texture is white and half black, along u. */
-static void textures_count_by_their_mean(void **state) {
+static void emissive_texture_counts_by_its_mean(void **state) {
     (void)state;
     static const float position[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float texcoord[] = {0, 0, 1, 0, 1, 1, 0, 1};
@@ -231,10 +231,14 @@ static void textures_count_by_their_mean(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_quad_is_one), cmocka_unit_test(what_shines_not_is_none),
-        cmocka_unit_test(an_l_is_two),   cmocka_unit_test(rings_are_one_or_few),
-        cmocka_unit_test(a_grid_is_one), cmocka_unit_test(degenerate_triangles_are_left_out),
-        cmocka_unit_test(a_box_is_six),  cmocka_unit_test(textures_count_by_their_mean),
+        cmocka_unit_test(emissive_quad_is_one_polygon),
+        cmocka_unit_test(mesh_without_emission_is_no_polygon),
+        cmocka_unit_test(emissive_l_shape_is_two_polygons),
+        cmocka_unit_test(emissive_ring_is_one_or_few_polygons),
+        cmocka_unit_test(emissive_flat_grid_is_one_polygon),
+        cmocka_unit_test(degenerate_triangles_are_left_out),
+        cmocka_unit_test(emissive_box_is_six_polygons),
+        cmocka_unit_test(emissive_texture_counts_by_its_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

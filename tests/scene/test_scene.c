@@ -19,7 +19,7 @@ static WeftScene *load(const char *name) {
     return scene;
 }
 
-static void every_builtin_loads(void **state) {
+static void every_builtin_scene_loads(void **state) {
     (void)state;
     int count = 0;
     for (; weft_builtin_name(count); count++) {
@@ -59,7 +59,7 @@ static void note(void *user, WeftMessage message, const char *text) {
     warnings->last = message;
 }
 
-static void inputs_are_set_by_name(void **state) {
+static void material_inputs_are_set_by_name(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:spheres");
     Warnings warnings = {0};
@@ -143,7 +143,7 @@ static void sheen_and_layer_are_set_by_id(void **state) {
 
 /* The auto camera sees every vertex, and some vertex touches each side of one pair of borders up to the
  * margin. */
-static void auto_camera_frames_everything(void **state) {
+static void automatic_camera_frames_the_scene(void **state) {
     (void)state;
     static const float aspects[] = {0.5f, 1.0f, 1.7778f, 4.0f};
     WeftScene *scene = load("builtin:spheres");
@@ -166,7 +166,7 @@ static void auto_camera_frames_everything(void **state) {
     weft_scene_free(scene);
 }
 
-static void cameras_are_found_by_what_people_type(void **state) {
+static void cameras_are_found_by_name_and_number(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:spheres");
     Camera camera;
@@ -199,11 +199,11 @@ static void cameras_are_found_by_what_people_type(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_builtin_loads),
-        cmocka_unit_test(inputs_are_set_by_name),
+        cmocka_unit_test(every_builtin_scene_loads),
+        cmocka_unit_test(material_inputs_are_set_by_name),
         cmocka_unit_test(sheen_and_layer_are_set_by_id),
-        cmocka_unit_test(auto_camera_frames_everything),
-        cmocka_unit_test(cameras_are_found_by_what_people_type),
+        cmocka_unit_test(automatic_camera_frames_the_scene),
+        cmocka_unit_test(cameras_are_found_by_name_and_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static void expect(Texel t, float r, float g, float b, float a) {
 }
 
 /* Every pixel type and channel count gives the same RGBA for the same content. */
-static void formats_agree(void **state) {
+static void textures_of_every_pixel_format_agree(void **state) {
     (void)state;
     SrgbTable srgb = srgb_table();
     for (int channels = 1; channels <= 4; channels++)
@@ -50,7 +50,7 @@ static void formats_agree(void **state) {
         }
 }
 
-static void wrapping_follows_the_sampler(void **state) {
+static void texture_wrapping_follows_the_sampler(void **state) {
     (void)state;
     WeftImage image = image_of(4, 1, 1, WEFT_PIXEL_F32);
     memcpy(image.pixels, (float[4]){0.0f, 1.0f, 2.0f, 3.0f}, 4 * sizeof(float));
@@ -71,7 +71,7 @@ static void wrapping_follows_the_sampler(void **state) {
     weft_image_free(&image);
 }
 
-static void nearest_does_not_blend(void **state) {
+static void nearest_filter_does_not_blend(void **state) {
     (void)state;
     WeftImage image = image_of(2, 2, 1, WEFT_PIXEL_F32);
     memcpy(image.pixels, (float[4]){1.0f, 2.0f, 3.0f, 4.0f}, 4 * sizeof(float));
@@ -84,7 +84,7 @@ static void nearest_does_not_blend(void **state) {
 }
 
 /* Any coordinate reads inside the image and gives a value between its extremes. */
-static void wild_coordinates_are_harmless(void **state) {
+static void lookup_at_extreme_coordinates_is_finite(void **state) {
     (void)state;
     static const float wild[] = {NAN, INFINITY, -INFINITY, 1e30f, -1e30f, 3e9f, -0.0f, 1e-40f};
     WeftImage image = image_of(3, 5, 3, WEFT_PIXEL_U8);
@@ -102,7 +102,7 @@ static void wild_coordinates_are_harmless(void **state) {
 }
 
 /* Rows give what single lookups give: every type, number of channels, wrap and filter, wild coordinates among them. */
-static void rows_agree_with_single_lookups(void **state) {
+static void row_lookups_agree_with_single_lookups(void **state) {
     (void)state;
     static float u[ROW_ROOM], v[ROW_ROOM], c[4][ROW_ROOM];
     static const float wild[] = {NAN, INFINITY, -INFINITY, 1e30f, 1e6f, -1e6f, -0.0f, 1.0f};
@@ -136,11 +136,11 @@ static void rows_agree_with_single_lookups(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formats_agree),
-        cmocka_unit_test(wrapping_follows_the_sampler),
-        cmocka_unit_test(nearest_does_not_blend),
-        cmocka_unit_test(wild_coordinates_are_harmless),
-        cmocka_unit_test(rows_agree_with_single_lookups),
+        cmocka_unit_test(textures_of_every_pixel_format_agree),
+        cmocka_unit_test(texture_wrapping_follows_the_sampler),
+        cmocka_unit_test(nearest_filter_does_not_blend),
+        cmocka_unit_test(lookup_at_extreme_coordinates_is_finite),
+        cmocka_unit_test(row_lookups_agree_with_single_lookups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

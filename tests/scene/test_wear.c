@@ -68,7 +68,7 @@ static const Material *named(const WeftScene *scene, const char *name) {
     return NULL;
 }
 
-static void a_picture_is_put_on_an_input(void **state) {
+static void picture_is_bound_to_an_input(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:spheres");
     WeftError error;
@@ -99,7 +99,7 @@ static void a_picture_is_put_on_an_input(void **state) {
     weft_scene_free(scene);
 }
 
-static void what_cannot_be_put_is_refused(void **state) {
+static void unreadable_maps_are_refused(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
@@ -154,7 +154,7 @@ static void count_warning(void *user, WeftMessage message, const char *text) {
     warned++;
 }
 
-static void a_folder_is_worn(void **state) {
+static void maps_of_a_folder_are_bound_to_their_inputs(void **state) {
     (void)state;
     WeftScene *scene = load("builtin:cloth");
     const WeftLog log = {count_warning, NULL};
@@ -214,7 +214,7 @@ static void keep_warning(void *user, WeftMessage message, const char *text) {
 }
 
 /* The ten parameters of the principled model as files are called. */
-static void maps_of_the_principled_model_are_read(void **state) {
+static void maps_of_the_principled_model_are_bound_by_name(void **state) {
     (void)state;
     static const struct {
         const char *file, *other;
@@ -263,8 +263,9 @@ static void maps_of_the_principled_model_are_read(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_put_on_an_input), cmocka_unit_test(what_cannot_be_put_is_refused),
-        cmocka_unit_test(a_folder_is_worn), cmocka_unit_test(maps_of_the_principled_model_are_read)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(picture_is_bound_to_an_input),
+                                       cmocka_unit_test(unreadable_maps_are_refused),
+                                       cmocka_unit_test(maps_of_a_folder_are_bound_to_their_inputs),
+                                       cmocka_unit_test(maps_of_the_principled_model_are_bound_by_name)};
     return cmocka_run_group_tests(tests, begin, end);
 }

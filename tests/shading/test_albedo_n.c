@@ -135,7 +135,7 @@ static const double cosines[] = {1.0, 0.8, 0.5, 0.2, 0.05, 0.02};
 static const float spread[] = {0.01f, 0.02f, 0.0625f, 0.15f, 0.25f, 0.5f, 1.0f};
 enum { COSINES = sizeof cosines / sizeof cosines[0], SPREAD = sizeof spread / sizeof spread[0] };
 
-static void lobes_have_their_integrals(void **state) {
+static void albedo_of_every_lobe_is_its_integral(void **state) {
     (void)state;
     const double tolerance = test_long() ? 2e-6 : 5e-5;
     double worst = 0.0, highest = 0.0, worst_own = 0.0;
@@ -183,7 +183,7 @@ static void lobes_have_their_integrals(void **state) {
 }
 
 /* As the calls for one cosine, and with colours. */
-static void many_are_as_one(void **state) {
+static void albedo_of_many_cosines_equals_single_calls(void **state) {
     (void)state;
     enum { N = 7 };
     const float cos_o[N] = {1.0f, 0.3f, 1e-3f, 0.0f, -1.0f, NAN, 2.0f};
@@ -213,8 +213,8 @@ static int make(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_have_their_integrals),
-        cmocka_unit_test(many_are_as_one),
+        cmocka_unit_test(albedo_of_every_lobe_is_its_integral),
+        cmocka_unit_test(albedo_of_many_cosines_equals_single_calls),
     };
     return cmocka_run_group_tests(tests, make, NULL);
 }

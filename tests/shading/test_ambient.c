@@ -50,7 +50,7 @@ static Rgb ambient_of(SeenStack m, AmbientTables t, AmbientSource s, float occlu
 }
 
 /* What the table has for E is E, at nodes and between them, and no weight takes light away. */
-static void even_light_returns_albedo(void **state) {
+static void even_environment_returns_the_albedo(void **state) {
     (void)state;
     static AmbientFit table;
     Even even = {.radiance = 1.0f};
@@ -95,7 +95,7 @@ static AmbientTable bake(const Lobe *lobe, int strategy, AmbientWeights baked[AM
 }
 
 /* Baked as polynomials the same table still has E, where a lobe turns too. */
-static void held_tables_return_albedo(void **state) {
+static void baked_weights_return_the_albedo(void **state) {
     (void)state;
     static AmbientWeights baked[AMBIENT_BAKED];
     Even even = {.radiance = 1.0f};
@@ -131,7 +131,7 @@ static SeenStack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
 }
 
 /* Where a lobe fades away, its polynomials swing about zero: nothing becomes negative, or much. */
-static void held_tables_fade_away(void **state) {
+static void baked_weights_of_a_fading_lobe_are_not_negative(void **state) {
     (void)state;
     static const float roughnesses[] = {0.1f, 0.14f, 0.22f, 0.6f};
     static const float cosines[] = {1.0f, 0.995f, 0.97f, 0.9f, 0.7f, 0.3f, 0.03f};
@@ -187,7 +187,7 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
 }
 
 /* An environment of lights alone is reflected by a broad lobe as f itself. */
-static void lamps_are_met_as_lights_are(void **state) {
+static void environment_lights_are_shaded_as_lights(void **state) {
     (void)state;
     static AmbientFit table;
     Even even = {.count = 2};
@@ -211,7 +211,7 @@ static void lamps_are_met_as_lights_are(void **state) {
 }
 
 /* The cosine-weighted mean of what is seen is the occlusion, and more is never seen less of. */
-static void occlusion_takes_what_it_says(void **state) {
+static void occlusion_of_lights_has_the_stated_mean(void **state) {
     (void)state;
     for (int k = 0; k <= 20; k++) {
         enum { STEPS = 20000 };
@@ -241,7 +241,7 @@ static Rgb whole(const SeenStack *m, Dir o) {
     return rgb((float)sum[0], (float)sum[1], (float)sum[2]);
 }
 
-static void layers_leave_what_they_should(void **state) {
+static void layer_rules_dim_the_base_under_an_environment(void **state) {
     (void)state;
     static AmbientFit diffuse, specular, sheen;
     static AlbedoTable albedo;
@@ -396,7 +396,7 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, floa
 }
 
 /* Whatever does not go to lights is the residual's. */
-static void no_light_is_lost(void **state) {
+static void light_of_the_map_is_in_lights_or_residual(void **state) {
     (void)state;
     static const int env_lights[] = {0, 1, 2, AMBIENT_LIGHTS, AMBIENT_LIGHTS_MAX};
     Sharp s = {0};
@@ -432,7 +432,7 @@ static void streaks_show_the_shape_of_a_light(void **state) {
     weft_image_free(&s.image);
 }
 
-static void sharp_light_is_met(void **state) {
+static void sharp_environment_is_within_the_stated_error(void **state) {
     (void)state;
     static const int lobes[] = {LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT,
                                 LOBE_BURLEY_SHEEN,    LOBE_CHARLIE_NEUBELT,
@@ -461,7 +461,7 @@ static void fit_one(AmbientFit *to, int id, float roughness) {
 }
 
 /* A lobe that is a ring is known by its density, and then its samples are nearer than one axis is. */
-static void rings_are_sampled(void **state) {
+static void ring_shaped_lobes_are_nearer_with_samples(void **state) {
     (void)state;
     static const int rings[] = {LOBE_FIBRE, LOBE_LTC_FIBRE, LOBE_FIBRE_TABLE};
     static AmbientFit table;
@@ -488,16 +488,16 @@ static void rings_are_sampled(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(even_light_returns_albedo),
-                                       cmocka_unit_test(held_tables_return_albedo),
-                                       cmocka_unit_test(lamps_are_met_as_lights_are),
-                                       cmocka_unit_test(occlusion_takes_what_it_says),
-                                       cmocka_unit_test(layers_leave_what_they_should),
-                                       cmocka_unit_test(no_light_is_lost),
-                                       cmocka_unit_test(held_tables_fade_away),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(even_environment_returns_the_albedo),
+                                       cmocka_unit_test(baked_weights_return_the_albedo),
+                                       cmocka_unit_test(environment_lights_are_shaded_as_lights),
+                                       cmocka_unit_test(occlusion_of_lights_has_the_stated_mean),
+                                       cmocka_unit_test(layer_rules_dim_the_base_under_an_environment),
+                                       cmocka_unit_test(light_of_the_map_is_in_lights_or_residual),
+                                       cmocka_unit_test(baked_weights_of_a_fading_lobe_are_not_negative),
                                        cmocka_unit_test(streaks_show_the_shape_of_a_light),
-                                       cmocka_unit_test(sharp_light_is_met),
-                                       cmocka_unit_test(rings_are_sampled),
+                                       cmocka_unit_test(sharp_environment_is_within_the_stated_error),
+                                       cmocka_unit_test(ring_shaped_lobes_are_nearer_with_samples),
                                        cmocka_unit_test(faint_sheens_keep_albedo_under_a_white_sky)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,14 +42,14 @@ static void a_lobe_is_near(Lobe lobe, double most, int least) {
     if (!(error <= most)) fail_msg("more than %g %%", 100.0 * most);
 }
 
-static void matt_bases_are_exact(void **state) {
+static void diffuse_base_under_a_polygon_is_exact(void **state) {
     (void)state;
     a_lobe_is_near(lobe_default(LOBE_LAMBERT), 0.001, 3);
     for (int id = 0; id < LOBE_COUNT; id++)
         if (weft_lobe_info(id)->traits & TRAIT_DIFFUSE) a_lobe_is_near(lobe_rough(id, 0.7f), 0.005, 2);
 }
 
-static void highlights_are_near(void **state) {
+static void highlights_under_a_polygon_are_near_the_integral(void **state) {
     (void)state;
     static const float roughness[] = {0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
     for (int k = 0; k < 5; k++) a_lobe_is_near(lobe_rough(LOBE_GGX, roughness[k]), 0.04, k < 1 ? 4 : 3);
@@ -60,7 +60,7 @@ static void highlights_are_near(void **state) {
 }
 
 /* All that a sheen can be, as rough as alpha 0.1 and 0.5 are. */
-static void cloth_is_near(void **state) {
+static void sheens_under_a_polygon_are_near_the_integral(void **state) {
     (void)state;
     int at = 0;
     for (int id = 0; id < LOBE_COUNT; id++) {
@@ -77,7 +77,7 @@ static void cloth_is_near(void **state) {
     }
 }
 
-static void naps_are_near(void **state) {
+static void leaning_sheens_under_a_polygon_are_near_the_integral(void **state) {
     (void)state;
     for (int k = 0; k < 2; k++)
         a_lobe_is_near(lobe_fibres(lobe_rough(LOBE_FIBRE, 0.32f), 1.0f, k ? 0.5f : 0.05f, 1.0f), 0.05, 2);
@@ -100,7 +100,7 @@ static SeenStack whole(const void *what, Dir o) {
 static AlbedoTable charlie;
 
 /* A base under a sheen, each rule taking from it what it does for every wi; and what a rule takes matters. */
-static void layers_are_honoured(void **state) {
+static void layer_rules_dim_the_base_under_a_polygon(void **state) {
     (void)state;
     static const int rules[] = {LAYER_ADDITIVE, LAYER_SEED, LAYER_ALBEDO_VIEW, LAYER_ALBEDO_MAX,
                                 LAYER_RECIPROCAL};
@@ -118,7 +118,7 @@ static void layers_are_honoured(void **state) {
 }
 
 /* Coats with normals of their own, metals, anisotropy, dust: all that a material has. */
-static void surfaces_are_near(void **state) {
+static void surfaces_under_a_polygon_are_near_the_integral(void **state) {
     (void)state;
     Random random = {8};
     double sum = 0.0;
@@ -164,7 +164,7 @@ static Dir hostile_view(uint64_t *random) {
     return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
 }
 
-static void nothing_is_infinite(void **state) {
+static void hostile_polygons_give_finite_light(void **state) {
     (void)state;
     uint64_t random = 9;
     Random surfaces = {9};
@@ -235,7 +235,7 @@ static void begin_text(Text *text, TextLanguage language) {
     text_line(text, "%s", stack_text);
 }
 
-static void it_is_glsl(void **state) {
+static void polygon_text_is_valid_glsl(void **state) {
     (void)state;
     static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300, TEXT_GLSL_450};
     if (system("command -v glslangValidator >/dev/null 2>&1") != 0) {
@@ -337,7 +337,7 @@ static void compare_on(TextLanguage language) {
     context_destroy(context);
 }
 
-static void the_gpu_says_the_same(void **state) {
+static void polygon_light_in_glsl_agrees_with_c(void **state) {
     (void)state;
     fill_samples();
     compare_on(TEXT_GLSL_330);
@@ -346,11 +346,15 @@ static void the_gpu_says_the_same(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matt_bases_are_exact),  cmocka_unit_test(highlights_are_near),
-        cmocka_unit_test(cloth_is_near),         cmocka_unit_test(naps_are_near),
-        cmocka_unit_test(layers_are_honoured),   cmocka_unit_test(surfaces_are_near),
-        cmocka_unit_test(nothing_is_infinite),   cmocka_unit_test(it_is_glsl),
-        cmocka_unit_test(the_gpu_says_the_same),
+        cmocka_unit_test(diffuse_base_under_a_polygon_is_exact),
+        cmocka_unit_test(highlights_under_a_polygon_are_near_the_integral),
+        cmocka_unit_test(sheens_under_a_polygon_are_near_the_integral),
+        cmocka_unit_test(leaning_sheens_under_a_polygon_are_near_the_integral),
+        cmocka_unit_test(layer_rules_dim_the_base_under_a_polygon),
+        cmocka_unit_test(surfaces_under_a_polygon_are_near_the_integral),
+        cmocka_unit_test(hostile_polygons_give_finite_light),
+        cmocka_unit_test(polygon_text_is_valid_glsl),
+        cmocka_unit_test(polygon_light_in_glsl_agrees_with_c),
     };
     lobe_tables_make();
     fill_albedo(&charlie, LOBE_CHARLIE_NEUBELT);

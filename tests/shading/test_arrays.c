@@ -84,7 +84,7 @@ static void *ask_all(void *user) {
     return NULL;
 }
 
-static void threads_agree(void **state) {
+static void arrays_from_several_threads_agree(void **state) {
     (void)state;
     enum { THREADS = 4 };
     assert_true(weft_lobe_count() <= 32);
@@ -104,7 +104,7 @@ static void threads_agree(void **state) {
 
 /* ---- pieces ---------------------------------------------------------------------------------------- */
 
-static void an_answer_depends_on_its_question_alone(void **state) {
+static void array_element_does_not_depend_on_its_neighbours(void **state) {
     (void)state;
     static Answers whole, pieces;
     Random random = {22};
@@ -136,7 +136,7 @@ static void an_answer_depends_on_its_question_alone(void **state) {
 
 static bool near(float a, float b) { return fabsf(a - b) <= 3e-5f * fabsf(b) + 1e-7f; }
 
-static void near_the_calls_for_one_pair(void **state) {
+static void arrays_agree_with_calls_for_one_pair(void **state) {
     (void)state;
     static Answers a;
     for (int id = 0; id < weft_lobe_count(); id++)
@@ -161,7 +161,7 @@ static void near_the_calls_for_one_pair(void **state) {
         }
 }
 
-static void channels_are_optional(void **state) {
+static void missing_channel_arrays_are_skipped(void **state) {
     (void)state;
     static Answers a;
     float red[N];
@@ -178,7 +178,7 @@ static void channels_are_optional(void **state) {
 
 static bool is_zero(float x) { return !(x < 0.0f || x > 0.0f) && !isnan(x); }
 
-static void no_direction_gives_nothing(void **state) {
+static void array_element_without_a_direction_is_zero(void **state) {
     (void)state;
     static const float wrong[] = {NAN, INFINITY, -INFINITY};
     static Answers right, a;
@@ -210,7 +210,7 @@ static void no_direction_gives_nothing(void **state) {
     }
 }
 
-static void errors_are_told(void **state) {
+static void array_errors_are_returned(void **state) {
     (void)state;
     WeftDirections o = at(questions.o, 0), i = at(questions.i, 0), none = {NULL, NULL, NULL};
     float x[4] = {9, 9, 9, 9}, y[4] = {9, 9, 9, 9}, z[4] = {9, 9, 9, 9}, pdf[4] = {9, 9, 9, 9};
@@ -256,12 +256,12 @@ static int make(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_agree),
-        cmocka_unit_test(an_answer_depends_on_its_question_alone),
-        cmocka_unit_test(near_the_calls_for_one_pair),
-        cmocka_unit_test(channels_are_optional),
-        cmocka_unit_test(no_direction_gives_nothing),
-        cmocka_unit_test(errors_are_told),
+        cmocka_unit_test(arrays_from_several_threads_agree),
+        cmocka_unit_test(array_element_does_not_depend_on_its_neighbours),
+        cmocka_unit_test(arrays_agree_with_calls_for_one_pair),
+        cmocka_unit_test(missing_channel_arrays_are_skipped),
+        cmocka_unit_test(array_element_without_a_direction_is_zero),
+        cmocka_unit_test(array_errors_are_returned),
     };
     return cmocka_run_group_tests(tests, make, NULL);
 }

@@ -69,7 +69,7 @@ static double seed_by_hand(double base, double color, const Surface *s, Dir o, D
 }
 
 /* Rule seed is its formula, to the letter, for dielectrics and coloured metals. */
-static void seed_is_its_formula(void **state) {
+static void rule_seed_is_its_formula(void **state) {
     (void)state;
     Random random = {71};
     Choices choices = test_choices(LOBE_CHARLIE_NEUBELT, LAYER_SEED);
@@ -98,7 +98,7 @@ static void seed_is_its_formula(void **state) {
 }
 
 /* Without a sheen there is nothing to blend with, whatever amount is asked for. */
-static void seed_leaves_what_wears_no_sheen(void **state) {
+static void rule_seed_without_a_sheen_changes_nothing(void **state) {
     (void)state;
     Surface surface = plain();
     surface.roughness = 0.3f;
@@ -108,7 +108,7 @@ static void seed_leaves_what_wears_no_sheen(void **state) {
 }
 
 /* Rule side-by-side leaves what wears no sheen as it is, and gains nothing on dielectrics or metals. */
-static void side_by_side_gains_nothing(void **state) {
+static void rule_side_by_side_gains_no_energy(void **state) {
     (void)state;
     for (int metal = 0; metal < 2; metal++)
         for (int c = 0; c < COSINES; c++) {
@@ -126,7 +126,7 @@ static void side_by_side_gains_nothing(void **state) {
 }
 
 /* A round D on a brushed base is as wide as the roughness says: sqrt(alpha_x alpha_y) of workflow disney. */
-static void a_round_highlight_knows_no_brushing(void **state) {
+static void round_highlight_on_a_brushed_base_has_the_mean_roughness(void **state) {
     (void)state;
     const int workflows[] = {choice_find(CHOICE_workflow, "metallic"), choice_find(CHOICE_workflow, "disney"),
                              0},
@@ -156,7 +156,7 @@ static void a_round_highlight_knows_no_brushing(void **state) {
 }
 
 /* A sheen is any D with any V and F: as the formula has it, whatever is below. */
-static void a_sheen_is_made_of_free_terms(void **state) {
+static void sheen_of_chosen_terms_has_them(void **state) {
     (void)state;
     Random random = {73};
     for (int n = 0; n < D_COUNT * V_COUNT * F_COUNT; n++) {
@@ -196,7 +196,7 @@ static void a_sheen_is_made_of_free_terms(void **state) {
 }
 
 /* Beta of an exponential sheen is given, or else made of the roughness; no other sheen takes notice. */
-static void beta_is_an_input(void **state) {
+static void beta_of_an_exponential_sheen_is_an_input(void **state) {
     (void)state;
     const int lobes[] = {LOBE_EXPONENTIAL, LOBE_EXPONENTIAL_LIT, LOBE_CHARLIE_NEUBELT};
     Dir o = direction(0.9, 0.0);
@@ -217,7 +217,7 @@ static void beta_is_an_input(void **state) {
 }
 
 /* F cook-torrance of a material: of a metal the index is that of its colour, of a dielectric its ior. */
-static void cook_torrance_of_metals_and_dielectrics(void **state) {
+static void cook_torrance_highlight_follows_metals_and_dielectrics(void **state) {
     (void)state;
     Dir o = direction_cos(0.15, 0.0), i = direction_cos(0.15, TEST_PI);
     for (int metal = 0; metal < 2; metal++) {
@@ -238,7 +238,7 @@ static void cook_torrance_of_metals_and_dielectrics(void **state) {
 }
 
 /* F that has an index of refraction takes that of the reflectance where none is given. */
-static void fresnel_follows_the_reflectance(void **state) {
+static void fresnel_of_a_highlight_follows_its_reflectance(void **state) {
     (void)state;
     Surface surface = plain();
     surface.base_color = (Rgb){0.0f, 0.0f, 0.0f};
@@ -250,7 +250,7 @@ static void fresnel_follows_the_reflectance(void **state) {
 }
 
 /* A choice of F alone keeps the shape of the highlight, brushed or not. */
-static void brushed_metal_stays_brushed(void **state) {
+static void brushed_metal_keeps_its_anisotropy(void **state) {
     (void)state;
     Dir o = direction(0.0, 0.0), along = direction(0.5, 0.0), across = direction(0.5, 0.5 * TEST_PI);
     for (int silk = 0; silk < 2; silk++) {
@@ -274,7 +274,7 @@ static void brushed_metal_stays_brushed(void **state) {
 }
 
 /* A rule that asks for more than an engine's own E gets the table of the lobe. */
-static void reciprocal_asks_the_table(void **state) {
+static void rule_reciprocal_uses_the_table_of_the_lobe(void **state) {
     (void)state;
     for (int profile = 1; weft_profile_name(profile); profile++)
         for (int layer = 0; layer < 2; layer++) {
@@ -290,7 +290,7 @@ static void reciprocal_asks_the_table(void **state) {
 }
 
 /* The azimuth of shading text is the C library's. */
-static void azimuth_is_atan2(void **state) {
+static void azimuth_equals_atan2(void **state) {
     (void)state;
     Random random = {17};
     for (int k = 0; k < 20000; k++) {
@@ -307,7 +307,7 @@ static void azimuth_is_atan2(void **state) {
 }
 
 /* Density and nap go where a lobe has them, clamped; all else is as roughness makes it. */
-static void fibres_find_their_parameters(void **state) {
+static void inputs_of_a_material_reach_the_fibre_lobe(void **state) {
     (void)state;
     static const char *const names[] = {"density", "tilt", "azimuth"};
     const float values[] = {3.0f, 0.5f, 2.0f}, far[] = {1e3f, 1e3f, 1e3f};
@@ -360,18 +360,18 @@ static void one_stack_serves_all_directions(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_stack_serves_all_directions),
-        cmocka_unit_test(seed_is_its_formula),
-        cmocka_unit_test(seed_leaves_what_wears_no_sheen),
-        cmocka_unit_test(side_by_side_gains_nothing),
-        cmocka_unit_test(a_round_highlight_knows_no_brushing),
-        cmocka_unit_test(a_sheen_is_made_of_free_terms),
-        cmocka_unit_test(beta_is_an_input),
-        cmocka_unit_test(cook_torrance_of_metals_and_dielectrics),
-        cmocka_unit_test(fresnel_follows_the_reflectance),
-        cmocka_unit_test(brushed_metal_stays_brushed),
-        cmocka_unit_test(reciprocal_asks_the_table),
-        cmocka_unit_test(azimuth_is_atan2),
-        cmocka_unit_test(fibres_find_their_parameters),
+        cmocka_unit_test(rule_seed_is_its_formula),
+        cmocka_unit_test(rule_seed_without_a_sheen_changes_nothing),
+        cmocka_unit_test(rule_side_by_side_gains_no_energy),
+        cmocka_unit_test(round_highlight_on_a_brushed_base_has_the_mean_roughness),
+        cmocka_unit_test(sheen_of_chosen_terms_has_them),
+        cmocka_unit_test(beta_of_an_exponential_sheen_is_an_input),
+        cmocka_unit_test(cook_torrance_highlight_follows_metals_and_dielectrics),
+        cmocka_unit_test(fresnel_of_a_highlight_follows_its_reflectance),
+        cmocka_unit_test(brushed_metal_keeps_its_anisotropy),
+        cmocka_unit_test(rule_reciprocal_uses_the_table_of_the_lobe),
+        cmocka_unit_test(azimuth_equals_atan2),
+        cmocka_unit_test(inputs_of_a_material_reach_the_fibre_lobe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

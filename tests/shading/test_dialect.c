@@ -4,7 +4,7 @@
 #include "shading/terms/d_ggx.h"
 #include "shading/warp.h"
 
-static void logarithm(void **state) {
+static void log2_has_the_stated_error(void **state) {
     (void)state;
     double absolute = 0.0, relative = 0.0;
     for (int n = 0; n < 2000000; n++) {
@@ -20,7 +20,7 @@ static void logarithm(void **state) {
     assert_true(!(weft_log2(1.0f) != 0.0f));
 }
 
-static void exponential(void **state) {
+static void exp2_has_the_stated_relative_error(void **state) {
     (void)state;
     double relative = 0.0;
     for (int n = 0; n < 2000000; n++) {
@@ -36,7 +36,7 @@ static void exponential(void **state) {
 }
 
 /* Relative error of x^y grows with y, as the comment in lang.h says, and not with log2 x. */
-static void power(void **state) {
+static void pow_has_the_stated_relative_error(void **state) {
     (void)state;
     Random random = {31};
     double worst = 0.0;
@@ -53,7 +53,7 @@ static void power(void **state) {
 }
 
 /* Whole turns are taken off in three parts, of which the first two are exact up to 2^12. */
-static void sines_and_cosines_are_right_to_the_last_digits(void **state) {
+static void sin_and_cos_are_right_to_the_last_digits(void **state) {
     (void)state;
     double worst = 0.0, far = 0.0;
     for (int n = -2000000; n <= 2000000; n++) {
@@ -95,7 +95,7 @@ static double charlie_double(int id, double alpha, Dir o, Dir i) {
     return d / ((1.0 + lambda) * 4.0 * fmax(oz * iz, 1e-7));
 }
 
-static void arrays_are_exact(void **state) {
+static void arrays_of_charlie_are_near_double_precision(void **state) {
     (void)state;
     enum { BLOCK = 4096 };
     static float ox[BLOCK], oy[BLOCK], oz[BLOCK], ix[BLOCK], iy[BLOCK], iz[BLOCK], f[BLOCK];
@@ -129,7 +129,7 @@ static void arrays_are_exact(void **state) {
     }
 }
 
-static void mixing(void **state) {
+static void mix_and_clamp_are_those_of_glsl(void **state) {
     (void)state;
     assert_float_equal(mix(2.0f, 4.0f, 0.25f), 2.5f, 1e-7f);
     assert_true(!(mix(2.0f, 4.0f, 0.0f) != 2.0f));
@@ -162,7 +162,7 @@ static float cosine_pdf(Dir w) { return warp_cosine_pdf(w); }
 static Dir uniform(float u, float v) { return warp_uniform(u, v); }
 static float uniform_pdf(Dir w) { return warp_uniform_pdf(w); }
 
-static void warps_follow_their_densities(void **state) {
+static void warped_samples_follow_their_densities(void **state) {
     (void)state;
     check_warp(cosine, cosine_pdf);
     check_warp(uniform, uniform_pdf);
@@ -170,7 +170,7 @@ static void warps_follow_their_densities(void **state) {
     assert_true(!(warp_cosine_pdf(below) != 0.0f) && !(warp_uniform_pdf(below) != 0.0f));
 }
 
-static void half_vectors(void **state) {
+static void half_vector_is_unit_and_between_its_directions(void **state) {
     (void)state;
     Random random = {13};
     for (int n = 0; n < 200000; n++) {
@@ -190,7 +190,7 @@ static void half_vectors(void **state) {
 
 /* Microfacet normals are upper, unit, and seen from wo, so that wi is wo mirrored and never behind a facet.
  */
-static void facet_normals_are_visible(void **state) {
+static void sampled_facet_normals_are_visible(void **state) {
     (void)state;
     Random random = {14};
     for (int n = 0; n < 300000; n++) {
@@ -211,7 +211,7 @@ static void facet_normals_are_visible(void **state) {
 }
 
 /* Both distributions: the integral of D cos_h is 1. */
-static void distributions_are_normalised(void **state) {
+static void d_of_the_dialect_is_normalised(void **state) {
     (void)state;
     static const float alphas[] = {0.01f, 0.05f, 0.25f, 0.6f, 1.0f};
     for (int k = 0; k < 5; k++) {
@@ -232,16 +232,16 @@ static void distributions_are_normalised(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(logarithm),
-        cmocka_unit_test(exponential),
-        cmocka_unit_test(power),
-        cmocka_unit_test(sines_and_cosines_are_right_to_the_last_digits),
-        cmocka_unit_test(arrays_are_exact),
-        cmocka_unit_test(mixing),
-        cmocka_unit_test(warps_follow_their_densities),
-        cmocka_unit_test(half_vectors),
-        cmocka_unit_test(facet_normals_are_visible),
-        cmocka_unit_test(distributions_are_normalised),
+        cmocka_unit_test(log2_has_the_stated_error),
+        cmocka_unit_test(exp2_has_the_stated_relative_error),
+        cmocka_unit_test(pow_has_the_stated_relative_error),
+        cmocka_unit_test(sin_and_cos_are_right_to_the_last_digits),
+        cmocka_unit_test(arrays_of_charlie_are_near_double_precision),
+        cmocka_unit_test(mix_and_clamp_are_those_of_glsl),
+        cmocka_unit_test(warped_samples_follow_their_densities),
+        cmocka_unit_test(half_vector_is_unit_and_between_its_directions),
+        cmocka_unit_test(sampled_facet_normals_are_visible),
+        cmocka_unit_test(d_of_the_dialect_is_normalised),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

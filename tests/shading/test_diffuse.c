@@ -100,7 +100,7 @@ static double paper_body(Pair p, const float *n) {
     return (pow)((cos)(p.theta_o) * (cos)(p.theta_i), k) * body / (unit_pi * norm);
 }
 
-static void body_is_that_of_its_header(void **state) {
+static void body_follows_the_formula_of_its_header(void **state) {
     (void)state;
     Random random = {44};
     double worst = 0.0;
@@ -117,7 +117,7 @@ static void body_is_that_of_its_header(void **state) {
     print_message("%-18s within %.1e of its header\n", "body", worst);
 }
 
-static void formulas_are_those_of_the_papers(void **state) {
+static void diffuse_lobes_follow_the_formulas_of_their_papers(void **state) {
     (void)state;
     Random random = {41};
     for (int k = 0; k < NAMES; k++) {
@@ -136,7 +136,7 @@ static void formulas_are_those_of_the_papers(void **state) {
 }
 
 /* EON per colour: what a caller makes of eval, share and second colour. */
-static void eon_is_that_of_its_paper(void **state) {
+static void eon_follows_the_formula_of_its_paper(void **state) {
     (void)state;
     Random random = {42};
     double worst = 0.0;
@@ -189,7 +189,7 @@ static double simpson_albedo(const WeftLobe *lobe, double theta_o, int n) {
     return sum;
 }
 
-static void eon_returns_what_it_receives(void **state) {
+static void white_eon_returns_what_it_receives(void **state) {
     (void)state;
     double worst = 0.0, worst_color = 0.0;
     int steps = test_long() ? 400 : test_short() ? 40 : 64;
@@ -214,7 +214,7 @@ static void eon_returns_what_it_receives(void **state) {
 }
 
 /* The average that the second colour is made of is the average of the albedo. */
-static void eon_average_is_an_average(void **state) {
+static void eon_average_albedo_is_the_integral(void **state) {
     (void)state;
     for (int r = 0; r <= 10; r++) {
         double sum = 0.0;
@@ -234,7 +234,7 @@ static void eon_average_is_an_average(void **state) {
 }
 
 /* E of Oren and Nayar's model: both integrals over theta_i in closed form. */
-static void other_albedos_have_closed_forms(void **state) {
+static void albedo_of_diffuse_lobes_equals_its_closed_form(void **state) {
     (void)state;
     for (int v = 0; v <= 10; v++)
         for (int c = 1; c <= 20; c++) {
@@ -266,7 +266,7 @@ static double highest_albedo(const char *id, float value) {
 }
 
 /* What the headers say. */
-static void headers_tell_the_energy(void **state) {
+static void albedo_is_as_the_headers_state(void **state) {
     (void)state;
     assert_true(fabs(albedo("burley", 0.0f, 0.02) - 0.535) < 6e-4);
     assert_true(fabs(albedo("burley", 0.5f, 0.02) - 1.011) < 6e-4);
@@ -284,7 +284,7 @@ static void headers_tell_the_energy(void **state) {
 }
 
 /* f cos / pdf of samples, and of the pairs that are hardest: straight back and straight on. */
-static void weights_are_bounded(void **state) {
+static void sample_weights_of_diffuse_lobes_are_bounded(void **state) {
     (void)state;
     static const struct {
         const char *id;
@@ -311,7 +311,7 @@ static void weights_are_bounded(void **state) {
 }
 
 /* The one that claims no reciprocity has none; each other is the same both ways. */
-static void reciprocity_is_as_claimed(void **state) {
+static void diffuse_lobes_are_reciprocal_as_claimed(void **state) {
     (void)state;
     Random random = {44};
     for (int k = 0; k <= NAMES; k++) {
@@ -330,7 +330,7 @@ static void reciprocity_is_as_claimed(void **state) {
 }
 
 /* At the smooth end all but the two of Burley's are Lambert. */
-static void smooth_is_lambert(void **state) {
+static void smooth_diffuse_lobes_are_lambert(void **state) {
     (void)state;
     static const char *const ids[] = {"oren-nayar", "fabric-lambert", "wrap", "eon"};
     Random random = {45};
@@ -343,11 +343,16 @@ static void smooth_is_lambert(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formulas_are_those_of_the_papers), cmocka_unit_test(body_is_that_of_its_header),
-        cmocka_unit_test(eon_is_that_of_its_paper),         cmocka_unit_test(eon_returns_what_it_receives),
-        cmocka_unit_test(eon_average_is_an_average),        cmocka_unit_test(other_albedos_have_closed_forms),
-        cmocka_unit_test(headers_tell_the_energy),          cmocka_unit_test(weights_are_bounded),
-        cmocka_unit_test(reciprocity_is_as_claimed),        cmocka_unit_test(smooth_is_lambert),
+        cmocka_unit_test(diffuse_lobes_follow_the_formulas_of_their_papers),
+        cmocka_unit_test(body_follows_the_formula_of_its_header),
+        cmocka_unit_test(eon_follows_the_formula_of_its_paper),
+        cmocka_unit_test(white_eon_returns_what_it_receives),
+        cmocka_unit_test(eon_average_albedo_is_the_integral),
+        cmocka_unit_test(albedo_of_diffuse_lobes_equals_its_closed_form),
+        cmocka_unit_test(albedo_is_as_the_headers_state),
+        cmocka_unit_test(sample_weights_of_diffuse_lobes_are_bounded),
+        cmocka_unit_test(diffuse_lobes_are_reciprocal_as_claimed),
+        cmocka_unit_test(smooth_diffuse_lobes_are_lambert),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

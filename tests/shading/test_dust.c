@@ -36,7 +36,7 @@ static SeenStack stack_of(const Surface *surface, const Choices *choices, Dir o)
 }
 
 /* The amount, the power of the cosine, the direction; the numbers are worked out by hand. */
-static void dust_lies_on_what_looks_up(void **state) {
+static void dust_amount_follows_the_direction_of_the_surface(void **state) {
     (void)state;
     Random random = {1};
     Surface s = dusty(&random, 0.5f);
@@ -61,7 +61,7 @@ static void dust_lies_on_what_looks_up(void **state) {
 }
 
 /* The hash against whole numbers. */
-static void the_hash_is_exact(void **state) {
+static void hash_of_dust_is_exact(void **state) {
     (void)state;
     bool seen[289] = {false};
     for (int x = 0; x < 289; x++) {
@@ -78,7 +78,7 @@ static void the_hash_is_exact(void **state) {
 }
 
 /* Between 0 and 1 and using it; in every place finite; smooth; of the size that is asked for. */
-static void noise_is_smooth_patches(void **state) {
+static void dust_noise_is_smooth(void **state) {
     (void)state;
     enum { COUNT = 20000 };
     Random random = {2};
@@ -109,7 +109,7 @@ static void noise_is_smooth_patches(void **state) {
 }
 
 /* Without strength no patches; with all of it down to nothing; in between a mix. */
-static void noise_thins_the_dust(void **state) {
+static void dust_noise_only_reduces_the_amount(void **state) {
     (void)state;
     Random random = {3};
     Surface s = dusty(&random, 0.8f);
@@ -131,7 +131,7 @@ static void noise_thins_the_dust(void **state) {
 }
 
 /* No dust: the same bits, whatever the other inputs of dust say. */
-static void no_dust_changes_nothing(void **state) {
+static void dust_of_amount_zero_changes_nothing(void **state) {
     (void)state;
     Random random = {4};
     Choices choices;
@@ -160,7 +160,7 @@ static double eddington(double t, double mu) {
 }
 
 /* All of f of what lies below is dimmed by what the dust sends back, and the rest is the dust's own lobe. */
-static void dust_takes_from_all_below(void **state) {
+static void dust_dims_every_slot_below(void **state) {
     (void)state;
     Random random = {5};
     Choices choices;
@@ -206,7 +206,7 @@ static Rgb furnace(const SeenStack *stack, Dir o, int cells) {
 
 /* A white base without an interface returns all it receives below white dust, of any amount; less below
  * coloured dust, and dark dust darkens it. */
-static void white_under_white_stays_white(void **state) {
+static void white_dust_over_a_white_base_conserves_energy(void **state) {
     (void)state;
     static const float amounts[] = {0.01f, 0.1f, 0.4f, 1.0f}, roughnesses[] = {0.5f, 0.8f, 1.0f};
     static const double cosines[] = {1.0, 0.5, 0.1};
@@ -232,7 +232,7 @@ static void white_under_white_stays_white(void **state) {
 }
 
 /* Amounts as slabs of fibres of other densities have them, solved without the law of dust_lobe.h. */
-static void amounts_are_slabs(void **state) {
+static void amount_of_dust_is_a_slab_of_another_density(void **state) {
     (void)state;
     int density = weft_lobe_param_find(LOBE_FIBRE, "density");
     double worst = 0.0;
@@ -250,7 +250,7 @@ static void amounts_are_slabs(void **state) {
 }
 
 /* The picks are probabilities, and a sample's slot is drawn as often as its pick says. */
-static void picks_sum_to_one(void **state) {
+static void selection_probabilities_sum_to_one(void **state) {
     (void)state;
     enum { COUNT = 4096 };
     Random random = {6};
@@ -277,7 +277,7 @@ static void picks_sum_to_one(void **state) {
 
 /* The walk between sheen and base gets its light through the dust once each way, as all below does by view.
  */
-static void stochastic_layers_are_dimmed_alike(void **state) {
+static void dust_dims_stochastic_layers_alike(void **state) {
     (void)state;
     Surface s = white_cloth(0.6f), bare;
     s.dust_color = (Rgb){0.0f, 0.0f, 0.0f};
@@ -297,16 +297,16 @@ static void stochastic_layers_are_dimmed_alike(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dust_lies_on_what_looks_up),
-        cmocka_unit_test(the_hash_is_exact),
-        cmocka_unit_test(noise_is_smooth_patches),
-        cmocka_unit_test(noise_thins_the_dust),
-        cmocka_unit_test(no_dust_changes_nothing),
-        cmocka_unit_test(dust_takes_from_all_below),
-        cmocka_unit_test(white_under_white_stays_white),
-        cmocka_unit_test(amounts_are_slabs),
-        cmocka_unit_test(picks_sum_to_one),
-        cmocka_unit_test(stochastic_layers_are_dimmed_alike),
+        cmocka_unit_test(dust_amount_follows_the_direction_of_the_surface),
+        cmocka_unit_test(hash_of_dust_is_exact),
+        cmocka_unit_test(dust_noise_is_smooth),
+        cmocka_unit_test(dust_noise_only_reduces_the_amount),
+        cmocka_unit_test(dust_of_amount_zero_changes_nothing),
+        cmocka_unit_test(dust_dims_every_slot_below),
+        cmocka_unit_test(white_dust_over_a_white_base_conserves_energy),
+        cmocka_unit_test(amount_of_dust_is_a_slab_of_another_density),
+        cmocka_unit_test(selection_probabilities_sum_to_one),
+        cmocka_unit_test(dust_dims_stochastic_layers_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

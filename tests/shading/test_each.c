@@ -124,7 +124,7 @@ static void assert_one(const WeftLobe *lobe, size_t k) {
     assert_near(lobe, "pdf of what is drawn", k, out[7][k], pdf_drawn, relative(3e-6, pdf_drawn));
 }
 
-static void near_the_calls_for_one_pair(void **state) {
+static void element_loops_agree_with_calls_for_one_pair(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
@@ -139,7 +139,7 @@ static void near_the_calls_for_one_pair(void **state) {
 }
 
 /* Every count up to a group and more, and pieces of any size, give the same bits. */
-static void an_element_depends_on_itself_alone(void **state) {
+static void element_does_not_depend_on_its_neighbours(void **state) {
     (void)state;
     Random random = {23};
     for (int id = 0; id < weft_lobe_count(); id++) {
@@ -161,7 +161,7 @@ static void an_element_depends_on_itself_alone(void **state) {
 }
 
 /* What has no array comes from the lobe; what is not wanted need not be there. */
-static void arrays_are_optional(void **state) {
+static void missing_parameter_arrays_use_the_lobe(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
@@ -184,7 +184,7 @@ static void arrays_are_optional(void **state) {
     }
 }
 
-static void errors_are_told(void **state) {
+static void errors_of_element_loops_are_returned(void **state) {
     (void)state;
     WeftLobes lobes = {.lobe = {.lobe = -1}};
     WeftDirections o = row(0, 0), i = row(3, 0), none = {NULL, NULL, NULL};
@@ -218,10 +218,10 @@ static void errors_are_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(near_the_calls_for_one_pair),
-        cmocka_unit_test(an_element_depends_on_itself_alone),
-        cmocka_unit_test(arrays_are_optional),
-        cmocka_unit_test(errors_are_told),
+        cmocka_unit_test(element_loops_agree_with_calls_for_one_pair),
+        cmocka_unit_test(element_does_not_depend_on_its_neighbours),
+        cmocka_unit_test(missing_parameter_arrays_use_the_lobe),
+        cmocka_unit_test(errors_of_element_loops_are_returned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

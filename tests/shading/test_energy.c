@@ -53,7 +53,7 @@ static bool is_ridge(const Lobe *lobe) {
     return a > 0.0f && (lobe->params[0] < 0.05f || (lobe->id == LOBE_SILK && a > 0.75f));
 }
 
-static void quadrature_agrees_with_other_estimators(void **state) {
+static void albedo_by_quadrature_agrees_with_other_estimators(void **state) {
     (void)state;
     int cells = test_long() ? 800 : 200, samples = test_long() ? 400000 : test_short() ? 10000 : 40000;
     double worst = 0.0;
@@ -86,7 +86,7 @@ static void quadrature_agrees_with_other_estimators(void **state) {
     print_message("largest difference between quadrature and midpoint rule: %.1e\n", worst);
 }
 
-static void traits_about_energy_hold(void **state) {
+static void traits_about_energy_are_true(void **state) {
     (void)state;
     static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f,
                                     0.2f,  0.35f, 0.5f,   0.7f,  0.85f, 1.0f};
@@ -139,7 +139,7 @@ static double lowest_albedo(const char *id, const char *alpha) {
     return lowest;
 }
 
-static void known_values_come_out(void **state) {
+static void albedo_has_the_values_of_the_headers(void **state) {
     (void)state;
     /* Charlie passes 1: what the lobe headers say */
     assert_true(fabs(albedo("charlie-neubelt", "0.01", 0.02f) - 2.69) < 0.005);
@@ -189,7 +189,7 @@ static double rings_albedo(const Lobe *lobe, Dir o) {
     return sum;
 }
 
-static void creases_of_a_table_are_integrated(void **state) {
+static void albedo_of_a_creased_table_is_integrated(void **state) {
     (void)state;
     static const double grazing[] = {0.001, 0.003, 0.012, 0.03, 0.08, 0.17};
     double worst = 0.0;
@@ -203,7 +203,7 @@ static void creases_of_a_table_are_integrated(void **state) {
     assert_true(worst < 1e-5);
 }
 
-static void the_table_is_close_off_its_nodes(void **state) {
+static void albedo_table_between_nodes_is_close(void **state) {
     (void)state;
     static AlbedoTable table;
     Random random = {5};
@@ -238,7 +238,7 @@ static void the_table_is_close_off_its_nodes(void **state) {
 }
 
 /* One parameter value, and values beyond the range that was asked for. */
-static void the_table_has_ends(void **state) {
+static void albedo_table_outside_its_range_uses_its_end(void **state) {
     (void)state;
     static AlbedoTable table;
     Lobe lobe = lobe_default(LOBE_CHARLIE_NEUBELT);
@@ -259,12 +259,12 @@ static void the_table_has_ends(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quadrature_agrees_with_other_estimators),
-        cmocka_unit_test(traits_about_energy_hold),
-        cmocka_unit_test(known_values_come_out),
-        cmocka_unit_test(creases_of_a_table_are_integrated),
-        cmocka_unit_test(the_table_is_close_off_its_nodes),
-        cmocka_unit_test(the_table_has_ends),
+        cmocka_unit_test(albedo_by_quadrature_agrees_with_other_estimators),
+        cmocka_unit_test(traits_about_energy_are_true),
+        cmocka_unit_test(albedo_has_the_values_of_the_headers),
+        cmocka_unit_test(albedo_of_a_creased_table_is_integrated),
+        cmocka_unit_test(albedo_table_between_nodes_is_close),
+        cmocka_unit_test(albedo_table_outside_its_range_uses_its_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,7 +111,7 @@ static void public_calls_stay_finite(void **state) {
     }
 }
 
-static void nothing_comes_from_below(void **state) {
+static void reflection_from_below_is_zero(void **state) {
     (void)state;
     float up[3] = {0.6f, 0.0f, 0.8f}, down[3] = {0.6f, 0.0f, -0.8f}, level[3] = {1.0f, 0.0f, 0.0f};
     float opposite[3] = {-0.6f, 0.0f, 0.8f};
@@ -154,7 +154,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobes_stay_finite),
         cmocka_unit_test(public_calls_stay_finite),
-        cmocka_unit_test(nothing_comes_from_below),
+        cmocka_unit_test(reflection_from_below_is_zero),
         cmocka_unit_test(stacks_stay_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

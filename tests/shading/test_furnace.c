@@ -49,7 +49,7 @@ static bool has_creases(int id) {
     return id == LOBE_CHARLIE_NEUBELT_NORMALISED || id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE;
 }
 
-static void albedo_view_returns_what_it_receives(void **state) {
+static void rule_albedo_view_returns_what_it_receives(void **state) {
     (void)state;
     static AlbedoTable table;
     int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0, seen = 0,
@@ -85,7 +85,7 @@ static void albedo_view_returns_what_it_receives(void **state) {
 }
 
 /* Surfaces whose lobes and layer all conserve: what they reflect is bounded. */
-static void no_surface_reflects_more_than_it_receives(void **state) {
+static void surface_in_the_furnace_reflects_no_more_than_it_receives(void **state) {
     (void)state;
     static AlbedoTable table;
     fill_albedo(&table, LOBE_LAMBERT); /* as a sheen: conserves exactly */
@@ -111,8 +111,8 @@ static void no_surface_reflects_more_than_it_receives(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(albedo_view_returns_what_it_receives),
-        cmocka_unit_test(no_surface_reflects_more_than_it_receives),
+        cmocka_unit_test(rule_albedo_view_returns_what_it_receives),
+        cmocka_unit_test(surface_in_the_furnace_reflects_no_more_than_it_receives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

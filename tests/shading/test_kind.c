@@ -70,7 +70,7 @@ static void shade_alike(Random *random, const StackKind *kind, const Surface *pl
     }
 }
 
-static void kinds_shade_alike(void **state) {
+static void kinds_shade_as_the_general_stack(void **state) {
     (void)state;
     Random random = {31};
     for (int n = 0; n < CASES; n++) {
@@ -86,7 +86,7 @@ static void kinds_shade_alike(void **state) {
     }
 }
 
-static void others_have_none(void **state) {
+static void stack_outside_the_list_has_no_kind(void **state) {
     (void)state;
     Random random = {37};
     TableRef e = albedo_table_ref(table_of(LOBE_CHARLIE_CONTY_KULLA));
@@ -106,8 +106,8 @@ static void others_have_none(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kinds_shade_alike),
-        cmocka_unit_test(others_have_none),
+        cmocka_unit_test(kinds_shade_as_the_general_stack),
+        cmocka_unit_test(stack_outside_the_list_has_no_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

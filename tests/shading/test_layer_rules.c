@@ -53,7 +53,7 @@ static double base_albedo(int rule, double c, double mu_o) {
     return sum;
 }
 
-static void energy_is_as_stated(void **state) {
+static void energy_of_layer_rules_is_as_stated(void **state) {
     (void)state;
     double average = 0.0, most[RULES] = {0}, least[RULES] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
     for (int k = 0; k <= STEPS; k++) average += simpson(k) * 2.0 * sheen_e((double)k / STEPS) * k / STEPS;
@@ -89,7 +89,7 @@ static void energy_is_as_stated(void **state) {
     assert_true(most[STOCHASTIC] < 1.0);
 }
 
-static void one_albedo_makes_them_one(void **state) {
+static void layer_rules_agree_for_equal_albedos(void **state) {
     (void)state;
     Random random = {51};
     for (int n = 0; n < 100000; n++) {
@@ -106,7 +106,7 @@ static void one_albedo_makes_them_one(void **state) {
     }
 }
 
-static void both_ways_are_the_same_or_not(void **state) {
+static void layer_rules_are_reciprocal_as_claimed(void **state) {
     (void)state;
     Random random = {52};
     float worst[RULES] = {0};
@@ -125,7 +125,7 @@ static void both_ways_are_the_same_or_not(void **state) {
 }
 
 /* Also for colours and albedos beyond 1, which Charlie and a user can ask for. */
-static void nothing_is_negative_or_unbounded(void **state) {
+static void layer_rules_are_neither_negative_nor_unbounded(void **state) {
     (void)state;
     static const float wild[] = {0.0f, 1e-30f, 0.5f, 0.99f, 1.0f, 1.0000001f, 2.0f, 6.0f, 1000.0f};
     enum { WILD = sizeof wild / sizeof wild[0] };
@@ -150,10 +150,10 @@ static void nothing_is_negative_or_unbounded(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(energy_is_as_stated),
-        cmocka_unit_test(one_albedo_makes_them_one),
-        cmocka_unit_test(both_ways_are_the_same_or_not),
-        cmocka_unit_test(nothing_is_negative_or_unbounded),
+        cmocka_unit_test(energy_of_layer_rules_is_as_stated),
+        cmocka_unit_test(layer_rules_agree_for_equal_albedos),
+        cmocka_unit_test(layer_rules_are_reciprocal_as_claimed),
+        cmocka_unit_test(layer_rules_are_neither_negative_nor_unbounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

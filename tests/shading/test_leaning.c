@@ -63,7 +63,7 @@ static void check(const Worst *worst, double tolerance, const char *what, float 
     if (!(worst->across > 3.0 * worst->off)) fail_msg("%s: headings make no difference", what);
 }
 
-static void a_white_base_stays_white(void **state) {
+static void white_base_under_leaning_fibres_stays_white(void **state) {
     (void)state;
     static AlbedoTable table;
     static const float cases[][3] = {{0.4f, 12.0f, 0.05f},  {0.4f, 45.0f, 0.05f},  {0.71f, 12.0f, 0.02f},
@@ -79,7 +79,7 @@ static void a_white_base_stays_white(void **state) {
 }
 
 /* The table is that of 45 degrees, of which a texture takes a part. */
-static void whatever_the_texture_takes_of_the_tilt(void **state) {
+static void table_holds_for_textured_tilts_below_its_own(void **state) {
     (void)state;
     static AlbedoTable table;
     static const float parts[] = {1.5f, 6.0f, 15.0f, 34.0f};
@@ -99,7 +99,7 @@ static void whatever_the_texture_takes_of_the_tilt(void **state) {
 }
 
 /* By 24 azimuths and a Gauss rule of three points in each of 8 parts of mu^2. */
-static void the_average_is_over_azimuths_too(void **state) {
+static void average_albedo_of_leaning_fibres_covers_azimuths(void **state) {
     (void)state;
     static AlbedoTable table;
     static const double x[3] = {-0.774596669241483, 0.0, 0.774596669241483},
@@ -124,7 +124,7 @@ static void the_average_is_over_azimuths_too(void **state) {
 }
 
 /* Rule reciprocal asks for E of both directions, each by its own azimuth. */
-static void the_rule_stays_reciprocal(void **state) {
+static void rule_reciprocal_is_reciprocal_over_leaning_fibres(void **state) {
     (void)state;
     static AlbedoTable table;
     Random random = {5};
@@ -140,7 +140,7 @@ static void the_rule_stays_reciprocal(void **state) {
 }
 
 /* Next to the normal all azimuths agree, and any nap is told from any direction without a NaN. */
-static void headings_end_at_the_normal(void **state) {
+static void albedo_near_the_normal_does_not_depend_on_azimuth(void **state) {
     (void)state;
     static AlbedoTable table;
     fill(&table, 0.7f, 0.6f, true);
@@ -157,7 +157,7 @@ static void headings_end_at_the_normal(void **state) {
 }
 
 /* Where nothing leans, the table is what it was, and a nap changes nothing. */
-static void upright_fibres_have_no_headings(void **state) {
+static void upright_fibres_do_not_depend_on_azimuth(void **state) {
     (void)state;
     static AlbedoTable table;
     fill(&table, 0.7f, 0.0f, true);
@@ -175,7 +175,7 @@ static void upright_fibres_have_no_headings(void **state) {
 }
 
 /* One table serves all azimuths, and not another tilt. */
-static void a_table_serves_its_tilt(void **state) {
+static void table_of_a_tilt_has_the_albedo_at_that_tilt(void **state) {
     (void)state;
     static AlbedoTable table;
     fill(&table, 0.5f, 0.6f, false);
@@ -189,13 +189,13 @@ static void a_table_serves_its_tilt(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_white_base_stays_white),
-        cmocka_unit_test(whatever_the_texture_takes_of_the_tilt),
-        cmocka_unit_test(the_average_is_over_azimuths_too),
-        cmocka_unit_test(the_rule_stays_reciprocal),
-        cmocka_unit_test(headings_end_at_the_normal),
-        cmocka_unit_test(upright_fibres_have_no_headings),
-        cmocka_unit_test(a_table_serves_its_tilt),
+        cmocka_unit_test(white_base_under_leaning_fibres_stays_white),
+        cmocka_unit_test(table_holds_for_textured_tilts_below_its_own),
+        cmocka_unit_test(average_albedo_of_leaning_fibres_covers_azimuths),
+        cmocka_unit_test(rule_reciprocal_is_reciprocal_over_leaning_fibres),
+        cmocka_unit_test(albedo_near_the_normal_does_not_depend_on_azimuth),
+        cmocka_unit_test(upright_fibres_do_not_depend_on_azimuth),
+        cmocka_unit_test(table_of_a_tilt_has_the_albedo_at_that_tilt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 
 static const float up[3] = {0.0f, 0.0f, 1.0f}, aside[3] = {0.6f, 0.0f, 0.8f};
 
-static void no_such_lobe_is_black(void **state) {
+static void lobe_of_an_unknown_id_is_black(void **state) {
     (void)state;
     const int wrong[] = {-1, weft_lobe_count(), 1 << 30};
     for (int k = 0; k < 3; k++) {
@@ -20,7 +20,7 @@ static void no_such_lobe_is_black(void **state) {
     }
 }
 
-static void parameters_are_clamped(void **state) {
+static void parameters_outside_the_hard_range_are_clamped(void **state) {
     (void)state;
     const float wild[] = {-1e30f, -1.0f, 0.0f, 1e30f, INFINITY, -INFINITY, NAN};
     for (int k = 0; k < weft_lobe_count(); k++)
@@ -41,7 +41,7 @@ static void parameters_are_clamped(void **state) {
 }
 
 /* "roughness" is the artist's, of every lobe that has something for it to set. */
-static void roughness_sets_what_a_material_sets(void **state) {
+static void roughness_of_a_lobe_sets_what_a_material_sets(void **state) {
     (void)state;
     int refused = 0;
     for (int k = 0; k < weft_lobe_count(); k++) {
@@ -70,9 +70,9 @@ static void roughness_sets_what_a_material_sets(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_such_lobe_is_black),
-        cmocka_unit_test(parameters_are_clamped),
-        cmocka_unit_test(roughness_sets_what_a_material_sets),
+        cmocka_unit_test(lobe_of_an_unknown_id_is_black),
+        cmocka_unit_test(parameters_outside_the_hard_range_are_clamped),
+        cmocka_unit_test(roughness_of_a_lobe_sets_what_a_material_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

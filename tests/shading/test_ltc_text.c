@@ -93,7 +93,7 @@ static void assert_near(Dir got, const double want[3], double factor, double siz
                  factor * want[1], factor * want[2]);
 }
 
-static void matrices_are_those_written_out(void **state) {
+static void ltc_matrices_equal_their_written_form(void **state) {
     (void)state;
     Random random = {11};
     for (int k = 0; k < 20000; k++) {
@@ -131,7 +131,7 @@ static Dir sample_of(const BsdfView *view, float u, float v) {
 }
 static const Bsdf transformed = {.pdf = pdf_of, .sample = sample_of};
 
-static void samples_fall_where_the_pdf_says(void **state) {
+static void ltc_samples_follow_their_pdf(void **state) {
     (void)state;
     enum { TESTS = 40 };
     static const double cosines[] = {1.0, 0.9, 0.5, 0.15, 0.02};
@@ -158,7 +158,7 @@ static void samples_fall_where_the_pdf_says(void **state) {
     }
 }
 
-static void nothing_is_infinite(void **state) {
+static void extreme_ltc_matrices_give_finite_values(void **state) {
     (void)state;
     static const float zs[] = {1e-8f, 1e-3f, 1.0f, 100.0f}, qs[] = {0.0f, 1e-6f, 1.0f, 50.0f};
     static const float bs[] = {-100.0f, -1.0f, 0.0f, 1e-5f, 1.0f, 100.0f}, rs[] = {0.0f, 1e-4f, 1.0f, 30.0f};
@@ -196,7 +196,7 @@ static LtcTable table(void) {
     return (LtcTable){texels, ROWS, COLUMNS, 0.2f, 0.9f};
 }
 
-static void tables_are_mixed_between_their_nodes(void **state) {
+static void ltc_tables_are_interpolated_between_nodes(void **state) {
     (void)state;
     LtcTable t = table();
     for (int row = 0; row < ROWS; row++)
@@ -225,7 +225,7 @@ static void begin_text(Text *text, TextLanguage language) {
     text_include(text, "shading/ltc_table.h");
 }
 
-static void it_is_glsl(void **state) {
+static void ltc_text_is_valid_glsl(void **state) {
     (void)state;
     static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300, TEXT_GLSL_450};
     if (system("command -v glslangValidator >/dev/null 2>&1") != 0) {
@@ -318,7 +318,7 @@ static void compare_on(TextLanguage language) {
     context_destroy(context);
 }
 
-static void the_gpu_says_the_same(void **state) {
+static void ltc_text_in_glsl_agrees_with_c(void **state) {
     (void)state;
     compare_on(TEXT_GLSL_330);
     compare_on(TEXT_GLSL_ES_300);
@@ -326,12 +326,12 @@ static void the_gpu_says_the_same(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrices_are_those_written_out),
-        cmocka_unit_test(samples_fall_where_the_pdf_says),
-        cmocka_unit_test(nothing_is_infinite),
-        cmocka_unit_test(tables_are_mixed_between_their_nodes),
-        cmocka_unit_test(it_is_glsl),
-        cmocka_unit_test(the_gpu_says_the_same),
+        cmocka_unit_test(ltc_matrices_equal_their_written_form),
+        cmocka_unit_test(ltc_samples_follow_their_pdf),
+        cmocka_unit_test(extreme_ltc_matrices_give_finite_values),
+        cmocka_unit_test(ltc_tables_are_interpolated_between_nodes),
+        cmocka_unit_test(ltc_text_is_valid_glsl),
+        cmocka_unit_test(ltc_text_in_glsl_agrees_with_c),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@ static double transformed(const void *what, Dir o, Dir i) {
     return (double)ltc_pdf(*(const Ltc *)what, o, i);
 }
 
-static void form_factors_are_right(void **state) {
+static void form_factor_equals_the_integral(void **state) {
     (void)state;
     uint64_t random = 1;
     double worst = 0.0;
@@ -34,7 +34,7 @@ static void form_factors_are_right(void **state) {
     assert_float_equal(polygon_cosine(light_polygon(square, 4)), (float)(4.0 * corner), 1e-6f);
 }
 
-static void transformed_cosines_are_right(void **state) {
+static void transformed_cosines_equal_the_integral(void **state) {
     (void)state;
     uint64_t random = 2;
     for (int n = 0; n < (test_short() ? 40 : 400); n++) {
@@ -52,7 +52,7 @@ static void transformed_cosines_are_right(void **state) {
     }
 }
 
-static void clipping_is_exact(void **state) {
+static void clipped_polygon_is_exact(void **state) {
     (void)state;
     uint64_t random = 3;
     int crossing = 0;
@@ -87,7 +87,7 @@ static void clipping_is_exact(void **state) {
 }
 
 /* In the plane of the light, and on it, there is no more than the hemisphere. */
-static void edges_are_harmless(void **state) {
+static void form_factor_in_the_plane_of_the_light_is_bounded(void **state) {
     (void)state;
     uint64_t random = 4;
     for (int n = 0; n < 20000; n++) {
@@ -108,7 +108,7 @@ static void edges_are_harmless(void **state) {
 }
 
 /* Gauss' points hold the solid angle, and the mean direction, from afar and from near. */
-static void points_hold_moments(void **state) {
+static void points_of_a_polygon_keep_its_moments(void **state) {
     (void)state;
     static const Integrand moments[] = {one, along_x, along_y, along_z};
     static const double distances[] = {10.0, 2.0, 0.5};
@@ -147,9 +147,11 @@ static void points_hold_moments(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(form_factors_are_right), cmocka_unit_test(transformed_cosines_are_right),
-        cmocka_unit_test(clipping_is_exact),      cmocka_unit_test(edges_are_harmless),
-        cmocka_unit_test(points_hold_moments),
+        cmocka_unit_test(form_factor_equals_the_integral),
+        cmocka_unit_test(transformed_cosines_equal_the_integral),
+        cmocka_unit_test(clipped_polygon_is_exact),
+        cmocka_unit_test(form_factor_in_the_plane_of_the_light_is_bounded),
+        cmocka_unit_test(points_of_a_polygon_keep_its_moments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -410,7 +410,7 @@ static TableRef openpbr_ref(void) {
     return albedo_table_ref(&openpbr_table);
 }
 
-static void profiles_are_their_engines(void **state) {
+static void profiles_follow_the_formulas_of_their_engines(void **state) {
     (void)state;
     Random random = {71};
     double worst[PROFILES] = {0};
@@ -479,7 +479,7 @@ static float hard(Random *random, float low, float high) {
     return u < 0.2f ? low : u < 0.4f ? high : weft_mix(low, high, random_unit(random));
 }
 
-static void nothing_is_infinite_or_negative(void **state) {
+static void profiles_are_finite_and_not_negative(void **state) {
     (void)state;
     Random random = {72};
     static const double cosines[] = {1e-6, 1e-4, 0.01, 0.3, 0.8, 1.0};
@@ -518,7 +518,7 @@ static void nothing_is_infinite_or_negative(void **state) {
 }
 
 /* E of the white sheen of a profile, as the research of these engines found it by other means. */
-static void sheens_reflect_what_their_engines_do(void **state) {
+static void sheens_of_profiles_have_the_albedo_of_their_engines(void **state) {
     (void)state;
     static const struct {
         int profile;
@@ -557,7 +557,7 @@ static void sheens_reflect_what_their_engines_do(void **state) {
     }
 }
 
-static void formulas_have_their_known_values(void **state) {
+static void engine_formulas_have_their_known_values(void **state) {
     (void)state;
     assert_float_equal(three_albedo(0.02f, 0.10f), 0.27f, 0.005f);
     assert_float_equal(three_albedo(0.02f, 0.25f), 0.39f, 0.005f);
@@ -597,7 +597,7 @@ static double ggx_sum(double r, double v, int points) {
 }
 
 /* Texels against a quadrature that shares nothing with the sums they come from. */
-static void tables_are_as_shipped(void **state) {
+static void tables_of_engines_are_near_a_quadrature(void **state) {
     (void)state;
     static const int all[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN,
                               ENGINE_BABYLON_GGX};
@@ -640,7 +640,7 @@ static void tables_are_as_shipped(void **state) {
 }
 
 /* What the substitute for glTF's picture may be off by, if that was made without the clamp on V. */
-static void the_substitute_is_near(void **state) {
+static void substitute_for_the_table_of_gltf_is_near(void **state) {
     (void)state;
     double grazing = 0.0, elsewhere = 0.0;
     for (int k = 2; k <= 20; k++)
@@ -659,7 +659,7 @@ static void the_substitute_is_near(void **state) {
     assert_true(grazing < 0.16 && elsewhere < 0.06);
 }
 
-static void no_two_are_the_same(void **state) {
+static void no_two_profiles_are_the_same(void **state) {
     (void)state;
     Random random = {73};
     static double apart[PROFILES][PROFILES];
@@ -684,13 +684,13 @@ static void no_two_are_the_same(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(profiles_are_their_engines),
-        cmocka_unit_test(nothing_is_infinite_or_negative),
-        cmocka_unit_test(sheens_reflect_what_their_engines_do),
-        cmocka_unit_test(formulas_have_their_known_values),
-        cmocka_unit_test(tables_are_as_shipped),
-        cmocka_unit_test(the_substitute_is_near),
-        cmocka_unit_test(no_two_are_the_same),
+        cmocka_unit_test(profiles_follow_the_formulas_of_their_engines),
+        cmocka_unit_test(profiles_are_finite_and_not_negative),
+        cmocka_unit_test(sheens_of_profiles_have_the_albedo_of_their_engines),
+        cmocka_unit_test(engine_formulas_have_their_known_values),
+        cmocka_unit_test(tables_of_engines_are_near_a_quadrature),
+        cmocka_unit_test(substitute_for_the_table_of_gltf_is_near),
+        cmocka_unit_test(no_two_profiles_are_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@ static Dir turned(Dir w, double angle) {
     return dir(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
 }
 
-static void reciprocal_lobes_are(void **state) {
+static void lobes_are_reciprocal_as_their_traits_claim(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!(weft_lobe_info(id)->traits & TRAIT_RECIPROCAL)) continue;
@@ -41,7 +41,7 @@ static float turning_error(const Lobe *lobe) {
     return 1e-5f / (alpha * alpha);
 }
 
-static void isotropic_lobes_do_not_see_azimuth(void **state) {
+static void isotropic_lobes_do_not_depend_on_azimuth(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         bool anisotropic = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
@@ -63,7 +63,7 @@ static void isotropic_lobes_do_not_see_azimuth(void **state) {
     }
 }
 
-static void anisotropic_lobes_see_azimuth(void **state) {
+static void anisotropic_lobes_depend_on_azimuth(void **state) {
     (void)state;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (!(weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC) || case_walks(id)) continue;
@@ -87,9 +87,9 @@ static void anisotropic_lobes_see_azimuth(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reciprocal_lobes_are),
-        cmocka_unit_test(isotropic_lobes_do_not_see_azimuth),
-        cmocka_unit_test(anisotropic_lobes_see_azimuth),
+        cmocka_unit_test(lobes_are_reciprocal_as_their_traits_claim),
+        cmocka_unit_test(isotropic_lobes_do_not_depend_on_azimuth),
+        cmocka_unit_test(anisotropic_lobes_depend_on_azimuth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

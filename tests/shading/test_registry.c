@@ -84,7 +84,7 @@ static void every_layer_file_is_listed(void **state) {
     assert_null(weft_layer_help(layers));
 }
 
-static void ids_are_unique_and_kebab(void **state) {
+static void lobe_ids_are_unique_and_kebab_case(void **state) {
     (void)state;
     for (int k = 0; k < weft_lobe_count(); k++) {
         const char *id = weft_lobe_info(k)->id;
@@ -97,7 +97,7 @@ static void ids_are_unique_and_kebab(void **state) {
     assert_null(weft_lobe_info(weft_lobe_count()));
 }
 
-static void parameter_tables_are_sane(void **state) {
+static void parameter_tables_have_ordered_ranges(void **state) {
     (void)state;
     for (int k = 0; k < weft_lobe_count(); k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
@@ -127,7 +127,7 @@ static bool has_year(const char *text) {
     return false;
 }
 
-static void lobe_headers_say_what_they_must(void **state) {
+static void lobe_headers_have_the_required_lines(void **state) {
     (void)state;
     static const char *const phrases[] = {"f = ", "reciprocal: ", "energy: ", "sampling: ", "[1/sr]"};
     for (int k = 0; k < weft_lobe_count(); k++) {
@@ -186,7 +186,7 @@ static void see(void *user, WeftMessage message, const char *text) {
     assert_non_null(text);
 }
 
-static void a_name_that_is_none_is_refused(void **state) {
+static void unknown_parameter_name_is_refused(void **state) {
     (void)state;
     WeftLobe lobe;
     WeftError error;
@@ -200,7 +200,7 @@ static void a_name_that_is_none_is_refused(void **state) {
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_NAME);
 }
 
-static void a_value_that_is_none_is_refused(void **state) {
+static void malformed_parameter_value_is_refused(void **state) {
     (void)state;
     static const char *const values[] = {"", "x", "0.5x", "nan", "inf", "-inf", "1e99", "1,2", "0.1,0.2,0.3"};
     for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
@@ -218,7 +218,7 @@ static void a_value_that_is_none_is_refused(void **state) {
     }
 }
 
-static void values_beyond_the_ranges_warn(void **state) {
+static void values_outside_the_plausible_range_are_a_warning(void **state) {
     (void)state;
     Seen seen = {0};
     WeftLog log = {see, &seen};
@@ -245,13 +245,13 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_lobe_file_is_registered),
         cmocka_unit_test(every_layer_file_is_listed),
-        cmocka_unit_test(ids_are_unique_and_kebab),
-        cmocka_unit_test(parameter_tables_are_sane),
-        cmocka_unit_test(lobe_headers_say_what_they_must),
+        cmocka_unit_test(lobe_ids_are_unique_and_kebab_case),
+        cmocka_unit_test(parameter_tables_have_ordered_ranges),
+        cmocka_unit_test(lobe_headers_have_the_required_lines),
         cmocka_unit_test(shading_text_keeps_to_the_dialect),
-        cmocka_unit_test(a_name_that_is_none_is_refused),
-        cmocka_unit_test(a_value_that_is_none_is_refused),
-        cmocka_unit_test(values_beyond_the_ranges_warn),
+        cmocka_unit_test(unknown_parameter_name_is_refused),
+        cmocka_unit_test(malformed_parameter_value_is_refused),
+        cmocka_unit_test(values_outside_the_plausible_range_are_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

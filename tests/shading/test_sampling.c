@@ -47,7 +47,7 @@ static bool samples_as_default(const Lobe *lobe) {
     return true;
 }
 
-static void lobes_sample_what_their_pdf_says(void **state) {
+static void lobe_samples_follow_their_pdf(void **state) {
     (void)state;
     int tests = 0, turn = 0;
     for (int e = 0; e < ELEVATIONS; e++)
@@ -72,7 +72,7 @@ static void stack_pdf(const BsdfView *view, Dirs i, float *pdf) {
 static Dir stack_draw(const BsdfView *view, float u, float v) { return seen_sample(&view->whole, u, v); }
 static const Bsdf stacked = {.pdf = stack_pdf, .sample = stack_draw};
 
-static void stacks_sample_what_their_pdf_says(void **state) {
+static void stack_samples_follow_their_pdf(void **state) {
     (void)state;
     static AlbedoTable table;
     Random random = {7};
@@ -98,7 +98,7 @@ static void leaning_pdf(const BsdfView *view, Dirs i, float *pdf) {
 }
 
 /* A test that cannot fail would be none. */
-static void a_wrong_pdf_is_found(void **state) {
+static void chi_square_finds_a_wrong_pdf(void **state) {
     (void)state;
     Lobe lambert = lobe_default(LOBE_LAMBERT);
     Bsdf bsdf;
@@ -114,9 +114,9 @@ static void a_wrong_pdf_is_found(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lobes_sample_what_their_pdf_says),
-        cmocka_unit_test(stacks_sample_what_their_pdf_says),
-        cmocka_unit_test(a_wrong_pdf_is_found),
+        cmocka_unit_test(lobe_samples_follow_their_pdf),
+        cmocka_unit_test(stack_samples_follow_their_pdf),
+        cmocka_unit_test(chi_square_finds_a_wrong_pdf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

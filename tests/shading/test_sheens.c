@@ -203,7 +203,7 @@ static Lobe random_lobe(Random *random, int id) {
     return lobe;
 }
 
-static void formulas_are_those_of_the_papers(void **state) {
+static void sheens_follow_the_formulas_of_their_papers(void **state) {
     (void)state;
     for (int s = 0; s < SHEENS; s++) {
         int id = weft_lobe_find(sheens[s].id);
@@ -229,7 +229,7 @@ static void formulas_are_those_of_the_papers(void **state) {
 }
 
 /* alpha is an artist's roughness squared where the header says so; patry squares its own. */
-static void roughness_means_what_the_headers_say(void **state) {
+static void roughness_of_sheens_is_as_the_headers_state(void **state) {
     (void)state;
     static const char *const squared[] = {"ashikhmin-neubelt", "ashikhmin-conty-kulla", "charlie-khronos",
                                           "silk"};
@@ -245,7 +245,7 @@ static void roughness_means_what_the_headers_say(void **state) {
 }
 
 /* Both exponentials reflect x exactly, whatever beta, and their limit for small beta is the straight ramp. */
-static void exponentials_reflect_their_ramp(void **state) {
+static void exponential_lobes_follow_their_ramp(void **state) {
     (void)state;
     static const float betas[] = {0.01f, 0.1f, 0.25f, 0.5f, 1.0f, 3.0f, 20.0f, 100.0f};
     static const int ids[] = {LOBE_EXPONENTIAL, LOBE_EXPONENTIAL_LIT};
@@ -277,7 +277,7 @@ static void expect(int id, float first, double cos_o, double stated, double roun
                  e, cos_o, stated);
 }
 
-static void headers_state_true_energies(void **state) {
+static void albedo_of_sheens_is_as_the_headers_state(void **state) {
     (void)state;
     expect(LOBE_BURLEY_SHEEN, 0.0f, 0.02, 0.0836, 5e-5);
     expect(LOBE_BURLEY_SHEEN, 0.0f, 0.5, 0.0156, 5e-5);
@@ -313,7 +313,7 @@ static void headers_state_true_energies(void **state) {
 }
 
 /* Whatever textures make of their numbers, body and fabric return no more than they receive. */
-static void cloth_conserves_over_all_its_numbers(void **state) {
+static void cloth_conserves_energy_over_its_whole_range(void **state) {
     (void)state;
     static const char *const ids[] = {"body", "fabric"};
     for (int l = 0; l < 2; l++) {
@@ -340,7 +340,7 @@ static void cloth_conserves_over_all_its_numbers(void **state) {
 }
 
 /* The weight f cos / pdf never passes the stated bound, nor what yarns send up the stated most. */
-static void weights_and_yarns_are_bounded(void **state) {
+static void sample_weights_of_sheens_are_bounded(void **state) {
     (void)state;
     static const struct {
         int id;
@@ -417,7 +417,7 @@ static void threads_shift_their_color(void **state) {
 }
 
 /* Flat yarn in a plain weave has no streak of its own to hide: the shares are then those of the surface. */
-static void flat_yarn_is_weighed_by_its_share(void **state) {
+static void flat_yarn_is_weighted_by_its_area(void **state) {
     (void)state;
     Lobe lobe = lobe_default(LOBE_THREADS);
     lobe_set(&lobe, 2, 0.25f);
@@ -429,7 +429,7 @@ static void flat_yarn_is_weighed_by_its_share(void **state) {
 }
 
 /* silk without anisotropy is ggx; stretched it is the ggx of the two widths. */
-static void round_silk_is_ggx(void **state) {
+static void silk_without_anisotropy_is_ggx(void **state) {
     (void)state;
     Random random = {59};
     for (int n = 0; n < 100000; n++) {
@@ -447,15 +447,15 @@ static void round_silk_is_ggx(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formulas_are_those_of_the_papers),
-        cmocka_unit_test(roughness_means_what_the_headers_say),
-        cmocka_unit_test(exponentials_reflect_their_ramp),
-        cmocka_unit_test(headers_state_true_energies),
-        cmocka_unit_test(cloth_conserves_over_all_its_numbers),
-        cmocka_unit_test(weights_and_yarns_are_bounded),
+        cmocka_unit_test(sheens_follow_the_formulas_of_their_papers),
+        cmocka_unit_test(roughness_of_sheens_is_as_the_headers_state),
+        cmocka_unit_test(exponential_lobes_follow_their_ramp),
+        cmocka_unit_test(albedo_of_sheens_is_as_the_headers_state),
+        cmocka_unit_test(cloth_conserves_energy_over_its_whole_range),
+        cmocka_unit_test(sample_weights_of_sheens_are_bounded),
         cmocka_unit_test(threads_shift_their_color),
-        cmocka_unit_test(flat_yarn_is_weighed_by_its_share),
-        cmocka_unit_test(round_silk_is_ggx),
+        cmocka_unit_test(flat_yarn_is_weighted_by_its_area),
+        cmocka_unit_test(silk_without_anisotropy_is_ggx),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

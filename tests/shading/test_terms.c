@@ -66,7 +66,7 @@ static double distance(double value, double exact, double nothing) {
     return fabs(value - exact) / fmax(fabs(exact), nothing);
 }
 
-static void distributions_are_those_of_the_papers(void **state) {
+static void distributions_follow_the_formulas_of_their_papers(void **state) {
     (void)state;
     for (int d = 0; d < D_COUNT; d++) {
         Random random = {41};
@@ -201,7 +201,7 @@ static double tilt_distance(int d, double sampled_alpha, double alpha) {
     return apart;
 }
 
-static void samplers_follow_their_distributions(void **state) {
+static void samples_of_h_follow_their_distribution(void **state) {
     (void)state;
     const double significance = 1.0 - power(1.0 - 0.01, 1.0 / (D_COUNT * (ALPHAS + 1)));
     for (int d = 0; d < D_COUNT; d++) {
@@ -302,7 +302,7 @@ static double paper_g(int v, double alpha, Dir wo, Dir wi) {
     return o / (o * (1.0 - k) + k) * i / (i * (1.0 - k) + k);
 }
 
-static void visibilities_are_those_of_the_papers(void **state) {
+static void visibility_terms_follow_the_formulas_of_their_papers(void **state) {
     (void)state;
     for (int v = 0; v < V_COUNT; v++) {
         Random random = {47};
@@ -334,7 +334,7 @@ static void visibilities_are_those_of_the_papers(void **state) {
 
 /* Finite to cosines of 1e-6 and far below, where the two directions are the same, mirrored, or opposite; and
  * to 1e-6 no floor changes the value by more than 1 %. */
-static void visibilities_are_finite(void **state) {
+static void visibility_terms_are_finite(void **state) {
     (void)state;
     static const double low[] = {1e-6, 2e-6, 1e-4, 0.1, 1.0},
                         turns[] = {0.0, 1e-3, 1.0, TEST_PI - 1e-3, TEST_PI};
@@ -374,7 +374,7 @@ static double seen_share(int d, int v, double alpha, double cos_o) {
     return 4.0 * (double)shadow(v, alpha, angles_between(o, n)) * sum; /* 4 V = G1 / cos_o */
 }
 
-static void smith_masking_belongs_to_its_distribution(void **state) {
+static void smith_visibility_belongs_to_its_distribution(void **state) {
     (void)state;
     static const int pairs[][2] = {{D_GGX, V_SMITH_GGX},
                                    {D_GGX, V_SMITH_GGX_CORRELATED},
@@ -413,7 +413,7 @@ static double paper_share(int f, double n, double k, double c) {
     return fmax((paper_f(n, extinction, c) - normal) / (1.0 - normal), 0.0);
 }
 
-static void reflectances_are_those_of_the_papers(void **state) {
+static void fresnel_terms_follow_the_formulas_of_their_papers(void **state) {
     (void)state;
     for (int f = 0; f < F_COUNT; f++) {
         if (f == F_COOK_TORRANCE) continue; /* it has no share */
@@ -446,7 +446,7 @@ static void reflectances_are_those_of_the_papers(void **state) {
                      paper_share(F_CONDUCTOR, 1.5, 3.01, 0.3)) > 2e-5);
 }
 
-static void reflectances_have_their_shapes(void **state) {
+static void fresnel_terms_have_their_limits(void **state) {
     (void)state;
     double apart = 0.0;
     for (int n = 1; n <= 1000; n++) {
@@ -474,7 +474,7 @@ static void reflectances_have_their_shapes(void **state) {
 
 /* Karis, "Specular BRDF Reference", 2013: the index is that of F0, channel by channel and whatever weight the
  * colour has. */
-static void cook_torrance_takes_its_index_from_the_colour(void **state) {
+static void cook_torrance_fresnel_takes_its_index_from_f0(void **state) {
     (void)state;
     assert_float_equal(fresnel_weight_mix(term_f(F_COOK_TORRANCE, 1.5f, 3.0f, 0.15f), 0.638f, 1.0f), 0.478f,
                        5e-4f);
@@ -506,7 +506,7 @@ static double dip(double n, double k) {
     return paper_f(n, k, 1.0) - least;
 }
 
-static void dips_are_as_small_as_said(void **state) {
+static void dips_of_fresnel_terms_have_the_stated_size(void **state) {
     (void)state;
     static const double metals[][2] = {{1.10, 6.80}, {0.27, 2.95}, {0.05, 3.30}, {2.91, 3.08}, {3.18, 3.31}};
     double worst = 0.0;
@@ -563,7 +563,7 @@ static void every_term_has_a_file_and_a_row(void **state) {
 }
 
 /* The choices of the lobe are these lists, in this order. */
-static void the_lobe_offers_every_term(void **state) {
+static void cook_torrance_offers_every_term(void **state) {
     (void)state;
     static const char *const names[] = {"d", "v", "f"};
     for (int kind = 0; kind < 3; kind++) {
@@ -591,7 +591,7 @@ static Lobe composed(int d, int v, int f, float alpha, float stretch) {
 }
 
 /* What is in the catalogue under a name of its own comes out of the same two terms. */
-static void known_lobes_can_be_composed(void **state) {
+static void known_lobes_equal_their_composed_terms(void **state) {
     (void)state;
     static const struct Same {
         int id;
@@ -617,7 +617,7 @@ static void known_lobes_can_be_composed(void **state) {
 }
 
 /* Every D with every V: the mean weight of the samples is E, one by one and over arrays. */
-static void every_pair_can_be_sampled(void **state) {
+static void every_pair_of_d_and_v_can_be_sampled(void **state) {
     (void)state;
     enum { N = 4000 };
     static const double cosines[] = {0.9, 0.15};
@@ -654,21 +654,21 @@ static void every_pair_can_be_sampled(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distributions_are_those_of_the_papers),
+        cmocka_unit_test(distributions_follow_the_formulas_of_their_papers),
         cmocka_unit_test(distributions_are_normalised),
-        cmocka_unit_test(samplers_follow_their_distributions),
+        cmocka_unit_test(samples_of_h_follow_their_distribution),
         cmocka_unit_test(distributions_have_their_limits),
-        cmocka_unit_test(visibilities_are_those_of_the_papers),
-        cmocka_unit_test(visibilities_are_finite),
-        cmocka_unit_test(smith_masking_belongs_to_its_distribution),
-        cmocka_unit_test(reflectances_are_those_of_the_papers),
-        cmocka_unit_test(reflectances_have_their_shapes),
-        cmocka_unit_test(cook_torrance_takes_its_index_from_the_colour),
-        cmocka_unit_test(dips_are_as_small_as_said),
+        cmocka_unit_test(visibility_terms_follow_the_formulas_of_their_papers),
+        cmocka_unit_test(visibility_terms_are_finite),
+        cmocka_unit_test(smith_visibility_belongs_to_its_distribution),
+        cmocka_unit_test(fresnel_terms_follow_the_formulas_of_their_papers),
+        cmocka_unit_test(fresnel_terms_have_their_limits),
+        cmocka_unit_test(cook_torrance_fresnel_takes_its_index_from_f0),
+        cmocka_unit_test(dips_of_fresnel_terms_have_the_stated_size),
         cmocka_unit_test(every_term_has_a_file_and_a_row),
-        cmocka_unit_test(the_lobe_offers_every_term),
-        cmocka_unit_test(known_lobes_can_be_composed),
-        cmocka_unit_test(every_pair_can_be_sampled),
+        cmocka_unit_test(cook_torrance_offers_every_term),
+        cmocka_unit_test(known_lobes_equal_their_composed_terms),
+        cmocka_unit_test(every_pair_of_d_and_v_can_be_sampled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ static Tint any_tint(Random *random) {
                   .e = 2.0f * random_unit(random) - 1.0f};
 }
 
-static void the_law_is_what_it_says(void **state) {
+static void tint_equals_its_law(void **state) {
     (void)state;
     Random random = {31};
     for (int n = 0; n < 100000; n++) {
@@ -36,7 +36,7 @@ static void the_law_is_what_it_says(void **state) {
 
 /* Colours come out of each call as the lobe's own Tint says; whoever keeps less of the light sends on less.
  */
-static void f_follows_the_law(void **state) {
+static void colour_of_f_follows_the_tint(void **state) {
     (void)state;
     Random random = {32};
     for (int id = 0; id < weft_lobe_count(); id++)
@@ -60,7 +60,7 @@ static void f_follows_the_law(void **state) {
 }
 
 /* E of a colour is the sum of f of that colour: by midpoints, from the calls for arrays. */
-static void albedo_is_integrated_for_each_colour(void **state) {
+static void albedo_of_a_coloured_sheen_is_its_integral(void **state) {
     (void)state;
     enum { CELLS = 150 };
     static const double cosines[] = {0.05, 0.3, 0.8};
@@ -99,7 +99,7 @@ static void albedo_is_integrated_for_each_colour(void **state) {
 }
 
 /* The maps of the table stand for all colours. */
-static void the_table_knows_every_colour(void **state) {
+static void table_of_albedo_holds_for_every_colour(void **state) {
     (void)state;
     static AlbedoTable table;
     for (int id = 0; id < weft_lobe_count(); id++) {
@@ -143,7 +143,7 @@ static void the_table_knows_every_colour(void **state) {
 
 /* A coloured sheen on a white base: the base gives up what the sheen sends on in each colour, so that under
  * the rule that is exact for white nothing is gained or lost. */
-static void a_coloured_sheen_takes_what_it_sends(void **state) {
+static void coloured_sheen_on_a_white_base_conserves_each_colour(void **state) {
     (void)state;
     static AlbedoTable table;
     for (int id = 0; id < weft_lobe_count(); id++) {
@@ -184,11 +184,11 @@ static void a_coloured_sheen_takes_what_it_sends(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_law_is_what_it_says),
-        cmocka_unit_test(f_follows_the_law),
-        cmocka_unit_test(albedo_is_integrated_for_each_colour),
-        cmocka_unit_test(the_table_knows_every_colour),
-        cmocka_unit_test(a_coloured_sheen_takes_what_it_sends),
+        cmocka_unit_test(tint_equals_its_law),
+        cmocka_unit_test(colour_of_f_follows_the_tint),
+        cmocka_unit_test(albedo_of_a_coloured_sheen_is_its_integral),
+        cmocka_unit_test(table_of_albedo_holds_for_every_colour),
+        cmocka_unit_test(coloured_sheen_on_a_white_base_conserves_each_colour),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static float value_of(int index) {
 
 static bool is(float x, float y) { return !(x < y) && !(x > y); }
 
-static void another_file_of_the_name_takes_its_place(void **state) {
+static void lobe_file_of_a_loaded_name_replaces_it(void **state) {
     (void)state;
     int before = weft_lobe_count();
     assert_null(weft_lobe_info(before));
@@ -112,7 +112,7 @@ static void *ask(void *user) {
     return NULL;
 }
 
-static void one_that_is_used_may_change(void **state) {
+static void lobe_file_in_use_may_be_replaced(void **state) {
     (void)state;
     write_lobe("b", "3.0f");
     User user = {.lobe = load("b.h")};
@@ -128,7 +128,7 @@ static void one_that_is_used_may_change(void **state) {
     assert_int_equal(user.wrong, 0);
 }
 
-static void there_is_room_for_eight(void **state) {
+static void ninth_lobe_file_is_refused(void **state) {
     (void)state;
     char name[2] = "c", file[8];
     for (; name[0] < 'i'; name[0]++) {
@@ -147,7 +147,7 @@ static void there_is_room_for_eight(void **state) {
 }
 
 /* The loops of a lobe from outside take parameters and colours of each element, as those of the list. */
-static void elements_have_numbers_of_their_own(void **state) {
+static void element_loops_of_a_lobe_file_take_own_parameters(void **state) {
     (void)state;
     enum { N = 75 };
     float o[3][N], i[3][N], u[N], v[N], level[N], red[N], f[N], pdf[N], drawn[3][N];
@@ -182,7 +182,7 @@ static void on_warning(void *user, WeftMessage message, const char *text) {
     *(int *)user += message == WEFT_MESSAGE_CACHE_IGNORED;
 }
 
-static void a_cache_that_keeps_nothing_is_told(void **state) {
+static void cache_that_cannot_keep_a_lobe_is_a_warning(void **state) {
     (void)state;
     int count = 0;
     const WeftLog log = {on_warning, &count};
@@ -197,9 +197,10 @@ static void a_cache_that_keeps_nothing_is_told(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(another_file_of_the_name_takes_its_place),
-        cmocka_unit_test(one_that_is_used_may_change), cmocka_unit_test(elements_have_numbers_of_their_own),
-        cmocka_unit_test(a_cache_that_keeps_nothing_is_told), cmocka_unit_test(there_is_room_for_eight)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lobe_file_of_a_loaded_name_replaces_it),
+                                       cmocka_unit_test(lobe_file_in_use_may_be_replaced),
+                                       cmocka_unit_test(element_loops_of_a_lobe_file_take_own_parameters),
+                                       cmocka_unit_test(cache_that_cannot_keep_a_lobe_is_a_warning),
+                                       cmocka_unit_test(ninth_lobe_file_is_refused)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -31,7 +31,7 @@ static void assert_words(const char *made, const char *wanted) {
     free(packed);
 }
 
-static void calls_become_operators(void **state) {
+static void calls_of_arithmetic_become_operators(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"c = rgb_add(a, b);", "c = a + b;"},
@@ -72,7 +72,7 @@ static void cut(const char *text, Items *items) {
     assert_true(items_keep(items, "shade"));
 }
 
-static void filled_records_are_returned(void **state) {
+static void filled_record_becomes_a_returned_one(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"void fill(float x, inout T p) { p.a = x; } float shade(float x) { T p; fill(x, p); return p.a; }",
@@ -112,7 +112,7 @@ static void filled_records_are_returned(void **state) {
     }
 }
 
-static void idle_parts_go(void **state) {
+static void unused_members_are_removed(void **state) {
     (void)state;
     static const char *const whole[] = {"Kept", NULL};
     static const char *const cases[][2] = {
@@ -181,7 +181,7 @@ static void idle_parts_go(void **state) {
 }
 
 /* A list that nothing closes ends with its function. */
-static void open_lists_end(void **state) {
+static void unclosed_parameter_list_ends_with_its_function(void **state) {
     (void)state;
     static const char text[] = "float shade(float x { return x; } float other() { return 1.0; }";
     Items items;
@@ -196,7 +196,7 @@ static void open_lists_end(void **state) {
     buffer_free(&out);
 }
 
-static void references_lose_their_marks(void **state) {
+static void references_lose_their_marks_in_native_text(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"void f(float *m, float v) { if (c) *m = v; else *m = v * *m; }",
@@ -215,7 +215,7 @@ static void references_lose_their_marks(void **state) {
     }
 }
 
-static void pointers_are_spelt_in_c(void **state) {
+static void pointers_are_written_in_c(void **state) {
     (void)state;
     static const char text[] =
         "void f(inout float m, float v) { m = v * m; } void shade(inout float v, float "
@@ -232,12 +232,12 @@ static void pointers_are_spelt_in_c(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(calls_become_operators),
-        cmocka_unit_test(filled_records_are_returned),
-        cmocka_unit_test(idle_parts_go),
-        cmocka_unit_test(open_lists_end),
-        cmocka_unit_test(references_lose_their_marks),
-        cmocka_unit_test(pointers_are_spelt_in_c),
+        cmocka_unit_test(calls_of_arithmetic_become_operators),
+        cmocka_unit_test(filled_record_becomes_a_returned_one),
+        cmocka_unit_test(unused_members_are_removed),
+        cmocka_unit_test(unclosed_parameter_list_ends_with_its_function),
+        cmocka_unit_test(references_lose_their_marks_in_native_text),
+        cmocka_unit_test(pointers_are_written_in_c),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

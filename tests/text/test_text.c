@@ -114,7 +114,7 @@ static int gpu_lobes(int ids[LOBE_COUNT]) {
 }
 
 /* Together in all languages; and each alone, in the strictest, whether it includes what it needs. */
-static void every_lobe_is_glsl(void **state) {
+static void text_of_every_lobe_is_valid_glsl(void **state) {
     (void)state;
     int ids[LOBE_COUNT];
     int count = gpu_lobes(ids);
@@ -146,7 +146,7 @@ static bool is_below(const char *name, const char *folder) {
 
 /* Terms and layers that nothing uses yet are shading text too, and so is the medium of fibres; all of them
  * together, since names are unique. */
-static void every_term_is_glsl(void **state) {
+static void text_of_every_term_is_valid_glsl(void **state) {
     (void)state;
     Batch batch;
     batch_begin(&batch);
@@ -180,7 +180,7 @@ static void every_term_is_glsl(void **state) {
 }
 
 /* A whole surface, with every workflow, profile, layer and lobe. */
-static void a_surface_is_glsl(void **state) {
+static void text_of_a_surface_is_valid_glsl(void **state) {
     (void)state;
     int ids[LOBE_COUNT];
     int count = gpu_lobes(ids);
@@ -214,7 +214,7 @@ static void a_surface_is_glsl(void **state) {
 }
 
 /* Each by itself, in the strictest language, whether it includes what it needs. */
-static void every_composition_is_glsl(void **state) {
+static void text_of_every_composition_is_valid_glsl(void **state) {
     (void)state;
     Batch batch;
     int files = 0;
@@ -239,7 +239,7 @@ static void every_composition_is_glsl(void **state) {
     assert_int_equal(status, 0);
 }
 
-static void what_is_not_glsl_is_found(void **state) {
+static void text_that_is_not_glsl_is_found(void **state) {
     (void)state;
     if (!has_validator()) skip();
     for (int l = 0; l < LANGUAGES; l++) {
@@ -258,7 +258,7 @@ static void what_is_not_glsl_is_found(void **state) {
     }
 }
 
-static void a_file_comes_once(void **state) {
+static void file_included_twice_stands_once(void **state) {
     (void)state;
     Text once, twice;
     text_begin(&once, &(TextDesc){.language = TEXT_GLSL_330});
@@ -330,7 +330,7 @@ static void assert_flat(const char *source, const char *expected) {
     assert_string_equal(out, expected);
 }
 
-static void macros_are_expanded(void **state) {
+static void macros_are_expanded_in_the_text(void **state) {
     (void)state;
     assert_flat("#ifndef X_H\n#define X_H\nfloat a; /* c */\n#endif\n", "float a;\n");
     assert_flat("/* one\n * two */\n\n\n/* three */\nfloat a;// four\n\n\n\nfloat b;\n",
@@ -425,7 +425,7 @@ static Token record_at(const Items *items, const Item *function, const char *c, 
 }
 
 /* WebGL takes "?:" of numbers alone. */
-static void no_choice_is_between_records(void **state) {
+static void conditional_expression_of_records_is_absent(void **state) {
     (void)state;
     static const char *const also[] = {
         "Dir bad(Angles a, bool x) { return x ? a.o : a.i; }",
@@ -474,7 +474,7 @@ static void no_choice_is_between_records(void **state) {
     }
 }
 
-static void what_is_no_shading_text_is_refused(void **state) {
+static void text_outside_the_dialect_is_refused(void **state) {
     (void)state;
     static const struct {
         const char *source, *why;
@@ -516,7 +516,7 @@ static void what_is_no_shading_text_is_refused(void **state) {
 }
 
 /* What grows without end stops, whether it grows in size, in time or in depth. */
-static void endless_text_stops(void **state) {
+static void endless_text_is_refused(void **state) {
     (void)state;
     static const char *const first[] = {"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx", ""};
     char *source = calloc(1, 1 << 18), out[4096];
@@ -559,7 +559,7 @@ static WeftResult flatten_chain(int files, WeftError *error) {
     return flatten("#include \"own1.h\"\n", out, error);
 }
 
-static void files_inside_files_have_an_end(void **state) {
+static void includes_nested_too_deep_are_refused(void **state) {
     (void)state;
     WeftError error = {0};
     assert_int_equal(flatten_chain(32, &error), WEFT_OK);
@@ -569,7 +569,7 @@ static void files_inside_files_have_an_end(void **state) {
 }
 
 /* Without its lobe dust is a few lines that say nothing; with it, it is there without a second dispatch. */
-static void dust_comes_with_its_lobe(void **state) {
+static void text_of_dust_brings_its_lobe(void **state) {
     (void)state;
     for (int there = 0; there < 2; there++) {
         Text text;
@@ -607,7 +607,7 @@ static void assert_origins(const Text *text, const char *const *expected) {
 }
 
 /* Through comments, blank and joined lines, macros, conditions, records, enumerations and includes. */
-static void lines_know_where_they_come_from(void **state) {
+static void lines_are_traced_to_their_file(void **state) {
     (void)state;
     char inner[256], own[256], places[32][280];
     const char *expected[32];
@@ -681,7 +681,7 @@ static int only_line_with(const char *bytes, const char *words, size_t size) {
 }
 
 /* Whatever stands in a text as it does in its file is where the text says. */
-static void catalogue_lines_are_found_again(void **state) {
+static void catalogue_lines_are_found_by_file_and_line(void **state) {
     (void)state;
     Text text;
     int ids[LOBE_COUNT], count = gpu_lobes(ids), line = 1, found = 0;
@@ -709,7 +709,7 @@ static void catalogue_lines_are_found_again(void **state) {
 
 /* A file of the caller's may stand on the dispatch, as registry.h serves C; own lines may take a file's
  * place. */
-static void callers_lines_take_a_files_place(void **state) {
+static void lines_of_the_caller_may_replace_a_file(void **state) {
     (void)state;
     write_overlay(
         "own.h",
@@ -740,22 +740,22 @@ static void callers_lines_take_a_files_place(void **state) {
 int main(void) {
     if (!has_validator()) print_message("glslangValidator is not installed: nothing is compiled\n");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_lobe_is_glsl),
-        cmocka_unit_test(every_term_is_glsl),
-        cmocka_unit_test(a_surface_is_glsl),
-        cmocka_unit_test(every_composition_is_glsl),
-        cmocka_unit_test(what_is_not_glsl_is_found),
-        cmocka_unit_test(a_file_comes_once),
-        cmocka_unit_test_setup_teardown(macros_are_expanded, make_overlay, NULL),
+        cmocka_unit_test(text_of_every_lobe_is_valid_glsl),
+        cmocka_unit_test(text_of_every_term_is_valid_glsl),
+        cmocka_unit_test(text_of_a_surface_is_valid_glsl),
+        cmocka_unit_test(text_of_every_composition_is_valid_glsl),
+        cmocka_unit_test(text_that_is_not_glsl_is_found),
+        cmocka_unit_test(file_included_twice_stands_once),
+        cmocka_unit_test_setup_teardown(macros_are_expanded_in_the_text, make_overlay, NULL),
         cmocka_unit_test(references_become_parameters_that_are_read_or_written),
-        cmocka_unit_test(no_choice_is_between_records),
-        cmocka_unit_test(what_is_no_shading_text_is_refused),
-        cmocka_unit_test(endless_text_stops),
-        cmocka_unit_test(files_inside_files_have_an_end),
-        cmocka_unit_test(lines_know_where_they_come_from),
-        cmocka_unit_test(catalogue_lines_are_found_again),
-        cmocka_unit_test(dust_comes_with_its_lobe),
-        cmocka_unit_test_setup_teardown(callers_lines_take_a_files_place, NULL, remove_overlay),
+        cmocka_unit_test(conditional_expression_of_records_is_absent),
+        cmocka_unit_test(text_outside_the_dialect_is_refused),
+        cmocka_unit_test(endless_text_is_refused),
+        cmocka_unit_test(includes_nested_too_deep_are_refused),
+        cmocka_unit_test(lines_are_traced_to_their_file),
+        cmocka_unit_test(catalogue_lines_are_found_by_file_and_line),
+        cmocka_unit_test(text_of_dust_brings_its_lobe),
+        cmocka_unit_test_setup_teardown(lines_of_the_caller_may_replace_a_file, NULL, remove_overlay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

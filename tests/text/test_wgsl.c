@@ -26,7 +26,7 @@ static char *translated(const char *text) {
     return out.bytes;
 }
 
-static void functions_are_translated(void **state) {
+static void functions_are_translated_to_wgsl(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"float f(float x, T t) { return x * t.a; }", "fn f(x: float, t: T) -> float { return x * t.a; }"},
@@ -92,7 +92,7 @@ static void functions_are_translated(void **state) {
     }
 }
 
-static void records_are_translated(void **state) {
+static void records_are_translated_to_wgsl(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"struct T { float a, b; };", "{ a: float, b: float }"},
@@ -113,7 +113,7 @@ static void records_are_translated(void **state) {
 }
 
 /* Without references a function that writes to one parameter returns it. */
-static void written_parameters_are_returned(void **state) {
+static void parameters_that_are_written_are_returned_in_wgsl(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         {"void grow(inout T p, float x) { p.a = p.a + x; } float shade() { T p; p.a = 1.0; grow(p, 2.0); "
@@ -149,7 +149,7 @@ static void written_parameters_are_returned(void **state) {
     }
 }
 
-static void some_is_refused(void **state) {
+static void text_without_a_wgsl_form_is_refused(void **state) {
     (void)state;
     static const struct {
         const char *text, *part;
@@ -185,10 +185,10 @@ static void some_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_are_translated),
-        cmocka_unit_test(records_are_translated),
-        cmocka_unit_test(written_parameters_are_returned),
-        cmocka_unit_test(some_is_refused),
+        cmocka_unit_test(functions_are_translated_to_wgsl),
+        cmocka_unit_test(records_are_translated_to_wgsl),
+        cmocka_unit_test(parameters_that_are_written_are_returned_in_wgsl),
+        cmocka_unit_test(text_without_a_wgsl_form_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,7 +88,7 @@ static double difference(const WeftScene *scene, const WeftImage *before) {
     return found.mean;
 }
 
-static void every_parameter_of_disney_shows(void **state) {
+static void every_disney_parameter_changes_the_picture(void **state) {
     (void)state;
     static const char *const from[][2] = {
         {"base_color", "0.6,0.3,0.1"}, {"subsurface", "0.2"}, {"metallic", "0.2"},       {"specular", "0.5"},
@@ -118,7 +118,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_choice_makes_a_picture),
         cmocka_unit_test(every_preset_makes_a_picture),
-        cmocka_unit_test(every_parameter_of_disney_shows),
+        cmocka_unit_test(every_disney_parameter_changes_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

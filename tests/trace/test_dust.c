@@ -47,7 +47,7 @@ static double seen_of(WeftScene *scene, int x, int y) {
     return mean;
 }
 
-static void no_dust_is_no_dust(void **state) {
+static void dust_of_amount_zero_leaves_the_picture(void **state) {
     (void)state;
     WeftScene *scene = sphere();
     WeftImage clean = picture(scene);
@@ -75,7 +75,7 @@ static void dust_lies_on_top(void **state) {
 }
 
 /* From above tilted over by 90 degrees towards +x, then towards +z, then from below. */
-static void dust_comes_from_elsewhere(void **state) {
+static void dust_lies_towards_its_given_direction(void **state) {
     (void)state;
     static const struct {
         const char *tilt, *direction;
@@ -97,7 +97,7 @@ static void dust_comes_from_elsewhere(void **state) {
 }
 
 /* A sheet has dust on the side that looks up, and on that alone. */
-static void a_sheet_is_dusty_above(void **state) {
+static void sheet_is_dusty_on_its_upper_side(void **state) {
     (void)state;
     for (int below = 0; below < 2; below++) {
         WeftScene *scene = test_scene();
@@ -117,7 +117,7 @@ static void a_sheet_is_dusty_above(void **state) {
 }
 
 /* White dust on a white sphere, in patches: no more light comes back than came. */
-static void a_white_sphere_stays_white(void **state) {
+static void dusty_white_sphere_in_a_furnace_stays_white(void **state) {
     (void)state;
     WeftScene *scene = sphere();
     test_color(&scene->materials[0], INPUT_base_color, 1.0f);
@@ -130,7 +130,7 @@ static void a_white_sphere_stays_white(void **state) {
 }
 
 /* Values beyond what is possible are clamped, angles are in degrees, colours may be three numbers. */
-static void set_knows_dust(void **state) {
+static void dust_values_are_set_by_name_and_clamped(void **state) {
     (void)state;
     WeftScene *scene = sphere();
     const Input *inputs = scene->materials[0].inputs;
@@ -156,9 +156,12 @@ static void set_knows_dust(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_dust_is_no_dust),         cmocka_unit_test(dust_lies_on_top),
-        cmocka_unit_test(dust_comes_from_elsewhere),  cmocka_unit_test(a_sheet_is_dusty_above),
-        cmocka_unit_test(a_white_sphere_stays_white), cmocka_unit_test(set_knows_dust),
+        cmocka_unit_test(dust_of_amount_zero_leaves_the_picture),
+        cmocka_unit_test(dust_lies_on_top),
+        cmocka_unit_test(dust_lies_towards_its_given_direction),
+        cmocka_unit_test(sheet_is_dusty_on_its_upper_side),
+        cmocka_unit_test(dusty_white_sphere_in_a_furnace_stays_white),
+        cmocka_unit_test(dust_values_are_set_by_name_and_clamped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

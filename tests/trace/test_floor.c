@@ -38,7 +38,7 @@ static const float *pixel(const WeftImage *image, int x, int y) {
     return (const float *)image->pixels + 4 * (image->width * y + x);
 }
 
-static void shadow_of_a_roof_under_an_even_sky_is_its_form_factor(void **state) {
+static void floor_shadow_of_a_roof_is_its_form_factor(void **state) {
     (void)state;
     WeftScene *scene = roof();
     test_environment(scene, 0.7f);
@@ -66,7 +66,7 @@ static void shadow_of_a_roof_under_an_even_sky_is_its_form_factor(void **state) 
     weft_scene_free(scene);
 }
 
-static void shadow_of_the_sun_is_whole_under_the_roof_and_none_beside_it(void **state) {
+static void floor_shadow_of_the_sun_lies_under_the_roof_alone(void **state) {
     (void)state;
     WeftScene *scene = roof();
     const WeftLight sun = {.direction = {0.0f, -1.0f, 0.0f}, .color = {2.0f, 3.0f, 4.0f}};
@@ -81,7 +81,7 @@ static void shadow_of_the_sun_is_whole_under_the_roof_and_none_beside_it(void **
     weft_scene_free(scene);
 }
 
-static void shadow_darkens_a_background_of_a_colour(void **state) {
+static void floor_shadow_darkens_a_coloured_background(void **state) {
     (void)state;
     WeftScene *scene = roof();
     test_environment(scene, 1.0f);
@@ -96,7 +96,7 @@ static void shadow_darkens_a_background_of_a_colour(void **state) {
     weft_scene_free(scene);
 }
 
-static void mirror_shows_its_share_of_what_shines(void **state) {
+static void mirror_of_the_floor_has_its_reflectance(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     test_color(test_material(scene, 0.0f), INPUT_emission, 2.0f);
@@ -113,7 +113,7 @@ static void mirror_shows_its_share_of_what_shines(void **state) {
     weft_scene_free(scene);
 }
 
-static void floor_is_not_there_from_below_nor_to_other_rays(void **state) {
+static void floor_is_invisible_from_below_and_to_other_rays(void **state) {
     (void)state;
     WeftScene *scene = roof();
     test_environment(scene, 1.0f);
@@ -141,7 +141,7 @@ static void floor_out_of_range_is_refused(void **state) {
     weft_scene_free(scene);
 }
 
-static void hidden_light_is_looked_through_and_shines(void **state) {
+static void hidden_light_is_invisible_and_shines(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f);
@@ -170,13 +170,13 @@ static void hidden_light_is_looked_through_and_shines(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadow_of_a_roof_under_an_even_sky_is_its_form_factor),
-        cmocka_unit_test(shadow_of_the_sun_is_whole_under_the_roof_and_none_beside_it),
-        cmocka_unit_test(shadow_darkens_a_background_of_a_colour),
-        cmocka_unit_test(mirror_shows_its_share_of_what_shines),
-        cmocka_unit_test(floor_is_not_there_from_below_nor_to_other_rays),
+        cmocka_unit_test(floor_shadow_of_a_roof_is_its_form_factor),
+        cmocka_unit_test(floor_shadow_of_the_sun_lies_under_the_roof_alone),
+        cmocka_unit_test(floor_shadow_darkens_a_coloured_background),
+        cmocka_unit_test(mirror_of_the_floor_has_its_reflectance),
+        cmocka_unit_test(floor_is_invisible_from_below_and_to_other_rays),
         cmocka_unit_test(floor_out_of_range_is_refused),
-        cmocka_unit_test(hidden_light_is_looked_through_and_shines),
+        cmocka_unit_test(hidden_light_is_invisible_and_shines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static int lobe_step(void) {
 
 /* A closed room whose walls emit 1 - albedo: radiance is 1 everywhere, so a lossless sphere within is
  * invisible. */
-static void closed_furnace_is_one(void **state) {
+static void closed_furnace_has_radiance_one(void **state) {
     (void)state;
     static const float alphas[] = {0.25f, 0.5f, 1.0f};
     int cases = 0;
@@ -124,7 +124,7 @@ static void closed_furnace_is_one(void **state) {
 }
 
 /* The furnace test can fail: an additive sheen returns more than it receives. */
-static void additive_layer_breaks_the_furnace(void **state) {
+static void additive_layer_in_the_furnace_gains_energy(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     test_environment(scene, 1.0f);
@@ -140,7 +140,7 @@ static void additive_layer_breaks_the_furnace(void **state) {
 }
 
 /* A lone lobe on a plane under radiance 1 shows E: camera straight at a wall from one direction. */
-static void plane_shows_albedo(void **state) {
+static void plane_in_the_furnace_shows_the_albedo(void **state) {
     (void)state;
     static const float cosines[] = {0.1f, 0.4f, 0.9f};
     for (int lobe = 0; lobe < weft_lobe_count(); lobe += lobe_step()) {
@@ -171,7 +171,7 @@ static void plane_shows_albedo(void **state) {
 }
 
 /* A sphere in a uniform environment: the mean over its disc of E(cos_o), cos_o^2 being uniform there. */
-static void sphere_shows_albedo(void **state) {
+static void sphere_in_the_furnace_shows_the_albedo(void **state) {
     (void)state;
     for (int lobe = 0; lobe < weft_lobe_count(); lobe += lobe_step()) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
@@ -208,10 +208,10 @@ static void sphere_shows_albedo(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_furnace_is_one),
-        cmocka_unit_test(additive_layer_breaks_the_furnace),
-        cmocka_unit_test(plane_shows_albedo),
-        cmocka_unit_test(sphere_shows_albedo),
+        cmocka_unit_test(closed_furnace_has_radiance_one),
+        cmocka_unit_test(additive_layer_in_the_furnace_gains_energy),
+        cmocka_unit_test(plane_in_the_furnace_shows_the_albedo),
+        cmocka_unit_test(sphere_in_the_furnace_shows_the_albedo),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,7 +34,7 @@ static WeftScene *floors(void) {
     return scene;
 }
 
-static void backs_of_single_sided_surfaces_are_not_there(void **state) {
+static void single_sided_surface_has_no_back(void **state) {
     (void)state;
     WeftScene *scene = floors();
     Geometry *geometry = build(scene);
@@ -80,7 +80,7 @@ static void hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit
 }
 
 /* Embree asserts that rays are numbers within 1.8e18. */
-static void rays_out_of_reach_meet_nothing(void **state) {
+static void rays_out_of_reach_hit_nothing(void **state) {
     (void)state;
     WeftScene *scene = floors();
     Geometry *geometry = build(scene);
@@ -105,7 +105,7 @@ static void rays_out_of_reach_meet_nothing(void **state) {
     weft_scene_free(scene);
 }
 
-static void packets_agree_with_single_rays(void **state) {
+static void packets_of_rays_agree_with_single_rays(void **state) {
     (void)state;
     WeftScene *scene = floors();
     test_sphere(scene, vec3(0.3f, 3, 0.1f), 0.5f);
@@ -156,7 +156,7 @@ static void sheets_back_to_back_have_no_holes(void **state) {
 }
 
 /* Coverage is a coin per ray and triangle: its mean is the opacity, and occlusion sees the same surface. */
-static void transparency_is_a_fair_coin(void **state) {
+static void stochastic_transparency_has_its_probability(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     Material *veil = test_material(scene, 0.5f);
@@ -187,7 +187,7 @@ static void transparency_is_a_fair_coin(void **state) {
 }
 
 /* Many coincident sheets: the walk past refused hits ends. */
-static void stacked_sheets_end(void **state) {
+static void walk_through_coincident_sheets_ends(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     Material *glass = test_material(scene, 0.5f);
@@ -252,7 +252,7 @@ static void lifted_points_lie_on_the_smooth_surface(void **state) {
 }
 
 /* A convex ball does not shadow itself: every point facing the light is lit, at three scales of the world. */
-static void a_ball_does_not_shadow_itself(void **state) {
+static void smooth_ball_does_not_shadow_itself(void **state) {
     (void)state;
     static const float scales[] = {0.01f, 1.0f, 1000.0f};
     for (int k = 0; k < 3; k++) {
@@ -303,14 +303,14 @@ static void a_ball_does_not_shadow_itself(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(backs_of_single_sided_surfaces_are_not_there),
-        cmocka_unit_test(rays_out_of_reach_meet_nothing),
-        cmocka_unit_test(packets_agree_with_single_rays),
+        cmocka_unit_test(single_sided_surface_has_no_back),
+        cmocka_unit_test(rays_out_of_reach_hit_nothing),
+        cmocka_unit_test(packets_of_rays_agree_with_single_rays),
         cmocka_unit_test(sheets_back_to_back_have_no_holes),
-        cmocka_unit_test(transparency_is_a_fair_coin),
-        cmocka_unit_test(stacked_sheets_end),
+        cmocka_unit_test(stochastic_transparency_has_its_probability),
+        cmocka_unit_test(walk_through_coincident_sheets_ends),
         cmocka_unit_test(lifted_points_lie_on_the_smooth_surface),
-        cmocka_unit_test(a_ball_does_not_shadow_itself),
+        cmocka_unit_test(smooth_ball_does_not_shadow_itself),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,7 +170,7 @@ static void punctual_lights_follow_their_extension(void **state) {
     weft_scene_free(scene);
 }
 
-static void darkness_gives_no_sample(void **state) {
+static void scene_without_light_gives_no_sample(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     test_environment(scene, 0.0f);
@@ -189,7 +189,7 @@ int main(void) {
         cmocka_unit_test(environment_samples_agree_with_its_pdf),
         cmocka_unit_test(emitters_subtend_their_solid_angle),
         cmocka_unit_test(punctual_lights_follow_their_extension),
-        cmocka_unit_test(darkness_gives_no_sample),
+        cmocka_unit_test(scene_without_light_gives_no_sample),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,7 +102,7 @@ static void near(double value, double expected, double share) {
 
 /* Fibres that lean from the light are brighter by far, and the picture is the lobe's mean in the direction of
  * the world that is meant. */
-static void numbers_reach_the_lobe(void **state) {
+static void nap_numbers_reach_the_lobe(void **state) {
     (void)state;
     double bright = 0.0, dark = 0.0;
     for (int k = 0; k < 4; k++) {
@@ -117,7 +117,7 @@ static void numbers_reach_the_lobe(void **state) {
 }
 
 /* Half of 60 degrees, towards 90 of the map and 45 more. */
-static void maps_scale_and_turn(void **state) {
+static void nap_map_scales_and_turns_the_nap(void **state) {
     (void)state;
     WeftScene *scene = square((const float[3]){0.5f, 1.0f, 0.5f});
     lean(scene, 60.0f, 45.0f);
@@ -125,7 +125,7 @@ static void maps_scale_and_turn(void **state) {
 }
 
 /* Turning the map by 90 degrees is turning nap_direction by 90. */
-static void a_turned_map_is_a_turned_direction(void **state) {
+static void turned_nap_map_equals_a_turned_direction(void **state) {
     (void)state;
     const float c = 0.5f * cosf(0.4f), s = 0.5f * sinf(0.4f);
     WeftScene *map = square((const float[3]){0.5f - s, 0.5f + c, 1.0f}), /* (c, s) turned: (-s, c) */
@@ -140,7 +140,7 @@ static void a_turned_map_is_a_turned_direction(void **state) {
 }
 
 /* The nap is told from the surface's tangent, also where the highlight below is drawn out elsewhere. */
-static void anisotropy_does_not_turn_the_nap(void **state) {
+static void anisotropy_direction_does_not_turn_the_nap(void **state) {
     (void)state;
     WeftScene *scene = square(NULL);
     Material *material = lean(scene, 40.0f, 180.0f);
@@ -151,7 +151,7 @@ static void anisotropy_does_not_turn_the_nap(void **state) {
 }
 
 /* A map without nap, and a sheen without fibres, stay as they are. */
-static void nothing_leans_without_nap(void **state) {
+static void lobe_without_nap_does_not_lean(void **state) {
     (void)state;
     WeftScene *scene = square((const float[3]){0.5f, 1.0f, 0.0f});
     lean(scene, 45.0f, 0.0f);
@@ -168,7 +168,7 @@ static void nothing_leans_without_nap(void **state) {
 
 /* White fibres over a white base in white light, seen from 11 degrees over the right: along, between and
  * against the nap, by numbers and by a map. tests/shading/test_leaning has the figures. */
-static void a_white_base_stays_white(void **state) {
+static void white_base_under_a_nap_stays_white(void **state) {
     (void)state;
     for (int k = 0; k < 4; k++) {
         bool map = k % 2 == 1;
@@ -187,7 +187,7 @@ static void a_white_base_stays_white(void **state) {
     }
 }
 
-static void set_takes_degrees(void **state) {
+static void nap_is_set_in_degrees(void **state) {
     (void)state;
     WeftScene *scene = square((const float[3]){0.5f, 1.0f, 0.5f});
     const Input *inputs = scene->materials[0].inputs;
@@ -207,13 +207,13 @@ static void set_takes_degrees(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_reach_the_lobe),
-        cmocka_unit_test(maps_scale_and_turn),
-        cmocka_unit_test(a_turned_map_is_a_turned_direction),
-        cmocka_unit_test(anisotropy_does_not_turn_the_nap),
-        cmocka_unit_test(nothing_leans_without_nap),
-        cmocka_unit_test(a_white_base_stays_white),
-        cmocka_unit_test(set_takes_degrees),
+        cmocka_unit_test(nap_numbers_reach_the_lobe),
+        cmocka_unit_test(nap_map_scales_and_turns_the_nap),
+        cmocka_unit_test(turned_nap_map_equals_a_turned_direction),
+        cmocka_unit_test(anisotropy_direction_does_not_turn_the_nap),
+        cmocka_unit_test(lobe_without_nap_does_not_lean),
+        cmocka_unit_test(white_base_under_a_nap_stays_white),
+        cmocka_unit_test(nap_is_set_in_degrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,7 +38,7 @@ static void is_about(const float v[3], float x, float y, float z) {
     assert_float_equal(v[2], z, 1e-4f);
 }
 
-static void points_are_described(void **state) {
+static void picked_point_is_described(void **state) {
     (void)state;
     WeftScene *scene = two_squares();
     WeftPick *pick;
@@ -70,7 +70,7 @@ static void points_are_described(void **state) {
 }
 
 /* Materials are read as they are now, and lights are not there. */
-static void what_is_cut_out_is_not_there(void **state) {
+static void cut_out_surface_is_not_picked(void **state) {
     (void)state;
     const WeftLight panel = {.kind = WEFT_LIGHT_POLYGON,
                              .position = {0.0f, 0.0f, 1.0f},
@@ -98,7 +98,7 @@ static void what_is_cut_out_is_not_there(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(points_are_described),
-                                       cmocka_unit_test(what_is_cut_out_is_not_there)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(picked_point_is_described),
+                                       cmocka_unit_test(cut_out_surface_is_not_picked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static WeftImage run(WeftRender *render) {
     return image;
 }
 
-static void bytes_are_those_of_a_new_one(void **state) {
+static void restarted_render_has_the_bytes_of_a_new_one(void **state) {
     (void)state;
     WeftScene *scene = ball_scene();
     WeftRenderDesc desc = {.width = 32, .height = 24, .camera = "0,1,3;0,0.5,0;32"};
@@ -112,7 +112,7 @@ static void bytes_are_those_of_a_new_one(void **state) {
     weft_scene_free(scene);
 }
 
-static void failures_are_survived(void **state) {
+static void render_continues_after_a_failed_restart(void **state) {
     (void)state;
     WeftScene *scene = ball_scene();
     WeftRenderDesc desc = {.width = 16, .height = 12}, wrong = desc;
@@ -133,7 +133,7 @@ static void failures_are_survived(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_are_those_of_a_new_one),
-                                       cmocka_unit_test(failures_are_survived)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(restarted_render_has_the_bytes_of_a_new_one),
+                                       cmocka_unit_test(render_continues_after_a_failed_restart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

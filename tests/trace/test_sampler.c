@@ -19,7 +19,7 @@ static uint32_t sobol_by_definition(uint32_t i) {
     return x;
 }
 
-static void pascal_matrix_is_sobol(void **state) {
+static void pascal_bits_give_the_sobol_sequence(void **state) {
     (void)state;
     for (uint32_t k = 0; k < 100000; k++) {
         uint32_t i = k < 50000 ? k : hash32(k);
@@ -28,7 +28,7 @@ static void pascal_matrix_is_sobol(void **state) {
 }
 
 /* Every aligned block of 2^m samples of a pair has one point in each elementary interval of area 2^-m. */
-static void pairs_are_stratified(void **state) {
+static void sample_pairs_are_stratified(void **state) {
     (void)state;
     enum { M = 8, N = 1 << M };
     for (uint32_t pixel = 0; pixel < 5; pixel++)
@@ -47,7 +47,7 @@ static void pairs_are_stratified(void **state) {
                 }
 }
 
-static void pixels_and_pairs_are_decorrelated(void **state) {
+static void samples_of_pixels_and_pairs_are_decorrelated(void **state) {
     (void)state;
     enum { N = 4096 };
     double sum = 0.0;
@@ -68,7 +68,7 @@ static bool finds(const Distribution *d, Choice c, float u) {
            c.rest >= 0.0f && c.rest < 1.0f;
 }
 
-static void choices_follow_weights(void **state) {
+static void sampled_choices_follow_their_weights(void **state) {
     (void)state;
     enum { N = 7, U = 70000 };
     static const float weights[N] = {0.0f, 3.0f, 0.5f, 0.0f, 4.0f, 2.5f, 0.0f};
@@ -90,7 +90,7 @@ static void choices_follow_weights(void **state) {
     assert_true(distribution_choose(&d, 0.0f).index == 1);
 }
 
-static void no_weight_gives_equal_shares(void **state) {
+static void choice_without_weights_is_uniform(void **state) {
     (void)state;
     static const float none[4];
     float room[64];
@@ -100,7 +100,7 @@ static void no_weight_gives_equal_shares(void **state) {
 }
 
 /* Many sizes, of one to four levels, and uneven weights. */
-static void search_finds_the_cell(void **state) {
+static void search_of_a_distribution_finds_the_cell(void **state) {
     (void)state;
     enum { MAX = 5000 };
     static float weights[MAX], room[2 * MAX];
@@ -121,12 +121,12 @@ static void search_finds_the_cell(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pascal_matrix_is_sobol),
-        cmocka_unit_test(pairs_are_stratified),
-        cmocka_unit_test(pixels_and_pairs_are_decorrelated),
-        cmocka_unit_test(choices_follow_weights),
-        cmocka_unit_test(no_weight_gives_equal_shares),
-        cmocka_unit_test(search_finds_the_cell),
+        cmocka_unit_test(pascal_bits_give_the_sobol_sequence),
+        cmocka_unit_test(sample_pairs_are_stratified),
+        cmocka_unit_test(samples_of_pixels_and_pairs_are_decorrelated),
+        cmocka_unit_test(sampled_choices_follow_their_weights),
+        cmocka_unit_test(choice_without_weights_is_uniform),
+        cmocka_unit_test(search_of_a_distribution_finds_the_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

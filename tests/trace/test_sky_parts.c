@@ -65,7 +65,7 @@ static void parts_add_up(WeftScene *scene, const char *name, WeftSampling sampli
     weft_image_free(&scaled);
 }
 
-static void every_choice_adds_up(void **state) {
+static void ambient_light_and_reflection_sum_to_the_whole(void **state) {
     (void)state;
     static const char *const choices[] = {"profile", "layer"};
     WeftScene *scene = dusty_ball();
@@ -99,7 +99,7 @@ static double total(WeftScene *scene, float ambient, float reflection) {
 
 /* A ball of a metal reflects and has no ambient light, one of lambert alone the other way round; whatever
  * engine draws it. A coat is neither's ambient light, and dust no reflection. */
-static void each_lobe_is_on_its_side(void **state) {
+static void each_lobe_belongs_to_ambient_light_or_reflection(void **state) {
     (void)state;
     static const struct Side {
         const char *metallic, *specular, *sheen_color, *clearcoat, *dust;
@@ -128,7 +128,7 @@ static void each_lobe_is_on_its_side(void **state) {
     weft_scene_free(scene);
 }
 
-static void factors_are_checked(void **state) {
+static void environment_factors_without_sense_are_refused(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     WeftError error;
@@ -140,8 +140,8 @@ static void factors_are_checked(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_choice_adds_up),
-                                       cmocka_unit_test(each_lobe_is_on_its_side),
-                                       cmocka_unit_test(factors_are_checked)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ambient_light_and_reflection_sum_to_the_whole),
+                                       cmocka_unit_test(each_lobe_belongs_to_ambient_light_or_reflection),
+                                       cmocka_unit_test(environment_factors_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static void moments(const double *x, double *mean, double *error) {
     *error = sqrt(squares / (BATCHES - 1) / BATCHES);
 }
 
-static void strategies_agree(void **state) {
+static void sampling_strategies_agree(void **state) {
     (void)state;
     static const char *const names[] = {"mis", "light", "lobe"};
     WeftScene *scene = lit_scene();
@@ -96,7 +96,7 @@ static void strategies_agree(void **state) {
 }
 
 /* An emitter that is half there shines half as much, by whichever way it is found. */
-static void transparent_emitters_shine_less(void **state) {
+static void transparent_emitter_shines_less(void **state) {
     (void)state;
     double mean[3];
     for (int s = 0; s < 3; s++) {
@@ -124,7 +124,7 @@ static void transparent_emitters_shine_less(void **state) {
 
 /* A surface whose normal map leans to +x: from behind the bumps are dents, so that light from -x finds it
  * leaning its way. */
-static void normal_maps_are_mirrored_behind(void **state) {
+static void normal_map_is_mirrored_on_the_back(void **state) {
     (void)state;
     double lit[2][2]; /* seen from the front or from behind, lit from +x or from -x */
     for (int behind = 0; behind < 2; behind++)
@@ -159,7 +159,7 @@ static void normal_maps_are_mirrored_behind(void **state) {
 }
 
 /* Texels below zero, which EXR files may hold, do not darken the other lights. */
-static void negative_environments_are_harmless(void **state) {
+static void negative_texels_of_an_environment_count_as_zero(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
     float *p = scene->environment.image.pixels;
@@ -174,7 +174,7 @@ static void negative_environments_are_harmless(void **state) {
     weft_scene_free(scene);
 }
 
-static void threads_do_not_matter(void **state) {
+static void render_with_any_number_of_threads_is_the_same(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
     WeftRenderDesc desc = small;
@@ -196,7 +196,7 @@ static void threads_do_not_matter(void **state) {
     weft_scene_free(scene);
 }
 
-static void a_crop_is_a_part_of_the_picture(void **state) {
+static void crop_is_a_part_of_the_picture(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
     WeftRenderDesc desc = small;
@@ -219,7 +219,7 @@ static int stop_at_half(void *user, double fraction) {
     return fraction > 0.5;
 }
 
-static void runs_add_up_and_stop(void **state) {
+static void render_runs_accumulate_and_stop(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
     WeftRenderDesc desc = small;
@@ -242,7 +242,7 @@ static void runs_add_up_and_stop(void **state) {
     weft_scene_free(scene);
 }
 
-static void descriptors_are_checked(void **state) {
+static void render_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     WeftScene *scene = lit_scene();
     static const WeftRenderDesc wrong[] = {{.width = -1},
@@ -275,14 +275,14 @@ static void descriptors_are_checked(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strategies_agree),
-        cmocka_unit_test(transparent_emitters_shine_less),
-        cmocka_unit_test(normal_maps_are_mirrored_behind),
-        cmocka_unit_test(negative_environments_are_harmless),
-        cmocka_unit_test(threads_do_not_matter),
-        cmocka_unit_test(a_crop_is_a_part_of_the_picture),
-        cmocka_unit_test(runs_add_up_and_stop),
-        cmocka_unit_test(descriptors_are_checked),
+        cmocka_unit_test(sampling_strategies_agree),
+        cmocka_unit_test(transparent_emitter_shines_less),
+        cmocka_unit_test(normal_map_is_mirrored_on_the_back),
+        cmocka_unit_test(negative_texels_of_an_environment_count_as_zero),
+        cmocka_unit_test(render_with_any_number_of_threads_is_the_same),
+        cmocka_unit_test(crop_is_a_part_of_the_picture),
+        cmocka_unit_test(render_runs_accumulate_and_stop),
+        cmocka_unit_test(render_descriptors_without_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

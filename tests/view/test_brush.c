@@ -1,7 +1,7 @@
 /* The brush lays the nap, and undo takes it back. */
 #include "drive.h"
 
-static void a_brushed_nap_is_kept(void **state) {
+static void brushed_nap_is_saved_and_drawn_by_both_engines(void **state) {
     (void)state;
     need_gl();
     script_begin();
@@ -87,7 +87,7 @@ static void a_stroke_naps_what_it_touches_or_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_brushed_nap_is_kept),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(brushed_nap_is_saved_and_drawn_by_both_engines),
                                        cmocka_unit_test(a_stroke_naps_what_it_touches_or_nothing)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

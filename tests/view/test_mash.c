@@ -69,7 +69,7 @@ static void come_back(FILE *stream) {
     for (int k = 0; k < 3; k++) fprintf(stream, "key escape\nwait 2\n");
 }
 
-static void nothing_comes_of_mashing(void **state) {
+static void random_events_leave_the_window_working(void **state) {
     (void)state;
     need_gl();
     int count = getenv("WEFT_TEST_LONG") ? 10000 : getenv("WEFT_TEST_SHORT") ? 150 : 600;
@@ -92,6 +92,6 @@ static void nothing_comes_of_mashing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_comes_of_mashing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_events_leave_the_window_working)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

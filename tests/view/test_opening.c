@@ -3,7 +3,7 @@
 
 /* ---- what is not there ---- */
 
-static void a_first_scene_that_cannot_be_had_ends_it(void **state) {
+static void first_scene_that_cannot_be_read_ends_the_window(void **state) {
     (void)state;
     need_gl();
     file_make("bare.gltf", "{\"asset\":{\"version\":\"2.0\"}}", 27);
@@ -14,7 +14,7 @@ static void a_first_scene_that_cannot_be_had_ends_it(void **state) {
                          absent[k][1]);
 }
 
-static void it_rests_where_a_later_scene_has_nothing_to_render(void **state) {
+static void window_is_idle_after_a_scene_with_nothing_to_render(void **state) {
     (void)state;
     need_gl();
     file_make("bare.gltf", "{\"asset\":{\"version\":\"2.0\"}}", 27);
@@ -25,7 +25,7 @@ static void it_rests_where_a_later_scene_has_nothing_to_render(void **state) {
     assert_int_equal(access("still.png", F_OK), 0);
 }
 
-static void it_ends_after_its_frames_though_nothing_changes(void **state) {
+static void window_ends_after_its_frames_though_nothing_changes(void **state) {
     (void)state;
     need_gl();
     Drive drive = drive_start(NULL, LIST(UNSEEN, CHEAP, "--frames", "200"));
@@ -140,7 +140,7 @@ static void a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole(void *
 }
 
 /* A file that went away after it was read: undo cannot bring it back, and says so. */
-static void undo_to_a_light_that_is_gone_leaves_what_is_there(void **state) {
+static void undo_to_a_deleted_light_keeps_the_light_that_is_there(void **state) {
     (void)state;
     need_gl();
     write_light("one.hdr", 0.9f, 0.2f, false);
@@ -158,7 +158,7 @@ static void undo_to_a_light_that_is_gone_leaves_what_is_there(void **state) {
     assert_true(pictures_most("two.png", "still.png") < 0.5 / 255.0);
 }
 
-static void the_chooser_of_lights_keeps_what_was_typed(void **state) {
+static void chooser_of_lights_keeps_the_typed_text(void **state) {
     (void)state;
     need_gl();
     assert_int_equal(mkdir("lights", 0700), 0);
@@ -216,7 +216,7 @@ static void write_quads(void) {
     file_make("quads.gltf", quads, sizeof quads - 1);
 }
 
-static void the_chosen_material_is_the_one_on_screen(void **state) {
+static void chosen_material_is_one_on_screen(void **state) {
     (void)state;
     need_gl();
     write_quads();
@@ -245,14 +245,14 @@ static void the_chosen_material_is_the_one_on_screen(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_first_scene_that_cannot_be_had_ends_it),
-        cmocka_unit_test(it_rests_where_a_later_scene_has_nothing_to_render),
-        cmocka_unit_test(it_ends_after_its_frames_though_nothing_changes),
+        cmocka_unit_test(first_scene_that_cannot_be_read_ends_the_window),
+        cmocka_unit_test(window_is_idle_after_a_scene_with_nothing_to_render),
+        cmocka_unit_test(window_ends_after_its_frames_though_nothing_changes),
         cmocka_unit_test(the_path_tracer_stands_in_while_shaders_compile),
         cmocka_unit_test(a_light_that_cannot_be_read_leaves_the_one_before),
         cmocka_unit_test(a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole),
-        cmocka_unit_test(undo_to_a_light_that_is_gone_leaves_what_is_there),
-        cmocka_unit_test(the_chooser_of_lights_keeps_what_was_typed),
-        cmocka_unit_test(the_chosen_material_is_the_one_on_screen)};
+        cmocka_unit_test(undo_to_a_deleted_light_keeps_the_light_that_is_there),
+        cmocka_unit_test(chooser_of_lights_keeps_the_typed_text),
+        cmocka_unit_test(chosen_material_is_one_on_screen)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

@@ -40,7 +40,7 @@ static void write_map(const char *path, int red) {
     weft_image_free(&image);
 }
 
-static void undo_brings_back_a_variant(void **state) {
+static void undo_restores_a_variant(void **state) {
     (void)state;
     need_gl();
     write_quads();
@@ -145,7 +145,7 @@ static void every_number_takes_a_map_and_shows_it(void **state) {
     drive_finish(&drive);
 }
 
-static void a_swatch_sets_what_the_chart_says(void **state) {
+static void swatch_sets_the_values_of_the_chart(void **state) {
     (void)state;
     need_gl();
     script_begin();
@@ -197,11 +197,11 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(undo_brings_back_a_variant),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),
-                                       cmocka_unit_test(a_swatch_sets_what_the_chart_says),
+                                       cmocka_unit_test(swatch_sets_the_values_of_the_chart),
                                        cmocka_unit_test(a_finding_of_the_doctor_chooses_its_material)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

@@ -50,7 +50,7 @@ static float length(const float a[3], const float b[3]) {
                  (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-static void a_ray_meets_what_is_projected(void **state) {
+static void projected_point_lies_on_its_ray(void **state) {
     (void)state;
     for (int c = 0; c < CAMERAS; c++)
         for (int k = 0; k < 60; k++) {
@@ -69,7 +69,7 @@ static void a_ray_meets_what_is_projected(void **state) {
         }
 }
 
-static void it_turns_about_its_target(void **state) {
+static void camera_turns_about_its_target(void **state) {
     (void)state;
     for (int c = 0; c < CAMERAS; c++) {
         Orbit o = cameras[c];
@@ -90,7 +90,7 @@ static void it_turns_about_its_target(void **state) {
     assert_near3(o.eye, cameras[0].eye, 1e-5f);
 }
 
-static void it_looks_pans_flies_and_comes_nearer(void **state) {
+static void camera_looks_pans_flies_and_zooms(void **state) {
     (void)state;
     for (int c = 0; c < CAMERAS; c++) {
         Orbit o = cameras[c];
@@ -126,7 +126,7 @@ static void it_looks_pans_flies_and_comes_nearer(void **state) {
     }
 }
 
-static void all_of_a_box_is_framed(void **state) {
+static void framed_box_is_wholly_visible(void **state) {
     (void)state;
     static const float boxes[][2][3] = {{{-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}},
                                         {{5.0f, 0.0f, -2.0f}, {5.1f, 4.0f, 30.0f}},
@@ -190,7 +190,7 @@ static void change(History *history, SceneState *state, int number) {
     state->lights[0].color[0] = (float)number;
 }
 
-static void what_was_done_is_undone(void **state) {
+static void steps_of_the_history_are_undone_and_redone(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
     SceneState scene = state_of(0);
@@ -226,7 +226,7 @@ static void what_was_done_is_undone(void **state) {
     free(history);
 }
 
-static void the_oldest_steps_are_forgotten(void **state) {
+static void oldest_steps_of_the_history_are_dropped(void **state) {
     (void)state;
     History *history = calloc(1, sizeof *history);
     SceneState scene = state_of(0);
@@ -243,7 +243,7 @@ static void the_oldest_steps_are_forgotten(void **state) {
     free(history);
 }
 
-static void looks_share_and_part(void **state) {
+static void copied_states_share_materials_until_changed(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -279,7 +279,7 @@ static void looks_share_and_part(void **state) {
     scene_state_free(&b);
 }
 
-static void a_preset_goes_with_its_look(void **state) {
+static void preset_is_copied_with_its_state(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -305,7 +305,7 @@ static void a_preset_goes_with_its_look(void **state) {
     scene_state_free(&read);
 }
 
-static void a_folder_takes_the_place_of_the_one_before(void **state) {
+static void folder_of_maps_replaces_the_one_before(void **state) {
     (void)state;
     Folders folders = {.count = 0};
     folders_keep(&folders, "a", -1);
@@ -329,7 +329,7 @@ static int add_own_map(WeftScene *scene) {
     return texture;
 }
 
-static void the_nap_begins_with_the_materials_own_map(void **state) {
+static void brushing_begins_with_the_map_of_the_material(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -370,7 +370,7 @@ void *__wrap_calloc(size_t count, size_t size) {
     return until_failure && --until_failure == 0 ? NULL : __real_calloc(count, size);
 }
 
-static void an_order_is_copied_whole_or_not_at_all(void **state) {
+static void frame_request_is_copied_whole_or_not_at_all(void **state) {
     (void)state;
     WeftScene *scene;
     WeftError error;
@@ -434,7 +434,7 @@ static void write_file(const char *text) {
 }
 
 /* A file that is watched by itself is not told of twice. */
-static void a_file_that_is_added_to_a_folder_is_seen(void **state) {
+static void file_added_to_a_watched_folder_is_noticed(void **state) {
     (void)state;
     FileWatch *man = file_watch_start();
     assert_non_null(man);
@@ -461,7 +461,7 @@ static void a_file_that_is_added_to_a_folder_is_seen(void **state) {
     assert_int_equal(unlink("maps/a") + unlink("maps/b") + rmdir("maps"), 0);
 }
 
-static void a_half_written_file_is_waited_for(void **state) {
+static void half_written_file_is_read_when_complete(void **state) {
     (void)state;
     FileWatch *man = file_watch_start();
     assert_non_null(man);
@@ -490,7 +490,7 @@ static void a_half_written_file_is_waited_for(void **state) {
     file_watch_stop(man);
 }
 
-static void kinds_of_files_are_told_by_name(void **state) {
+static void kind_of_a_file_follows_from_its_name(void **state) {
     (void)state;
     static const struct {
         const char *path;
@@ -548,7 +548,7 @@ static float pointing(const WeftImage *image, int x, int y, int axis) {
     return (float)texel(image, x, y)[axis] / 127.5f - 1.0f;
 }
 
-static void strokes_turn_what_lies_beneath(void **state) {
+static void brush_strokes_turn_the_nap_beneath(void **state) {
     (void)state;
     const float places[][2] = {{0.5f, 0.5f}, {0.0f, 0.0f}, {0.99f, 0.01f}, {-3.25f, 7.75f}};
     const float across[2] = {0.0f, 3.0f};
@@ -576,7 +576,7 @@ static void strokes_turn_what_lies_beneath(void **state) {
     weft_image_free(&image);
 }
 
-static void strokes_of_nothing_do_nothing(void **state) {
+static void brush_strokes_without_sense_change_nothing(void **state) {
     (void)state;
     WeftImage image = plain_nap(), plain = plain_nap();
     const float middle[2] = {0.5f, 0.5f}, up[2] = {0.0f, 1.0f}, none[2] = {0.0f, 0.0f};
@@ -596,7 +596,7 @@ static void strokes_of_nothing_do_nothing(void **state) {
 /* ---- what is remembered ---- */
 
 /* Nobody writes into the pipes: whoever opens one waits. */
-static void settings_do_not_wait_for_a_pipe(void **state) {
+static void settings_file_that_is_a_pipe_is_ignored(void **state) {
     (void)state;
     Settings settings = settings_default();
     char config[256];
@@ -622,7 +622,7 @@ static void settings_do_not_wait_for_a_pipe(void **state) {
 /* ---- the command line ---- */
 
 /* The maps of a folder are said by its name; one that was chosen since is not. */
-static void a_map_over_a_folders_is_no_part_of_the_line(void **state) {
+static void map_replaced_by_a_folder_is_not_in_the_command_line(void **state) {
     (void)state;
     static const ViewDesc desc = {.materials = "maps"};
     WeftScene *scene;
@@ -654,7 +654,7 @@ static void a_map_over_a_folders_is_no_part_of_the_line(void **state) {
     free(v);
 }
 
-static void a_shell_reads_what_was_meant(void **state) {
+static void copied_command_line_is_read_by_a_shell_as_meant(void **state) {
     (void)state;
     static const char *const names[] = {"plain.glb", "it's a file.glb", "$HOME `x` \"y\" \\z;&|*?~#!.glb",
                                         "''",        "tab\there.glb",   "-o"};
@@ -694,26 +694,26 @@ static void a_shell_reads_what_was_meant(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_meets_what_is_projected),
-                                       cmocka_unit_test(it_turns_about_its_target),
-                                       cmocka_unit_test(it_looks_pans_flies_and_comes_nearer),
-                                       cmocka_unit_test(all_of_a_box_is_framed),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(projected_point_lies_on_its_ray),
+                                       cmocka_unit_test(camera_turns_about_its_target),
+                                       cmocka_unit_test(camera_looks_pans_flies_and_zooms),
+                                       cmocka_unit_test(framed_box_is_wholly_visible),
                                        cmocka_unit_test(a_camera_is_read_as_it_is_written),
-                                       cmocka_unit_test(what_was_done_is_undone),
-                                       cmocka_unit_test(the_oldest_steps_are_forgotten),
-                                       cmocka_unit_test(looks_share_and_part),
-                                       cmocka_unit_test(a_preset_goes_with_its_look),
-                                       cmocka_unit_test(a_folder_takes_the_place_of_the_one_before),
-                                       cmocka_unit_test(the_nap_begins_with_the_materials_own_map),
-                                       cmocka_unit_test(settings_do_not_wait_for_a_pipe),
-                                       cmocka_unit_test(a_map_over_a_folders_is_no_part_of_the_line),
-                                       cmocka_unit_test(an_order_is_copied_whole_or_not_at_all),
+                                       cmocka_unit_test(steps_of_the_history_are_undone_and_redone),
+                                       cmocka_unit_test(oldest_steps_of_the_history_are_dropped),
+                                       cmocka_unit_test(copied_states_share_materials_until_changed),
+                                       cmocka_unit_test(preset_is_copied_with_its_state),
+                                       cmocka_unit_test(folder_of_maps_replaces_the_one_before),
+                                       cmocka_unit_test(brushing_begins_with_the_map_of_the_material),
+                                       cmocka_unit_test(settings_file_that_is_a_pipe_is_ignored),
+                                       cmocka_unit_test(map_replaced_by_a_folder_is_not_in_the_command_line),
+                                       cmocka_unit_test(frame_request_is_copied_whole_or_not_at_all),
                                        cmocka_unit_test(a_key_keeps_its_modifiers_in_a_slow_frame),
-                                       cmocka_unit_test(a_half_written_file_is_waited_for),
-                                       cmocka_unit_test(a_file_that_is_added_to_a_folder_is_seen),
-                                       cmocka_unit_test(kinds_of_files_are_told_by_name),
-                                       cmocka_unit_test(strokes_turn_what_lies_beneath),
-                                       cmocka_unit_test(strokes_of_nothing_do_nothing),
-                                       cmocka_unit_test(a_shell_reads_what_was_meant)};
+                                       cmocka_unit_test(half_written_file_is_read_when_complete),
+                                       cmocka_unit_test(file_added_to_a_watched_folder_is_noticed),
+                                       cmocka_unit_test(kind_of_a_file_follows_from_its_name),
+                                       cmocka_unit_test(brush_strokes_turn_the_nap_beneath),
+                                       cmocka_unit_test(brush_strokes_without_sense_change_nothing),
+                                       cmocka_unit_test(copied_command_line_is_read_by_a_shell_as_meant)};
     return cmocka_run_group_tests(tests, begin, end);
 }

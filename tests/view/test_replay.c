@@ -3,7 +3,7 @@
 
 /* ---- materials ---- */
 
-static void what_is_typed_into_a_slider_is_undone(void **state) {
+static void value_typed_into_a_slider_is_undone(void **state) {
     (void)state;
     need_gl();
     Drive drive = drive_start(
@@ -35,7 +35,7 @@ static void what_is_typed_into_a_slider_is_undone(void **state) {
 }
 
 /* A display of many small pixels: all is twice as large, in a window twice as large, and works. */
-static void panels_are_scaled(void **state) {
+static void panels_are_scaled_by_the_scale_option(void **state) {
     (void)state;
     need_gl();
     static const char *const scales[2] = {"1", "2"};
@@ -115,7 +115,7 @@ static void a_saved_scene_looks_the_same(void **state) {
     }
 }
 
-static void a_full_disk_is_told_of(void **state) {
+static void full_disk_is_a_message(void **state) {
     (void)state;
     need_gl();
     file_make("script",
@@ -157,7 +157,7 @@ static void render_as(const char *line_path, const char *picture) {
 }
 
 /* The maps in Models/Materials/0 are put on the cloth without being asked for. */
-static void its_command_line_has_the_folder_that_it_found(void **state) {
+static void copied_command_line_has_the_folder_of_maps(void **state) {
     (void)state;
     need_gl();
     Ran ran = run_shell(
@@ -178,7 +178,7 @@ static void its_command_line_has_the_folder_that_it_found(void **state) {
     ran_free(&ran);
 }
 
-static void its_command_line_makes_its_picture(void **state) {
+static void copied_command_line_makes_the_shown_picture(void **state) {
     (void)state;
     need_gl();
     script_begin();
@@ -203,7 +203,7 @@ static void its_command_line_makes_its_picture(void **state) {
 
 /* ---- comparing ---- */
 
-static void two_settings_and_the_difference(void **state) {
+static void a_b_comparison_shows_two_settings_and_their_difference(void **state) {
     (void)state;
     need_gl();
     script_begin();
@@ -272,7 +272,7 @@ static void panels_and_menus_are_reached_by_keys(void **state) {
 
 /* ---- what cannot be done ---- */
 
-static void a_script_that_is_wrong_ends_it(void **state) {
+static void wrong_script_ends_the_window_with_its_line(void **state) {
     (void)state;
     need_gl();
     static const char *const wrong[][2] = {{"wait rest\nclick \"Material/nonsense\"\n", "script:2: "},
@@ -288,7 +288,7 @@ static void a_script_that_is_wrong_ends_it(void **state) {
                      "absent");
 }
 
-static void without_a_display_it_says_what_does_without(void **state) {
+static void window_without_a_display_names_commands_that_need_none(void **state) {
     (void)state;
     Ran ran = run_shell("unset DISPLAY WAYLAND_DISPLAY; exec \"$0\" view builtin:cloth --forget");
     assert_int_equal(ran.code, 4);
@@ -299,17 +299,18 @@ static void without_a_display_it_says_what_does_without(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_typed_into_a_slider_is_undone),
-                                       cmocka_unit_test(panels_are_scaled),
-                                       cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
-                                       cmocka_unit_test(a_broken_scene_leaves_the_one_before),
-                                       cmocka_unit_test(a_saved_scene_looks_the_same),
-                                       cmocka_unit_test(a_full_disk_is_told_of),
-                                       cmocka_unit_test(its_command_line_makes_its_picture),
-                                       cmocka_unit_test(its_command_line_has_the_folder_that_it_found),
-                                       cmocka_unit_test(two_settings_and_the_difference),
-                                       cmocka_unit_test(panels_and_menus_are_reached_by_keys),
-                                       cmocka_unit_test(a_script_that_is_wrong_ends_it),
-                                       cmocka_unit_test(without_a_display_it_says_what_does_without)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(value_typed_into_a_slider_is_undone),
+        cmocka_unit_test(panels_are_scaled_by_the_scale_option),
+        cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
+        cmocka_unit_test(a_broken_scene_leaves_the_one_before),
+        cmocka_unit_test(a_saved_scene_looks_the_same),
+        cmocka_unit_test(full_disk_is_a_message),
+        cmocka_unit_test(copied_command_line_makes_the_shown_picture),
+        cmocka_unit_test(copied_command_line_has_the_folder_of_maps),
+        cmocka_unit_test(a_b_comparison_shows_two_settings_and_their_difference),
+        cmocka_unit_test(panels_and_menus_are_reached_by_keys),
+        cmocka_unit_test(wrong_script_ends_the_window_with_its_line),
+        cmocka_unit_test(window_without_a_display_names_commands_that_need_none)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

@@ -15,7 +15,7 @@ static void pass_by(Drive *drive, const char *message) {
     json_decref(drive_until(drive, "message", message));
 }
 
-static void a_texture_is_read_again(void **state) {
+static void changed_texture_is_read_again(void **state) {
     (void)state;
     need_gl();
     write_texture("map.png", 220, 60);
@@ -43,7 +43,7 @@ static void a_texture_is_read_again(void **state) {
 }
 
 /* The number by which a map is multiplied stays as it was set. */
-static void a_map_added_to_a_worn_folder_is_put_on(void **state) {
+static void map_added_to_a_used_folder_is_bound(void **state) {
     (void)state;
     need_gl();
     if (mkdir("maps", 0700) != 0) assert_int_equal(access("maps", F_OK), 0);
@@ -80,7 +80,7 @@ static void write_toy(const char *file, const char *id, const char *factor) {
     assert_int_equal(system(line), 0);
 }
 
-static void a_lobe_is_read_again(void **state) {
+static void changed_lobe_file_is_read_again(void **state) {
     (void)state;
     need_gl();
     write_toy("toy.h", "toy", "1.0f");
@@ -111,7 +111,7 @@ static void a_lobe_is_read_again(void **state) {
 }
 
 /* Neither the scene nor the first of two lobes is lost to what is dropped behind them. */
-static void what_is_dropped_together_is_all_taken(void **state) {
+static void files_dropped_together_are_all_opened(void **state) {
     (void)state;
     need_gl();
     scene_make();
@@ -140,7 +140,7 @@ static void write_lobe(const char *with) {
     free(edited);
 }
 
-static void shader_text_is_compiled_again(void **state) {
+static void changed_shader_text_is_compiled_again(void **state) {
     (void)state;
     need_gl();
     assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700),
@@ -183,9 +183,10 @@ static void shader_text_is_compiled_again(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_texture_is_read_again), cmocka_unit_test(a_map_added_to_a_worn_folder_is_put_on),
-        cmocka_unit_test(a_lobe_is_read_again), cmocka_unit_test(what_is_dropped_together_is_all_taken),
-        cmocka_unit_test(shader_text_is_compiled_again)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(changed_texture_is_read_again),
+                                       cmocka_unit_test(map_added_to_a_used_folder_is_bound),
+                                       cmocka_unit_test(changed_lobe_file_is_read_again),
+                                       cmocka_unit_test(files_dropped_together_are_all_opened),
+                                       cmocka_unit_test(changed_shader_text_is_compiled_again)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

@@ -61,7 +61,7 @@ static void assert_same_material(const json_t *a, const json_t *b) {
                             word_of(b, weft_material_choice_name(k)));
 }
 
-static void what_was_changed_is_there_when_it_is_opened_again(void **state) {
+static void saved_changes_are_there_after_opening_again(void **state) {
     (void)state;
     NEEDED();
     static const unsigned char blue[3] = {60, 90, 160}, gold[3] = {200, 180, 60}, flat[3] = {128, 128, 255},
@@ -114,7 +114,7 @@ static double top_of(const json_t *state, const char *control) {
     return json_number_value(json_array_get(box, 1));
 }
 
-static void the_first_minute(void **state) {
+static void first_minute_of_use_ends_with_the_expected_pictures(void **state) {
     (void)state;
     NEEDED();
     file_make("broken.glb", "glTF\2\0\0\0nonsense", 16);
@@ -153,7 +153,7 @@ static void the_first_minute(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_was_changed_is_there_when_it_is_opened_again),
-                                       cmocka_unit_test(the_first_minute)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(saved_changes_are_there_after_opening_again),
+                                       cmocka_unit_test(first_minute_of_use_ends_with_the_expected_pictures)};
     return cmocka_run_group_tests(tests, display_begin, display_end);
 }

@@ -115,7 +115,7 @@ static void fly(Drive *drive, json_t **now, const char *key) {
     json_decref(before);
 }
 
-static void a_hand_drives_it(void **state) {
+static void window_driven_by_real_mouse_and_keys_does_as_told(void **state) {
     (void)state;
     if (no_display) skip();
     need_gl();
@@ -195,6 +195,6 @@ static void a_hand_drives_it(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_hand_drives_it)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(window_driven_by_real_mouse_and_keys_does_as_told)};
     return cmocka_run_group_tests(tests, display_begin, display_end);
 }

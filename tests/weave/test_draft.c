@@ -167,7 +167,7 @@ static void figures_of_a_satin_are_those_of_its_name(void **state) {
 }
 
 /* What lies below in front is on top behind, and the back of the back is the front. */
-static void back_is_the_inverted_draft(void **state) {
+static void back_of_a_draft_is_its_inverse(void **state) {
     (void)state;
     WeftDraft *front = parsed("twill 3/1 z; warp 1r 7k"), *back, *again;
     assert_int_equal(weft_draft_back(front, &back, NULL), WEFT_OK);
@@ -217,7 +217,7 @@ static void assert_text(const char *text, int expected_warnings, const char *con
 
 #define TWO_BY_TWO "[WARP]\nThreads=2\n[WEFT]\nThreads=2\n[THREADING]\n1=1\n2=2\n"
 
-static void traps_of_real_files_are_read_as_they_are_meant(void **state) {
+static void unusual_forms_of_real_files_are_read_as_meant(void **state) {
     (void)state;
     /* a tie-up and treadling, the plain case */
     assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n", 0,
@@ -318,7 +318,7 @@ static void lengths_are_metres_whatever_their_unit(void **state) {
     }
 }
 
-static void broken_files_end_in_one_line(void **state) {
+static void broken_draft_files_are_errors_of_one_line(void **state) {
     (void)state;
 #define HEAD  "[WIF]\nVersion=1.1\n"
 #define WOVEN "[LIFTPLAN]\n1=1\n"
@@ -471,7 +471,7 @@ static void a_picture_of_two_colours_is_a_jacquard_draft(void **state) {
 }
 
 /* The threads in the corner of the drawing have the colours of the draft, and all forms are written. */
-static void a_draft_is_drawn_and_written_in_every_form(void **state) {
+static void draft_is_drawn_and_written_in_every_form(void **state) {
     (void)state;
     WeftDraft *draft = parsed("plain; warp 1#ff0000; weft 1#0000ff");
     WeftError error;
@@ -568,14 +568,14 @@ int main(void) {
         cmocka_unit_test(notation_without_sense_is_refused_in_one_line),
         cmocka_unit_test(stripes_repeat_with_the_weave_and_mirror),
         cmocka_unit_test(figures_of_a_satin_are_those_of_its_name),
-        cmocka_unit_test(back_is_the_inverted_draft),
-        cmocka_unit_test(traps_of_real_files_are_read_as_they_are_meant),
+        cmocka_unit_test(back_of_a_draft_is_its_inverse),
+        cmocka_unit_test(unusual_forms_of_real_files_are_read_as_meant),
         cmocka_unit_test(colours_follow_the_rules_of_each_program),
         cmocka_unit_test(lengths_are_metres_whatever_their_unit),
-        cmocka_unit_test(broken_files_end_in_one_line),
+        cmocka_unit_test(broken_draft_files_are_errors_of_one_line),
         cmocka_unit_test(a_written_draft_reads_as_the_same),
         cmocka_unit_test(a_picture_of_two_colours_is_a_jacquard_draft),
-        cmocka_unit_test(a_draft_is_drawn_and_written_in_every_form),
+        cmocka_unit_test(draft_is_drawn_and_written_in_every_form),
         cmocka_unit_test(real_drafts_give_the_crossings_worked_by_hand),
         cmocka_unit_test(a_large_draft_has_the_picks_of_its_tie_up),
     };
