@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "base/thread.h"
 #include "scene/env_split.h"
@@ -77,7 +78,7 @@ typedef struct Map {
 
 static double map_pdf(const Map *map, Vec3 d) {
     int x = (int)((0.5f + atan2f(d.x, -d.z) / 6.2831853f) * CELLS_WIDTH);
-    int y = (int)(acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / 3.14159265f * CELLS_HEIGHT);
+    int y = (int)(acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT * CELLS_HEIGHT);
     x = x < 0 ? 0 : x < CELLS_WIDTH ? x : CELLS_WIDTH - 1;
     y = y < CELLS_HEIGHT ? y : CELLS_HEIGHT - 1;
     return map->density[y * CELLS_WIDTH + x];
@@ -100,7 +101,7 @@ static void prepare_draws(Map *map) {
             sum += (double)(c[0] + c[1] + c[2]) / 27.0;
         }
         map->density[k] = sum;
-        total += sum * (sin)(3.14159265 * (k / CELLS_WIDTH + 0.5) / CELLS_HEIGHT) * 19.7392088 / count;
+        total += sum * (sin)(PI_DOUBLE * (k / CELLS_WIDTH + 0.5) / CELLS_HEIGHT) * 19.7392088 / count;
         sums[k] = total;
     }
     for (int k = 0; k < count; k++) map->density[k] /= total;
@@ -109,9 +110,9 @@ static void prepare_draws(Map *map) {
         while (k < count - 1 && sums[k] < u) k++;
         double a = unit_double(hash64((uint64_t)n * 7 + 123)),
                b = unit_double(hash64((uint64_t)n * 13 + 765));
-        double row = k / CELLS_WIDTH, top = (cos)(3.14159265 * row / CELLS_HEIGHT);
-        double z = top + ((cos)(3.14159265 * (row + 1) / CELLS_HEIGHT) - top) * b;
-        map->draws[n] = latlong_direction((k % CELLS_WIDTH + a) / CELLS_WIDTH, acos(z) / 3.14159265358979);
+        double row = k / CELLS_WIDTH, top = (cos)(PI_DOUBLE * row / CELLS_HEIGHT);
+        double z = top + ((cos)(PI_DOUBLE * (row + 1) / CELLS_HEIGHT) - top) * b;
+        map->draws[n] = latlong_direction((k % CELLS_WIDTH + a) / CELLS_WIDTH, acos(z) / PI_DOUBLE);
     }
 }
 

@@ -10,10 +10,10 @@
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/random.h"
+#include "base/steady_clock.h"
 #include "shading/registry.h"
 
 /* ---- the columns --------------------------------------------------------------------------------- */
@@ -59,12 +59,6 @@ enum { PAIRS = 1024, ERROR_PAIRS = 1 << 20 };
  * wait for its stores, of which the core compares the last twelve bits. */
 static struct { float f[PAIRS], ox[PAIRS], oy[PAIRS], oz[PAIRS], ix[PAIRS], iy[PAIRS], iz[PAIRS]; } block;
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static float unit(uint64_t *state) { /* splitmix64 */
     uint64_t x = *state += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -80,17 +74,17 @@ static void random_direction(uint64_t *state, float *x, float *y, float *z) {
 }
 
 static double time_eval(EvalN *eval_n, const Lobe *lobe, int times) {
-    double start = now();
+    double start = clock_now();
     for (int k = 0; k < times; k++)
         eval_n(lobe, PAIRS, block.ox, block.oy, block.oz, block.ix, block.iy, block.iz, block.f, NULL);
-    return (now() - start) / times / PAIRS;
+    return (clock_now() - start) / times / PAIRS;
 }
 
 static double time_peak(Peak *peak, size_t n) {
-    double start = now();
+    double start = clock_now();
     volatile float kept = peak(n);
     (void)kept;
-    return (now() - start) / (12.0 * (double)n);
+    return (clock_now() - start) / (12.0 * (double)n);
 }
 
 static void keep_least(double *least, double value) { *least = value < *least ? value : *least; }

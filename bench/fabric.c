@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "base/thread.h"
 #include "measure/data.h"
 #include "measure/search.h"
@@ -85,7 +86,7 @@ static float spread_of(const float *n, Pair p) {
     float tail = fabsf(n[TAIL] - 1.0f) < 1e-3f ? 1.001f : n[TAIL];
     float alpha = fminf(fmaxf(n[ALPHA] * powf(p.d, n[NARROW]), 0.005f), 0.995f), a2 = alpha * alpha;
     float t = p.sin2_h + a2 * (1.0f + n[WIDER] * (1.0f - p.d)) * (1.0f - p.sin2_h);
-    return (tail - 1.0f) * (1.0f - a2) / (3.14159265f * (powf(a2, 1.0f - tail) - 1.0f)) * powf(t, -tail);
+    return (tail - 1.0f) * (1.0f - a2) / (PI_FLOAT * (powf(a2, 1.0f - tail) - 1.0f)) * powf(t, -tail);
 }
 
 static void columns_fill(const Fit *fit, const float *n, int count) {

@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "fibre/slab.h"
 #include "fibre/solver_reference.h"
 #include "fibre/tilted.h"
@@ -162,7 +163,7 @@ static void print_slabs(const char *what, const SolvedGrid *grid, double low, do
 static void print_models(void) {
     static const double white[] = {1.0}, colors[] = {0.2, 0.35, 0.5, 0.7, 0.9, 0.96, 1.0},
                         few[] = {0.2, 0.5, 0.9};
-    static const double radians = 3.14159265358979323846 / 180.0;
+    static const double radians = RADIANS;
     double alpha[21], tilts[] = {7.5 * radians, 22.5 * radians, 40.0 * radians};
     SolvedSet slabs;
     SolvedGrid grid = {21, 1, 0, 1, 33, 7, alpha, white, tilts, 1.0};

@@ -11,8 +11,8 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/steady_clock.h"
 #include "vertex.h"
 
 enum { MODULES_MAX = 4, ROUNDS = 2000 };
@@ -36,12 +36,6 @@ static void fill(VertexArrays *a) {
         for (int c = 0; c < 3; c++) a->base[c][k] = draw(&state), a->sheen[c][k] = draw(&state);
         a->roughness[k] = 0.2f + 0.8f * draw(&state), a->sheen_roughness[k] = 0.2f + 0.8f * draw(&state);
     }
-}
-
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* The greatest relative difference among values for the light. */
@@ -84,9 +78,9 @@ int main(int argc, char **argv) {
     for (int round = 0; round < ROUNDS; round++)
         for (int k = 0; k < 2 * VERTEX_MATERIALS; k++)
             for (int m = 0; m < count; m++) {
-                double start = seconds();
+                double start = clock_now();
                 run[m](&a, k / 2, k % 2);
-                best[m][k / 2][k % 2] = fmin(best[m][k / 2][k % 2], seconds() - start);
+                best[m][k / 2][k % 2] = fmin(best[m][k / 2][k % 2], clock_now() - start);
             }
     puts("ns a vertex, ratio to the first, difference of values");
     for (int k = 0; k < 2 * VERTEX_MATERIALS; k++)

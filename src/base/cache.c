@@ -72,7 +72,7 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
         warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
 }
 
-/* The head of a cache file. A checksum of everything follows the data. */
+/* A file begins with this; the data and a hash of both follow. */
 typedef struct Head {
     char magic[8];
     uint64_t key;
@@ -80,36 +80,51 @@ typedef struct Head {
 
 static Head head_of(uint64_t key) { return (Head){{'w', 'e', 'f', 't', '-', 'n', 'u', 'm'}, key}; }
 
-void cache_keep(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
+void cache_pack(uint64_t key, const void *data, size_t size, void *file) {
     const Head head = head_of(key);
-    size_t whole = sizeof head + size;
-    unsigned char *file = size < SIZE_MAX / 2 ? alloc_array(whole + sizeof key, 1) : NULL;
+    unsigned char *bytes = file;
+    memcpy(bytes, &head, sizeof head);
+    memcpy(bytes + sizeof head, data, size);
+    uint64_t check = cache_hash(CACHE_HASH, bytes, sizeof head + size);
+    memcpy(bytes + sizeof head + size, &check, sizeof check);
+}
+
+bool cache_unpack(const void *file, size_t file_size, uint64_t key, void *data, size_t size) {
+    const Head head = head_of(key);
+    const unsigned char *bytes = file;
+    if (file_size < CACHE_EXTRA || file_size - CACHE_EXTRA != size || memcmp(bytes, &head, sizeof head) != 0)
+        return false;
+    uint64_t check = cache_hash(CACHE_HASH, bytes, sizeof head + size);
+    if (memcmp(bytes + sizeof head + size, &check, sizeof check) != 0) return false;
+    memcpy(data, bytes + sizeof head, size);
+    return true;
+}
+
+void cache_keep(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
+    unsigned char *file = size < SIZE_MAX / 2 ? alloc_array(size + CACHE_EXTRA, 1) : NULL;
     if (!file) return;
-    memcpy(file, &head, sizeof head);
-    memcpy(file + sizeof head, data, size);
-    uint64_t check = cache_hash(CACHE_HASH, file, whole);
-    memcpy(file + whole, &check, sizeof check);
-    cache_write(key, suffix, file, whole + sizeof check, log);
+    cache_pack(key, data, size, file);
+    cache_write(key, suffix, file, size + CACHE_EXTRA, log);
     free(file);
 }
 
 bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const WeftLog *log) {
-    const Head head = head_of(key);
     char path[CACHE_PATH_SIZE];
     FileBytes file;
     WeftError error;
     struct stat status;
-    size_t whole = sizeof head + size;
     if (!cache_path(path, key, suffix) || stat(path, &status) != 0) return false;
-    if (file_read(path, whole + sizeof key, &file, &error) != WEFT_OK) {
+    if (file_read(path, size + CACHE_EXTRA, &file, &error) != WEFT_OK) {
         warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "%s", weft_message_text(error.message));
         return false;
     }
-    bool good = file.size == whole + sizeof key && memcmp(file.data, &head, sizeof head) == 0;
-    uint64_t check = good ? cache_hash(CACHE_HASH, file.data, whole) : 0;
-    good = good && memcmp(file.data + whole, &check, sizeof check) == 0;
-    if (good) memcpy(data, file.data + sizeof head, size);
+    bool good = cache_unpack(file.data, file.size, key, data, size);
     free(file.data);
-    if (!good) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it is damaged");
+    if (!good) cache_distrust(key, suffix, log);
     return good;
+}
+
+void cache_distrust(uint64_t key, const char *suffix, const WeftLog *log) {
+    char path[CACHE_PATH_SIZE];
+    if (cache_path(path, key, suffix)) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it is damaged");
 }

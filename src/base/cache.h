@@ -30,10 +30,20 @@ bool cache_is_private(const char *path);
  * (WEFT_MESSAGE_CACHE_IGNORED). */
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);
 
-/* Numbers as this machine has them, with their key and a checksum: cache_keep writes them, cache_find reads
- * them back. False where there are none of that size; those that are damaged are a warning too. Hash the size
- * of some numbers, not only bytes, into a key: another machine's order of bytes is then another key. */
+/* Numbers as this machine has them: cache_keep writes them, cache_find reads them back. Returns false if the cache
+ * has no file of that key and size, or a damaged one, which is a warning too. Hash the size of some numbers, not only
+ * bytes, into a key: another machine's order of bytes is then another key. */
 void cache_keep(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log);
 bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const WeftLog *log);
+
+/* Warns that a file is not used, for its numbers cannot be what they should be. */
+void cache_distrust(uint64_t key, const char *suffix, const WeftLog *log);
+
+/* The bytes of such a file: "weft-num", the key, the data, and the hash of all that. cache_pack fills `file`, which
+ * has room for CACHE_EXTRA bytes more than the data; cache_unpack leaves the data alone and returns false if a file
+ * is not of that key and size, or its hash is wrong. */
+enum { CACHE_EXTRA = 8 + 8 + 8 };
+void cache_pack(uint64_t key, const void *data, size_t size, void *file);
+bool cache_unpack(const void *file, size_t file_size, uint64_t key, void *data, size_t size);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/steady_clock.h"
 #include "command.h"
 #include "given_lobe.h"
 #include "interrupt.h"
@@ -18,7 +19,6 @@
 #include "table_file.h"
 #include "two_columns.h"
 #include "verbs.h"
-#include "view/steady_clock.h"
 
 bool bake_common(const Options *options, BakeCommon *common) {
     WeftError error;
@@ -143,7 +143,7 @@ static int bake_read(const Options *options, BakeVerb *bake) {
 
 static int table_make(BakeVerb *bake) {
     WeftError error;
-    const double started = now(), texels = (double)bake->desc.width * bake->desc.height;
+    const double started = clock_now(), texels = (double)bake->desc.width * bake->desc.height;
     Progress progress = progress_start_count(bake->common.quiet, "texels", texels);
     bake->desc.progress = bake_progress;
     bake->desc.user = &progress;
@@ -151,7 +151,7 @@ static int table_make(BakeVerb *bake) {
     bake->desc.log = &log;
     WeftResult result = weft_bake(&bake->desc, &bake->info, &bake->table, &error);
     progress_finish(&progress);
-    bake->seconds = now() - started;
+    bake->seconds = clock_now() - started;
     if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted; nothing was written");
     return result == WEFT_OK ? 0 : report_error(&error);
 }

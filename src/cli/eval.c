@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/pi.h"
 #include "decimal.h"
 #include "given_lobe.h"
 #include "json_writer.h"
@@ -39,7 +40,7 @@ static bool line_numbers(const char *text, int count, double *numbers) {
 
 /* Unit direction from degrees. The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
 static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
-    const double radians = 3.14159265358979323846 / 180.0;
+    const double radians = RADIANS;
     double sin_theta = sin(theta * radians);
     w[0][k] = (float)(sin_theta * cos(phi * radians));
     w[1][k] = (float)(sin_theta * sin(phi * radians));

@@ -1,4 +1,5 @@
 #include "fit_sheet.h"
+#include "base/pi.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -20,7 +21,7 @@ typedef struct Drawn {
 
 /* The directions of a pixel; 0 where one is below the horizon or grazes. */
 static int directions(int column, int row, double phi_d, float wo[3], float wi[1][3]) {
-    const double quarter = 1.57079632679490;
+    const double quarter = 0.5 * PI_DOUBLE;
     double th = (column + 0.5) / SIDE * quarter, td = (SIDE - row - 0.5) / SIDE * quarter;
     double pd = phi_d / 90.0 * quarter, x = sin(td) * cos(pd), y = sin(td) * sin(pd), z = cos(td);
     const double i[3] = {cos(th) * x + sin(th) * z, y, cos(th) * z - sin(th) * x};

@@ -5,11 +5,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/steady_clock.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "report.h"
 #include "save.h"
-#include "view/steady_clock.h"
 #include "weft/weft.h"
 
 /* Keeps the line for --json and shows it. Short of memory it is only shown. */
@@ -131,14 +131,14 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (!job->raster)
         result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
-    double started = now();
+    double started = clock_now();
     if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
     if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
     if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
     if (result != WEFT_OK) return result;
     const WeftRasterInfo drawn = weft_raster_info(job->raster);
     job->info = (WeftRenderInfo){.samples_per_pixel = drawn.samples,
-                                 .render_seconds = now() - started,
+                                 .render_seconds = clock_now() - started,
                                  .camera_fov = drawn.camera_fov};
     memcpy(job->info.camera_eye, drawn.camera_eye, sizeof job->info.camera_eye);
     memcpy(job->info.camera_target, drawn.camera_target, sizeof job->info.camera_target);
@@ -149,11 +149,11 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
 
 WeftResult job_open(Job *job, WeftError *error) {
     const WeftRenderDesc *desc = &job->request->desc;
-    double started = now();
+    double started = clock_now();
     job->width = desc->crop[2] ? desc->crop[2] : desc->width;
     job->height = desc->crop[3] ? desc->crop[3] : desc->height;
     WeftResult result = scene_open(job, &job->scene, error);
-    job->load_seconds = now() - started;
+    job->load_seconds = clock_now() - started;
     if (result == WEFT_OK) job->triangles = weft_scene_info(job->scene).triangle_count;
     if (result == WEFT_OK && job->number == 0) result = save_all(job->request->options, job->scene, error);
     return result;

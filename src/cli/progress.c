@@ -6,8 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/steady_clock.h"
 #include "interrupt.h"
-#include "view/steady_clock.h"
 
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit) {
     Progress progress = {.shown = !quiet && isatty(STDERR_FILENO),
@@ -16,7 +16,7 @@ Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, d
                          .spp_most = spp_most,
                          .pixels = pixels,
                          .limit = limit,
-                         .started = now(),
+                         .started = clock_now(),
                          .width = 80};
     struct winsize size;
     if (progress.shown && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
@@ -43,7 +43,7 @@ static void clock_text(double seconds, char text[TIME_SIZE]) {
 }
 
 void progress_draw(Progress *progress, double fraction) {
-    double clock = now(), elapsed = clock - progress->started;
+    double clock = clock_now(), elapsed = clock - progress->started;
     if (!progress->shown || clock - progress->drawn < 0.1) return;
     progress->drawn = clock;
 

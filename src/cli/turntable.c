@@ -1,4 +1,5 @@
 #include "turntable.h"
+#include "base/pi.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +9,7 @@
 /* The camera of picture k of `count`, given that of the first. */
 static void turned(const WeftRenderInfo *first, int k, int count, char camera[256]) {
     const float *e = first->camera_eye, *t = first->camera_target;
-    double angle = 6.28318530717958648 * k / count, c = cos(angle), s = sin(angle);
+    double angle = 2.0 * PI_DOUBLE * k / count, c = cos(angle), s = sin(angle);
     double x = (double)e[0] - (double)t[0], z = (double)e[2] - (double)t[2];
     snprintf(camera, 256, "%.9g,%.9g,%.9g;%.9g,%.9g,%.9g;%.9g", (double)t[0] + c * x + s * z, (double)e[1],
              (double)t[2] - s * x + c * z, (double)t[0], (double)t[1], (double)t[2],

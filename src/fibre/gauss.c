@@ -1,5 +1,7 @@
 #include "fibre/gauss.h"
 
+#include "base/pi.h"
+
 #include <math.h>
 
 /* P_n(z) by (k + 1) P_{k+1} = (2 k + 1) z P_k - k P_{k-1}, its roots by Newton from
@@ -7,7 +9,7 @@
  * Milton Abramowitz, Irene Stegun, "Handbook of Mathematical Functions", 1964, 22.7.10, 22.8.5, 25.4.29. */
 void gauss_legendre(int n, double *x, double *w) {
     for (int j = 0; j < n; j++) {
-        double z = cos(3.14159265358979323846 * (j + 0.75) / (n + 0.5)), slope = 1.0;
+        double z = cos(PI_DOUBLE * (j + 0.75) / (n + 0.5)), slope = 1.0;
         for (int round = 0; round < 8; round++) {
             double p = 1.0, before = 0.0;
             for (int k = 0; k < n; k++) {

@@ -1,3 +1,4 @@
+#include "base/pi.h"
 #include "fibre/fitted_model.h"
 
 #include <math.h>
@@ -411,7 +412,7 @@ static void alphas_fill(double low, int n, double *alpha) {
 
 static bool stage_solved(FibreStage stage, int threads, SolveProgress progress, void *user, SolvedSet *out) {
     static const double white[] = {1.0}, colors[] = {0.05, 0.2, 0.4, 0.6, 0.8, 0.92, 0.98, 1.0};
-    static const double radians = 3.14159265358979323846 / 180.0;
+    static const double radians = RADIANS;
     double alpha[36], tilts[] = {9 * radians, 18 * radians, 27 * radians, 36 * radians, 45 * radians};
     SolvedGrid grid = {0, 1, 0, 1, 40, 5, alpha, white, tilts, 1.0};
     switch (stage) {

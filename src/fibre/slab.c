@@ -4,10 +4,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "fibre/doubling.h"
 #include "fibre/gauss.h"
-
-static const double pi = 3.14159265358979323846;
 
 static double extinction(double s, double mu) { return sqrt(1.0 - mu * mu + s * s * mu * mu); }
 
@@ -55,8 +54,8 @@ double slab_single(const Slab *slab, double mu_i, double mu_o, double cos_phi) {
     double q = 2.0 * (1.0 + mu_i * mu_o + sqrt((1.0 - mu_i * mu_i) * (1.0 - mu_o * mu_o)) * cos_phi);
     double ratio = q / (s * s * q + (1.0 - s * s) * m * m);
     double sum = extinction(s, mu_i) * mu_o + extinction(s, mu_o) * mu_i;
-    return slab->albedo * s * s * s / pi * ratio * ratio * 0.25 * -expm1(-slab->depth * sum / (mu_i * mu_o)) /
-           sum;
+    return slab->albedo * s * s * s / PI_DOUBLE * ratio * ratio * 0.25 *
+           -expm1(-slab->depth * sum / (mu_i * mu_o)) / sum;
 }
 
 double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o) {

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/thread.h"
 #include "fibre/gauss.h"
 #include "fibre/tilted.h"
 
-static const double pi = 3.14159265358979323846;
 enum { MODES = 5 };
 
 typedef struct SolveWork {
@@ -47,7 +47,8 @@ static bool upright(const SolveWork *work, const SlabLayout *at, const Slab *sla
             for (int p = 0; p < at->pairs; p++) {
                 size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
                 double once = slab_single_mode(&slabs[k].slab, m, at->mu[at->i[p]], at->mu[at->j[p]]);
-                slabs[k].f[p] += (m ? 2.0 : 1.0) * (r[cell] - once) * cos(m * at->turn[p]) / (2.0 * pi);
+                slabs[k].f[p] +=
+                    (m ? 2.0 : 1.0) * (r[cell] - once) * cos(m * at->turn[p]) / (2.0 * PI_DOUBLE);
             }
         }
     }
@@ -123,7 +124,7 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, dou
         int ring = lean ? k / g->spokes : k, spoke = lean ? k % g->spokes : 0;
         mu[k] = x[ring] * x[ring];
         w[k] = 2.0 * x[ring] * v[ring] / (lean ? g->spokes : 1);
-        phi[k] = lean ? pi * (spoke + 0.5) / g->spokes : 0.0;
+        phi[k] = lean ? PI_DOUBLE * (spoke + 0.5) / g->spokes : 0.0;
     }
     int p = 0;
     for (int i = 0; i < sides; i++)
@@ -132,7 +133,7 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, dou
                 at->i[p] = i;
                 at->j[p] = j;
                 at->share[p] = 1.0 / turns;
-                at->turn[p] = !lean ? pi * (k + 0.5) / turns : k ? -2.0 * phi[j] : 0.0;
+                at->turn[p] = !lean ? PI_DOUBLE * (k + 0.5) / turns : k ? -2.0 * phi[j] : 0.0;
             }
     return true;
 }
@@ -200,10 +201,10 @@ void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[
 }
 
 double solved_weight_i(const SolvedSlab *t, int p) {
-    return 2.0 * pi * t->share[p] * t->w[t->j[p]] * t->mu[t->j[p]];
+    return 2.0 * PI_DOUBLE * t->share[p] * t->w[t->j[p]] * t->mu[t->j[p]];
 }
 double solved_weight_j(const SolvedSlab *t, int p) {
-    return t->i[p] == t->j[p] ? 0.0 : 2.0 * pi * t->share[p] * t->w[t->i[p]] * t->mu[t->i[p]];
+    return t->i[p] == t->j[p] ? 0.0 : 2.0 * PI_DOUBLE * t->share[p] * t->w[t->i[p]] * t->mu[t->i[p]];
 }
 
 bool solved_error(const SolvedSlab *t, const double *f, FitError *out) {

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "fibre/doubling.h"
 #include "fibre/gauss.h"
-
-static const double pi = 3.14159265358979323846;
 
 typedef struct TiltedVec {
     double x, y, z, nu; /* nu: cosine to the fibre */
@@ -29,7 +28,7 @@ static double flakes(double s, TiltedVec a, TiltedVec b, double sign) {
     double q = x * x + y * y + z * z;
     if (q < 1e-14) return 0.0;
     double ratio = q / (s * s * q + (1.0 - s * s) * m * m);
-    return s * s * s / pi * ratio * ratio * 0.25;
+    return s * s * s / PI_DOUBLE * ratio * ratio * 0.25;
 }
 
 double tilted_single(const Slab *slab, double tilt, Heading i, Heading o) {
@@ -53,9 +52,9 @@ static void directions_fill(Directions *d, double tilt, TiltEffort effort, int c
     for (int j = 0; j < effort.rings; j++)
         for (int k = 0; k < effort.spokes; k++) {
             int n = j * effort.spokes + k;
-            double mu = x[j] * x[j], phi = pi * (k + 0.5) / effort.spokes;
+            double mu = x[j] * x[j], phi = PI_DOUBLE * (k + 0.5) / effort.spokes;
             d->v[n] = vec(tilt, mu, phi);
-            d->c[n] = 2.0 * x[j] * w[j] * mu * pi / effort.spokes;
+            d->c[n] = 2.0 * x[j] * w[j] * mu * PI_DOUBLE / effort.spokes;
         }
     for (int k = 0; k < count; k++) d->v[d->nodes + k] = vec(tilt, at[k].mu, at[k].phi);
     for (int k = 0; k < d->total; k++) {

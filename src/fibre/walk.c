@@ -5,10 +5,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/random.h"
 #include "base/thread.h"
-
-static const double pi = 3.14159265358979323846;
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -27,8 +26,9 @@ double walk_sigma(const WalkMedium *m, const double w[3]) {
 double walk_phase(const WalkMedium *m, const double wi[3], const double wo[3]) {
     double h[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]}, s2 = m->s * m->s;
     double q = dot(h, h), along = dot(h, m->axis), g = s2 * q + (1.0 - s2) * along * along;
-    if (!(g > 0.0)) return 1.0 / (4.0 * pi * m->s * walk_sigma(m, wi)); /* straight on: D at its largest */
-    return m->s * s2 * (q / g) * (q / g) / (4.0 * pi * walk_sigma(m, wi));
+    if (!(g > 0.0))
+        return 1.0 / (4.0 * PI_DOUBLE * m->s * walk_sigma(m, wi)); /* straight on: D at its largest */
+    return m->s * s2 * (q / g) * (q / g) / (4.0 * PI_DOUBLE * walk_sigma(m, wi));
 }
 
 WalkMedium walk_medium(const WalkDesc *desc) {
@@ -54,7 +54,7 @@ bool walk_fly(const WalkMedium *m, Walker *walker) {
  * v = S^(1/2) wi. Such a u is the sum of v / |v| and a point of the unit sphere, but for its length. */
 void walk_turn(const WalkMedium *m, Walker *walker) {
     double v[3], h[3];
-    double z = 2.0 * draw(walker) - 1.0, r = sqrt(1.0 - z * z), phi = 2.0 * pi * draw(walker);
+    double z = 2.0 * draw(walker) - 1.0, r = sqrt(1.0 - z * z), phi = 2.0 * PI_DOUBLE * draw(walker);
     stretch(m, walker->d, v);
     double back = -1.0 / sqrt(dot(v, v)); /* wi = -d */
     double u[3] = {back * v[0] + r * cos(phi), back * v[1] + r * sin(phi), back * v[2] + z};

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "gltf/field.h"
 
 void lights_count(Asset *asset) {
@@ -25,7 +26,7 @@ static LightKind kind_read(const Field *field) {
 static void cone_read(const Field *field, Light *light) {
     Field spot = field_member(field, "spot"), inner_field = field_member(&spot, "innerConeAngle"),
           outer_field = field_member(&spot, "outerConeAngle");
-    const double right_angle = 1.57079632679489662, narrowest = 1e-3;
+    const double right_angle = 0.5 * PI_DOUBLE, narrowest = 1e-3;
     double outer = field_number(&outer_field, 0.5 * right_angle, narrowest, right_angle);
     double inner = field_number(&inner_field, 0.0, 0.0, right_angle);
     if (inner > outer) inner = outer;

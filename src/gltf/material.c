@@ -1,6 +1,7 @@
 /* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.9 (materials), and the texts of
  * KHR_materials_anisotropy, _clearcoat, _emissive_strength, _ior, _sheen, _specular, _unlit and
  * KHR_texture_transform in its extension registry. */
+#include "base/pi.h"
 #include "gltf/gltf_material.h"
 
 #include <float.h>
@@ -138,7 +139,7 @@ static void sheen_read(const Field *material, Input *inputs) {
 static void own_read(const Field *weft, Input *inputs, const char *key, InputId id) {
     const WeftInputInfo *info = &input_infos[id];
     bool angle = info->kind == WEFT_INPUT_ANGLE || info->kind == WEFT_INPUT_DIRECTION;
-    float unit = angle ? 0.0174532925f : 1.0f;
+    float unit = angle ? (float)RADIANS : 1.0f;
     Field field = field_member(weft, key);
     float low = info->hard_low * unit, high = info->hard_high * unit;
     if (info->kind == WEFT_INPUT_COLOR)
@@ -212,7 +213,7 @@ static void extras_read(const Field *field, Material *material) {
     Field dust = field_member(&weft, "dustTexture");
     for (size_t k = 0; k < OWN; k++) own_read(&weft, inputs, own[k].key, own[k].id);
     texture_read(&dust, &inputs[INPUT_dust], R);
-    scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 1.57079633f, "napTexture", B);
+    scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 0.5f * PI_FLOAT, "napTexture", B);
     inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
     texture_read(&texture, &inputs[INPUT_nap_direction], 0);
     saved_read(&weft, material);

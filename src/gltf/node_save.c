@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "gltf/saving.h"
 
 enum { VERTICES = 34962, INDICES = 34963, FLOAT = 5126, UNSIGNED_INT = 5125 };
@@ -150,7 +151,7 @@ static json_t *aimed(Vec3 at, Vec3 direction) {
 }
 
 /* A cone's half angle whose cosine in float is that number. */
-static double cone(float cosine) { return fmin(acos((double)cosine), 1.57079632679489662); }
+static double cone(float cosine) { return fmin(acos((double)cosine), 0.5 * PI_DOUBLE); }
 
 static json_t *light_object(Saving *saving, const Light *light) {
     static const char *const types[] = {"directional", "point", "spot"}; /* as LightKind */

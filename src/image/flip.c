@@ -35,6 +35,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/thread.h"
 #include "image/difference.h"
 #include "image/kernel.h"
@@ -43,8 +44,6 @@
 /* Rec. 709 primaries, D65. */
 static const double xyz_of_rgb[3][3] = {
     {0.4123866, 0.3575915, 0.1804505}, {0.2126368, 0.7151830, 0.0721802}, {0.0193306, 0.1191972, 0.9503726}};
-
-static const double pi = 3.14159265358979323846;
 
 typedef struct ColorMatrix {
     float m[3][3];
@@ -81,12 +80,13 @@ static void normalise(Kernel *kernel, int radius, const double *weight) {
 
 static void set_sight(Flip *flip, double pixels_per_degree) {
     static const double a[4] = {1.0, 1.0, 34.1, 13.5}, b[4] = {0.0047, 0.0053, 0.04, 0.025};
-    const int radius = (int)ceil(3.0 * sqrt(0.04 / (2.0 * pi * pi)) * pixels_per_degree);
+    const int radius = (int)ceil(3.0 * sqrt(0.04 / (2.0 * PI_DOUBLE * PI_DOUBLE)) * pixels_per_degree);
     double weight[4][KERNEL_TAPS], sum[4] = {0};
     for (int i = 0; i < 4; i++)
         for (int k = 0; k <= 2 * radius; k++) {
             const double t = (k - radius) / pixels_per_degree;
-            sum[i] += weight[i][k] = sqrt(a[i] * sqrt(pi / b[i])) * exp(-pi * pi * t * t / b[i]);
+            sum[i] += weight[i][k] =
+                sqrt(a[i] * sqrt(PI_DOUBLE / b[i])) * exp(-PI_DOUBLE * PI_DOUBLE * t * t / b[i]);
         }
     /* of y - z the squares of both terms sum to 1 */
     sum[SIGHT_Z] = sum[SIGHT_Z_TOO] = hypot(sum[SIGHT_Z], sum[SIGHT_Z_TOO]);

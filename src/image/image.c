@@ -1,6 +1,7 @@
 #include "weft/image.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -71,69 +72,81 @@ void image_repair(const ImageSource *source, WeftImage *image) {
              "%zu of %zu values were not finite; 0 now", bad, count);
 }
 
-typedef WeftResult (*ImageReader)(const ImageSource *source, WeftImage *out, WeftError *error);
-
-/* A format by the bytes at a place of a file. Those without a reader are refused by name, whatever the suffix
- * says. */
+/* One format: the bytes at a place of a file by which it is known, and what weft does with it. A format without a
+ * reader is refused by name, whatever the suffix says; one without a suffix is not written. */
 typedef struct Format {
     const char *name;
     size_t at, size;
     const char *signature;
-    ImageReader read;
+    WeftResult (*read)(const ImageSource *source, WeftImage *out, WeftError *error);
     const char *media_type; /* of what glTF and its extensions take */
+    const char *suffix;
+    bool linear; /* written from F32; else from U8 or U16 */
+    WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                        WeftError *error);
 } Format;
 
 #define SIGNATURE(at, text) at, sizeof(text) - 1, text
 static const Format formats[] = {
-    {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png"},
-    {"JPEG", SIGNATURE(0, "\xff\xd8\xff"), image_read_jpeg, "image/jpeg"},
-    {"Radiance HDR", SIGNATURE(0, "#?"), image_read_hdr, NULL},
-    {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL},
-    {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL},
-    {"WebP", SIGNATURE(8, "WEBP"), NULL, "image/webp"},
-    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2"},
-    {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL},
-    {"DDS", SIGNATURE(0, "DDS "), NULL, NULL},
-    {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL},
-    {"BMP", SIGNATURE(0, "BM"), NULL, NULL},
-    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL},
-    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL},
-    {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL},
-    {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL},
-    {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL},
-    {"JPEG XL", SIGNATURE(4, "JXL \r\n"), NULL, NULL},
-    {"JPEG 2000", SIGNATURE(4, "jP  \r\n"), NULL, NULL},
-    {"Photoshop PSD", SIGNATURE(0, "8BPS"), NULL, NULL},
-    {"GLB", SIGNATURE(0, "glTF"), NULL, NULL},
-    {"HTML", SIGNATURE(0, "<!DOCTYPE"), NULL, NULL},
-    {"HTML", SIGNATURE(0, "<html"), NULL, NULL},
-    {"XML, perhaps SVG", SIGNATURE(0, "<?xml"), NULL, NULL},
-    {"SVG", SIGNATURE(0, "<svg"), NULL, NULL},
-    {"a Git LFS pointer", SIGNATURE(0, "version https://git-lfs"), NULL, NULL},
+    {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png", ".png", false, image_write_png},
+    {"JPEG", SIGNATURE(0, "\xff\xd8\xff"), image_read_jpeg, "image/jpeg", NULL, false, NULL},
+    {"Radiance HDR", SIGNATURE(0, "#?"), image_read_hdr, NULL, ".hdr", true, image_write_hdr},
+    {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL, ".exr", true, image_write_exr},
+    {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL, ".npy", true, image_write_npy},
+    {"WebP", SIGNATURE(8, "WEBP"), NULL, "image/webp", NULL, false, NULL},
+    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2", NULL, false, NULL},
+    {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL, NULL, false, NULL},
+    {"DDS", SIGNATURE(0, "DDS "), NULL, NULL, NULL, false, NULL},
+    {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL},
+    {"BMP", SIGNATURE(0, "BM"), NULL, NULL, NULL, false, NULL},
+    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL, NULL, false, NULL},
+    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL, NULL, false, NULL},
+    {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL, NULL, false, NULL},
+    {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL, NULL, false, NULL},
+    {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL, NULL, false, NULL},
+    {"JPEG XL", SIGNATURE(4, "JXL \r\n"), NULL, NULL, NULL, false, NULL},
+    {"JPEG 2000", SIGNATURE(4, "jP  \r\n"), NULL, NULL, NULL, false, NULL},
+    {"Photoshop PSD", SIGNATURE(0, "8BPS"), NULL, NULL, NULL, false, NULL},
+    {"GLB", SIGNATURE(0, "glTF"), NULL, NULL, NULL, false, NULL},
+    {"HTML", SIGNATURE(0, "<!DOCTYPE"), NULL, NULL, NULL, false, NULL},
+    {"HTML", SIGNATURE(0, "<html"), NULL, NULL, NULL, false, NULL},
+    {"XML, perhaps SVG", SIGNATURE(0, "<?xml"), NULL, NULL, NULL, false, NULL},
+    {"SVG", SIGNATURE(0, "<svg"), NULL, NULL, NULL, false, NULL},
+    {"a Git LFS pointer", SIGNATURE(0, "version https://git-lfs"), NULL, NULL, NULL, false, NULL},
+    {"TGA", SIGNATURE(0, ""), image_read_tga, NULL, NULL, false, NULL}, /* the last: it has no signature */
 };
+enum { FORMATS = sizeof formats / sizeof *formats };
 
-/* The format that a file says it is in; NULL: it says none, as a TGA. */
-static const Format *format_find(const unsigned char *data, size_t size) {
-    for (size_t k = 0; k < sizeof formats / sizeof *formats; k++) {
-        const Format *f = &formats[k];
-        if (size >= f->at + f->size && memcmp(data + f->at, f->signature, f->size) == 0) return f;
+/* The format of a file by its first bytes; TGA where they are no other's. */
+static const Format *format_of_bytes(const unsigned char *data, size_t size) {
+    const Format *f = formats;
+    while (f < &formats[FORMATS - 1] &&
+           !(size >= f->at + f->size && memcmp(data + f->at, f->signature, f->size) == 0))
+        f++;
+    return f;
+}
+
+/* The format that is written to a path; NULL where its suffix is no format's. */
+static const Format *format_of_path(const char *path) {
+    size_t length = strlen(path);
+    for (const Format *f = formats; f < &formats[FORMATS]; f++) {
+        size_t suffix = f->suffix ? strlen(f->suffix) : length;
+        if (length > suffix && strcasecmp(path + length - suffix, f->suffix) == 0) return f;
     }
     return NULL;
 }
 
 const char *image_media_type(const unsigned char *data, size_t size) {
-    const Format *format = format_find(data, size);
-    return format ? format->media_type : NULL;
+    return format_of_bytes(data, size)->media_type;
 }
 
 WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
                                   const WeftLog *log, WeftError *error) {
     *out = (WeftImage){0};
     ImageSource source = {.data = data, .size = size, .name = name, .log = log};
-    const Format *format = format_find(data, size);
-    if (format && !format->read)
-        return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, name, "it is %s", format->name);
-    return (format ? format->read : image_read_tga)(&source, out, error);
+    const Format *format = format_of_bytes(data, size);
+    if (!format->read) return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, name, "it is %s", format->name);
+    return format->read(&source, out, error);
 }
 
 WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error) {
@@ -146,35 +159,11 @@ WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log,
     return result;
 }
 
-/* One line a format that can be written. */
-typedef struct ImageWriter {
-    const char *suffix;
-    int linear; /* F32 is what it takes; else U8 or U16 */
-    WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
-                        WeftError *error);
-} ImageWriter;
-
-static const ImageWriter writers[] = {
-    {".png", 0, image_write_png},
-    {".exr", 1, image_write_exr},
-    {".hdr", 1, image_write_hdr},
-    {".npy", 1, image_write_npy},
-};
-
-static const ImageWriter *writer_find(const char *path) {
-    size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
-        size_t suffix = strlen(writers[i].suffix);
-        if (length > suffix && strcasecmp(path + length - suffix, writers[i].suffix) == 0) return &writers[i];
-    }
-    return NULL;
-}
-
-int weft_image_suffix_known(const char *path) { return writer_find(path) != NULL; }
+int weft_image_suffix_known(const char *path) { return format_of_path(path) != NULL; }
 
 int weft_image_suffix_linear(const char *path) {
-    const ImageWriter *writer = writer_find(path);
-    return writer && writer->linear;
+    const Format *format = format_of_path(path);
+    return format && format->linear;
 }
 
 WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error) {
@@ -183,16 +172,16 @@ WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError 
 
 WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
                                WeftError *error) {
-    const ImageWriter *writer = writer_find(path);
-    if (!writer) return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, NULL);
+    const Format *format = format_of_path(path);
+    if (!format) return fail(error, WEFT_MESSAGE_OUTPUT_SUFFIX, path, NULL);
     if (!image->pixels) return fail(error, WEFT_MESSAGE_DESC, path, "an image without pixels");
-    if (writer->linear != (image->type == WEFT_PIXEL_F32))
-        return fail(error, WEFT_MESSAGE_DESC, path, "%s takes %s pixels", writer->suffix,
-                    writer->linear ? "float" : "8 or 16 bit");
+    if (format->linear != (image->type == WEFT_PIXEL_F32))
+        return fail(error, WEFT_MESSAGE_DESC, path, "%s takes %s pixels", format->suffix,
+                    format->linear ? "float" : "8 or 16 bit");
     OutputFile file;
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
-    result = writer->write(file.stream, path, image, how, error);
+    result = format->write(file.stream, path, image, how, error);
     if (result == WEFT_OK) return output_commit(&file, error);
     output_discard(&file);
     return result;

@@ -1,5 +1,7 @@
 #include "measure/audit_words.h"
 
+#include "base/pi.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -69,12 +71,14 @@ void words_encoded(char *text, const ProbeReading *said, const ProbeReading *fou
 }
 
 void words_scaled(char *text, const ProbeReading *said, const ProbeReading *found) {
-    const double pi = 3.14159265358979;
     const struct {
         double factor;
         const char *words;
-    } known[] = {
-        {pi, "pi"}, {2.0 * pi, "2 pi"}, {4.0 * pi, "4 pi"}, {1.0 / pi, "1 / pi"}, {0.5 / pi, "1 / (2 pi)"}};
+    } known[] = {{PI_DOUBLE, "pi"},
+                 {2.0 * PI_DOUBLE, "2 pi"},
+                 {4.0 * PI_DOUBLE, "4 pi"},
+                 {1.0 / PI_DOUBLE, "1 / pi"},
+                 {0.5 / PI_DOUBLE, "1 / (2 pi)"}};
     add(text, "it is right, but for one factor: E is the table times %.5g", found->factor);
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
         if (fabs(found->factor / known[k].factor - 1.0) < 2e-3) add(text, ", which is %s", known[k].words);

@@ -9,12 +9,13 @@
 #include "base/mark.h"
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/pi.h"
 
 enum { NUMBERS = 7, LINE_MOST = 400 };
 
 /* Direction from degrees; the cosine is the sine of the rest to 90, so that it is exactly 0 there. */
 static void direction(double theta, double phi, float w[3]) {
-    const double radians = 3.14159265358979323846 / 180.0;
+    const double radians = RADIANS;
     w[0] = (float)(sin(theta * radians) * cos(phi * radians));
     w[1] = (float)(sin(theta * radians) * sin(phi * radians));
     w[2] = (float)sin((90.0 - theta) * radians);

@@ -1,6 +1,6 @@
 #include "measure/grid.h"
 
-static const double pi = 3.14159265358979323846;
+#include "base/pi.h"
 
 /* x in (0, 1) to (0, 1), flat at both ends; its derivative; its inverse. */
 static double stretch(double x) {
@@ -30,16 +30,16 @@ void grid_make(Grid *grid, Dir o, int cells) {
     grid->phi = atan2(-(double)o.y, -(double)o.x);
     for (int k = 0; k < cells; k++) {
         double t = -1.0 + 2.0 * (k + 0.5) / cells, side = t < 0.0 ? -1.0 : 1.0;
-        double phi = grid->phi + side * pi * stretch(fabs(t));
+        double phi = grid->phi + side * PI_DOUBLE * stretch(fabs(t));
         grid->cos_phi[k] = (float)(cos)(phi);
         grid->sin_phi[k] = (float)(sin)(phi);
-        grid->width[k] = pi * stretch_slope(fabs(t)) * 2.0 / cells;
+        grid->width[k] = PI_DOUBLE * stretch_slope(fabs(t)) * 2.0 / cells;
     }
 }
 
 Dirs grid_ring(const Grid *grid, int k, Ring *ring) {
     double s = -1.0 + 2.0 * (k + 0.5) / grid->cells, side = s < 0.0 ? -1.0 : 1.0;
-    double range = s < 0.0 ? grid->theta : pi / 2.0 - grid->theta;
+    double range = s < 0.0 ? grid->theta : PI_DOUBLE / 2.0 - grid->theta;
     double theta = grid->theta + side * range * stretch(fabs(s));
     double height = range * stretch_slope(fabs(s)) * 2.0 / grid->cells * (sin)(theta);
     float sine = (float)(sin)(theta), cosine = (float)(cos)(theta);
@@ -58,10 +58,10 @@ static int cell(double place, int bins) {
 }
 
 int grid_bin(const Grid *grid, Dir i, int bins) {
-    double theta = polar(i) - grid->theta, range = theta < 0.0 ? grid->theta : pi / 2.0 - grid->theta;
+    double theta = polar(i) - grid->theta, range = theta < 0.0 ? grid->theta : PI_DOUBLE / 2.0 - grid->theta;
     double phi = atan2((double)i.y, (double)i.x) - grid->phi;
-    phi -= 2.0 * pi * (floor)(phi / (2.0 * pi) + 0.5);
+    phi -= 2.0 * PI_DOUBLE * (floor)(phi / (2.0 * PI_DOUBLE) + 0.5);
     double s = range > 0.0 ? (theta < 0.0 ? -1.0 : 1.0) * unstretch(fabs(theta) / range) : 0.0;
-    double t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / pi);
+    double t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / PI_DOUBLE);
     return cell(s, bins) * bins + cell(t, bins);
 }

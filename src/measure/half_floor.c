@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "base/thread.h"
 #include "measure/half_precision.h"
@@ -50,7 +51,7 @@ static long long bad_pairs(const Lobe *lobe, double floor_z, WeftPlace *place) {
             bad++;
             if (!place || !(min(seen.z, p.z[j]) > min(place->cos_o, place->cos_i))) continue;
             double phi = atan2((double)p.y[j], (double)p.x[j]) - atan2((double)seen.y, (double)seen.x);
-            *place = (WeftPlace){lobe->params[0], seen.z, p.z[j], (float)(phi * (180.0 / 3.14159265358979))};
+            *place = (WeftPlace){lobe->params[0], seen.z, p.z[j], (float)(phi * (180.0 / PI_DOUBLE))};
         }
     }
     return bad;
@@ -65,7 +66,7 @@ static int least_floor(const Lobe *lobe) {
 
 /* A direction of cosine 0.1 to 1, even in solid angle. */
 static Dir ordinary_dir(uint32_t k) {
-    float z = 0.1f + 0.9f * unit_float(hash32(k)), phi = 6.2831853f * unit_float(hash32(k + 1u));
+    float z = 0.1f + 0.9f * unit_float(hash32(k)), phi = 2.0f * PI_FLOAT * unit_float(hash32(k + 1u));
     float s = (sqrtf)(1.0f - z * z);
     return dir(s * (cosf)(phi), s * (sinf)(phi), z);
 }

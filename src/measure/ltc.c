@@ -1,9 +1,9 @@
 /* ltc.c - the public face of the LTC tables */
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/steady_clock.h"
 #include "measure/ltc_cache.h"
 
 static const char *const names[WEFT_LTC_CHANNELS] = {"z",    "q", "b", "r", "amplitude", "amplitude_f90",
@@ -11,12 +11,6 @@ static const char *const names[WEFT_LTC_CHANNELS] = {"z",    "q", "b", "r", "amp
 
 const char *weft_ltc_channel_name(int channel) {
     return channel >= 0 && channel < WEFT_LTC_CHANNELS ? names[channel] : NULL;
-}
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* Takes what the descriptor says. */
@@ -58,12 +52,12 @@ static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc
 
 static WeftResult make(WeftLtc *ltc, const WeftLtcDesc *desc, const WeftLog *log, WeftError *error) {
     uint64_t key = 0;
-    double start = now();
+    double start = clock_now();
     WeftResult result = desc->no_cache ? WEFT_OK : ltc_key(ltc, &key, error);
     if (result != WEFT_OK) return result;
     ltc->cached = !desc->no_cache && ltc_cache_read(ltc, key, log);
     if (!ltc->cached) result = ltc_bake(ltc, desc, error);
-    ltc->seconds = now() - start;
+    ltc->seconds = clock_now() - start;
     if (result == WEFT_OK && !ltc->cached && !desc->no_cache) ltc_cache_write(ltc, key, log);
     return result;
 }

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/thread.h"
 #include "measure/draw.h"
 #include "measure/grid.h"
@@ -45,8 +46,8 @@ bool ltc_isotropic(const WeftLtc *ltc) {
         Lobe lobe = ltc_lobe(ltc, k % ltc->rows);
         double z[2], phi = 0.0, f[2];
         for (int d = 0; d < 2; d++) z[d] = 1.0 - (double)draw_unit(&draw);
-        double between = 6.28318530717959 * (double)draw_unit(&draw);
-        for (int turn = 0; turn < 2; turn++, phi = 6.28318530717959 * (double)draw_unit(&draw))
+        double between = 2.0 * PI_DOUBLE * (double)draw_unit(&draw);
+        for (int turn = 0; turn < 2; turn++, phi = 2.0 * PI_DOUBLE * (double)draw_unit(&draw))
             f[turn] = (double)lobe_eval(
                 &lobe, angles_between(grid_direction(z[0], phi), grid_direction(z[1], phi + between)));
         /* floats leave a few thousandths where a sharp lobe is steep */

@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "measure/merl.h"
 
 enum { HEADER = 12, FILE_SIZE = HEADER + 3 * MERL_BINS * 8 };
@@ -92,8 +93,6 @@ typedef struct HalfDiff {
     double theta_h, theta_d, phi_d;
 } HalfDiff;
 
-static const double pi = 3.14159265358979323846;
-
 static HalfDiff half_diff(Dir o, Dir i) {
     double hx = (double)o.x + (double)i.x, hy = (double)o.y + (double)i.y, hz = (double)o.z + (double)i.z;
     double flat = (sqrt)(hx * hx + hy * hy), length = (sqrt)(flat * flat + hz * hz);
@@ -104,8 +103,8 @@ static HalfDiff half_diff(Dir o, Dir i) {
     double dx = ch * x - sh * z, dz = sh * x + ch * z;
     HalfDiff angles = {
         .theta_h = (atan2)(sh, ch), .theta_d = (atan2)((sqrt)(dx * dx + y * y), dz), .phi_d = (atan2)(y, dx)};
-    if (angles.phi_d < 0.0) angles.phi_d += pi;
-    if (angles.phi_d >= pi) angles.phi_d = 0.0;
+    if (angles.phi_d < 0.0) angles.phi_d += PI_DOUBLE;
+    if (angles.phi_d >= PI_DOUBLE) angles.phi_d = 0.0;
     return angles;
 }
 
@@ -132,9 +131,9 @@ bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
     const MerlShape s = merl->shape;
     HalfDiff a = half_diff(o, i);
     /* bins of theta_h are narrow near the mirror direction: uniform in its root */
-    Between h = between((sqrt)(a.theta_h / (0.5 * pi)) * s.theta_h, s.theta_h, false);
-    Between d = between(a.theta_d / (0.5 * pi) * s.theta_d, s.theta_d, false);
-    Between p = between(a.phi_d / pi * s.phi_d, s.phi_d, true);
+    Between h = between((sqrt)(a.theta_h / (0.5 * PI_DOUBLE)) * s.theta_h, s.theta_h, false);
+    Between d = between(a.theta_d / (0.5 * PI_DOUBLE) * s.theta_d, s.theta_d, false);
+    Between p = between(a.phi_d / PI_DOUBLE * s.phi_d, s.phi_d, true);
     double sum[3] = {0.0}, weights = 0.0;
     for (int corner = 0; corner < 8; corner++) {
         int u = corner & 1, v = corner >> 1 & 1, w = corner >> 2;

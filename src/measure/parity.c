@@ -4,6 +4,7 @@
 #include "measure/parity.h"
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "measure/draw.h"
 #include "measure/grid.h"
 #include "raster/compute.h"
@@ -22,7 +23,7 @@ static const char body[] =
 
 /* Any direction; one in four grazes, down to a cosine of 1e-4. */
 static Dir any_direction(Draw *draw) {
-    double z = 1.0 - (double)draw_unit(draw), phi = 6.28318530717959 * (double)draw_unit(draw);
+    double z = 1.0 - (double)draw_unit(draw), phi = 2.0 * PI_DOUBLE * (double)draw_unit(draw);
     return grid_direction(draw_unit(draw) < 0.25f ? (exp2)(-13.0 * z) : z, phi);
 }
 

@@ -1,10 +1,11 @@
 #include "measure/reciprocity.h"
 
+#include "base/pi.h"
 #include "measure/draw.h"
 #include "measure/exceeds.h"
 #include "measure/grid.h"
 
-static const double turn = 6.28318530717959;
+static const double turn = 2.0 * PI_DOUBLE;
 
 static float ask_f(const Bsdf *bsdf, int setting, Dir o, Dir i) {
     BsdfView view;

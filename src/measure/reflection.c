@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "measure/halton.h"
 #include "measure/merl.h"
 #include "measure/reflection.h"
@@ -233,7 +234,7 @@ static void measured_albedo(const Merl *merl, const float wo[3], float albedo[3]
         Dir i = warp_cosine(((float)k + 0.5f) / (4 * DRAWS), (float)halton((int)k, 2));
         float f[3];
         merl_at(merl, dir(wo[0], wo[1], wo[2]), i, f);
-        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * 3.14159265358979 / (4 * DRAWS);
+        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * PI_DOUBLE / (4 * DRAWS);
     }
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }

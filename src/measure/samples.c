@@ -5,10 +5,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "measure/halton.h"
 #include "weft/raster.h"
-
-static const double pi = 3.14159265358979323846;
 
 static const char *const names[WEFT_BRDF_METRIC_COUNT] = {"cosine", "log", "picture"};
 
@@ -39,14 +38,14 @@ static const double alphas[LOBES] = {0.5, 0.12, 0.03};
 
 static double ggx(double alpha, double cos_h) {
     double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
-    return alpha * alpha / (pi * t * t);
+    return alpha * alpha / (PI_DOUBLE * t * t);
 }
 
 /* The density of a wi: half by the cosine, the rest about the mirror direction. */
 static double density(const double o[3], const double i[3]) {
     double h[3] = {o[0] + i[0], o[1] + i[1], o[2] + i[2]};
     double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), cos_h = h[2] / length;
-    double sum = 0.5 * i[2] / pi, d = fmax(0.5 * length, 1e-6); /* wo . h */
+    double sum = 0.5 * i[2] / PI_DOUBLE, d = fmax(0.5 * length, 1e-6); /* wo . h */
     for (int k = 0; k < LOBES; k++) sum += 0.5 / LOBES * ggx(alphas[k], cos_h) * cos_h / (4.0 * d);
     return sum;
 }
@@ -54,12 +53,12 @@ static double density(const double o[3], const double i[3]) {
 static void draw(const double o[3], double pick, double u, double v, double i[3]) {
     if (pick < 0.5) {
         double r = sqrt(u);
-        i[0] = r * cos(2.0 * pi * v), i[1] = r * sin(2.0 * pi * v), i[2] = sqrt(1.0 - u);
+        i[0] = r * cos(2.0 * PI_DOUBLE * v), i[1] = r * sin(2.0 * PI_DOUBLE * v), i[2] = sqrt(1.0 - u);
         return;
     }
     double alpha = alphas[(int)fmin((pick - 0.5) * 2.0 * LOBES, LOBES - 1)];
     double z = sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u)), r = sqrt(fmax(1.0 - z * z, 0.0));
-    double h[3] = {r * cos(2.0 * pi * v), r * sin(2.0 * pi * v), z};
+    double h[3] = {r * cos(2.0 * PI_DOUBLE * v), r * sin(2.0 * PI_DOUBLE * v), z};
     double d = 2.0 * (o[0] * h[0] + o[1] * h[1] + o[2] * h[2]);
     for (int k = 0; k < 3; k++) i[k] = d * h[k] - o[k];
 }
@@ -81,7 +80,7 @@ static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
     self->first = self->count / 4;
     for (int k = 0; k < self->count; k++) {
         int out = k % OUTS, in = k / OUTS;
-        double z2 = (out + 0.5) / OUTS, r = sqrt(1.0 - z2), phi = 2.0 * pi * halton(out + 1, 2), i[3];
+        double z2 = (out + 0.5) / OUTS, r = sqrt(1.0 - z2), phi = 2.0 * PI_DOUBLE * halton(out + 1, 2), i[3];
         const double o[3] = {r * cos(phi), r * sin(phi), sqrt(z2)};
         /* every wo has the sequence from another place */
         int at = in + INS * out + 1;
@@ -110,7 +109,7 @@ static bool spread_pictures(Samples *self) {
     self->outs = outs;
     self->count = self->first = outs * LIGHTS;
     for (int k = 0; k < self->count; k++) {
-        const double *n = normals[k % outs], a = degrees[k / outs] * pi / 180.0;
+        const double *n = normals[k % outs], a = degrees[k / outs] * PI_DOUBLE / 180.0;
         const double light[3] = {sin(a) * 0.8, sin(a) * 0.6, cos(a)};
         double s = hypot(n[0], n[2]), t[3] = {n[2] / s, 0.0, -n[0] / s}; /* level */
         const double b[3] = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]};
@@ -169,7 +168,7 @@ static float display(float linear) {
 static float goal_of(const Samples *self, float x) {
     switch (self->metric) {
     case WEFT_BRDF_METRIC_LOG: return log1pf(x / self->scale);
-    case WEFT_BRDF_METRIC_PICTURE: return display((float)pi * x);
+    case WEFT_BRDF_METRIC_PICTURE: return display(PI_FLOAT * x);
     default: return x;
     }
 }
@@ -180,7 +179,7 @@ static float slope_of(const Samples *self, float a, float b) {
     switch (self->metric) {
     case WEFT_BRDF_METRIC_LOG: return 1.0f / (self->scale + x);
     case WEFT_BRDF_METRIC_PICTURE: {
-        float y = (float)pi * x;
+        float y = PI_FLOAT * x;
         return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
     }
     default: return 1.0f;

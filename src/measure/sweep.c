@@ -1,10 +1,11 @@
 #include "measure/sweep.h"
 
+#include "base/pi.h"
 #include "measure/draw.h"
 #include "measure/grid.h"
 
 static const double cosines[12] = {1e-30, 1e-7, 1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.3, 0.7, 0.95, 0.99999, 1.0};
-static const double azimuths[6] = {0.0, 0.3, 1.5707963267949, 2.0, 3.14159265358979, -1.5707963267949};
+static const double azimuths[6] = {0.0, 0.3, 0.5 * PI_DOUBLE, 2.0, PI_DOUBLE, -(0.5 * PI_DOUBLE)};
 
 Dir sweep_dir(int k) {
     /* exact axes: a sine of pi that is not 0 would be a kinder case */
@@ -32,7 +33,7 @@ void sweep_partners(Dir o, int k, bool below, Partners *partners) {
     add(partners, dir(o.x, o.y, o.z > 0.5f ? o.z : 1e-7f));
     Draw draw = draw_start(5, (uint32_t)k);
     for (int j = 0; j < 12; j++) {
-        double z = 1.0 - (double)draw_unit(&draw), phi = 6.28318530717959 * (double)draw_unit(&draw);
+        double z = 1.0 - (double)draw_unit(&draw), phi = 2.0 * PI_DOUBLE * (double)draw_unit(&draw);
         add(partners, grid_direction(z, phi));
     }
     if (!below) return;

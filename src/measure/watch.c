@@ -3,12 +3,12 @@
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
-#include <time.h>
 
+#include "base/steady_clock.h"
 #include "base/thread.h"
 
 enum { WHOLE = 1000000 };
-static const long pause_ns = 50000000;
+static const double pause = 0.05;
 
 bool progress_report(ItemProgress *item_progress, double fraction) {
     if (!item_progress || !item_progress->watch) return true;
@@ -49,11 +49,7 @@ static void *run_loop(void *argument) {
 }
 
 static bool wait_for_end(LoopRun *run) {
-    struct timespec until;
-    clock_gettime(CLOCK_MONOTONIC, &until);
-    until.tv_nsec += pause_ns;
-    until.tv_sec += until.tv_nsec / 1000000000;
-    until.tv_nsec %= 1000000000;
+    struct timespec until = clock_after(pause);
     pthread_mutex_lock(&run->lock);
     for (int code = 0; !run->over && code != ETIMEDOUT;)
         code = pthread_cond_timedwait(&run->ended, &run->lock, &until);
@@ -64,11 +60,8 @@ static bool wait_for_end(LoopRun *run) {
 
 static void watched(LoopRun *run) {
     pthread_t thread;
-    pthread_condattr_t clock;
-    pthread_condattr_init(&clock);
-    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
     pthread_mutex_init(&run->lock, NULL);
-    pthread_cond_init(&run->ended, &clock);
+    clock_condition(&run->ended);
     if (pthread_create(&thread, NULL, run_loop, run) == 0) {
         while (!wait_for_end(run)) ask(run);
         pthread_join(thread, NULL);
@@ -80,7 +73,6 @@ static void watched(LoopRun *run) {
     }
     pthread_cond_destroy(&run->ended);
     pthread_mutex_destroy(&run->lock);
-    pthread_condattr_destroy(&clock);
 }
 
 bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),

@@ -1,5 +1,7 @@
 #include "measure/weight.h"
 
+#include "base/pi.h"
+
 double weight_albedo(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;
@@ -24,7 +26,6 @@ Weight weight_measure(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;
     float f[GRID_MAX], pdf[GRID_MAX];
-    const double pi = 3.14159265358979323846;
     Weight sum = {.albedo = weight_albedo(view, cells)};
     double found = 0.0, e = sum.albedo;
     grid_make(&grid, view->o, cells);
@@ -33,7 +34,8 @@ Weight weight_measure(const BsdfView *view, int cells) {
         view->bsdf->f(view, dirs, f);
         view->bsdf->pdf(view, dirs, pdf);
         for (int c = 0; c < cells; c++) {
-            double p = (double)pdf[c], f_cos = (double)f[c] * (double)ring.z[c], q = (double)ring.z[c] / pi;
+            double p = (double)pdf[c], f_cos = (double)f[c] * (double)ring.z[c],
+                   q = (double)ring.z[c] / PI_DOUBLE;
             double d = p > 0.0 ? f_cos / p - e : 0.0, b = f_cos / q - e;
             sum.own += p * d * d * ring.area[c];
             sum.by_cosine += q * b * b * ring.area[c];

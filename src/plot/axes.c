@@ -1,5 +1,7 @@
 #include "plot/axes.h"
 
+#include "base/pi.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -168,7 +170,7 @@ static void draw_y(const Page *page, const WeftPlotPanel *panel, PageBox in, dou
     axis_text(&panel->y, label);
     cairo_save(page->cairo);
     cairo_translate(page->cairo, left + 0.9 * type, in.y + 0.5 * in.height);
-    cairo_rotate(page->cairo, -1.57079632679489662);
+    cairo_rotate(page->cairo, -(0.5 * PI_DOUBLE));
     place_text(page->cairo, ink_dark, 0.0, 0.0, 0.5, label);
     cairo_restore(page->cairo);
 }

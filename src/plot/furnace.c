@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "base/thread.h"
 #include "measure/furnace.h"
 #include "measure/grid.h"
@@ -47,7 +48,7 @@ static void measure(void *user, int item, int thread) {
     (void)thread;
     const FurnaceWork *work = user;
     int layer = item % LAYER_COUNT, k = item / LAYER_COUNT;
-    Dir o = grid_direction((cos)((double)work->x[k] * 0.017453292519943295), 0.0);
+    Dir o = grid_direction((cos)((double)work->x[k] * RADIANS), 0.0);
     work->y[layer][k] =
         (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, work->cells, work->walks)
             .e;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "plot/making.h"
 
 /* Nodes: phi from 0 to 360 degrees, theta from 0 to 90, every two degrees and every one. */
@@ -23,8 +24,8 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int model, float v
     for (int row = 0; row < thetas; row++)
         for (int k = 0; k < phis; k++) {
             /* the horizon itself is dark: the last row lies just above it */
-            double theta = fmin(90.0 * row / (thetas - 1), 89.7) * 0.017453292519943295;
-            double phi = 360.0 * k / (phis - 1) * 0.017453292519943295, s = sin(theta);
+            double theta = fmin(90.0 * row / (thetas - 1), 89.7) * RADIANS;
+            double phi = 360.0 * k / (phis - 1) * RADIANS, s = sin(theta);
             float *w = wi[row * phis + k];
             w[0] = (float)(s * cos(phi)), w[1] = (float)(s * sin(phi)), w[2] = (float)cos(theta);
         }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "base/random.h"
 #include "base/thread.h"
 
@@ -110,7 +111,7 @@ float making_view(const Making *making, int k, float usual) {
 
 /* The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
 static void polar(float degrees, float *sine, float *cosine) {
-    const double radians = 3.14159265358979323846 / 180.0;
+    const double radians = RADIANS;
     *sine = (float)sin((double)degrees * radians);
     *cosine = (float)sin((90.0 - fabs((double)degrees)) * radians);
 }
@@ -139,7 +140,7 @@ enum { BLOCK = 64 };
 
 /* w moved by up to a degree: a point of the unit square decides where to. */
 static void move(const float w[3], float u, float v, float moved[3]) {
-    float radius = 0.0175f * sqrtf(u), angle = 6.2831853f * v;
+    float radius = 0.0175f * sqrtf(u), angle = 2.0f * PI_FLOAT * v;
     moved[0] = w[0] + radius * cosf(angle);
     moved[1] = w[1] + radius * sinf(angle);
     moved[2] = fmaxf(w[2] + radius * cosf(angle + 2.0f), 1e-4f);

@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "plot/axes.h"
 #include "plot/scale.h"
 
@@ -83,7 +84,7 @@ static void draw_bar(const Page *page, const WeftPlotPanel *panel, PageBox bar) 
     axis_text(&panel->z, label);
     cairo_save(page->cairo);
     cairo_translate(page->cairo, bar.x + bar.width + widest + 1.6 * type, bar.y + 0.5 * bar.height);
-    cairo_rotate(page->cairo, -1.57079632679489662);
+    cairo_rotate(page->cairo, -(0.5 * PI_DOUBLE));
     place_text(page->cairo, ink_dark, 0.0, 0.0, 0.5, label);
     cairo_restore(page->cairo);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "image/codec.h"
 #include "plot/vector.h"
 
@@ -111,7 +112,7 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
         for (int k = 0; k < ANGLES; k++) {
             float e[3];
             weft_reflection_albedo(desc->models[n].reflection, WEFT_PART_ALL,
-                                   (float)cos((double)angles[k] * 0.017453292519943295), e);
+                                   (float)cos((double)angles[k] * RADIANS), e);
             vector_print(page, "<td>%.4f</td>",
                          0.2126 * (double)e[0] + 0.7152 * (double)e[1] + 0.0722 * (double)e[2]);
         }

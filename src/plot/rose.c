@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "plot/axes.h"
 
 /* The half circle. */
@@ -12,7 +13,7 @@ typedef struct Rose {
 } Rose;
 
 static void place(const Rose *rose, double degrees, double length, double *x, double *y) {
-    double angle = degrees * 3.14159265358979323846 / 180.0;
+    double angle = degrees * RADIANS;
     *x = rose->x + length * sin(angle);
     *y = rose->y - length * cos(angle);
 }
@@ -23,7 +24,7 @@ static double length_of(const Rose *rose, double value) {
 
 static void half_circle(const Page *page, const Rose *rose, double radius) {
     cairo_new_path(page->cairo);
-    cairo_arc(page->cairo, rose->x, rose->y, radius, 3.14159265358979323846, 0.0);
+    cairo_arc(page->cairo, rose->x, rose->y, radius, PI_DOUBLE, 0.0);
 }
 
 static void stroke(const Page *page, const double color[3], double width) {
@@ -55,7 +56,7 @@ static void draw_grid(const Page *page, const WeftPlotPanel *panel, const Rose *
         rule(page, ink_grid, 0.06, rose->x, rose->y, x, y);
         place(rose, degrees, rose->radius + 0.45 * type, &x, &y);
         snprintf(text, sizeof text, "%s%d\xc2\xb0", degrees < 0 ? "\xe2\x88\x92" : "", abs(degrees));
-        double share = 0.5 - 0.5 * sin(degrees * 3.14159265358979323846 / 180.0);
+        double share = 0.5 - 0.5 * sin(degrees * RADIANS);
         place_text(page->cairo, ink_dim, x, y + (degrees == 90 || degrees == -90 ? -0.1 : 0.15) * type, share,
                    text);
     }

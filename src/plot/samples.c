@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "base/random.h"
 #include "measure/chi_square.h"
 #include "plot/making.h"
@@ -18,16 +19,16 @@ typedef struct Histogram {
 } Histogram;
 
 static double cell_solid_angle(int row) {
-    const double step = 1.5707963267948966 / THETAS;
-    return ((cos)(row * step) - (cos)((row + 1) * step)) * 6.283185307179586 / PHIS;
+    const double step = 0.5 * PI_DOUBLE / THETAS;
+    return ((cos)(row * step) - (cos)((row + 1) * step)) * 2.0 * PI_DOUBLE / PHIS;
 }
 
 /* Which cell; phi from -180 degrees, 0 being the side beyond the normal. */
 static int cell_of(const float w[3]) {
     double theta = (atan2)(hypot((double)w[0], (double)w[1]), (double)w[2]),
            phi = atan2(-(double)w[1], -(double)w[0]);
-    int row = (int)(theta / 1.5707963267948966 * THETAS);
-    int column = (int)((phi / 6.283185307179586 + 0.5) * PHIS);
+    int row = (int)(theta / (0.5 * PI_DOUBLE) * THETAS);
+    int column = (int)((phi / (2.0 * PI_DOUBLE) + 0.5) * PHIS);
     row = row < 0 ? 0 : row >= THETAS ? THETAS - 1 : row;
     column = column < 0 ? 0 : column >= PHIS ? PHIS - 1 : column;
     return row * PHIS + column;
@@ -54,12 +55,12 @@ static void draw_all(const WeftPlotModel *model, const float wo[3], Histogram *o
 /* The mean of the pdf over a cell. */
 static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int row, int column) {
     double sum = 0.0;
-    const double low = (cos)(1.5707963267948966 * row / THETAS),
-                 high = (cos)(1.5707963267948966 * (row + 1) / THETAS);
+    const double low = (cos)(0.5 * PI_DOUBLE * row / THETAS),
+                 high = (cos)(0.5 * PI_DOUBLE * (row + 1) / THETAS);
     for (int k = 0; k < points * points; k++) {
         const int down = k / points;
         double z = low + (high - low) * (down + 0.5) / points, s = (sqrt)(fmax(1.0 - z * z, 0.0));
-        double phi = 6.283185307179586 * ((column + (k % points + 0.5) / points) / PHIS - 0.5);
+        double phi = 2.0 * PI_DOUBLE * ((column + (k % points + 0.5) / points) / PHIS - 0.5);
         const float wi[3] = {(float)-(s * (cos)(phi)), (float)-(s * (sin)(phi)), (float)z};
         sum += (double)weft_lobe_pdf(lobe, wo, wi);
     }
@@ -91,7 +92,7 @@ static double test(const WeftLobe *given, float view, int count) {
     bsdf_of_lobe(model, &lobe, true);
     model->rows = 1;
     model->values[0] = lobe.params[0];
-    model->prepare(model, 0, grid_direction((cos)((double)view * 0.017453292519943295), 0.0), &look);
+    model->prepare(model, 0, grid_direction((cos)((double)view * RADIANS), 0.0), &look);
     if (!chi_square_measure(&look, count, 20, 7, &found)) found.p = (double)NAN;
     bsdf_free(model);
     free(model);

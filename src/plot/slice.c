@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "plot/making.h"
 
 enum { SIDE = 128, SIDE_QUICK = 48, WALKS = 128 };
@@ -14,7 +15,7 @@ static int side_of(const Making *making) { return making->desc->quick ? SIDE_QUI
 
 /* h = (sin theta_h, 0, cos theta_h); wi and wo to both sides of the plane of h and the normal. */
 static void pair(int side, int row, int column, float wo[3], float wi[3]) {
-    const double step = 1.5707963267948966 / side, h = (column + 0.5) * step, d = (row + 0.5) * step;
+    const double step = 0.5 * PI_DOUBLE / side, h = (column + 0.5) * step, d = (row + 0.5) * step;
     wi[0] = wo[0] = (float)(sin(h) * cos(d));
     wi[1] = (float)sin(d);
     wo[1] = (float)-sin(d);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/pi.h"
 #include "base/thread.h"
 #include "plot/making.h"
 
@@ -38,7 +39,7 @@ static void radiance(const Ball *ball, float x, float y, float color[3]) {
     for (int c = 0; c < 3; c++) color[c] = 0.0f;
     if (!(wo[2] > 0.0f && wi[0][2] > 0.0f)) return;
     making_eval(ball->model, wo, 1, (const float(*)[3])wi, ball->walks, f);
-    for (int c = 0; c < 3; c++) color[c] = isfinite(f[0][c]) ? f[0][c] * wi[0][2] * 3.14159265f : 0.0f;
+    for (int c = 0; c < 3; c++) color[c] = isfinite(f[0][c]) ? f[0][c] * wi[0][2] * PI_FLOAT : 0.0f;
 }
 
 static void one_row(void *user, int row, int thread) {
@@ -67,7 +68,7 @@ static void one_row(void *user, int row, int thread) {
 }
 
 static void set_light(Ball *ball, float angle) {
-    const double radians = (double)angle * 0.017453292519943295, up = sin(radians) * 0.70710678118654752;
+    const double radians = (double)angle * RADIANS, up = sin(radians) * 0.70710678118654752;
     ball->light[0] = (float)-up;
     ball->light[1] = (float)up;
     ball->light[2] = (float)cos(radians);

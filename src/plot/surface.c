@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "plot/axes.h"
 
 enum { SAMPLES = 3, SIDE_MOST = 3000 };
@@ -42,8 +43,8 @@ static double length_of(const PlotStage *stage, float value) {
 /* A node of the grid in the stage's space. */
 static void node(const PlotStage *stage, const WeftPlotPanel *panel, int row, int column, double p[3]) {
     float value = panel->values[row * panel->columns + column];
-    double theta = 1.5707963267948966 * row / (panel->rows - 1);
-    double phi = 6.283185307179586 * column / (panel->columns - 1);
+    double theta = 0.5 * PI_DOUBLE * row / (panel->rows - 1);
+    double phi = 2.0 * PI_DOUBLE * column / (panel->columns - 1);
     double r = isnan(value) ? 0.0 : length_of(stage, value);
     p[0] = r * sin(theta) * cos(phi), p[1] = r * sin(theta) * sin(phi), p[2] = r * cos(theta);
 }
@@ -135,7 +136,7 @@ static void fill_cell(const PlotStage *stage, const WeftPlotPanel *panel, int ro
 static void circle(const Page *page, const PlotStage *stage, double radius) {
     cairo_new_path(page->cairo);
     for (int k = 0; k <= 90; k++) {
-        double phi = 6.283185307179586 * k / 90, p[3] = {radius * cos(phi), radius * sin(phi), 0.0};
+        double phi = 2.0 * PI_DOUBLE * k / 90, p[3] = {radius * cos(phi), radius * sin(phi), 0.0};
         SurfacePoint at = project(stage, p);
         cairo_line_to(page->cairo, at.x, at.y);
     }
@@ -150,7 +151,7 @@ static void draw_ground(const Page *page, const WeftPlotPanel *panel, const Plot
     cairo_set_source_rgb(page->cairo, 0.955, 0.955, 0.96);
     cairo_fill(page->cairo);
     for (int degrees = 0; degrees < 360; degrees += 30) {
-        double phi = degrees * 0.017453292519943295;
+        double phi = degrees * RADIANS;
         double p[3] = {stage->radius * cos(phi), stage->radius * sin(phi), 0.0}, o[3] = {0.0};
         SurfacePoint at = project(stage, p), center = project(stage, o);
         rule(page, ink_grid, 0.06, center.x, center.y, at.x, at.y);
@@ -195,7 +196,7 @@ static void draw_labels(const Page *page, const WeftPlotPanel *panel, const Plot
 /* The arrow towards the viewer, where nothing is before it. */
 static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     enum { PARTS = 400 };
-    const double type = page->type, angle = (double)panel->view * 0.017453292519943295;
+    const double type = page->type, angle = (double)panel->view * RADIANS;
     const double reach = 1.06 * stage->radius;
     SurfacePoint tip = {0.0, 0.0, 0.0}, before = {0.0, 0.0, 0.0};
     cairo_set_source_rgb(page->cairo, ink_dark[0], ink_dark[1], ink_dark[2]);
@@ -258,7 +259,7 @@ static WeftResult lay_over(const Page *page, const PlotStage *stage) {
 /* Returns the height that surface and arrow reach above the middle of the ground, in radii. */
 static double reach_up(const WeftPlotPanel *panel) {
     PlotStage unit = {.radius = 1.0, .scale = scale_of(&panel->z, 0.0, 1.0)};
-    double angle = (double)panel->view * 0.017453292519943295;
+    double angle = (double)panel->view * RADIANS;
     const double tip[3] = {1.06 * sin(angle), 0.0, 1.06 * cos(angle)};
     double most = fmax(sin(rise), -project(&unit, tip).y);
     for (int row = 0; row < panel->rows; row += 2)

@@ -3,24 +3,25 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <epoxy/gl.h>
 
 #include "base/cache.h"
 #include "base/fail.h"
-#include "base/file.h"
+#include "base/memory.h"
+#include "base/pi.h"
 #include "image/half.h"
 #include "raster/check.h"
 #include "raster/program.h"
 #include "scene/backdrop.h"
 
 /* Raised whenever the same pixels would give other cubes. */
-enum { FILTER = 2 };
+enum { FILTER = 3 };
 
+enum {
+    ENVIRONMENT_TEXELS = 6 * (256 * 256 + 128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4)
+}; /* of the cube */
 enum { SOURCE_WIDTH = 512, SOURCE_LEVELS = 5 };
-
-static const unsigned char magic[8] = {'w', 'e', 'f', 't', '-', 'e', 'n', 'v'};
 
 /* Degree 3 of irradiance is nothing and not sent. */
 enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
@@ -49,9 +50,8 @@ static Level level_at(int k) {
  * variance a^2 / 12 along each axis, and interpolation between texels b apart a tent of b^2 / 6, which on a
  * face of n by n is at the mean b^2 = 4 pi / (6 n^2). */
 static float sharpened(const Level *level) {
-    const float pi = 3.14159265f;
-    float a = 2.0f * pi / (float)(SOURCE_WIDTH >> level->source);
-    float b2 = 4.0f * pi / (6.0f * (float)(level->side * level->side));
+    float a = 2.0f * PI_FLOAT / (float)(SOURCE_WIDTH >> level->source);
+    float b2 = 4.0f * PI_FLOAT / (6.0f * (float)(level->side * level->side));
     return 1.0f / (1.0f / level->kappa - a * a / 12.0f - b2 / 6.0f);
 }
 
@@ -62,51 +62,11 @@ static const float faces[6][9] = {{0, 0, -1, 0, -1, 0, 1, 0, 0}, {0, 0, 1, 0, -1
                                   {1, 0, 0, 0, 0, 1, 0, 1, 0},   {1, 0, 0, 0, 0, -1, 0, -1, 0},
                                   {1, 0, 0, 0, -1, 0, 0, 0, 1},  {-1, 0, 0, 0, -1, 0, 0, 0, -1}};
 
-static void put(unsigned char *to, uint64_t value, int bytes) {
-    for (int k = 0; k < bytes; k++) to[k] = (unsigned char)(value >> 8 * k);
-}
-static uint64_t get(const unsigned char *from, int bytes) {
-    uint64_t value = 0;
-    for (int k = 0; k < bytes; k++) value |= (uint64_t)from[k] << 8 * k;
-    return value;
-}
-
-bool environment_unpack(const unsigned char *data, size_t size, uint64_t key, uint16_t *texels) {
-    if (size != ENVIRONMENT_FILE || memcmp(data, magic, sizeof magic) != 0 || get(data + 8, 8) != key)
-        return false;
-    if (get(data + size - 8, 8) != cache_hash(CACHE_HASH, data, size - 8)) return false;
-    for (size_t k = 0; k < 3 * (size_t)ENVIRONMENT_TEXELS; k++) {
-        texels[k] = (uint16_t)get(data + 16 + 2 * k, 2);
-        if (texels[k] > 0x7bffu) return false; /* negative, infinite or no number */
-    }
-    return true;
-}
-
-static bool read_cache(uint64_t key, uint16_t *texels, const WeftLog *log) {
-    char path[CACHE_PATH_SIZE];
-    FileBytes file;
-    WeftError error;
-    struct stat status;
-    if (!cache_path(path, key, "env") || stat(path, &status) != 0) return false;
-    if (file_read(path, ENVIRONMENT_FILE, &file, &error) != WEFT_OK) {
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "%s", weft_message_text(error.message));
-        return false;
-    }
-    bool good = environment_unpack(file.data, file.size, key, texels);
-    free(file.data);
-    if (!good) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it is damaged");
-    return good;
-}
-
-static void write_cache(uint64_t key, const uint16_t *texels, const WeftLog *log) {
-    unsigned char *data = alloc_array(ENVIRONMENT_FILE, 1);
-    if (!data) return;
-    memcpy(data, magic, sizeof magic);
-    put(data + 8, key, 8);
-    for (size_t k = 0; k < 3 * (size_t)ENVIRONMENT_TEXELS; k++) put(data + 16 + 2 * k, texels[k], 2);
-    put(data + ENVIRONMENT_FILE - 8, cache_hash(CACHE_HASH, data, ENVIRONMENT_FILE - 8), 8);
-    cache_write(key, "env", data, ENVIRONMENT_FILE, log);
-    free(data);
+/* Returns true if no texel is negative, infinite or no number. */
+static bool is_sound(const uint16_t *texels) {
+    bool sound = true;
+    for (size_t k = 0; k < 3 * (size_t)ENVIRONMENT_TEXELS; k++) sound = sound && texels[k] <= 0x7bffu;
+    return sound;
 }
 
 /* All that the cube depends on: the pixels, or the colour; and the filter. */
@@ -316,15 +276,16 @@ static WeftResult filter_cube(GlEnvironment *self, const Environment *environmen
 static WeftResult find_cube(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
                             const WeftLog *log, WeftError *error) {
     uint64_t key = how->no_cache ? 0 : cube_key(environment);
-    uint16_t *texels = how->no_cache ? NULL : alloc_array(3 * (size_t)ENVIRONMENT_TEXELS, sizeof *texels);
+    const size_t size = 3 * (size_t)ENVIRONMENT_TEXELS * sizeof(uint16_t);
+    uint16_t *texels = how->no_cache ? NULL : alloc_array(size, 1);
     WeftResult result = WEFT_OK;
-    self->cached = texels && read_cache(key, texels, log);
+    self->cached = texels && cache_find(key, "env", texels, size, log) && is_sound(texels);
     if (self->cached) {
         self->cube = make_cube(texels);
         result = gl_check(error, "an environment");
     } else {
         result = filter_cube(self, environment, how, texels, error);
-        if (result == WEFT_OK && texels) write_cache(key, texels, log);
+        if (result == WEFT_OK && texels) cache_keep(key, "env", texels, size, log);
     }
     free(texels);
     return result;

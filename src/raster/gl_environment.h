@@ -64,12 +64,4 @@ void environment_text(Text *text);
 void environment_program(unsigned program, int cube, int block);
 void environment_bind(const GlEnvironment *environment, int cube, int block);
 
-/* The bytes of a file of the cache: "weft-env", the key, RGB of all texels of the cube as 16-bit floats,
- * and the hash of all that. `texels` has room for ENVIRONMENT_TEXELS times three. */
-enum {
-    ENVIRONMENT_TEXELS = 6 * (256 * 256 + 128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4),
-    ENVIRONMENT_FILE = 8 + 8 + 6 * ENVIRONMENT_TEXELS + 8
-};
-bool environment_unpack(const unsigned char *data, size_t size, uint64_t key, uint16_t *texels);
-
 #endif

@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/steady_clock.h"
 #include "raster/check.h"
 #include "raster/context.h"
 #include "raster/display.h"
@@ -58,12 +58,6 @@ struct WeftRaster {
     double compile_seconds;
     FolderWatch watch; /* of the shader_dir */
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 typedef struct Watched {
     WeftProgress progress;
@@ -452,10 +446,10 @@ static bool of_all_keys(WeftRaster *self, const WeftRasterView *view, bool with_
 /* Compiles whatever a picture will be drawn with. */
 static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
     bool held = of_all_keys(self, view, self->floor.there, programs_want);
-    double start = now();
+    double start = clock_now();
     int compiled = self->programs.compiled;
     held = held && programs_build(&self->programs, self->context);
-    if (self->programs.compiled != compiled) self->compile_seconds += now() - start;
+    if (self->programs.compiled != compiled) self->compile_seconds += clock_now() - start;
     return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "raster/check.h"
 
 typedef struct Box {
@@ -143,7 +144,7 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
                              .across = vec3_scale(right, half),
                              .up = vec3_scale(up, half)},
                     .texel = 2.0f * half / SHADOW_SIDE,
-                    .radius = sqrtf(polygon->area / 3.14159265f)};
+                    .radius = sqrtf(polygon->area / PI_FLOAT)};
 }
 
 static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadows *self) {

@@ -1,5 +1,6 @@
 #include "scene/backdrop.h"
 
+#include "base/pi.h"
 #include "scene/env_split.h"
 
 enum { WIDTH = 128, FROM = 64 };
@@ -9,7 +10,7 @@ static void blur_at(const WeftImage *from, Vec3 toward, float color[3]) {
     const float *p = from->pixels;
     float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
     for (int y = 0; y < from->height; y++) {
-        float solid = sinf(3.14159265f * ((float)y + 0.5f) / (float)from->height);
+        float solid = sinf(PI_FLOAT * ((float)y + 0.5f) / (float)from->height);
         for (int x = 0; x < from->width; x++, p += 3) {
             Vec3 d = latlong_direction((x + 0.5) / from->width, (y + 0.5) / from->height);
             float w = solid * expf(kappa * (vec3_dot(d, toward) - 1.0f));

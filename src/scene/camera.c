@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/number.h"
+#include "base/pi.h"
 
 static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
     camera->eye = eye;
@@ -61,7 +62,7 @@ static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     if (!within_reach(vec3_load(e), SCENE_REACH) || !within_reach(vec3_load(t), SCENE_REACH))
         *wrong = "its eye or its target is beyond 1e15 m";
     if (*wrong) return true;
-    *camera = (Camera){.name = "", .yfov = degrees * (3.14159265f / 180.0f)};
+    *camera = (Camera){.name = "", .yfov = degrees * (PI_FLOAT / 180.0f)};
     look_at(camera, vec3_load(e), vec3_load(t));
     return true;
 }
@@ -120,7 +121,7 @@ void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], flo
     const float e[3] = {camera->eye.x, camera->eye.y, camera->eye.z}, t[3] = {at.x, at.y, at.z};
     memcpy(eye, e, sizeof e);
     memcpy(target, t, sizeof t);
-    *fov = camera->yfov * (180.0f / 3.14159265f);
+    *fov = camera->yfov * (180.0f / PI_FLOAT);
 }
 
 WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float aspect, WeftCamera *out,

@@ -4,14 +4,13 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "base/random.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum { SPLIT_WIDTH = 256, ROUNDS = 24, STARTS = 4 };
 
 Vec3 latlong_direction(double u, double v) {
-    double phi = (u - 0.5) * 2.0 * pi, theta = v * pi;
+    double phi = (u - 0.5) * 2.0 * PI_DOUBLE, theta = v * PI_DOUBLE;
     return vec3((float)(sin(theta) * sin(phi)), (float)cos(theta), (float)(-sin(theta) * cos(phi)));
 }
 
@@ -23,8 +22,8 @@ static void texel(const WeftImage *image, int x, int y, float color[3]) {
 }
 
 void latlong_at(const WeftImage *image, Vec3 d, float color[3]) {
-    float x = (0.5f + atan2f(d.x, -d.z) / (float)(2.0 * pi)) * (float)image->width - 0.5f;
-    float y = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / (float)pi * (float)image->height - 0.5f;
+    float x = (0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE)) * (float)image->width - 0.5f;
+    float y = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT * (float)image->height - 0.5f;
     int x0 = (int)floorf(x), y0 = (int)floorf(y);
     float fx = x - (float)x0, fy = y - (float)y0;
     color[0] = color[1] = color[2] = 0.0f;
@@ -48,7 +47,7 @@ static bool shrink(const WeftImage *image, WeftImage *out) {
     float *solid = alloc_array(w * h, sizeof *solid), *p = out->pixels;
     if (!solid) return false;
     for (int y = 0; y < image->height; y++) {
-        float c[3], weight = (float)sin(pi * (y + 0.5) / image->height);
+        float c[3], weight = (float)sin(PI_DOUBLE * (y + 0.5) / image->height);
         size_t row = (size_t)y * h / (size_t)image->height * w;
         for (int x = 0; x < image->width; x++) {
             size_t k = row + (size_t)x * w / (size_t)image->width;
@@ -118,8 +117,8 @@ static void project(const WeftImage *image, float terms[AMBIENT_TERMS][3]) {
     double sums[AMBIENT_TERMS][3] = {{0.0}};
     const float *p = image->pixels;
     for (int y = 0; y < image->height; y++) {
-        double solid =
-            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        double solid = 2.0 * PI_DOUBLE / image->width *
+                       (cos(PI_DOUBLE * y / image->height) - cos(PI_DOUBLE * (y + 1) / image->height));
         for (int x = 0; x < image->width; x++, p += 3) {
             float at[AMBIENT_TERMS];
             ambient_polynomials(latlong_direction((x + 0.5) / image->width, (y + 0.5) / image->height), at);
@@ -128,7 +127,7 @@ static void project(const WeftImage *image, float terms[AMBIENT_TERMS][3]) {
         }
     }
     for (int k = 0; k < AMBIENT_TERMS; k++)
-        for (int c = 0; c < 3; c++) terms[k][c] = (float)(sums[k][c] * squares[k] / (4.0 * pi));
+        for (int c = 0; c < 3; c++) terms[k][c] = (float)(sums[k][c] * squares[k] / (4.0 * PI_DOUBLE));
 }
 
 void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float color[3]) {
@@ -169,8 +168,8 @@ static void take_sparks(WeftImage *image, Sparks *sparks) {
     double mean = 0.0, all = 0.0;
     float *p = image->pixels;
     for (int y = 0; y < image->height; y++) {
-        double solid =
-            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        double solid = 2.0 * PI_DOUBLE / image->width *
+                       (cos(PI_DOUBLE * y / image->height) - cos(PI_DOUBLE * (y + 1) / image->height));
         for (int x = 0; x < image->width; x++, p += 3) {
             mean += solid * luminance(p);
             all += solid;
@@ -179,8 +178,8 @@ static void take_sparks(WeftImage *image, Sparks *sparks) {
     double clip = AMBIENT_CLIP * mean / all;
     p = image->pixels;
     for (int y = 0; y < image->height; y++) {
-        double solid =
-            2.0 * pi / image->width * (cos(pi * y / image->height) - cos(pi * (y + 1) / image->height));
+        double solid = 2.0 * PI_DOUBLE / image->width *
+                       (cos(PI_DOUBLE * y / image->height) - cos(PI_DOUBLE * (y + 1) / image->height));
         for (int x = 0; x < image->width; x++, p += 3) {
             double l = luminance(p), part = l > clip ? clip / l : 1.0;
             if (!(part < 1.0)) continue;
@@ -287,7 +286,7 @@ static void find_env_lights(const Sparks *sparks, int most, AmbientParts *parts)
 }
 
 float env_light_density(const EnvLight *light) {
-    return 2.0f * (float)light->points / ((float)pi * fmaxf(light->spread, 1e-5f));
+    return 2.0f * (float)light->points / (PI_FLOAT * fmaxf(light->spread, 1e-5f));
 }
 
 /* Divides light k, which `own` is of, into points; `all` is the energy of all lights. */

@@ -1,5 +1,7 @@
 #include "scene/environment.h"
 
+#include "base/pi.h"
+
 #include <math.h>
 
 enum { WIDTH = 512, HEIGHT = 256 };
@@ -39,8 +41,8 @@ WeftResult environment_studio(WeftImage *out, WeftError *error) {
     float *p = out->pixels;
     for (int row = 0; row < HEIGHT; row++)
         for (int column = 0; column < WIDTH; column++, p += 3) {
-            float theta = ((float)row + 0.5f) / HEIGHT * 3.14159265f;
-            float phi = (((float)column + 0.5f) / WIDTH - 0.5f) * 6.28318531f;
+            float theta = ((float)row + 0.5f) / HEIGHT * PI_FLOAT;
+            float phi = (((float)column + 0.5f) / WIDTH - 0.5f) * 2.0f * PI_FLOAT;
             float x = sinf(theta) * sinf(phi), y = cosf(theta), z = -sinf(theta) * cosf(phi);
             float room = 0.14f + 0.16f * smooth(-0.2f, 1.0f, y) + 0.10f * smooth(0.0f, 1.0f, -y);
             float c[3] = {room, room, room};

@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "scene/polygons.h"
 
-static const float DEGREE = 3.14159265f / 180.0f;
+static const float DEGREE = PI_FLOAT / 180.0f;
 
 static bool all_finite(const float *v, int count) {
     bool finite = true;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/texel.h"
@@ -43,7 +44,7 @@ Material material_default(void) {
 void input_set_map_factor(Input *input, InputId id) {
     const WeftInputInfo *info = &input_infos[id];
     float factor = info->kind == WEFT_INPUT_DIRECTION ? 0.0f
-                   : info->kind == WEFT_INPUT_ANGLE   ? info->high * (3.14159265f / 180.0f)
+                   : info->kind == WEFT_INPUT_ANGLE   ? info->high * (PI_FLOAT / 180.0f)
                                                       : 1.0f;
     for (int c = 0; c < input_value_count(id); c++) input->value[c] = factor;
 }

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "base/json.h"
 #include "base/mark.h"
+#include "base/pi.h"
 #include "scene/set.h"
 
 /* A file being read. The first failure stays. */
@@ -138,7 +139,7 @@ static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
 
 /* Places a texture as KHR_texture_transform does: scale, then rotate, then offset. */
 static void place(Input *input, const float scale[2], float degrees, const float offset[2]) {
-    float angle = degrees * (3.14159265f / 180.0f), c = cosf(angle), s = sinf(angle);
+    float angle = degrees * (PI_FLOAT / 180.0f), c = cosf(angle), s = sinf(angle);
     const float m[6] = {c * scale[0], s * scale[1], offset[0], 0.0f - s * scale[0], c * scale[1], offset[1]};
     memcpy(input->transform, m, sizeof m);
 }

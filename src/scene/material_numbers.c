@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "scene/set.h"
 #include "scene/shade.h"
 #include "scene/tangents.h"
@@ -18,7 +19,7 @@ static bool is_choice(int choice, int value) {
 float input_clamped(InputId input, float value) {
     const WeftInputInfo *info = &input_infos[input];
     bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
-    float unit = angle ? 3.14159265f / 180.0f : 1.0f; /* of what input_ranged makes of the hard range */
+    float unit = angle ? PI_FLOAT / 180.0f : 1.0f; /* of what input_ranged makes of the hard range */
     return fminf(fmaxf(value, info->hard_low * unit), info->hard_high * unit);
 }
 
@@ -138,7 +139,7 @@ void weft_material_plausible(const WeftMaterial *numbers, const char *name, cons
         if (info->kind == WEFT_INPUT_DIRECTION || numbers->inputs[k].texture ||
             !weft_material_reads(numbers, k))
             continue;
-        float unit = info->kind == WEFT_INPUT_ANGLE ? 180.0f / 3.14159265f : 1.0f;
+        float unit = info->kind == WEFT_INPUT_ANGLE ? 180.0f / PI_FLOAT : 1.0f;
         float slack = 1e-5f * fmaxf(fabsf(info->low), fabsf(info->high)); /* degrees that were radians */
         for (int c = 0; c < input_value_count((InputId)k); c++) {
             float value = material.inputs[k].value[c] * unit;

@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/pi.h"
 #include "scene/scene.h"
 #include "shading/choice.h"
 #include "weft/save.h"
@@ -45,7 +46,7 @@ static json_t *number(float value) {
 
 /* The degrees that are read as these radians, or nearest to them. */
 static float degrees(float radians) {
-    const float unit = 3.14159265f / 180.0f;
+    const float unit = PI_FLOAT / 180.0f;
     float best = radians / unit, near = best;
     for (int k = 0; k < 4; k++) near = nextafterf(near, -INFINITY);
     for (int k = 0; k < 9; k++, near = nextafterf(near, INFINITY))

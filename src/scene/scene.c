@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 #include "scene/cubemap.h"
 #include "scene/environment.h"
 
@@ -159,7 +160,7 @@ WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation
     if (!isfinite(rotation)) return fail(error, WEFT_MESSAGE_DESC, "environment rotation", NULL);
     if (!(isfinite(strength) && strength >= 0.0f))
         return fail(error, WEFT_MESSAGE_DESC, "environment strength", NULL);
-    scene->environment.rotation = fmodf(rotation, 360.0f) * (3.14159265f / 180.0f);
+    scene->environment.rotation = fmodf(rotation, 360.0f) * (PI_FLOAT / 180.0f);
     scene->environment.strength = strength;
     return WEFT_OK;
 }

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/number.h"
+#include "base/pi.h"
 #include "scene/shade.h"
 #include "scene/tangents.h"
 #include "shading/choice.h"
@@ -82,7 +83,7 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is taken; plausible is %g .. %g", (double)value,
              (double)info->low, (double)info->high);
     bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
-    return angle ? taken * (3.14159265f / 180.0f) : taken;
+    return angle ? taken * (PI_FLOAT / 180.0f) : taken;
 }
 
 WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,

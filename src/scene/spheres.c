@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/fail.h"
+#include "base/pi.h"
 
 enum { COLUMNS = 5, ROWS = 2, RINGS = 64, SECTORS = 128 };
 static const float radius = 0.45f, spacing = 1.06f;
@@ -23,7 +24,7 @@ static bool sphere(Arena *arena, Mesh *mesh, Vec3 centre) {
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
         uint32_t ring = k / across, sector = k % across;
         float v = (float)ring / RINGS, u = (float)sector / SECTORS;
-        float theta = v * 3.14159265f, phi = u * 6.28318531f;
+        float theta = v * PI_FLOAT, phi = u * 2.0f * PI_FLOAT;
         float n[3] = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
         float *p = mesh->position + 3 * k, *t = mesh->tangent + 4 * k;
         p[0] = centre.x + radius * n[0], p[1] = centre.y + radius * n[1], p[2] = centre.z + radius * n[2];

@@ -1,5 +1,6 @@
 #include "shading/albedo.h"
 
+#include "base/pi.h"
 #include "base/thread.h"
 #include "shading/lobe_tables.h"
 
@@ -22,15 +23,15 @@ static QuadratureRule rule_make(double step) {
     const double reach = 3.1; /* x(-3.1) is 9e-16 */
     int half = (int)(reach / step);
     for (int k = -half; k <= half; k++) {
-        double t = k * step, q = 3.14159265358979 * sinh(t);
+        double t = k * step, q = PI_DOUBLE * sinh(t);
         double x = 1.0 / (1.0 + (exp)(-q)), rest = 1.0 / (1.0 + (exp)(q));
         rule.x[rule.count] = x;
         rule.rest[rule.count] = rest;
-        rule.cos_phi[rule.count] = (cos)(3.14159265358979 * x);
-        rule.sin_phi[rule.count] = (sin)(3.14159265358979 * (x < rest ? x : rest));
-        rule.cos_half[rule.count] = (sin)(1.57079632679490 * rest);
-        rule.sin_half[rule.count] = (sin)(1.57079632679490 * x);
-        rule.w[rule.count++] = step * 3.14159265358979 * cosh(t) * x * rest;
+        rule.cos_phi[rule.count] = (cos)(PI_DOUBLE * x);
+        rule.sin_phi[rule.count] = (sin)(PI_DOUBLE * (x < rest ? x : rest));
+        rule.cos_half[rule.count] = (sin)(0.5 * PI_DOUBLE * rest);
+        rule.sin_half[rule.count] = (sin)(0.5 * PI_DOUBLE * x);
+        rule.w[rule.count++] = step * PI_DOUBLE * cosh(t) * x * rest;
     }
     return rule;
 }
@@ -74,7 +75,7 @@ static Sum ring(const Asked *asked, Dir wo, const QuadratureRule *rule, double s
             }
             ox[n] = wo.x, oy[n] = wo.y, oz[n] = wo.z;
             ix[n] = (float)(c * tx - t * ty), iy[n] = (float)(c * ty + t * tx), iz[n] = (float)cos_i;
-            w[n++] = rule->w[k] * 3.14159265358979 * (mirrored == 1 ? 2.0 : 1.0);
+            w[n++] = rule->w[k] * PI_DOUBLE * (mirrored == 1 ? 2.0 : 1.0);
         }
     Sum sum = {0};
     if (asked->w && traits & TRAIT_TINTED) {
@@ -114,7 +115,7 @@ static Pieces pieces_of(const Lobe *lobe, Dir wo) {
     p.edge[++p.count] = mirror;
     for (int k = 0; k < count; k++)
         if (asin((double)creases[k]) > mirror) p.edge[++p.count] = asin((double)creases[k]);
-    p.edge[++p.count] = 1.57079632679490;
+    p.edge[++p.count] = 0.5 * PI_DOUBLE;
     return p;
 }
 

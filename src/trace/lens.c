@@ -1,5 +1,6 @@
 #include "trace/lens.h"
 
+#include "base/pi.h"
 #include "shading/loop.h"
 #include "trace/sampler.h"
 
@@ -12,7 +13,7 @@ void lens_make(Lens *lens) {
     double integral = 0.0;
     int step = 0;
     for (int k = 0; k < FINE; k++) {
-        double a = 6.28318530717959 * (k + 0.5) / FINE;
+        double a = 2.0 * PI_DOUBLE * (k + 0.5) / FINE;
         double w = 0.35875 - 0.48829 * (cos)(a) + 0.14128 * (cos)(2.0 * a) - 0.01168 * (cos)(3.0 * a),
                before = integral;
         integral += w / (total * FINE);

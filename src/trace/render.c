@@ -1,9 +1,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/fail.h"
+#include "base/steady_clock.h"
 #include "base/thread.h"
 #include "scene/backdrop.h"
 #include "scene/camera.h"
@@ -51,12 +51,6 @@ struct WeftRender {
     Caught *caught; /* one a pixel, by the floor; NULL where there is none */
     double build_seconds, render_seconds;
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
     if (d->width < 1 || d->width > SIDE_MAX || d->height < 1 || d->height > SIDE_MAX)
@@ -238,7 +232,7 @@ static WeftResult make_blurred(WeftRender *render, WeftError *error) {
 
 WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
                                WeftError *error) {
-    double start = now();
+    double start = clock_now();
     const WeftScene *scene = render->scene;
     WeftRenderDesc d = *desc;
     set_defaults(&d);
@@ -254,7 +248,7 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
     result = build(render, changed, error);
     if (result == WEFT_OK) result = make_blurred(render, error);
     render->desc.camera = NULL; /* borrowed only during this call */
-    render->build_seconds = now() - start;
+    render->build_seconds = clock_now() - start;
     return result;
 }
 
@@ -446,12 +440,12 @@ static void render_tile(void *user, int item, int thread) {
     tile.samples += pass->samples;
     render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
-    if (pass->done_before > 0.0 && now() > pass->deadline) atomic_store(&pass->stop, 1);
+    if (pass->done_before > 0.0 && clock_now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread == 0) report_progress(pass, finished);
 }
 
 WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
-    double start = now();
+    double start = clock_now();
     Pass pass = {.render = render,
                  .deadline = seconds > 0.0 ? start + seconds : (double)INFINITY,
                  .progress = progress,
@@ -469,7 +463,7 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
         /* the tiles that other threads finished last */
         if (!atomic_load(&pass.stop)) report_progress(&pass, render->tile_count);
     }
-    render->render_seconds += now() - start;
+    render->render_seconds += clock_now() - start;
     return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
 }
 

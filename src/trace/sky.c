@@ -2,6 +2,7 @@
 
 #include "trace/sky.h"
 
+#include "base/pi.h"
 #include "shading/loop.h"
 #include "shading/rgb.h"
 
@@ -334,7 +335,7 @@ void sky_at_rows(const Sky *sky, int n, const float *const d[3], LightRows *foun
     }
 }
 
-static double sin_of_row(int y, int height) { return (sin)(3.14159265358979 * (y + 0.5) / height); }
+static double sin_of_row(int y, int height) { return (sin)(PI_DOUBLE * (y + 0.5) / height); }
 
 static float luminance_of(const WeftImage *image, int x, int y) {
     size_t channels = (size_t)image->channels;

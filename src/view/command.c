@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "view/viewer.h"
 
 typedef struct Line {
@@ -57,8 +58,7 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     char word[160];
     weft_material_input_info(k, &info);
     const float *x = input->value;
-    double scale =
-        info.kind == WEFT_INPUT_ANGLE || info.kind == WEFT_INPUT_DIRECTION ? 57.29577951308232 : 1.0;
+    double scale = info.kind == WEFT_INPUT_ANGLE || info.kind == WEFT_INPUT_DIRECTION ? 1.0 / RADIANS : 1.0;
     if (info.kind == WEFT_INPUT_COLOR)
         snprintf(word, sizeof word, "%d.%s=%.9g,%.9g,%.9g", material, info.name, (double)x[0], (double)x[1],
                  (double)x[2]);

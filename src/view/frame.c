@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "view/steady_clock.h"
+#include "base/steady_clock.h"
 
 enum { COARSE_MOST = 8 };
 
@@ -133,7 +133,7 @@ static WeftResult draw_part(Renderer *self, const FrameRequest *request, const S
     int rows = expected < 3.0 * piece ? height : (int)(height * piece / expected);
     WeftResult result = WEFT_OK;
     while (y < height && result == WEFT_OK && *whole) {
-        double start = now();
+        double start = clock_now();
         int left = height - y;
         if (rows < 8) rows = 8;
         if (request->compare || rows > left || left - rows < rows / 4) rows = left;
@@ -141,7 +141,7 @@ static WeftResult draw_part(Renderer *self, const FrameRequest *request, const S
         result = draw_one(self, request, state, strip, target, error);
         glFinish();
         y += rows;
-        double took = now() - start;
+        double took = clock_now() - start;
         if (took < 1.5 * piece) rows *= 2;
         if (took > 2.0 * piece) rows /= 2;
         if (y < height) *whole = !is_outdated(self, number);
@@ -297,7 +297,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     double expected = *seconds_of(self, effort);
     WeftResult result = frame_apply_state(self, &request->state, &error);
     survey(self, request);
-    double start = now();
+    double start = clock_now();
     if (waits(self, &drawn)) {
         reference_stand_in(self->reference, number);
         reference_wait(self->reference, number, 1.0); /* a compiler leaves it little of the processors */
@@ -310,14 +310,14 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
         if (done == WEFT_OK && request->compare) hand_linear(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
-        if (fair) learn(self, request, effort, now() - start);
+        if (fair) learn(self, request, effort, clock_now() - start);
     }
     if (!whole) return; /* another request came between */
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
     bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
-    publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target, now() - start,
-            &error);
+    publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target,
+            clock_now() - start, &error);
     focus(self, request);
 }
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/steady_clock.h"
 #include "view/opening.h"
-#include "view/steady_clock.h"
 
 static void add_warnings(Viewer *v, const char *lines) {
     size_t used = strlen(v->warnings);
@@ -92,8 +92,8 @@ void requests_send(Viewer *v) {
     if (!v->has_scene || v->stage.width < 1.0f) return;
     FrameRequest request = make_request(v);
     bool changed = v->ask || !same_request(&request, &v->request) || !scene_state_same(&v->state, &v->sent);
-    if (changed) v->changed = now();
-    bool finer = requests_can_refine(v) && now() - v->changed > 0.12;
+    if (changed) v->changed = clock_now();
+    bool finer = requests_can_refine(v) && clock_now() - v->changed > 0.12;
     if (!changed && !finer) return;
     request.effort = finer ? (Effort)(v->rendered.effort + 1) : EFFORT_COARSE;
     v->requested = renderer_request(v->renderer, &request);
@@ -122,11 +122,11 @@ void requests_read_camera(Viewer *v) {
  * renderer is at this one's. So window and renderer work side by side, and no picture is more than two frames
  * behind. */
 void requests_wait_frame(Viewer *v) {
-    double until = now() + 0.04;
+    double until = clock_now() + 0.04;
     unsigned before = v->rendered.number;
     renderer_take_frame(v->renderer, &v->rendered);
     bool waits = v->has_scene && !v->late && v->mode == MODE_LIVE;
-    while (waits && v->rendered.number == before && before != v->requested && now() < until) {
+    while (waits && v->rendered.number == before && before != v->requested && clock_now() < until) {
         window_wait(v->window, 0.004);
         renderer_take_frame(v->renderer, &v->rendered);
     }

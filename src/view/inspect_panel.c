@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "view/viewer.h"
 
 enum { SLICE = 181, ANGLES = 21, RINGS = 24, SECTORS = 48, PAIRS = 64, PARTS = 4 };
@@ -41,8 +42,8 @@ static void direction(float theta, float phi, float w[3]) {
 
 static void make_slice(Inspection *self) {
     float wo[3], wi[SLICE][3], f[SLICE][3];
-    direction(self->angle * 0.01745329f, 3.14159265f, wo);
-    for (int k = 0; k < SLICE; k++) direction(((float)k - 90.0f) * 0.01745329f * 0.999f, 0.0f, wi[k]);
+    direction(self->angle * (float)RADIANS, PI_FLOAT, wo);
+    for (int k = 0; k < SLICE; k++) direction(((float)k - 90.0f) * (float)RADIANS * 0.999f, 0.0f, wi[k]);
     for (int p = 0; p < PARTS; p++) {
         weft_reflection_eval(self->reflection, (int)parts[p], wo, SLICE, (const float(*)[3])wi, f);
         for (int k = 0; k < SLICE; k++)
@@ -52,11 +53,11 @@ static void make_slice(Inspection *self) {
 
 static void make_lobe(Inspection *self) {
     float wo[3], wi[SECTORS][3], f[SECTORS][3];
-    direction(self->angle * 0.01745329f, 3.14159265f, wo);
+    direction(self->angle * (float)RADIANS, PI_FLOAT, wo);
     self->lobe_most = 1e-6f;
     for (int r = 0; r <= RINGS; r++) {
         for (int s = 0; s < SECTORS; s++)
-            direction(1.5607f * (float)r / RINGS, 6.2831853f * (float)s / SECTORS, wi[s]);
+            direction(1.5607f * (float)r / RINGS, 2.0f * PI_FLOAT * (float)s / SECTORS, wi[s]);
         weft_reflection_eval(self->reflection, WEFT_PART_ALL, wo, SECTORS, (const float(*)[3])wi, f);
         for (int s = 0; s < SECTORS; s++) {
             self->lobe[r][s] = luminance(f[s]) * (self->cosine ? wi[s][2] : 1.0f);
@@ -135,17 +136,17 @@ static void draw_slice(Inspection *self) {
     ui_clip(&box);
     for (int k = 1; k <= 2; k++) {
         for (int j = 0; j <= 36; j++) {
-            float a = 3.14159265f * (float)j / 36.0f, s = 0.5f * (float)k * r;
+            float a = PI_FLOAT * (float)j / 36.0f, s = 0.5f * (float)k * r;
             xy[2 * j] = x0 - s * cosf(a), xy[2 * j + 1] = y0 - s * sinf(a);
         }
         ui_curve(xy, 37, line_color, 1.0f);
     }
     ui_line(x0 - r, y0, x0 + r, y0, line_color, 1.0f);
-    float t = self->angle * 0.01745329f;
+    float t = self->angle * (float)RADIANS;
     ui_line(x0, y0, x0 - r * sinf(t), y0 - r * cosf(t), text_color, 1.5f);
     for (int p = PARTS - 1; p >= 0; p--) {
         for (int k = 0; k < SLICE; k++) {
-            float a = ((float)k - 90.0f) * 0.01745329f, s = r * radius_of(self, self->slice[p][k], most);
+            float a = ((float)k - 90.0f) * (float)RADIANS, s = r * radius_of(self, self->slice[p][k], most);
             xy[2 * k] = x0 + s * sinf(a), xy[2 * k + 1] = y0 - s * cosf(a);
         }
         ui_curve(xy, SLICE, colors[p], p ? 1.2f : 2.0f);
@@ -170,7 +171,7 @@ static int by_depth(const void *a, const void *b) {
 static void lobe_point(const Inspection *self, int ring, int sector, float size, float out[3]) {
     float w[3], s = size * radius_of(self, self->lobe[ring][sector % SECTORS], self->lobe_most);
     const float turn = 0.6f, tilt = 0.45f;
-    direction(1.5607f * (float)ring / RINGS, 6.2831853f * (float)sector / SECTORS, w);
+    direction(1.5607f * (float)ring / RINGS, 2.0f * PI_FLOAT * (float)sector / SECTORS, w);
     float x = w[0] * cosf(turn) - w[1] * sinf(turn), y = w[0] * sinf(turn) + w[1] * cosf(turn);
     out[0] = s * x;
     out[1] = s * (w[2] * cosf(tilt) + y * sinf(tilt));

@@ -3,11 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "view/chart.h"
 #include "view/help.h"
 #include "view/viewer.h"
 
-static const float degrees = 57.29577951f;
+static const float degrees = (float)(1.0 / RADIANS);
 
 /* Inputs lie under the heading whose word their name begins with; all others under the first. */
 static const struct {

@@ -1,10 +1,12 @@
 #include "view/orbit.h"
 
+#include "base/pi.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const float degree = 0.01745329252f;
+static const float degree = (float)RADIANS;
 
 static float dot3(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "view/steady_clock.h"
+#include "base/steady_clock.h"
 
 struct ReferenceView {
     Window *window;
@@ -129,7 +129,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
 
 /* A few more samples, as many as half a second has. */
 static void refine(ReferenceView *self, const ReferenceRequest *request) {
-    double start = now();
+    double start = clock_now();
     int left = request->samples - (int)self->samples;
     int count = self->samples < 1.0 ? 1 : self->samples < 8.0 ? (int)self->samples : 8;
     if (count > left) count = left;
@@ -138,7 +138,7 @@ static void refine(ReferenceView *self, const ReferenceRequest *request) {
         self->samples = weft_render_info(self->render).samples_per_pixel;
         left = request->samples - (int)self->samples;
         if (count > left) count = left;
-        if (result != WEFT_OK || now() - start > 0.4) break;
+        if (result != WEFT_OK || clock_now() - start > 0.4) break;
     }
 }
 

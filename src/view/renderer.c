@@ -7,8 +7,8 @@
 
 #include <epoxy/gl.h>
 
+#include "base/steady_clock.h"
 #include "view/renderer_state.h"
-#include "view/steady_clock.h"
 
 static void on_warning(void *user, WeftMessage message, const char *text) {
     Renderer *self = user;
@@ -98,7 +98,7 @@ static void take_scene(Renderer *self, WeftScene *scene, SceneState *state, cons
 /* ---- the thread ---- */
 
 static bool reload_changed(Renderer *self) {
-    int texture = self->started ? file_watch_poll(self->file_watch, now()) : -1;
+    int texture = self->started ? file_watch_poll(self->file_watch, clock_now()) : -1;
     if (texture < 0) return false;
     if (texture >= FOLDERS) {
         Task bind = {.kind = TASK_BIND_MAPS, .scene = self->scene_number};

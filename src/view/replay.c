@@ -8,7 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "view/steady_clock.h"
+#include "base/steady_clock.h"
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 
@@ -205,12 +205,12 @@ static int button_of(const char *name) { return is(name, "right") ? 1 : is(name,
 
 /* Waits: true while it goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
-    double start = self->since > 0.0 ? self->since : (self->since = now());
+    double start = self->since > 0.0 ? self->since : (self->since = clock_now());
     bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->has_scene && ++self->tries > 4
                 : strncmp(what, "samples ", 8) == 0 ? v->traced.samples >= atof(what + 8)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(viewer_shows(v)))
                 : strncmp(what, "message ", 8) == 0 ? strstr(v->message, what + 8) != NULL
-                : strncmp(what, "seconds ", 8) == 0 ? now() - start > atof(what + 8)
+                : strncmp(what, "seconds ", 8) == 0 ? clock_now() - start > atof(what + 8)
                                                     : ++self->tries > atoi(what);
     if (done) self->since = 0.0, self->tries = 0;
     return !done;
@@ -353,7 +353,7 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
         char *rest = copy, *word = take_word(&rest);
         bool good = true, waits = is(word, "wait");
         if (waits && still_waiting(self, v, rest)) {
-            if (now() - self->since < 120.0) return true;
+            if (clock_now() - self->since < 120.0) return true;
             snprintf(why, 512, "%.200s:%d: \"%.100s\" did not finish within 120 s", self->path,
                      self->line + 1, copy);
             return false;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "view/brush.h"
 #include "view/viewer.h"
 
@@ -360,7 +361,7 @@ static void draw_brush(const Viewer *v) {
     float d = 0.0f;
     for (int k = 0; k < 3; k++)
         d += (v->orbit.eye[k] - v->orbit.target[k]) * (v->orbit.eye[k] - v->orbit.target[k]);
-    float height = 2.0f * sqrtf(d) * tanf(0.5f * v->orbit.fov * 0.01745329f);
+    float height = 2.0f * sqrtf(d) * tanf(0.5f * v->orbit.fov * (float)RADIANS);
     ui_ring(v->input.x, v->input.y, fmaxf(v->brush.radius / height * v->stage.height, 2.0f), white);
 }
 

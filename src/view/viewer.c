@@ -10,6 +10,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/steady_clock.h"
 #include "view/browser.h"
 #include "view/examine.h"
 #include "view/file_watch.h"
@@ -17,7 +18,6 @@
 #include "view/opening.h"
 #include "view/replay.h"
 #include "view/state_report.h"
-#include "view/steady_clock.h"
 
 void viewer_say(Viewer *v, bool grave, const char *format, ...) {
     va_list list;
@@ -136,8 +136,8 @@ static void run_frame(Viewer *v, double started) {
     draw_frame(v);
     requests_send(v);
     note_history(v);
-    v->worst_seconds = fmax(v->worst_seconds, now() - started);
-    v->frame_seconds += 0.1 * (now() - started - v->frame_seconds);
+    v->worst_seconds = fmax(v->worst_seconds, clock_now() - started);
+    v->frame_seconds += 0.1 * (clock_now() - started - v->frame_seconds);
     v->picture_seconds = (double)v->rendered.whole_seconds;
 }
 
@@ -202,7 +202,7 @@ static int run(Viewer *v, char why[512]) {
     while (!window_closing(v->window) && !v->ending) {
         unsigned shown = v->rendered.number;
         window_wait(v->window, patience(v, due));
-        double started = now();
+        double started = clock_now();
         if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
         bool any = window_take(v->window, &v->input);
         for (char *path; (path = window_dropped(v->window)); free(path)) viewer_open(v, path), any = true;

@@ -12,7 +12,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "view/steady_clock.h"
+#include "base/steady_clock.h"
 
 enum { QUEUE_MOST = 4096, DROPS_MOST = 64 };
 

@@ -10,8 +10,9 @@
 #include <cmocka.h>
 
 #include "base/cache.h"
+#include "scratch.h"
 
-static char folder[] = "/tmp/weft-test-cache-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static void count(void *user, WeftMessage message, const char *text) {
     (void)text;
@@ -67,14 +68,12 @@ static void damaged_file_is_ignored_with_a_warning(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+    return scratch_cache(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 int main(void) {

@@ -14,13 +14,13 @@
 #include <cmocka.h>
 
 #include "base/file.h"
+#include "scratch.h"
 
-static char folder[64];
+static char folder[SCRATCH_SIZE];
 
 static int make_folder(void **state) {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/weft-test-file-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(folder) ? 0 : -1;
 }
 
 static const char *in_folder(char path[128], const char *name) {
@@ -233,7 +233,7 @@ static void unreadable_path_is_an_error(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    return rmdir(folder); /* fails if a test left something behind */
+    return scratch_remove_empty(folder) ? 0 : -1; /* fails if a test left something behind */
 }
 
 int main(void) {

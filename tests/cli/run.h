@@ -23,13 +23,16 @@
 
 #include <cmocka.h>
 
+#include "base/steady_clock.h"
+#include "scratch.h"
+
 extern char **environ;
 
-static char work_folder[] = "/tmp/weft-cli-XXXXXX";
+static char work_folder[SCRATCH_SIZE];
 
 static inline int work_begin(void **state) {
     (void)state;
-    return mkdtemp(work_folder) && chdir(work_folder) == 0 ? 0 : -1;
+    return scratch_enter(work_folder) ? 0 : -1;
 }
 
 static inline int work_end(void **state) {
@@ -38,7 +41,7 @@ static inline int work_end(void **state) {
     if (!folder) return -1;
     for (struct dirent *entry; (entry = readdir(folder));) unlink(entry->d_name);
     closedir(folder);
-    return chdir("/") == 0 && rmdir(work_folder) == 0 ? 0 : -1;
+    return scratch_remove_empty(work_folder) ? 0 : -1;
 }
 
 /* The bytes of a file, a zero after them; NULL where there is no file. Release with free. */
@@ -153,12 +156,6 @@ static inline void sleep_seconds(double seconds) {
     nanosleep(&pause, NULL);
 }
 
-static inline double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Writes "scene.gltf": one triangle that fills most of the view, a material "cloth", a camera "front". */
 static inline void scene_make(void) {
     static const char text[] =
@@ -189,7 +186,7 @@ static inline void await_handler(pid_t child) {
     char path[64], text[4096];
     unsigned long long caught = 0;
     snprintf(path, sizeof path, "/proc/%d/status", (int)child);
-    for (double start = seconds_now(); !(caught >> (SIGINT - 1) & 1u) && seconds_now() < start + 60.0;) {
+    for (double start = clock_now(); !(caught >> (SIGINT - 1) & 1u) && clock_now() < start + 60.0;) {
         FILE *stream = fopen(path, "r");
         size_t size = stream ? fread(text, 1, sizeof text - 1, stream) : 0;
         if (stream) fclose(stream);

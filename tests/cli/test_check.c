@@ -1,4 +1,5 @@
 /* `weft check`: the passport as text, JSON and page; bounds and complaints */
+#include "base/pi.h"
 #include "run.h"
 
 #include <math.h>
@@ -65,7 +66,7 @@ static void json_has_the_numbers_of_the_passport(void **state) {
     double sum = 0.0;
     for (int k = 0; k < 1000; k++) {
         double z = (k + 0.5) / 1000.0, d = sqrt(0.5 + 0.5 * z);
-        sum += 2.0 * 3.14159265358979 * pow(1.0 - d, 5.0) * z / 1000.0;
+        sum += 2.0 * PI_DOUBLE * pow(1.0 - d, 5.0) * z / 1000.0;
     }
     assert_true(fabs(json_number_value(json_array_get(e, 0)) - sum) < 2e-4);
     assert_true(json_at(json, "reciprocity", "worst") < 1e-5);

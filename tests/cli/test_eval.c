@@ -1,16 +1,15 @@
 /* `weft eval` against formulas written out here in double precision, independently of the catalogue. */
+#include "base/pi.h"
 #include "run.h"
 
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
 
 typedef struct Vector {
     double x, y, z;
 } Vector;
 
 static Vector vector(double theta, double phi) {
-    double t = theta * pi / 180.0, p = phi * pi / 180.0;
+    double t = theta * PI_DOUBLE / 180.0, p = phi * PI_DOUBLE / 180.0;
     return (Vector){sin(t) * cos(p), sin(t) * sin(p), cos(t)};
 }
 static double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -28,7 +27,7 @@ static double lambda_ggx(double alpha, Vector w) {
 }
 static double d_ggx(double alpha, double cos_h) {
     double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
-    return alpha * alpha / (pi * t * t);
+    return alpha * alpha / (PI_DOUBLE * t * t);
 }
 static double f_ggx(double alpha, Vector o, Vector i) {
     double g2 = 1.0 / (1.0 + lambda_ggx(alpha, o) + lambda_ggx(alpha, i));
@@ -41,7 +40,7 @@ static double pdf_ggx(double alpha, Vector o, Vector i) {
 /* Conty Estevez and Kulla 2017, equation 2, over the denominator of Neubelt and Pettineo 2013. */
 static double f_charlie_neubelt(double alpha, Vector o, Vector i) {
     double cos_h = half(o, i).z, sin_h = sqrt(1.0 - cos_h * cos_h);
-    double d = (2.0 + 1.0 / alpha) * pow(sin_h, 1.0 / alpha) / (2.0 * pi);
+    double d = (2.0 + 1.0 / alpha) * pow(sin_h, 1.0 / alpha) / (2.0 * PI_DOUBLE);
     return d / (4.0 * (o.z + i.z - o.z * i.z));
 }
 
@@ -93,10 +92,10 @@ static void eval_of_lambert_is_one_over_pi(void **state) {
     double rows[ANGLES][4];
     evaluate(LIST("eval", "lambert", "-p", "color=1,0.5,0.25"), rows);
     for (int k = 0; k < ANGLES; k++) {
-        assert_near(rows[k][0], 1.0 / pi, 1e-6, "red");
-        assert_near(rows[k][1], 0.5 / pi, 1e-6, "green");
-        assert_near(rows[k][2], 0.25 / pi, 1e-6, "blue");
-        assert_near(rows[k][3], cos(angles[k][2] * pi / 180.0) / pi, 1e-5, "pdf");
+        assert_near(rows[k][0], 1.0 / PI_DOUBLE, 1e-6, "red");
+        assert_near(rows[k][1], 0.5 / PI_DOUBLE, 1e-6, "green");
+        assert_near(rows[k][2], 0.25 / PI_DOUBLE, 1e-6, "blue");
+        assert_near(rows[k][3], cos(angles[k][2] * PI_DOUBLE / 180.0) / PI_DOUBLE, 1e-5, "pdf");
     }
 }
 
@@ -228,10 +227,10 @@ static double albedo_charlie_neubelt(double alpha, double cos_o) {
     double sum = 0.0;
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
-            double z = (a + 0.5) / n, phi = 2.0 * pi * (b + 0.5) / n, r = sqrt(1.0 - z * z);
+            double z = (a + 0.5) / n, phi = 2.0 * PI_DOUBLE * (b + 0.5) / n, r = sqrt(1.0 - z * z);
             sum += f_charlie_neubelt(alpha, o, (Vector){r * cos(phi), r * sin(phi), z}) * z;
         }
-    return sum * 2.0 * pi / n / n;
+    return sum * 2.0 * PI_DOUBLE / n / n;
 }
 
 static void albedo_of_charlie_neubelt_is_its_integral(void **state) {

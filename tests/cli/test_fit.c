@@ -146,12 +146,12 @@ static void interrupted_fit_ends(void **state) {
     (void)state;
     pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("fit", "table.csv", "--lobe", "threads"));
     sleep_seconds(0.5);
-    double asked = seconds_now();
+    double asked = clock_now();
     kill(child, SIGINT);
     Ran ran = program_end(child);
     if (ran.code != 130 || !one_complaint(ran.err) || !strstr(ran.err, "interrupted") || ran.out[0])
         fail_msg("%d: %s", ran.code, ran.err);
-    print_message("ended after %.2f s\n", seconds_now() - asked);
+    print_message("ended after %.2f s\n", clock_now() - asked);
     ran_free(&ran);
 }
 

@@ -19,9 +19,9 @@ static pid_t start(const char *seed) {
 
 /* Renders to the end and keeps what came out; returns the seconds it took. */
 static double keep(const char *seed, Bytes kept[OUTPUTS]) {
-    double started = seconds_now();
+    double started = clock_now();
     Ran ran = program_end(start(seed));
-    double seconds = seconds_now() - started;
+    double seconds = clock_now() - started;
     if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
     ran_free(&ran);
     for (int k = 0; k < OUTPUTS; k++) {

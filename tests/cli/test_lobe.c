@@ -2,6 +2,7 @@
  * gives as a row of lobes.list; and files that are none are told in one line */
 #include <sys/stat.h>
 
+#include "base/pi.h"
 #include "run.h"
 
 /* Lobes of the catalogue under another name: with one colour, two, a second of its own; with views and
@@ -197,7 +198,7 @@ static void toy_loaded_from_a_file_is_listed_as_a_lobe(void **state) {
     ran = run_with("60 0 60 90\n",
                    LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=1", "--lobe", TOY));
     assert_int_equal(sscanf(ran.out, "%lf", f), 1);
-    assert_near(f[0], 0.5 / 3.14159265 * (0.75 + 0.25 * 0.5)); /* s = 1/4, second colour c c */
+    assert_near(f[0], 0.5 / PI_DOUBLE * (0.75 + 0.25 * 0.5)); /* s = 1/4, second colour c c */
     ran_free(&ran);
     ran = RUN("models", "toy", "--lobe", TOY);
     assert_non_null(strstr(ran.out, "how slowly it darkens"));

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 
+#include "base/pi.h"
 #include "run.h"
 
 static const char *const kinds[] = {"polar", "lobe3d", "cartesian", "albedo",    "furnace",
@@ -67,7 +68,7 @@ static void json_has_the_numbers_that_are_drawn(void **state) {
     json_t *y = json_object_get(json_array_get(series, 0), "y");
     assert_true(json_array_size(y) > 300);
     for (size_t k = 0; k < json_array_size(y); k++)
-        assert_true(fabs(json_number_value(json_array_get(y, k)) - 0.5 / 3.14159265358979) < 1e-6);
+        assert_true(fabs(json_number_value(json_array_get(y, k)) - 0.5 / PI_DOUBLE) < 1e-6);
     assert_string_equal(json_string_value(json_object_get(json_array_get(series, 1), "label")),
                         "ggx:alpha=0.3");
     json_decref(root);

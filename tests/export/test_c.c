@@ -1,6 +1,7 @@
 /* The texts for C compile with gcc and clang, as C99, C11 and C++, without a warning, all in one file under
  * prefixes of their own; and answer as the library does. */
 #include "export/models.h"
+#include "scratch.h"
 
 #include <dlfcn.h>
 
@@ -8,7 +9,7 @@ enum { BODY = 1 << 14 };
 
 static Exported models[MODELS_MAX];
 static int model_count;
-static char folder[] = "/tmp/weft-test-export-XXXXXX";
+static char folder[SCRATCH_SIZE];
 static Arrays arrays[MODELS_MAX];
 
 static bool has_program(const char *name) {
@@ -106,7 +107,7 @@ static void c_text_is_valid_cpp(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    if (!mkdtemp(folder)) return -1;
+    if (!scratch_make(folder)) return -1;
     model_count = models_lobes(models);
     model_count += models_profiles(models + model_count);
     model_count += models_choices(models + model_count);
@@ -123,10 +124,8 @@ static int begin(void **state) {
 
 static int end(void **state) {
     (void)state;
-    char command[64];
     for (int k = 0; k < model_count; k++) arrays_free(&arrays[k]);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 int main(void) {

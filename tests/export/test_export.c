@@ -1,6 +1,8 @@
 /* What weft_export promises of every text: it says what it is, is readable, has what is needed and nothing
  * else; folded or explicit, pi gives one picture; a descriptor that makes no sense is refused */
+#include "base/pi.h"
 #include "export/models.h"
+#include "scratch.h"
 
 #include <dlfcn.h>
 
@@ -185,10 +187,10 @@ static void exported_text_uses_operators_of_its_language(void **state) {
 /* C with pi folded, times a light over pi, against C with pi explicit, times the light. */
 static void folded_and_explicit_pi_agree(void **state) {
     (void)state;
-    char folder[] = "/tmp/weft-test-export-XXXXXX", path[128], command[256];
+    char folder[SCRATCH_SIZE], path[128], command[256];
     static const char *const ids[] = {"charlie-neubelt", "ggx", "fibre", "filament-cloth", "unreal4"};
     if (system("command -v gcc >/dev/null 2>&1") != 0) skip();
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/pi.c", folder);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
@@ -243,13 +245,12 @@ static void folded_and_explicit_pi_agree(void **state) {
         assert_non_null(whole.symbol = dlsym(library, name));
         snprintf(name, sizeof name, "run_f%d", k);
         assert_non_null(folded.symbol = dlsym(library, name));
-        float a = whole.run(2.5f), b = folded.run(2.5f / 3.14159265f);
+        float a = whole.run(2.5f), b = folded.run(2.5f / PI_FLOAT);
         assert_true(a > 1e-4f);
         if (fabsf(a - b) > 1e-5f * a) fail_msg("%s: %.8g and %.8g", ids[k], (double)a, (double)b);
     }
     dlclose(library);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
 }
 
 /* One text of several models, and each in a text of its own, beside each other in one program of C. */
@@ -257,12 +258,12 @@ static void several_models_share_one_text(void **state) {
     (void)state;
     enum { COUNT = 5 };
     static const char *const ids[COUNT] = {"khronos", "disney", "hdrp-cotton", "ggx", "charlie-neubelt"};
-    char folder[] = "/tmp/weft-test-export-XXXXXX", path[128], command[256];
+    char folder[SCRATCH_SIZE], path[128], command[256];
     WeftExportDesc descs[COUNT];
     WeftExport made;
     WeftError error;
     if (system("command -v gcc >/dev/null 2>&1") != 0) skip();
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/all.c", folder);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
@@ -330,8 +331,7 @@ static void several_models_share_one_text(void **state) {
     assert_non_null(differ.symbol);
     assert_int_equal(differ.run(), 0);
     dlclose(library);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
     descs[1] = descs[0]; /* no two by one name */
     assert_int_not_equal(weft_export_all(descs, 2, &made, &error), WEFT_OK);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);

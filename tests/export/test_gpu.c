@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "raster/compute.h"
+#include "scratch.h"
 
 typedef enum Way { WAY_GLSL, WAY_ESSL, WAY_HLSL, WAYS } Way;
 static const char *const way_names[WAYS] = {"glsl", "essl", "hlsl"};
@@ -16,7 +17,7 @@ enum { BODY = 1 << 14 };
 
 static Exported models[MODELS_MAX];
 static int lobe_count, model_count;
-static char folder[] = "/tmp/weft-test-export-XXXXXX";
+static char folder[SCRATCH_SIZE];
 static GlContext *contexts[2]; /* GLSL 3.30, ES 3.00; NULL where the machine has none */
 static Arrays arrays[MODELS_MAX];
 static WeftExport exported[WAYS][MODELS_MAX];
@@ -243,19 +244,17 @@ static int begin(void **state) {
             exported[way][k] = model_export(&desc);
         }
     }
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
     for (int k = 0; k < model_count; k++) {
         arrays_free(&arrays[k]);
         for (Way way = WAY_GLSL; way < WAYS; way++) weft_export_free(&exported[way][k]);
     }
     for (int k = 0; k < 2; k++) context_destroy(contexts[k]);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 int main(void) {

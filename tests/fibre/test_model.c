@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "fibre/matrix.h"
 #include "fibre/solver_reference.h"
@@ -61,7 +62,7 @@ static void expect(const char *what, FitError e, double mean, double worst, doub
 
 static float unit(uint32_t seed, uint32_t k) { return unit_float(hash_combine(seed, k)); }
 
-static const double white = 1.0, degree = 3.14159265358979 / 180.0;
+static const double white = 1.0, degree = RADIANS;
 
 static void fitted_model_follows_the_slab_for_white_fibres(void **state) {
     (void)state;
@@ -176,7 +177,7 @@ static void fitted_model_reflects_no_more_than_it_receives(void **state) {
     double most = 0.0;
     for (uint32_t k = 0; k < (uint32_t)cases; k++) {
         Lobe lobe = lobe_default(LOBE_FIBRE);
-        float mu = unit(k, 4), phi = k % 3 ? 3.14159265f * unit(k, 5) : 3.14159265f;
+        float mu = unit(k, 4), phi = k % 3 ? PI_FLOAT * unit(k, 5) : PI_FLOAT;
         mu = k % 2 ? mu * mu * mu * mu + 1e-5f : mu;
         set(&lobe, "alpha", (exp)((log)(0.05) * (double)unit(k, 0)));
         set(&lobe, "density", 0.25 * (pow)(16.0, (double)unit(k, 1)));

@@ -10,12 +10,11 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "fibre/slab.h"
 #include "fibre/tilted.h"
 #include "fibre/walk.h"
-
-static const double pi = 3.14159265358979323846;
 
 static double albedo(Slab slab, SlabEffort effort, double mu, double *through, double *defect) {
     double up;
@@ -30,7 +29,7 @@ static void modes_of_a_thin_slab_sum_to_single_scattering(void **state) {
     for (int k = 0; k < 8; k++) {
         double mu_i = 0.05 + 0.11 * k, mu_o = 0.93 - 0.1 * k, phi = 0.4 * k, f = 0.0;
         for (int m = 0; m < 60; m++)
-            f += (m ? 2.0 : 1.0) * slab_single_mode(&slab, m, mu_i, mu_o) * cos(m * phi) / (2.0 * pi);
+            f += (m ? 2.0 : 1.0) * slab_single_mode(&slab, m, mu_i, mu_o) * cos(m * phi) / (2.0 * PI_DOUBLE);
         double reference = slab_single(&slab, mu_i, mu_o, cos(phi));
         assert_true(fabs(f - reference) < 1e-9 * reference + 1e-12);
     }
@@ -104,7 +103,8 @@ static double upright_f(const Slab *slab, double mu_i, double mu_o, double phi) 
     double mu[] = {mu_i, mu_o}, r[4], f = slab_single(slab, mu_i, mu_o, cos(phi));
     for (int m = 0; m < 8; m++) {
         assert_true(slab_mode(slab, (SlabEffort){64, 30}, m, 1, 2, mu, &(Layered){.r = r}, NULL));
-        f += (m ? 2.0 : 1.0) * (r[1] - slab_single_mode(slab, m, mu_i, mu_o)) * cos(m * phi) / (2.0 * pi);
+        f += (m ? 2.0 : 1.0) * (r[1] - slab_single_mode(slab, m, mu_i, mu_o)) * cos(m * phi) /
+             (2.0 * PI_DOUBLE);
     }
     return f;
 }
@@ -151,9 +151,10 @@ static void case_run(Score *score, uint32_t seed, bool tilts, long long walks) {
     for (int k = 0; k < 12; k++) u[k] = (double)unit_float(hash_combine(seed, (uint32_t)k));
     Slab slab = {0.3 + 0.7 * u[0], 0.3 + 0.7 * u[1], 0.25 + 2.0 * u[2]};
     double tilt = tilts ? 0.75 * u[3] : 0.0, wi[3 * WIS], solved[WIS];
-    Heading at[WIS + 1] = {{0.05 + 0.9 * u[4], pi * u[5]}};
+    Heading at[WIS + 1] = {{0.05 + 0.9 * u[4], PI_DOUBLE * u[5]}};
     WalkEstimate walked[WIS];
-    for (int k = 1; k <= WIS; k++) at[k] = (Heading){0.05 + 0.18 * (k - 1 + u[5 + k]), pi * u[11] * k / WIS};
+    for (int k = 1; k <= WIS; k++)
+        at[k] = (Heading){0.05 + 0.18 * (k - 1 + u[5 + k]), PI_DOUBLE * u[11] * k / WIS};
     for (int k = 0; k < WIS; k++) {
         double r = sqrt(1.0 - at[k + 1].mu * at[k + 1].mu);
         wi[3 * k] = r * cos(at[k + 1].phi), wi[3 * k + 1] = r * sin(at[k + 1].phi),

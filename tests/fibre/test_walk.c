@@ -16,7 +16,7 @@
 #include "shading/fibre_medium.h"
 #include "walks.h"
 
-static const double degree = TEST_PI / 180.0;
+static const double degree = PI_DOUBLE / 180.0;
 static Judge all;
 
 /* ---- one flake ------------------------------------------------------------------------------------------
@@ -46,18 +46,18 @@ static Sphere sphere_make(const WalkMedium *m, const double wi[3]) {
 
 /* The direction at (u, v) of the unit square, and the solid angle per unit of its area. */
 static double sphere_at(const Sphere *sphere, double u, double v, double w[3]) {
-    double range = sphere->high - sphere->low, y = sphere->low + range * u, phi = 2.0 * TEST_PI * v;
+    double range = sphere->high - sphere->low, y = sphere->low + range * u, phi = 2.0 * PI_DOUBLE * v;
     double nu = fmin(fmax(sphere->s * sinh(y) - sphere->nu, -1.0), 1.0), r = (sqrt)(1.0 - nu * nu);
     for (int c = 0; c < 3; c++)
         w[c] = r * (cos)(phi)*sphere->e[0][c] + r * (sin)(phi)*sphere->e[1][c] + nu * sphere->e[2][c];
-    return sphere->s * cosh(y) * range * 2.0 * TEST_PI;
+    return sphere->s * cosh(y) * range * 2.0 * PI_DOUBLE;
 }
 
 static void sphere_place(const Sphere *sphere, const double w[3], double *u, double *v) {
     double at[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 3; c++) at[k] += w[c] * sphere->e[k][c];
-    double phi = atan2(at[1], at[0]) / (2.0 * TEST_PI);
+    double phi = atan2(at[1], at[0]) / (2.0 * PI_DOUBLE);
     *u = (asinh((at[2] + sphere->nu) / sphere->s) - sphere->low) / (sphere->high - sphere->low);
     *v = phi - (floor)(phi);
 }
@@ -101,7 +101,7 @@ static Dir to_dir(const double w[3]) { return dir((float)w[0], (float)w[1], (flo
 static void text_turn(const WalkMedium *m, const double wi[3], uint64_t number, double out[3]) {
     uint64_t stream = stream_start(6, number);
     double point[3], z = 2.0 * unit_double(stream_next(&stream)) - 1.0;
-    set_direction(point, z, 2.0 * TEST_PI * unit_double(stream_next(&stream)));
+    set_direction(point, z, 2.0 * PI_DOUBLE * unit_double(stream_next(&stream)));
     Dir d = flake_turn((float)m->s, to_dir(m->axis), to_dir(wi), to_dir(point));
     out[0] = (double)d.x, out[1] = (double)d.y, out[2] = (double)d.z;
 }
@@ -235,8 +235,8 @@ static void walks_of_one_flake_return_single_scattering(void **state) {
         for (int a = 0; a < CELLS; a++)
             for (int b = 0; b < CELLS; b++) {
                 double x = (a + 0.5) / CELLS, mu = x * x;
-                set_direction(wi, mu, 2.0 * TEST_PI * (b + 0.5) / CELLS);
-                sum += single(k, wo, wi) * mu * 2.0 * x * 2.0 * TEST_PI / ((double)CELLS * CELLS);
+                set_direction(wi, mu, 2.0 * PI_DOUBLE * (b + 0.5) / CELLS);
+                sum += single(k, wo, wi) * mu * 2.0 * x * 2.0 * PI_DOUBLE / ((double)CELLS * CELLS);
             }
         WalkEstimate once = walk_share(count.reflected_once, count.walks);
         judge(&all, slab_name(k), once.mean, sum, once.error);
@@ -315,14 +315,14 @@ static void f_of_walks_integrates_to_their_albedo(void **state) {
         WalkEstimate f[PLACES];
         for (int n = 0; n < PLACES; n++) {
             double x = (n / SPOKES + 0.5) / RINGS;
-            set_direction(wi + 3 * n, x * x, 2.0 * TEST_PI * (n % SPOKES) / SPOKES);
+            set_direction(wi + 3 * n, x * x, 2.0 * PI_DOUBLE * (n % SPOKES) / SPOKES);
         }
         WalkDesc desc = slab_of(k);
         desc.directions = PLACES, desc.wi = wi;
         WalkCount count = run(desc, slabs[k][4], slabs[k][5], 1e4, f);
         for (int n = 0; n < PLACES; n++) {
             double x = (n / SPOKES + 0.5) / RINGS;
-            double weight = 2.0 * x * x * x * 2.0 * TEST_PI / PLACES;
+            double weight = 2.0 * x * x * x * 2.0 * PI_DOUBLE / PLACES;
             sum += f[n].mean * weight;
             error += f[n].error * weight; /* at the most, since they share their walks */
         }

@@ -7,9 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "fibre/walk.h"
-
-#define TEST_PI 3.14159265358979323846
 
 /* WEFT_TEST_SHORT=1 (sanitizers) asks for a tenth of the walks, WEFT_TEST_LONG=1 for ten times as many. */
 static inline long long test_walks(double walks) {

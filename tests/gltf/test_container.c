@@ -1,5 +1,6 @@
 /* GLB and JSON containers, versions, extensions, URIs. */
 #include "reading.h"
+#include "scratch.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -150,7 +151,7 @@ static void base64_data_uri_is_decoded(void **state) {
 
 /* --- files beside the asset --- */
 
-static char folder[] = "/tmp/weft-gltf-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static void write_file(const char *name, const void *data, size_t size) {
     char path[256];
@@ -174,7 +175,7 @@ static Reading *read_referring(const char *reference) {
 static int make_folder(void **state) {
     (void)state;
     char path[256];
-    if (!mkdtemp(folder)) return -1;
+    if (!scratch_make(folder)) return -1;
     snprintf(path, sizeof path, "%s/a b", folder);
     if (mkdir(path, 0700)) return -1;
     snprintf(path, sizeof path, "%s/a b/sub", folder);
@@ -187,19 +188,7 @@ static int make_folder(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    static const char *const names[] = {"/outside.bin", "/a b/in side.bin", "/a b/sub/\xc3\xa9%.bin",
-                                        "/a b/asset.gltf"};
-    static const char *const folders[] = {"/a b/sub", "/a b", ""};
-    char path[256];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        snprintf(path, sizeof path, "%s%s", folder, names[i]);
-        unlink(path);
-    }
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        snprintf(path, sizeof path, "%s%s", folder, folders[i]);
-        rmdir(path);
-    }
-    return 0;
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 static void relative_uris_find_their_files(void **state) {

@@ -6,19 +6,18 @@
 
 #include "base/file.h"
 #include "reading.h"
+#include "scratch.h"
 
-static char folder[] = "/tmp/weft-rewrite-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return scratch_enter(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 static void write_bytes(const char *path, const void *bytes, size_t size) {

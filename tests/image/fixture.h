@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "weft/image.h"
 
 typedef struct Bytes {
@@ -117,18 +118,11 @@ static inline void assert_shape(const WeftImage *image, int width, int height, i
     assert_int_equal(image->type, type);
 }
 
-/* A new folder under $TMPDIR or /tmp for one test; folder_remove empties and removes it. */
-static inline void folder_make(char folder[256]) {
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, 256, "%s/weft-image-XXXXXX", root && *root ? root : "/tmp");
-    assert_non_null(mkdtemp(folder));
-}
-
-/* Writes to a file of the folder, reads that back and removes it. */
+/* Writes to a file of a new folder, reads that back and removes both. */
 static inline WeftImage write_and_read_as(const WeftImage *image, const char *suffix,
                                           const WeftImageWriting *how) {
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/image%s", folder, suffix);
     WeftError error = {0};
     if (weft_image_write_as(path, image, how, &error) != WEFT_OK) fail_msg("%s", error.text);

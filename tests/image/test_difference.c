@@ -1,5 +1,6 @@
 /* Metrics against the papers' formulas, written out here in double precision and without separating a filter.
  */
+#include "base/pi.h"
 #include "fixture.h"
 
 #include <float.h>
@@ -8,8 +9,6 @@
 #include "image/power.h"
 #include "weft/diff.h"
 #include "weft/sheet.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* Pictures. */
 
@@ -168,14 +167,15 @@ static void hunt(const double rgb[3], double lab[3]) {
 static void see(const Plane *plane, int x, int y, double ppd, double seen[5]) {
     static const double a[3][2] = {{1.0, 0.0}, {1.0, 0.0}, {34.1, 13.5}},
                         b[3][2] = {{0.0047, 1e-5}, {0.0053, 1e-5}, {0.04, 0.025}};
-    const int radius = (int)ceil(3.0 * sqrt(0.04 / (2.0 * pi * pi)) * ppd);
+    const int radius = (int)ceil(3.0 * sqrt(0.04 / (2.0 * PI_DOUBLE * PI_DOUBLE)) * ppd);
     double sum[3] = {0}, weights[3] = {0}, rgb[3];
     for (int j = -radius; j <= radius; j++)
         for (int i = -radius; i <= radius; i++)
             for (int c = 0; c < 3; c++) {
                 const double t2 = (i * i + j * j) / (ppd * ppd);
                 double w = 0.0;
-                for (int k = 0; k < 2; k++) w += a[c][k] * sqrt(pi / b[c][k]) * exp(-pi * pi * t2 / b[c][k]);
+                for (int k = 0; k < 2; k++)
+                    w += a[c][k] * sqrt(PI_DOUBLE / b[c][k]) * exp(-PI_DOUBLE * PI_DOUBLE * t2 / b[c][k]);
                 weights[c] += w;
                 sum[c] += w * pixel_at(plane, x + i, y + j)[c];
             }

@@ -132,8 +132,8 @@ static void pixels_that_a_format_cannot_hold_are_refused(void **state) {
                  {&bytes, ".hdr", WEFT_MESSAGE_DESC},
                  {&grey, ".hdr", WEFT_MESSAGE_DESC},
                  {&none, ".png", WEFT_MESSAGE_DESC}};
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         snprintf(path, sizeof path, "%s/image%s", folder, cases[i].suffix);
         WeftError error = {0};
@@ -160,8 +160,8 @@ static int entry_count(const char *folder) {
 static void unwritable_path_is_an_error_without_temporary_files(void **state) {
     (void)state;
     WeftImage image = make_image(600, 600, 3, WEFT_PIXEL_F32), bytes = make_image(600, 600, 3, WEFT_PIXEL_U8);
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     static const char *const suffixes[] = {".exr", ".hdr", ".png"};
     for (int i = 0; i < 3; i++) {
         const WeftImage *what = i == 2 ? &bytes : &image;
@@ -211,8 +211,8 @@ static void write_to_a_full_disk_is_an_error(void **state) {
 static void failed_write_leaves_the_old_file(void **state) {
     (void)state;
     WeftImage bytes = make_image(4, 4, 3, WEFT_PIXEL_U8), grey = make_image(4, 4, 1, WEFT_PIXEL_F32), back;
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/image.hdr", folder);
     FILE *old = fopen(path, "wb");
     assert_non_null(old);

@@ -192,8 +192,8 @@ static void npy_writes_the_bytes_of_the_specification(void **state) {
         WeftImage image = make_image(k ? 1 : 2, 1, k ? 2 : 1, WEFT_PIXEL_F32);
         ((float *)image.pixels)[0] = 1.0f;
         ((float *)image.pixels)[1] = -2.5f;
-        char folder[256], path[300];
-        folder_make(folder);
+        char folder[SCRATCH_SIZE], path[300];
+        assert_true(scratch_make(folder));
         snprintf(path, sizeof path, "%s/image.npy", folder);
         assert_int_equal(weft_image_write(path, &image, NULL), WEFT_OK);
         unsigned char got[200];

@@ -10,10 +10,9 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "weft/weft.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum { SIDE = 16 };
 
@@ -76,7 +75,7 @@ static void assert_fault(const WeftAudit *audit, WeftTableFault fault, const cha
 /* Conty Estevez and Kulla 2017, equation 2, and the denominator of Neubelt and Pettineo 2013, as the LUT
  * shader of the glTF sample renderer has it: cut off at 1. */
 static double d_charlie(double alpha, double cos_h) {
-    return (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * pi);
+    return (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * PI_DOUBLE);
 }
 static double v_neubelt(double o, double i) { return 1.0 / (4.0 * (o + i - o * i)); }
 
@@ -98,7 +97,7 @@ static Draw random_draw(int k, uint32_t seed) {
 
 /* One term of an estimate of E: what half vector (s, c) at azimuth 2 pi u gives, for d = D(h). */
 static double term(double o, double s, double c, double u, double d, double most) {
-    const double dot = (sqrt)(1.0 - o * o) * s * (cos)(2.0 * pi * u) + o * c, i = 2.0 * dot * c - o;
+    const double dot = (sqrt)(1.0 - o * o) * s * (cos)(2.0 * PI_DOUBLE * u) + o * c, i = 2.0 * dot * c - o;
     return i > 0.0 && dot > 0.0 ? fmin(v_neubelt(o, i), most) * d * i * dot : 0.0;
 }
 
@@ -112,7 +111,7 @@ static double biased(double o, double r, int n) {
         const double s = (pow)(draw.v, alpha / (2.0 * alpha + 1.0)), c = (sqrt)(1.0 - s * s);
         sum += term(o, s, c, draw.u, d_charlie(r, c), 1.0);
     }
-    return 8.0 * pi * sum / n;
+    return 8.0 * PI_DOUBLE * sum / n;
 }
 
 /* E of charlie-neubelt from uniform half vectors, other ones for each texel. */
@@ -123,7 +122,7 @@ static double noisy(double o, double r, int n, uint32_t seed) {
         const double c = draw.v, s = (sqrt)(1.0 - c * c);
         sum += term(o, s, c, draw.u, d_charlie(r * r, c), HUGE_VAL);
     }
-    return 8.0 * pi * sum / n;
+    return 8.0 * PI_DOUBLE * sum / n;
 }
 
 /* A table of charlie-neubelt by uniform half vectors, the same many for all texels: nearly E. Rows may run
@@ -135,7 +134,7 @@ static double nearly(double o, double r, int n) {
         const double c = 1.0 - draw.v, s = (sqrt)(1.0 - c * c);
         sum += term(o, s, c, draw.u, d_charlie(r * r, c), HUGE_VAL);
     }
-    return 8.0 * pi * sum / n;
+    return 8.0 * PI_DOUBLE * sum / n;
 }
 
 static double mid(int k) { return (k + 0.5) / SIDE; }
@@ -280,7 +279,7 @@ static void table_shifted_by_half_a_texel_is_named(void **state) {
 static void table_scaled_by_a_factor_is_named(void **state) {
     (void)state;
     WeftImage table = right("charlie-khronos", "three");
-    for (size_t n = 0; n < count_of(&table); n++) ((float *)table.pixels)[n] /= (float)(2.0 * pi);
+    for (size_t n = 0; n < count_of(&table); n++) ((float *)table.pixels)[n] /= (float)(2.0 * PI_DOUBLE);
     WeftAudit audit = audited(&table, "charlie-khronos", NULL, 0.0);
     assert_fault(&audit, WEFT_TABLE_SCALED, "which is 2 pi");
     assert_string_equal(weft_table_form_name(weft_table_form_find(&audit.form)), "three");

@@ -10,10 +10,9 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "shading/registry.h"
 #include "weft/weft.h"
-
-static const double pi = 3.14159265358979323846;
 
 static void assert_near(double got, double expected, double tolerance) {
     if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);
@@ -145,22 +144,22 @@ static double integral(double cos_o, double alpha,
     const double sin_o = (sqrt)(1.0 - cos_o * cos_o);
     double sum = 0.0;
     for (int j = 0; j < RINGS; j++) {
-        const double t = (j + 0.5) / RINGS, theta = 0.5 * pi * t * t, slope = pi * t;
+        const double t = (j + 0.5) / RINGS, theta = 0.5 * PI_DOUBLE * t * t, slope = PI_DOUBLE * t;
         const double s = (sin)(theta), c = (cos)(theta);
         for (int k = 0; k < TURNS; k++) {
-            const double phi = pi * (k + 0.5) / TURNS, d = sin_o * s * (cos)(phi) + cos_o * c;
+            const double phi = PI_DOUBLE * (k + 0.5) / TURNS, d = sin_o * s * (cos)(phi) + cos_o * c;
             const double cos_i = 2.0 * d * c - cos_o;
             if (d <= 0.0 || cos_i <= 0.0) continue;
             sum += f(alpha, cos_o, cos_i, c, d) * cos_i * 4.0 * d * s * slope;
         }
     }
-    return sum * 2.0 * pi / TURNS / RINGS;
+    return sum * 2.0 * PI_DOUBLE / TURNS / RINGS;
 }
 
 /* Conty Estevez and Kulla 2017, equation 2, over the denominator of Neubelt and Pettineo 2013. */
 static double f_charlie(double alpha, double cos_o, double cos_i, double cos_h, double d) {
     (void)d;
-    return (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * pi) /
+    return (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * PI_DOUBLE) /
            (4.0 * (cos_o + cos_i - cos_o * cos_i));
 }
 
@@ -170,7 +169,7 @@ static double lambda_ggx(double alpha, double z) {
 }
 static double f_ggx(double alpha, double cos_o, double cos_i, double cos_h) {
     const double t = cos_h * cos_h * (alpha * alpha - 1.0) + 1.0;
-    return alpha * alpha / (pi * t * t) / (1.0 + lambda_ggx(alpha, cos_o) + lambda_ggx(alpha, cos_i)) /
+    return alpha * alpha / (PI_DOUBLE * t * t) / (1.0 + lambda_ggx(alpha, cos_o) + lambda_ggx(alpha, cos_i)) /
            (4.0 * cos_o * cos_i);
 }
 static double f_scale(double alpha, double cos_o, double cos_i, double cos_h, double d) {

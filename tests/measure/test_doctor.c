@@ -8,6 +8,7 @@
 #include "gltf/reading.h"
 #include "image/codec.h"
 #include "measure/doctor.h"
+#include "scratch.h"
 #include "shading/choice.h"
 #include "weft/doctor.h"
 #include "weft/reflection.h"
@@ -321,18 +322,16 @@ static void every_finding_has_a_case(void **state) {
     assert_null(weft_severity_name((WeftSeverity)-1));
 }
 
-static char folder[] = "/tmp/weft-doctor-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return scratch_enter(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 static json_t *load(const char *path) {

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "weft/weft.h"
 
 enum { PAIRS = 12000, FEW = 4000 };
@@ -75,7 +76,7 @@ static WeftData *synthesised(const WeftLobe *lobe, double noise) {
     for (int k = 0; k < PAIRS; k++) {
         weft_lobe_eval(lobe, wo[k], wi[k], f[k]);
         for (int c = 0; c < 3; c++) {
-            double sum = (double)f[k][c] + (double)base_color[c] / 3.14159265358979;
+            double sum = (double)f[k][c] + (double)base_color[c] / PI_DOUBLE;
             f[k][c] = (float)fmax(sum * (1.0 + noise * normal()), 0.0);
         }
     }
@@ -94,7 +95,7 @@ static double apart(const WeftLobe *a, const WeftLobe *b) {
         weft_lobe_eval(a, wo[k], wi[k], x);
         weft_lobe_eval(b, wo[k], wi[k], y);
         for (int c = 0; c < 3; c++) {
-            sum += ((double)x[c] + (double)base_color[c] / 3.14159265358979) * (double)wi[k][2];
+            sum += ((double)x[c] + (double)base_color[c] / PI_DOUBLE) * (double)wi[k][2];
             off += fabs((double)x[c] - (double)y[c]) * (double)wi[k][2];
         }
     }
@@ -302,7 +303,7 @@ static void material_of_a_fit_reflects_as_the_fit(void **state) {
             weft_reflection_eval(of, WEFT_PART_ALL, wo[k], 1, (const float(*)[3])in, y);
             if (!(wi[k][2] > 0.0f)) continue;
             for (int c = 0; c < 3; c++) {
-                double both = (double)x[c] + (double)base_color[c] / 3.14159265358979;
+                double both = (double)x[c] + (double)base_color[c] / PI_DOUBLE;
                 off += fabs(both - (double)y[0][c]);
                 sum += both;
             }
@@ -415,7 +416,7 @@ static void table_of_a_brdf_is_read(void **state) {
     seed = 3;
     for (int k = 0; k < LINES; k++) {
         double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()},
-               r = 3.14159265 / 180.0;
+               r = PI_DOUBLE / 180.0;
         float o[3] = {(float)(sin(t[0] * r) * cos(t[1] * r)), (float)(sin(t[0] * r) * sin(t[1] * r)),
                       (float)cos(t[0] * r)};
         float i[3] = {(float)(sin(t[2] * r) * cos(t[3] * r)), (float)(sin(t[2] * r) * sin(t[3] * r)),

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "measure/half_floor.h"
 #include "measure/half_precision.h"
 #include "measure/sweep.h"
@@ -73,8 +74,8 @@ static void half_precision_lambert_is_one_over_pi(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
     float got = ask("lambert", NULL, pair(0.3, 0.4, 1.0));
-    assert_true(got == h(1.0f / h(3.14159265f)));
-    assert_true(got != 1.0f / 3.14159265f);
+    assert_true(got == h(1.0f / h(PI_FLOAT)));
+    assert_true(got != 1.0f / PI_FLOAT);
 }
 
 /* (1 - d)^5, by squares, as terms/f_schlick.h has it; d = |wo + wi| / 2. */
@@ -94,7 +95,7 @@ static void burley_sheen_is_rounded_at_each_step(void **state) {
 static void charlie_neubelt_is_rounded_at_each_step(void **state) {
     (void)state;
     SKIP_WITHOUT_HALF()
-    const float alpha = 0.3f, a = h(alpha), two_pi = h(2.0f * h(3.14159265f));
+    const float alpha = 0.3f, a = h(alpha), two_pi = h(2.0f * h(PI_FLOAT));
     for (int k = 0; k < ANGLES; k++) {
         Pair p = pair(angles[k][0], angles[k][1], angles[k][2]), q = rounded(p);
         float v[3];

@@ -8,6 +8,7 @@
 
 #include "measure/ltc_cache.h"
 #include "measure/ltc_fit.h"
+#include "scratch.h"
 
 static WeftLtc *make_of(const WeftLobe *lobe, WeftLtcDesc desc) {
     WeftLtc *ltc;
@@ -299,14 +300,14 @@ static double integral(Ltc m, Dir o, double *above) {
     double phi = atan2((double)peak.y, (double)peak.x), sum = 0.0, c = (cos)(theta), s = (sin)(theta);
     *above = 0.0;
     for (int j = 0; j < RINGS; j++) {
-        double x = (j + 0.5) / RINGS, t = TEST_PI * x * x * x, width = 3.0 * TEST_PI * x * x / RINGS;
+        double x = (j + 0.5) / RINGS, t = PI_DOUBLE * x * x * x, width = 3.0 * PI_DOUBLE * x * x / RINGS;
         for (int k = 0; k < AROUND; k++) {
-            double p = 2.0 * TEST_PI * (k + 0.5) / AROUND;
+            double p = 2.0 * PI_DOUBLE * (k + 0.5) / AROUND;
             double a = (sin)(t) * (cos)(p), b = (sin)(t) * (sin)(p), d = (cos)(t);
             double along = c * a + s * d, up = c * d - s * a;
             Dir i = dir((float)(along * (cos)(phi)-b * (sin)(phi)),
                         (float)(along * (sin)(phi) + b * (cos)(phi)), (float)up);
-            double part = (double)ltc_pdf(m, o, i) * (sin)(t)*width * 2.0 * TEST_PI / AROUND;
+            double part = (double)ltc_pdf(m, o, i) * (sin)(t)*width * 2.0 * PI_DOUBLE / AROUND;
             sum += part;
             if (i.z > 0.0f) *above += part;
         }
@@ -438,19 +439,17 @@ static void stopped_fit_leaves_no_table(void **state) {
 
 /* The cache. */
 
-static char folder[] = "/tmp/weft-test-ltc-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin_cache(void **state) {
     (void)state;
-    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+    return scratch_cache(folder) ? 0 : -1;
 }
 
 static int end_cache(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
     unsetenv("XDG_CACHE_HOME");
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 static void count_ignored(void *user, WeftMessage message, const char *text) {

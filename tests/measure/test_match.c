@@ -13,6 +13,8 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
+#include "scratch.h"
 #include "weft/weft.h"
 
 static WeftReflection *of_lobe(const WeftLobe *lobe) {
@@ -335,7 +337,7 @@ static void sphere_of_a_reflection_is_a_picture(void **state) {
     const float *pixels = image.pixels, *middle = pixels + (size_t)4 * (16 * 32 + 16);
     assert_true(!(pixels[3] > 0.0f) && middle[3] > 0.999f);
     /* cos / pi of 2 from 45 degrees and of 0.6 from in front; the third light is behind */
-    assert_true(fabsf(middle[0] - (2.0f * 0.7071f + 0.6f) / 3.14159265f) < 0.04f);
+    assert_true(fabsf(middle[0] - (2.0f * 0.7071f + 0.6f) / PI_FLOAT) < 0.04f);
     weft_image_free(&image);
     assert_int_equal(weft_reflection_sphere(of, 3, &image, &error), WEFT_USAGE);
     weft_reflection_free(of);
@@ -388,8 +390,8 @@ static int profile_named(const char *id) {
 static void match_of_a_texture_does_not_depend_on_its_channels(void **state) {
     (void)state;
     WeftAssetMatch found[4];
-    char folder[] = "match-XXXXXX", picture[64], asset[64], out[64], text[sizeof textured + 16];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], picture[64], asset[64], out[64], text[sizeof textured + 16];
+    assert_true(scratch_make(folder));
     snprintf(picture, sizeof picture, "%s/p.png", folder);
     snprintf(asset, sizeof asset, "%s/a.gltf", folder);
     snprintf(out, sizeof out, "%s/b.gltf", folder);
@@ -413,10 +415,7 @@ static void match_of_a_texture_does_not_depend_on_its_channels(void **state) {
                                   found[0].matched.inputs[n].value[c]) <= 1e-6f);
         assert_true(fabs(found[k].found.matched - found[0].found.matched) <= 1e-9);
     }
-    unlink(picture);
-    unlink(asset);
-    unlink(out);
-    rmdir(folder);
+    assert_true(scratch_remove(folder));
 }
 
 /* An asset of a velvet, a wool and a wall, one letter each. */

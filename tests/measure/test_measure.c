@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "fakes.h"
 
 #include "measure/chi_square.h"
@@ -15,8 +16,6 @@
 #include "measure/grid.h"
 #include "measure/sweep.h"
 #include "measure/weight.h"
-
-static const double pi = 3.14159265358979323846;
 
 static void assert_near(double got, double expected, double tolerance) {
     if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);
@@ -234,8 +233,8 @@ static void grid_covers_the_hemisphere_once(void **state) {
                 if (bin != row / 10 * 20 + (int)k / 10) elsewhere += ring.area[k];
             }
         }
-        assert_near(area, 2.0 * pi, 1e-4);
-        assert_near(projected, pi, 1e-4);
+        assert_near(area, 2.0 * PI_DOUBLE, 1e-4);
+        assert_near(projected, PI_DOUBLE, 1e-4);
         assert_near(elsewhere, 0.0, 1e-6); /* rounding, next to the mirror direction */
     }
 }

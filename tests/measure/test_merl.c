@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "measure/merl.h"
 #include "weft/weft.h"
 
@@ -21,7 +22,6 @@
 #undef sqrt
 
 enum { SIZE = 12 + 3 * MERL_BINS * 8 };
-static const double pi = 3.14159265358979323846;
 static unsigned char *file;
 
 static void put_int(int at, unsigned value) {
@@ -37,8 +37,8 @@ static void put_double(size_t at, double value) {
 /* The directions of a bin's middle: wo and wi from half vector (theta_h, 0) and difference (theta_d, phi_d).
  */
 static void directions(int h, int d, int p, float wo[3], float wi[3]) {
-    double root = (h + 0.5) / MERL_THETA_H, th = root * root * pi / 2, td = (d + 0.5) / MERL_THETA_D * pi / 2,
-           pd = (p + 0.5) / MERL_PHI_D * pi;
+    double root = (h + 0.5) / MERL_THETA_H, th = root * root * PI_DOUBLE / 2,
+           td = (d + 0.5) / MERL_THETA_D * PI_DOUBLE / 2, pd = (p + 0.5) / MERL_PHI_D * PI_DOUBLE;
     double x = sin(td) * cos(pd), y = sin(td) * sin(pd), z = cos(td);
     double i[3] = {cos(th) * x + sin(th) * z, y, cos(th) * z - sin(th) * x};
     double half[3] = {sin(th), 0.0, cos(th)}, twice = 2.0 * z;
@@ -88,7 +88,7 @@ static void lobe_written_as_merl_reads_as_it_was(void **state) {
             seed = seed * 1664525u + 1013904223u;
             double z = 0.1 + 0.9 * (seed >> 8) * 0x1p-24, r = sqrt(1.0 - z * z);
             seed = seed * 1664525u + 1013904223u;
-            double phi = 2.0 * pi * (seed >> 8) * 0x1p-24;
+            double phi = 2.0 * PI_DOUBLE * (seed >> 8) * 0x1p-24;
             w[d][0] = (float)(r * cos(phi)), w[d][1] = (float)(r * sin(phi)), w[d][2] = (float)z;
         }
         float f[3], g[3], back[3];

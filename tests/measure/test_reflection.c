@@ -6,10 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
-#include <time.h>
 
 #include <cmocka.h>
 
+#include "base/steady_clock.h"
 #include "scene/material.h"
 #include "shading/choice.h"
 #include "shading/material_stack.h"
@@ -66,12 +66,6 @@ static void spread(void) {
     }
 }
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void parts_of_a_reflection_sum_to_the_whole(void **state) {
     (void)state;
     const float wo[3] = {0.6f, 0.0f, 0.8f};
@@ -81,9 +75,9 @@ static void parts_of_a_reflection_sum_to_the_whole(void **state) {
         m.choices[CHOICE_layer] = layer;
         WeftReflection *r = made(&m);
         float all_e[3], sum_e[3] = {0.0f};
-        double begin = seconds();
+        double begin = clock_now();
         weft_reflection_eval(r, WEFT_PART_ALL, wo, N, (const float(*)[3])wi, f);
-        double took = seconds() - begin;
+        double took = clock_now() - begin;
         memset(sum, 0, sizeof sum);
         for (int p = WEFT_PART_DIFFUSE; p <= WEFT_PART_DUST; p++) {
             float e[3];
@@ -93,12 +87,12 @@ static void parts_of_a_reflection_sum_to_the_whole(void **state) {
             for (int k = 0; k < N; k++)
                 for (int c = 0; c < 3; c++) sum[k][c] += part[k][c];
         }
-        begin = seconds();
+        begin = clock_now();
         for (int k = 0; k < 32; k++)
             weft_reflection_albedo(r, WEFT_PART_ALL, ((float)k + 0.5f) / 32.0f, all_e);
         if (!layer)
             print_message("10000 directions: %.1f ms; 32 albedos: %.1f ms\n", 1e3 * took,
-                          1e3 * (seconds() - begin));
+                          1e3 * (clock_now() - begin));
         weft_reflection_albedo(r, WEFT_PART_ALL, 0.8f, all_e);
         double furnace = 0.0; /* the same from directions that know no lobe */
         for (int k = 0; k < N; k++) {

@@ -2,9 +2,11 @@
  * refused. */
 #include <unistd.h>
 
+#include "base/pi.h"
 #include "plot/cloth.h"
+#include "scratch.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
+static const double degree = RADIANS;
 
 /* Black is drawn as nothing: what is drawn is the lobe. */
 static void figure_of_a_black_lobe_is_empty(void **state) {
@@ -190,7 +192,7 @@ static void maps_hold_values_of_the_lobe(void **state) {
     desc.logarithmic = 1;
     data = data_of(&desc);
     panel = &data.panels[1];
-    assert_near((double)panel->values[panel->columns * 30 + 40], 0.5 / 3.14159265, 1e-4);
+    assert_near((double)panel->values[panel->columns * 30 + 40], 0.5 / PI_DOUBLE, 1e-4);
     assert_int_equal(panel->channels, 1);
     weft_plot_data_free(&data);
 
@@ -201,7 +203,7 @@ static void maps_hold_values_of_the_lobe(void **state) {
     panel = &data.panels[1];
     for (int row = 0; row + 1 < panel->rows; row++)
         assert_near((double)panel->values[row * panel->columns + 7],
-                    0.5 / 3.14159265 * cos(90.0 * degree * row / (panel->rows - 1)), 1e-3);
+                    0.5 / PI_DOUBLE * cos(90.0 * degree * row / (panel->rows - 1)), 1e-3);
     weft_plot_data_free(&data);
 
     desc.kind = WEFT_PLOT_SPHERE; /* where the light falls straight, half Lambert is half */
@@ -241,7 +243,7 @@ static void plotted_samples_follow_their_pdf(void **state) {
 
 /* Files. */
 
-static char folder[] = "/tmp/weft-plot-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static char *file_bytes(const char *path, size_t *size) {
     FILE *stream = fopen(path, "rb");
@@ -435,12 +437,12 @@ static void figure_of_any_size_is_drawn(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    return rmdir(folder);
+    return scratch_remove_empty(folder) ? 0 : -1;
 }
 
 int main(void) {

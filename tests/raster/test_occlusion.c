@@ -10,9 +10,10 @@
 #include "trace/scenes.h"
 
 #include "raster/occlusion.h"
+#include "scratch.h"
 
 enum { RAYS = 256, LIGHTS = 4, ALL = 8 * OCCLUSION_VALUES };
-static char folder[] = "/tmp/weft-test-occlusion-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static void count(void *user, WeftMessage message, const char *text) {
     (void)message, (void)text;
@@ -105,14 +106,12 @@ static void occlusion_of_transparent_scenes_is_not_cached(void **state) {
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+    return scratch_cache(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 int main(void) {

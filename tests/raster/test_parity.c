@@ -10,6 +10,7 @@
 
 #include "base/thread.h"
 #include "raster/compute.h"
+#include "scratch.h"
 #include "shading/choice.h"
 #include "shading/dust.h"
 #include "shading/engine_tables.h"
@@ -55,7 +56,7 @@ static Dir any_direction(Random *random) {
     double z = 1.0 - (double)random_unit(random), kind = (double)random_unit(random);
     if (kind < 1.0 / 8.0) z = (exp2)(-13.0 * z);
     if (kind > 15.0 / 16.0) z = 1.0 - 1e-4 * z;
-    double s = (sqrt)(1.0 - z * z), phi = 2.0 * TEST_PI * (double)random_unit(random);
+    double s = (sqrt)(1.0 - z * z), phi = 2.0 * PI_DOUBLE * (double)random_unit(random);
     return dir((float)(s * (cos)(phi)), (float)(s * (sin)(phi)), (float)z);
 }
 
@@ -487,7 +488,7 @@ static float *fill_scalar(Random *random, const float range[4], float *at) {
 }
 static float *fill_angle(Random *random, const float degrees[4], float *at) {
     at = fill_scalar(random, degrees, at);
-    at[-1] *= (float)TEST_PI / 180.0f;
+    at[-1] *= PI_FLOAT / 180.0f;
     return at;
 }
 static float *fill_color(Random *random, const float range[4], float *at) {
@@ -500,7 +501,7 @@ static float *fill_normal(Random *random, const float range[4], float *at) {
     return at + 3;
 }
 static float *fill_direction(Random *random, const float range[4], float *at) {
-    Dir d = direction(0.5 * TEST_PI, 2.0 * TEST_PI * (double)random_unit(random));
+    Dir d = direction(0.5 * PI_DOUBLE, 2.0 * PI_DOUBLE * (double)random_unit(random));
     at[0] = d.x, at[1] = d.y, at[2] = 0.0f;
     return at + 3;
 }
@@ -746,8 +747,8 @@ static void nap_tables_in_glsl_agree_with_c(void **state) {
 static void parity_finds_a_wrong_text(void **state) {
     (void)state;
     need_gpu();
-    char folder[] = "/tmp/weft-test-parity-XXXXXX", path[128], command[128];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[128];
+    assert_true(scratch_make(folder));
     for (int part = 0; part < 2; part++) {
         static const char *const parts[] = {"shading", "shading/terms"};
         snprintf(path, sizeof path, "%s/%s", folder, parts[part]);
@@ -771,8 +772,7 @@ static void parity_finds_a_wrong_text(void **state) {
         assert_true(tally.beyond > samples / 2);
         assert_false(holds(&tally, MIXED_SHARE));
     }
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
 }
 
 static int begin(void **state) {

@@ -16,6 +16,7 @@
 
 #include "raster/shader.h"
 #include "scene/backdrop.h"
+#include "scratch.h"
 #include "shading/choice.h"
 
 enum { SIDE = 96 };
@@ -327,8 +328,8 @@ static void shaders_compile_as_their_version(void **state) {
         print_message("glslangValidator is not installed\n");
         skip();
     }
-    char folder[] = "/tmp/weft-test-raster-XXXXXX", command[256];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], command[256];
+    assert_true(scratch_make(folder));
     static const ChoiceId kinds[] = {CHOICE_workflow, CHOICE_profile, CHOICE_sheen_lobe};
     bool all = getenv("WEFT_TEST_LONG") != NULL;
     int number = 0;
@@ -348,8 +349,7 @@ static void shaders_compile_as_their_version(void **state) {
         "'^$' log | head -5; }; done; exit $s",
         folder);
     int status = system(command);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
     fits_destroy(&fits);
     assert_int_equal(status, 0);
 }

@@ -15,21 +15,20 @@
 
 #include "raster/gl.h"
 #include "raster/shader_watch.h"
+#include "scratch.h"
 #include "weft/weft.h"
 
-static char base[] = "/tmp/weft-test-reload-XXXXXX";
+static char base[SCRATCH_SIZE];
 static char folder[64], lobe_path[128]; /* folder is not there at first */
 
 static int begin(void **state) {
-    if (!mkdtemp(base)) return -1;
+    if (!scratch_make(base)) return -1;
     return gl_begin(state);
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return scratch_remove(base) ? 0 : -1;
 }
 
 static void make_folder(const char *below) {

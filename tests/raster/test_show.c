@@ -12,6 +12,7 @@
 
 #include "raster/context.h"
 #include "raster/made.h"
+#include "scratch.h"
 #include "trace/scenes.h"
 
 enum { WIDTH = 100, HEIGHT = 70, EDGE = 8 };
@@ -530,8 +531,8 @@ static void write_text(const char *path, const char *text) {
 static void changed_show_text_is_compiled_and_broken_text_ignored(void **state) {
     (void)state;
     need_egl();
-    char folder[] = "/tmp/weft-test-show-XXXXXX", path[96], command[128];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[96], command[128];
+    assert_true(scratch_make(folder));
     snprintf(command, sizeof command, "mkdir -p %s/raster/glsl", folder);
     assert_int_equal(system(command), 0);
     snprintf(path, sizeof path, "%s/raster/glsl/display.glsl", folder);
@@ -565,8 +566,7 @@ static void changed_show_text_is_compiled_and_broken_text_ignored(void **state) 
     weft_raster_free(raster);
     weft_scene_free(scene);
     close_window(&w);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
 }
 
 int main(void) {

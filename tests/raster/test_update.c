@@ -11,6 +11,7 @@
 
 #include "raster/gl.h"
 #include "raster/made.h"
+#include "scratch.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
 #include "weft/material.h"
@@ -342,18 +343,16 @@ static void updated_scene_draws_as_a_new_one(void **state) {
     weft_scene_free(scene);
 }
 
-static char cache[] = "/tmp/weft-test-update-XXXXXX";
+static char cache[SCRATCH_SIZE];
 
 static int begin(void **state) {
-    if (!mkdtemp(cache) || setenv("XDG_CACHE_HOME", cache, 1) != 0) return -1;
+    if (!scratch_cache(cache)) return -1;
     return gl_begin(state);
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", cache);
-    return system(command);
+    return scratch_remove(cache) ? 0 : -1;
 }
 
 int main(void) {

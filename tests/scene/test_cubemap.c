@@ -14,14 +14,15 @@
 
 #include "scene/cubemap.h"
 #include "scene/env_split.h"
+#include "scratch.h"
 
 enum { SIDE = 32 };
 
-static char folder[] = "/tmp/weft-test-cubemap-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(folder) ? 0 : -1;
 }
 
 static void clear(void) {
@@ -33,7 +34,7 @@ static void clear(void) {
 static int end(void **state) {
     (void)state;
     clear();
-    return rmdir(folder);
+    return scratch_remove_empty(folder) ? 0 : -1;
 }
 
 static const char *name_of(const char *name) {

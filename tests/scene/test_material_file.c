@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "scene/material_file.h"
+#include "scratch.h"
 #include "weft/weft.h"
 
 static int warnings;
@@ -280,7 +281,7 @@ static void failed_material_file_changes_nothing(void **state) {
     weft_scene_free(scene);
 }
 
-static char folder[] = "/tmp/weft-material-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static void write_text(const char *path, const char *text) {
     FILE *stream = fopen(path, "w");
@@ -293,7 +294,7 @@ static void write_text(const char *path, const char *text) {
 static void textures_are_found_beside_the_material_file(void **state) {
     (void)state;
     char picture[64], json[64];
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(folder));
     snprintf(picture, sizeof picture, "%s/orm.png", folder);
     snprintf(json, sizeof json, "%s/mine.json", folder);
     WeftImage image;

@@ -11,20 +11,19 @@
 #include <cmocka.h>
 
 #include "scene/scene.h"
+#include "scratch.h"
 #include "weft/weft.h"
 
-static char folder[] = "/tmp/weft-test-material-save-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 static WeftScene *load(const char *name) {

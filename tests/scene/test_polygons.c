@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "scene/polygons.h"
 #include "shading/angles.h"
 
@@ -72,13 +73,13 @@ static void emissive_quad_is_one_polygon(void **state) {
     assert_float_equal(l->radiance[0], 30.0f, 1e-4f);
     assert_float_equal(l->radiance[2], 10.0f, 1e-4f);
     float luminance = 0.2126f * 30.0f + 0.7152f * 20.0f + 0.0722f * 10.0f;
-    assert_float_equal(l->power, 3.14159265f * 2.0f * luminance, 1e-3f);
+    assert_float_equal(l->power, PI_FLOAT * 2.0f * luminance, 1e-3f);
     assert_false(l->two_sided);
     light_polygons_free(&lights);
     stage.material.double_sided = true;
     assert_true(light_polygons_find(&lights, &stage.scene, 16));
     assert_true(lights.items[0].two_sided);
-    assert_float_equal(lights.items[0].power, 2.0f * 3.14159265f * 2.0f * luminance, 1e-3f);
+    assert_float_equal(lights.items[0].power, 2.0f * PI_FLOAT * 2.0f * luminance, 1e-3f);
     light_polygons_free(&lights);
 }
 

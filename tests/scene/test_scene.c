@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "weft/weft.h"
@@ -177,8 +178,7 @@ static void cameras_are_found_by_name_and_number(void **state) {
     assert_true(fabsf(camera.forward.z + 1.0f) < 1e-6f && fabsf(camera.eye.y - 2.0f) < 1e-6f);
     View view = view_of(&camera, 2.0f);
     CameraRay ray = view_ray(&view, 1.0f, 0.0f);
-    assert_true(fabsf(ray.direction.x / -ray.direction.z - 2.0f * tanf(20.0f * 3.14159265f / 180.0f)) <
-                1e-5f);
+    assert_true(fabsf(ray.direction.x / -ray.direction.z - 2.0f * tanf(20.0f * PI_FLOAT / 180.0f)) < 1e-5f);
     assert_int_equal(camera_find(scene, "0,5,0;0,0,0;40", 1.0f, &camera, &error),
                      WEFT_OK); /* straight down */
     assert_true(fabsf(vec3_dot(camera.right, camera.forward)) < 1e-6f &&

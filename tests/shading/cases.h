@@ -16,10 +16,9 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "shading/material_stack.h"
-
-#define TEST_PI 3.14159265358979323846
 
 /* WEFT_TEST_LONG=1 asks for finer grids and more samples, WEFT_TEST_SHORT=1 (sanitizers) for fewer. */
 static inline bool test_asked(const char *variable) {
@@ -60,7 +59,7 @@ static inline Dir direction_cos(double cos_theta, double phi) { return direction
 /* Any direction of the upper hemisphere. */
 static inline Dir random_direction(Random *random) {
     double z = 1.0 - (double)random_unit(random);
-    return direction_cos(z, 2.0 * TEST_PI * (double)random_unit(random));
+    return direction_cos(z, 2.0 * PI_DOUBLE * (double)random_unit(random));
 }
 
 /* Parameter spread: the default; each parameter alone at both ends of its plausible and of its hard range and
@@ -157,21 +156,21 @@ static inline double unstretch(double m) {
 
 /* The direction at (s, t) of the square, and the solid angle per unit of its area. */
 static inline Dir grid_direction(Grid grid, double s, double t, double *solid_angle) {
-    double range = s < 0.0 ? grid.theta : TEST_PI / 2.0 - grid.theta;
+    double range = s < 0.0 ? grid.theta : PI_DOUBLE / 2.0 - grid.theta;
     double theta = grid.theta + (s < 0.0 ? -1.0 : 1.0) * range * stretch(fabs(s));
-    double phi = grid.phi + (t < 0.0 ? -1.0 : 1.0) * TEST_PI * stretch(fabs(t));
-    *solid_angle = range * stretch_slope(fabs(s)) * TEST_PI * stretch_slope(fabs(t)) * (sin)(theta);
+    double phi = grid.phi + (t < 0.0 ? -1.0 : 1.0) * PI_DOUBLE * stretch(fabs(t));
+    *solid_angle = range * stretch_slope(fabs(s)) * PI_DOUBLE * stretch_slope(fabs(t)) * (sin)(theta);
     return direction(theta, phi);
 }
 
 /* The inverse: (s, t) of a direction. */
 static inline void grid_place(Grid grid, Dir i, double *s, double *t) {
     double theta = atan2(hypot((double)i.x, (double)i.y), (double)i.z) - grid.theta;
-    double range = theta < 0.0 ? grid.theta : TEST_PI / 2.0 - grid.theta;
+    double range = theta < 0.0 ? grid.theta : PI_DOUBLE / 2.0 - grid.theta;
     double phi = atan2((double)i.y, (double)i.x) - grid.phi;
-    phi -= 2.0 * TEST_PI * (floor)(phi / (2.0 * TEST_PI) + 0.5);
+    phi -= 2.0 * PI_DOUBLE * (floor)(phi / (2.0 * PI_DOUBLE) + 0.5);
     *s = range > 0.0 ? (theta < 0.0 ? -1.0 : 1.0) * unstretch(fabs(theta) / range) : 0.0;
-    *t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / TEST_PI);
+    *t = (phi < 0.0 ? -1.0 : 1.0) * unstretch(fabs(phi) / PI_DOUBLE);
 }
 
 /* A plausible surface with everything switched on now and then. With tilt, the coat has a normal of its own.

@@ -5,6 +5,7 @@
 #ifndef WEFT_TEST_SHADING_LIGHTS_H
 #define WEFT_TEST_SHADING_LIGHTS_H
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "shading/area.h"
 #include "shading/material_stack.h"
@@ -184,7 +185,7 @@ static inline int any_polygon(uint64_t *state, double far, Point corners[8]) {
     Point c = point(far * (2.0 * light_random(state) - 1.0), far * (2.0 * light_random(state) - 1.0),
                     far * (2.0 * light_random(state) - 0.8));
     for (int k = 0; k < count; k++) {
-        double phi = 2.0 * 3.14159265358979323846 * (k + 0.8 * light_random(state)) / count;
+        double phi = 2.0 * PI_DOUBLE * (k + 0.8 * light_random(state)) / count;
         corners[k] = point_add(point_add(c, u, (cos)(phi)), v, (sin)(phi)); /* of a circle: convex */
     }
     return count;

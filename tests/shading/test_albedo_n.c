@@ -12,7 +12,7 @@ typedef struct Gauss {
 static Gauss gauss_make(int n) {
     Gauss g;
     for (int k = 0; k < n; k++) {
-        double x = (cos)(TEST_PI * (k + 0.75) / (n + 0.5)), slope = 1.0;
+        double x = (cos)(PI_DOUBLE * (k + 0.75) / (n + 0.5)), slope = 1.0;
         for (int step = 0; step < 50; step++) {
             double p = x, before = 1.0;
             for (int d = 2; d <= n; d++) {
@@ -45,7 +45,7 @@ typedef struct Rectangle {
 static double charlie_neubelt_double(const Integrand *f, double theta, double phi) {
     double cos_i = (cos)(theta), x = f->sin_o + (sin)(theta) * (cos)(phi), y = (sin)(theta) * (sin)(phi);
     double z = f->cos_o + cos_i, sin2 = (x * x + y * y) / (x * x + y * y + z * z);
-    double d = (2.0 + 1.0 / f->alpha) * (pow)(sin2, 0.5 / f->alpha) / (2.0 * TEST_PI);
+    double d = (2.0 + 1.0 / f->alpha) * (pow)(sin2, 0.5 / f->alpha) / (2.0 * PI_DOUBLE);
     return d / (4.0 * (f->cos_o + cos_i - f->cos_o * cos_i));
 }
 
@@ -62,7 +62,7 @@ static void integrate(const Integrand *f, Rectangle *r) {
             for (int k = 0; k < count; k++, n++) {
                 theta[n] = ct + ht * g->x[j];
                 phi[n] = cp + hp * g->x[k];
-                double s = (sin)(theta[n]), c = (sin)(0.5 * TEST_PI - theta[n]);
+                double s = (sin)(theta[n]), c = (sin)(0.5 * PI_DOUBLE - theta[n]);
                 weight[n] = g->w[j] * g->w[k] * ht * hp * s * c;
                 ox[n] = (float)f->sin_o, oy[n] = 0.0f, oz[n] = (float)f->cos_o;
                 ix[n] = (float)(s * (cos)(phi[n])), iy[n] = (float)(s * (sin)(phi[n])), iz[n] = (float)c;
@@ -91,20 +91,20 @@ static double quadrature(const Integrand *f, double tolerance, double *error) {
     for (int k = 0; k < HALVINGS; k++) {
         double left = ldexp(1.0, -k);
         thetas[k] = theta_o * (1.0 - left);
-        thetas[2 * HALVINGS - k] = theta_o + (0.5 * TEST_PI - theta_o) * left;
+        thetas[2 * HALVINGS - k] = theta_o + (0.5 * PI_DOUBLE - theta_o) * left;
         phis[1 + k] =
-            TEST_PI * (1.0 - 0.5 * left); /* the first is pi/2: some diffuse lobes have a kink there */
+            PI_DOUBLE * (1.0 - 0.5 * left); /* the first is pi/2: some diffuse lobes have a kink there */
     }
     thetas[HALVINGS] = theta_o;
     phis[0] = 0.0;
-    phis[1 + HALVINGS] = TEST_PI;
+    phis[1 + HALVINGS] = PI_DOUBLE;
     *error = 0.0;
     for (int j = 0; j < 2 * HALVINGS; j++)
         for (int k = 0; k <= HALVINGS; k++)
             for (int side = 0; side < 2; side++) {
                 if (thetas[j + 1] - thetas[j] < 1e-9) continue;
                 Rectangle r = {.theta = {thetas[j], thetas[j + 1]}, .phi = {phis[k], phis[k + 1]}};
-                if (side) r.phi[0] = 2.0 * TEST_PI - phis[k + 1], r.phi[1] = 2.0 * TEST_PI - phis[k];
+                if (side) r.phi[0] = 2.0 * PI_DOUBLE - phis[k + 1], r.phi[1] = 2.0 * PI_DOUBLE - phis[k];
                 integrate(f, &r);
                 heap[count++] = r;
                 total += r.value;

@@ -297,7 +297,7 @@ static Rgb sharp_mean(const WeftImage *image, Vec3 d, float kappa) {
         double v = (k / image->width + 0.5) / image->height;
         Vec3 i = latlong_direction((k % image->width + 0.5) / image->width, v);
         float mu = vec3_dot(d, i);
-        double w = (sin)(v * TEST_PI) * (double)(kappa > 0.0f ? exp(kappa * (mu - 1.0f)) : max(mu, 0.0f));
+        double w = (sin)(v * PI_DOUBLE) * (double)(kappa > 0.0f ? exp(kappa * (mu - 1.0f)) : max(mu, 0.0f));
         all += w;
         for (int c = 0; c < 3; c++) sum[c] += w * (double)p[3 * k + c];
     }
@@ -381,13 +381,13 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, floa
             if (!(i.z > 0.0f)) continue;
             const float *p =
                 (const float *)s->image.pixels + 3 * (k / (16 * WIDTH) * WIDTH + k % (4 * WIDTH) / 4);
-            double w = (double)(lobe_eval(&lobe, angles_between(o, i)) * i.z) * (sin)(v * TEST_PI);
+            double w = (double)(lobe_eval(&lobe, angles_between(o, i)) * i.z) * (sin)(v * PI_DOUBLE);
             for (int c = 0; c < 3; c++) truth[c] += w * (double)p[c];
         }
         Rgb got = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(table, strategy)), &calls, 1.0f);
         const float values[3] = {got.r, got.g, got.b};
         for (int c = 0; c < 3; c++) {
-            truth[c] *= 2.0 * TEST_PI * TEST_PI / (16.0 * WIDTH * HEIGHT);
+            truth[c] *= 2.0 * PI_DOUBLE * PI_DOUBLE / (16.0 * WIDTH * HEIGHT);
             off += (double)z * fabs((double)values[c] - truth[c]);
             all += (double)z * truth[c];
         }
@@ -407,12 +407,11 @@ static void light_of_the_map_is_in_lights_or_residual(void **state) {
         assert_int_equal(ambient_split(&e, env_lights[k], &parts, NULL), WEFT_OK);
         assert_true(parts.env_light_count <= env_lights[k] && (env_lights[k] < 2) == !parts.env_light_count);
         for (int c = 0; c < 3; c++) {
-            double sum = 4.0 * TEST_PI * (double)parts.residual_sh[0][c];
+            double sum = 4.0 * PI_DOUBLE * (double)parts.residual_sh[0][c];
             for (int n = 0; n < parts.env_light_count; n++) sum += (double)parts.env_lights[n].color[c];
-            assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.terms[0][c], 1e-4f * (float)sum);
+            assert_float_equal((float)sum, 4.0f * PI_FLOAT * parts.terms[0][c], 1e-4f * (float)sum);
             for (int n = 0; n < parts.point_count; n++) sum -= (double)parts.points[n].color[c];
-            assert_float_equal((float)sum, 4.0f * (float)TEST_PI * parts.residual_sh[0][c],
-                               1e-4f * (float)sum);
+            assert_float_equal((float)sum, 4.0f * PI_FLOAT * parts.residual_sh[0][c], 1e-4f * (float)sum);
         }
     }
     weft_image_free(&s.image);

@@ -4,6 +4,7 @@
 #include "lights.h"
 
 #include "raster/compute.h"
+#include "scratch.h"
 #include "shading/lobe_tables.h"
 #include "text/dispatch.h"
 #include "text/tables.h"
@@ -160,7 +161,7 @@ static Dir hostile_view(uint64_t *random) {
     double kind = light_random(random), z = 1.0 - light_random(random);
     if (kind < 0.2) z = (exp2)(-20.0 * z);
     if (kind > 0.9) z = 1.0;
-    double r = (sqrt)(1.0 - z * z), phi = 2.0 * TEST_PI * light_random(random);
+    double r = (sqrt)(1.0 - z * z), phi = 2.0 * PI_DOUBLE * light_random(random);
     return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
 }
 
@@ -242,8 +243,8 @@ static void polygon_text_is_valid_glsl(void **state) {
         print_message("glslangValidator is not installed\n");
         skip();
     }
-    char folder[] = "/tmp/weft-test-polygon-XXXXXX", path[64], command[256];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[64], command[256];
+    assert_true(scratch_make(folder));
     for (int l = 0; l < 3; l++) {
         Text text;
         WeftError error;
@@ -267,8 +268,7 @@ static void polygon_text_is_valid_glsl(void **state) {
         assert_int_equal(system(command), 0);
         text_free(&text);
     }
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
 }
 
 /* in0: o, sheen. in1: normal of the coat, roughness. in2 to in7: six corners; in2.w: how many. */

@@ -49,10 +49,10 @@ static double power5(double x) { return x * x * x * x * x; }
 static double ggx_dv(double alpha, Dir o, Dir i, double cos_h) {
     double a2 = alpha * alpha, q = cos_h * cos_h * (a2 - 1.0) + 1.0, z_o = (double)o.z, z_i = (double)i.z;
     double seen = z_o * (sqrt)(z_i * z_i * (1.0 - a2) + a2) + z_i * (sqrt)(z_o * z_o * (1.0 - a2) + a2);
-    return a2 / (TEST_PI * q * q) * 0.5 / seen;
+    return a2 / (PI_DOUBLE * q * q) * 0.5 / seen;
 }
 static double charlie_neubelt_dv(double alpha, Dir o, Dir i, double cos_h) {
-    double d = (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * TEST_PI);
+    double d = (2.0 + 1.0 / alpha) * (pow)(1.0 - cos_h * cos_h, 0.5 / alpha) / (2.0 * PI_DOUBLE);
     return d / (4.0 * ((double)o.z + (double)i.z - (double)o.z * (double)i.z));
 }
 
@@ -61,7 +61,7 @@ static double seed_by_hand(double base, double color, const Surface *s, Dir o, D
     double x = (double)o.x + (double)i.x, y = (double)o.y + (double)i.y, z = (double)o.z + (double)i.z;
     double length = (sqrt)(x * x + y * y + z * z), cos_h = z / length, d = 0.5 * length;
     double m = (double)s->metallic, f_0 = 0.03 * (1.0 - m) + base * m, k = (double)s->sheen;
-    double f = f_0 + (1.0 - f_0) * power5(1.0 - d), diffuse = base * (1.0 - m) / TEST_PI;
+    double f = f_0 + (1.0 - f_0) * power5(1.0 - d), diffuse = base * (1.0 - m) / PI_DOUBLE;
     double r = (double)s->roughness, r_s = (double)s->sheen_roughness;
     double specular = f * ggx_dv(r * r, o, i, cos_h);
     double sheen = color * charlie_neubelt_dv(r_s * r_s, o, i, cos_h);
@@ -219,7 +219,7 @@ static void beta_of_an_exponential_sheen_is_an_input(void **state) {
 /* F cook-torrance of a material: of a metal the index is that of its colour, of a dielectric its ior. */
 static void cook_torrance_highlight_follows_metals_and_dielectrics(void **state) {
     (void)state;
-    Dir o = direction_cos(0.15, 0.0), i = direction_cos(0.15, TEST_PI);
+    Dir o = direction_cos(0.15, 0.0), i = direction_cos(0.15, PI_DOUBLE);
     for (int metal = 0; metal < 2; metal++) {
         Surface s = plain();
         s.metallic = (float)metal;
@@ -252,7 +252,7 @@ static void fresnel_of_a_highlight_follows_its_reflectance(void **state) {
 /* A choice of F alone keeps the shape of the highlight, brushed or not. */
 static void brushed_metal_keeps_its_anisotropy(void **state) {
     (void)state;
-    Dir o = direction(0.0, 0.0), along = direction(0.5, 0.0), across = direction(0.5, 0.5 * TEST_PI);
+    Dir o = direction(0.0, 0.0), along = direction(0.5, 0.0), across = direction(0.5, 0.5 * PI_DOUBLE);
     for (int silk = 0; silk < 2; silk++) {
         Surface surface = plain();
         surface.metallic = silk ? 0.0f : 1.0f;
@@ -294,11 +294,11 @@ static void azimuth_equals_atan2(void **state) {
     (void)state;
     Random random = {17};
     for (int k = 0; k < 20000; k++) {
-        double phi = 2.0 * TEST_PI * (double)random_unit(&random), r = k & 1 ? 1.0 : 1e-3;
-        if (k < 16) phi = 0.125 * TEST_PI * k;
+        double phi = 2.0 * PI_DOUBLE * (double)random_unit(&random), r = k & 1 ? 1.0 : 1e-3;
+        if (k < 16) phi = 0.125 * PI_DOUBLE * k;
         Dir w = dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), 0.0f);
         double expected = atan2((double)w.y, (double)w.x);
-        if (expected < 0.0) expected += 2.0 * TEST_PI;
+        if (expected < 0.0) expected += 2.0 * PI_DOUBLE;
         float found = azimuth_of(w);
         if (!(fabs((double)found - expected) < 1e-6 && found >= 0.0f && found <= 2.0f * PI))
             fail_msg("%.9g is not %.9g", (double)found, expected);

@@ -88,8 +88,8 @@ static double conty_kulla_lambda_double(double alpha, double x) {
 static double charlie_double(int id, double alpha, Dir o, Dir i) {
     double oz = (double)o.z, iz = (double)i.z;
     double x = (double)o.x + (double)i.x, y = (double)o.y + (double)i.y, z = oz + iz;
-    double d =
-        (2.0 + 1.0 / alpha) * (pow)((x * x + y * y) / (x * x + y * y + z * z), 0.5 / alpha) / (2.0 * TEST_PI);
+    double d = (2.0 + 1.0 / alpha) * (pow)((x * x + y * y) / (x * x + y * y + z * z), 0.5 / alpha) /
+               (2.0 * PI_DOUBLE);
     if (id == LOBE_CHARLIE_NEUBELT) return d / (4.0 * (oz + iz - oz * iz));
     double lambda = conty_kulla_lambda_double(alpha, oz) + conty_kulla_lambda_double(alpha, iz);
     return d / ((1.0 + lambda) * 4.0 * fmax(oz * iz, 1e-7));
@@ -152,7 +152,7 @@ static void check_warp(Dir (*warp)(float, float), float (*density)(Dir)) {
         }
     for (int ring = 0; ring < RINGS; ring++) {
         double z = (ring + 0.5) / RINGS;
-        double share = (double)density(direction_cos(z, 1.0)) * 2.0 * TEST_PI / RINGS;
+        double share = (double)density(direction_cos(z, 1.0)) * 2.0 * PI_DOUBLE / RINGS;
         assert_true(fabs(counts[ring] - share) < 4e-3);
     }
 }
@@ -218,9 +218,9 @@ static void d_of_the_dialect_is_normalised(void **state) {
         double ggx = 0.0, charlie = 0.0;
         enum { STEPS = 20000 };
         for (int n = 0; n < STEPS; n++) {
-            double t = stretch((n + 0.5) / STEPS), theta = t * TEST_PI / 2.0;
-            double w =
-                stretch_slope((n + 0.5) / STEPS) / STEPS * TEST_PI * TEST_PI * (sin)(theta) * (cos)(theta);
+            double t = stretch((n + 0.5) / STEPS), theta = t * PI_DOUBLE / 2.0;
+            double w = stretch_slope((n + 0.5) / STEPS) / STEPS * PI_DOUBLE * PI_DOUBLE * (sin)(theta) *
+                       (cos)(theta);
             Dir h = direction(theta, 0.7);
             ggx += w * (double)ggx_d(alphas[k], alphas[k], h);
             charlie += w * (double)charlie_d(alphas[k], h);

@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "shading/albedo.h"
 
-static const double unit_pi = TEST_PI;
+static const double unit_pi = PI_DOUBLE;
 
 /* A pair of directions as a paper sees it. */
 typedef struct Pair {
@@ -337,7 +337,7 @@ static void smooth_diffuse_lobes_are_lambert(void **state) {
     for (int n = 0; n < 20000; n++) {
         Lobe lobe = lobe_with(ids[n % 4], 0.0f);
         Dir o = random_direction(&random), i = random_direction(&random);
-        assert_float_equal(lobe_eval(&lobe, angles_between(o, i)), (float)(1.0 / TEST_PI), 1e-6f);
+        assert_float_equal(lobe_eval(&lobe, angles_between(o, i)), (float)(1.0 / PI_DOUBLE), 1e-6f);
     }
 }
 

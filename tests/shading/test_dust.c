@@ -54,7 +54,7 @@ static void dust_amount_follows_the_direction_of_the_surface(void **state) {
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         s.dust_falloff = cases[k].falloff;
         s.dust_tilt = cases[k].tilt * PI / 180.0f;
-        s.dust_direction = direction(0.5 * TEST_PI, (double)cases[k].direction * TEST_PI / 180.0);
+        s.dust_direction = direction(0.5 * PI_DOUBLE, (double)cases[k].direction * PI_DOUBLE / 180.0);
         Surface t = dust_accumulate(s, dir(cases[k].x, cases[k].y, cases[k].z), p);
         if (!(fabsf(t.dust - cases[k].dust) < 1e-6f)) fail_msg("case %zu: %.7f", k, (double)t.dust);
     }

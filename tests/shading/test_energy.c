@@ -178,13 +178,13 @@ static double rings_albedo(const Lobe *lobe, Dir o) {
     for (int j = 0; j < RINGS; j++) {
         double x = (j + 0.5) / RINGS, mu = x * x * x, r = (sqrt)(1.0 - mu * mu), ring = 0.0;
         for (int k = 0; k < TURNS; k++) {
-            double phi = 2.0 * TEST_PI * (k + 0.5) / TURNS;
+            double phi = 2.0 * PI_DOUBLE * (k + 0.5) / TURNS;
             ox[k] = o.x, oy[k] = o.y, oz[k] = o.z;
             ix[k] = (float)(r * (cos)(phi)), iy[k] = (float)(r * (sin)(phi)), iz[k] = (float)mu;
         }
         lobe_eval_n(lobe, TURNS, ox, oy, oz, ix, iy, iz, f, share);
         for (int k = 0; k < TURNS; k++) ring += (double)f[k];
-        sum += ring * mu * 3.0 * x * x / RINGS * 2.0 * TEST_PI / TURNS;
+        sum += ring * mu * 3.0 * x * x / RINGS * 2.0 * PI_DOUBLE / TURNS;
     }
     return sum;
 }

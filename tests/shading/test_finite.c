@@ -12,7 +12,7 @@ static bool is_sound(float x) { return is_finite(x) && !(x < 0.0f); }
 
 /* A direction that is hard on formulas: grazing, the normal, an axis, or any. */
 static Dir hard_direction(Random *random) {
-    double phi = 2.0 * TEST_PI * (double)random_unit(random);
+    double phi = 2.0 * PI_DOUBLE * (double)random_unit(random);
     switch (random_bits(random) % 8) {
     case 0: { /* grazing, 1e-7 .. 1e-3 */
         double z = (pow)(10.0, -7.0 + 4.0 * (double)random_unit(random));

@@ -1,7 +1,8 @@
 /* Fibres that lean: what layer rules take from the base, by the azimuth of the viewer about the nap */
+#include "base/pi.h"
 #include "cases.h"
 
-#define DEGREES (3.14159265f / 180.0f)
+#define DEGREES (PI_FLOAT / 180.0f)
 
 static const float headings[] = {0.0f, 42.0f, 76.0f, 90.0f, 155.0f, 180.0f, 285.0f};
 static const float cosines[] = {0.05f, 0.2f, 0.5f};

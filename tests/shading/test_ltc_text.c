@@ -12,6 +12,7 @@
 
 #include "measure/chi_square.h"
 #include "raster/compute.h"
+#include "scratch.h"
 #include "shading/ltc_table.h"
 
 typedef struct Entries {
@@ -108,7 +109,7 @@ static void ltc_matrices_equal_their_written_form(void **state) {
         times(inverse(all), w, back);
         assert_near(ltc_forward(m, o, w), back, det, 10.0 + 4.0 * (double)e.z);
         double r2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2],
-               pdf = fmax(v[2], 0.0) * det / (TEST_PI * r2 * r2);
+               pdf = fmax(v[2], 0.0) * det / (PI_DOUBLE * r2 * r2);
         if (r2 > 1e-2)
             assert_true(fabs((double)ltc_pdf(m, o, w) - pdf) < 1e-3 * pdf + 1e-5 * det / (r2 * r2));
         /* the horizon's normal: what the cosine's axis sees of w_z >= 0 */
@@ -168,7 +169,7 @@ static void extreme_ltc_matrices_give_finite_values(void **state) {
         float c = cosines[k % 5], n = cosines[k / 5 % 5];
         Entries e = {zs[k / 25 % 4], qs[k / 100 % 4], bs[k / 400 % 6], rs[k / 2400 % 4]};
         Dir o = dir(sqrtf(1.0f - c * c), 0.0f, c);
-        double phi = k % 3 == 0 ? TEST_PI : 6.0 * (double)random_unit(&random);
+        double phi = k % 3 == 0 ? PI_DOUBLE : 6.0 * (double)random_unit(&random);
         Dir i = dir(sqrtf(1.0f - n * n) * (float)(cos)(phi), sqrtf(1.0f - n * n) * (float)(sin)(phi), n);
         Ltc m = transform(e, o);
         float pdf = ltc_pdf(m, o, i), above = ltc_above(m, o);
@@ -232,8 +233,8 @@ static void ltc_text_is_valid_glsl(void **state) {
         print_message("glslangValidator is not installed\n");
         skip();
     }
-    char folder[] = "/tmp/weft-test-ltc-text-XXXXXX", path[64], command[256];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[64], command[256];
+    assert_true(scratch_make(folder));
     for (int l = 0; l < 3; l++) {
         Text text;
         WeftError error;
@@ -256,8 +257,7 @@ static void ltc_text_is_valid_glsl(void **state) {
         assert_int_equal(system(command), 0);
         text_free(&text);
     }
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(folder));
 }
 
 enum { PAIRS = 4096 };

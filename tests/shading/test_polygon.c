@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "lights.h"
 
-static double cosine(const void *what, Dir o, Dir i) { return (double)i.z / TEST_PI; }
+static double cosine(const void *what, Dir o, Dir i) { return (double)i.z / PI_DOUBLE; }
 static double one(const void *what, Dir o, Dir i) { return 1.0; }
 /* 1 keeps them above 0, for a tolerance is a part of the sum. */
 static double along_x(const void *what, Dir o, Dir i) { return 1.0 + (double)i.x; }
@@ -30,7 +30,7 @@ static void form_factor_equals_the_integral(void **state) {
     print_message("form factors: %.2g of the tolerance\n", worst);
     /* a square of side 2 overhead, 1 away: four times the corner that Lambert has */
     const Point square[4] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-    double corner = atan((sqrt)(0.5)) * (sqrt)(0.5) / TEST_PI;
+    double corner = atan((sqrt)(0.5)) * (sqrt)(0.5) / PI_DOUBLE;
     assert_float_equal(polygon_cosine(light_polygon(square, 4)), (float)(4.0 * corner), 1e-6f);
 }
 

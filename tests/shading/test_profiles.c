@@ -55,11 +55,13 @@ static Pair pair_of(Dir o, Dir i) {
 
 static double schlick(double x) { return fifth(sat(1.0 - x)); }
 static double gaussian(double x) { return (exp2)((-5.55473 * x - 6.98316) * x); }
-static double charlie(double a, double s2) { return (2.0 + 1.0 / a) * (pow)(s2, 0.5 / a) / (2.0 * TEST_PI); }
+static double charlie(double a, double s2) {
+    return (2.0 + 1.0 / a) * (pow)(s2, 0.5 / a) / (2.0 * PI_DOUBLE);
+}
 static double neubelt(Pair p) { return 1.0 / (4.0 * (p.l + p.v - p.l * p.v)); }
-static double ggx(double a, double nh) { return sq(a) / (TEST_PI * sq(nh * nh * (sq(a) - 1.0) + 1.0)); }
+static double ggx(double a, double nh) { return sq(a) / (PI_DOUBLE * sq(nh * nh * (sq(a) - 1.0) + 1.0)); }
 static double ggx_two(double ax, double ay, Pair p) {
-    return 1.0 / (TEST_PI * ax * ay * sq(sq(p.h[0] / ax) + sq(p.h[1] / ay) + sq(p.nh)));
+    return 1.0 / (PI_DOUBLE * ax * ay * sq(sq(p.h[0] / ax) + sq(p.h[1] / ay) + sq(p.nh)));
 }
 static double stretched(double ax, double ay, const double w[3]) {
     return (sqrt)(sq(ax * w[0]) + sq(ay * w[1]) + sq(w[2]));
@@ -145,7 +147,7 @@ static Color engine_khronos(const Surface *s, Pair p) {
     Color f;
     for (int k = 0; k < 3; k++) {
         double fd = lerp(g.f0.c[k], g.weight, fc), fm = lerp(g.base.c[k], 1.0, fc);
-        double dielectric = lerp(g.base.c[k] / TEST_PI, dv, fd);
+        double dielectric = lerp(g.base.c[k] / PI_DOUBLE, dv, fd);
         f.c[k] = g.sheen.c[k] * sheen + fmax(keep, 0.0) * lerp(dielectric, dv * fm, g.metal);
         f.c[k] = lerp(f.c[k], ggx(ac, p.nh) * smith(ac, p), coat);
     }
@@ -164,7 +166,7 @@ static Color engine_three(const Surface *s, Pair p) {
     Color f;
     for (int k = 0; k < 3; k++) {
         double specular = lerp(g.mixed.c[k], f90, w) * dv * (1.0 + g.mixed.c[k] * (1.0 / ess - 1.0));
-        double diffuse = g.base.c[k] * (1.0 - g.metal) / TEST_PI * (1.0 - lerp(g.f0.c[k], f90, w));
+        double diffuse = g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE * (1.0 - lerp(g.f0.c[k], f90, w));
         f.c[k] = g.sheen.c[k] * sheen + fmax(keep, 0.0) * (specular + diffuse);
         f.c[k] = f.c[k] * (1.0 - cc * lerp(0.04, 1.0, gaussian(p.v))) + cc * coat;
     }
@@ -180,9 +182,9 @@ static Color engine_filament(const Surface *s, Pair p) {
     double sheen = charlie(rs * rs, fmax(p.s2, 0.0078125)) * neubelt(p);
     Color f;
     for (int k = 0; k < 3; k++) {
-        double specular = k_d * k_d / TEST_PI * smith(a, p) * lerp(g.mixed.c[k], f90, fc);
+        double specular = k_d * k_d / PI_DOUBLE * smith(a, p) * lerp(g.mixed.c[k], f90, fc);
         specular *= 1.0 + g.mixed.c[k] * (1.0 / ess - 1.0);
-        f.c[k] = keep * (g.base.c[k] * (1.0 - g.metal) / TEST_PI + specular) + g.sheen.c[k] * sheen;
+        f.c[k] = keep * (g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE + specular) + g.sheen.c[k] * sheen;
     }
     return f;
 }
@@ -191,7 +193,7 @@ static Color engine_cloth(const Surface *s, Pair p) {
     Given g = given_of(s);
     double rs = fmax(g.rs, 0.045), sheen = charlie(rs * rs, fmax(p.s2, 0.0078125)) * neubelt(p);
     Color f;
-    for (int k = 0; k < 3; k++) f.c[k] = g.base.c[k] / TEST_PI + g.sheen.c[k] * sheen;
+    for (int k = 0; k < 3; k++) f.c[k] = g.base.c[k] / PI_DOUBLE + g.sheen.c[k] * sheen;
     return f;
 }
 
@@ -202,7 +204,7 @@ static Color engine_babylon(const Surface *s, Pair p) {
     double keep = fmax(1.0 - max3(g.sheen) * read_table(ENGINE_BABYLON_SHEEN, p.v, g.rs), 0.0);
     Color f;
     for (int k = 0; k < 3; k++) {
-        double diffuse = g.base.c[k] * (1.0 - g.f0.c[k]) * (1.0 - g.metal) / TEST_PI;
+        double diffuse = g.base.c[k] * (1.0 - g.f0.c[k]) * (1.0 - g.metal) / PI_DOUBLE;
         double specular = ggx(a, p.nh) * smith(a, p) * lerp(g.mixed.c[k], g.weight, fc);
         specular *= 1.0 + g.mixed.c[k] * (1.0 / ess - 1.0);
         f.c[k] = keep * (diffuse + specular) + g.sheen.c[k] * charlie(as, p.s2) * neubelt(p);
@@ -224,7 +226,7 @@ static Color engine_materialx(const Surface *s, Pair p) {
     Color f;
     for (int k = 0; k < 3; k++) {
         double fd = lerp(g.f0.c[k], g.weight, fc), fm = lerp(g.base.c[k], 1.0, fc);
-        double dielectric = dg * fd * (1.0 + fd * k_e) + g.base.c[k] / TEST_PI * (1.0 - top);
+        double dielectric = dg * fd * (1.0 + fd * k_e) + g.base.c[k] / PI_DOUBLE * (1.0 - top);
         f.c[k] = lerp(dielectric, dg * fm * (1.0 + fm * k_e), g.metal);
         if (w < 1e-8) continue;
         f.c[k] *= 1.0 - w * materialx_e(p.v, rho);
@@ -238,7 +240,7 @@ static Color engine_cotton(const Surface *s, Pair p) {
     double a = sq(g.rs), at = a * (1.0 + (double)s->anisotropy);
     Color f;
     for (int k = 0; k < 3; k++)
-        f.c[k] = g.base.c[k] / TEST_PI * lerp(1.0, 0.5, a) + g.sheen.c[k] * charlie(at, p.s2) * neubelt(p);
+        f.c[k] = g.base.c[k] / PI_DOUBLE * lerp(1.0, 0.5, a) + g.sheen.c[k] * charlie(at, p.s2) * neubelt(p);
     return f;
 }
 
@@ -248,7 +250,7 @@ static Color engine_silk(const Surface *s, Pair p) {
            ab = a * (1.0 - fmin((double)s->anisotropy, 0.9));
     double lv = p.o[0] * p.i[0] + p.o[1] * p.i[1] + p.o[2] * p.i[2], fd90 = 0.5 + g.r * (1.0 + lv);
     double fd =
-        (1.0 + (fd90 - 1.0) * schlick(p.v)) * (1.0 + (fd90 - 1.0) * schlick(p.l)) / (TEST_PI * 1.03571);
+        (1.0 + (fd90 - 1.0) * schlick(p.v)) * (1.0 + (fd90 - 1.0) * schlick(p.l)) / (PI_DOUBLE * 1.03571);
     double dv = ggx_two(at, ab, p) * smith_two(at, ab, p);
     Color f;
     for (int k = 0; k < 3; k++) f.c[k] = g.base.c[k] * fd + dv * lerp(g.f0.c[k], 1.0, schlick(p.vh));
@@ -260,13 +262,13 @@ static Color engine_unreal4(const Surface *s, Pair p) {
     double r = fmax(g.r, 0.02), a = r * r, a2 = a * a, fc = schlick(p.vh);
     Color fuzz = color_of(s->sheen_color);
     double cloth = max3(fuzz) > 0.0 ? sat((double)s->sheen) : 0.0, d = p.nh * p.nh * (1.0 - a2) + a2;
-    double d2 = (1.0 + 4.0 * a2 * a2 / (d * d)) / (TEST_PI * (1.0 + 4.0 * a2));
+    double d2 = (1.0 + 4.0 * a2 * a2 / (d * d)) / (PI_DOUBLE * (1.0 + 4.0 * a2));
     double v1 = 0.5 / (p.l * (p.v * (1.0 - a) + a) + p.v * (p.l * (1.0 - a) + a));
     Color f;
     for (int k = 0; k < 3; k++) {
         double one = ggx(a, p.nh) * v1 * (sat(50.0 * g.mixed.c[1]) * fc + (1.0 - fc) * g.mixed.c[k]);
         double two = d2 * neubelt(p) * (sat(50.0 * fuzz.c[1]) * fc + (1.0 - fc) * fuzz.c[k]);
-        f.c[k] = g.base.c[k] * (1.0 - g.metal) / TEST_PI + lerp(one, two, cloth);
+        f.c[k] = g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE + lerp(one, two, cloth);
     }
     return f;
 }
@@ -277,23 +279,23 @@ static Color engine_urp(const Surface *s, Pair p) {
     double amount = max3(color_of(s->sheen_color)) > 0.0 ? sat((double)s->sheen) : 0.0;
     double diffuse = lerp(1.0, 0.62 * (1.0 - sq(0.5 * p.v)), a) * 0.96 * (1.0 - g.metal);
     double term = a2 / (sq(p.nh * p.nh * (a2 - 1.0) + 1.00001) * fmax(0.1, p.vh * p.vh) * (4.0 * a + 2.0));
-    double sheen = TEST_PI * charlie(a, p.s2) * neubelt(p);
+    double sheen = PI_DOUBLE * charlie(a, p.s2) * neubelt(p);
     Color f, c = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++)
         f.c[k] =
             (g.base.c[k] * diffuse + lerp(term * lerp(0.04, g.base.c[k], g.metal), sheen * c.c[k], amount)) /
-            TEST_PI;
+            PI_DOUBLE;
     return f;
 }
 
 static Color engine_velvet(const Surface *s, Pair p) {
     Given g = given_of(s);
     double sigma = fmax(sat(g.rs), 0.01), cot2 = sq(p.nh) / p.s2, k_h = p.nh / p.vh;
-    double d = (exp)(-cot2 / sq(sigma)) / (TEST_PI * sq(sigma) * sq(p.s2));
+    double d = (exp)(-cot2 / sq(sigma)) / (PI_DOUBLE * sq(sigma) * sq(p.s2));
     double groove = fmin(1.0, fmin(2.0 * k_h * p.v, 2.0 * k_h * p.l));
     Color f;
     for (int k = 0; k < 3; k++)
-        f.c[k] = g.base.c[k] / TEST_PI + g.sheen.c[k] * d * groove / (4.0 * p.v) / p.l;
+        f.c[k] = g.base.c[k] / PI_DOUBLE + g.sheen.c[k] * d * groove / (4.0 * p.v) / p.l;
     return f;
 }
 
@@ -316,13 +318,13 @@ static Color engine_disney(const Surface *s, Pair p) {
     double ax = fmax(0.001, sq(g.r) / aspect), ay = fmax(0.001, sq(g.r) * aspect);
     double gs = disney_g(p.i, ax, ay) * disney_g(p.o, ax, ay), ds = ggx_two(ax, ay, p);
     double ac = lerp(0.1, 0.001, (double)s->clearcoat_gloss);
-    double dr = (ac * ac - 1.0) / (TEST_PI * (log)(ac * ac) * (1.0 + (ac * ac - 1.0) * sq(p.nh)));
+    double dr = (ac * ac - 1.0) / (PI_DOUBLE * (log)(ac * ac) * (1.0 + (ac * ac - 1.0) * sq(p.nh)));
     double gr = 1.0 / (p.l + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.l))) /
                 (p.v + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.v)));
     Color f;
     for (int k = 0; k < 3; k++) {
-        double below =
-            lerp(fd, ss, (double)s->subsurface) * g.base.c[k] / TEST_PI + fh * (double)s->sheen * csheen.c[k];
+        double below = lerp(fd, ss, (double)s->subsurface) * g.base.c[k] / PI_DOUBLE +
+                       fh * (double)s->sheen * csheen.c[k];
         f.c[k] = below * (1.0 - g.metal) + gs * lerp(spec0.c[k], 1.0, fh) * ds +
                  0.25 * (double)s->clearcoat * gr * lerp(0.04, 1.0, fh) * dr;
     }
@@ -332,11 +334,11 @@ static Color engine_disney(const Surface *s, Pair p) {
 static Color engine_order(const Surface *s, Pair p) {
     Given g = given_of(s);
     double a2 = sq(sq(g.rs)), cot2 = sq(p.nh) / p.s2, any = max3(g.sheen) > 0.0 ? 1.0 : 0.0;
-    double d = (1.0 + 4.0 * (exp)(-cot2 / a2) / sq(p.s2)) / (TEST_PI * (1.0 + 4.0 * a2));
+    double d = (1.0 + 4.0 * (exp)(-cot2 / a2) / sq(p.s2)) / (PI_DOUBLE * (1.0 + 4.0 * a2));
     Color f;
     for (int k = 0; k < 3; k++) {
         double fresnel = any * lerp(g.sheen.c[k], 1.0, schlick(p.vh));
-        f.c[k] = g.base.c[k] / TEST_PI * (1.0 - fresnel) + d * neubelt(p) * fresnel;
+        f.c[k] = g.base.c[k] / PI_DOUBLE * (1.0 - fresnel) + d * neubelt(p) * fresnel;
     }
     return f;
 }
@@ -353,7 +355,7 @@ static Color engine_openpbr(const Surface *s, Pair p) {
     Color f, tint = color_of(s->specular_color), fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
         double dielectric =
-            g.base.c[k] / TEST_PI * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
+            g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
         double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
         f.c[k] = weight * fuzz.c[k] * openpbr_fuzz[0] +
                  (1.0 - weight * openpbr_fuzz[1]) * lerp(dielectric, metal, g.metal);
@@ -483,7 +485,7 @@ static void profiles_are_finite_and_not_negative(void **state) {
     (void)state;
     Random random = {72};
     static const double cosines[] = {1e-6, 1e-4, 0.01, 0.3, 0.8, 1.0};
-    static const double azimuths[] = {0.0, TEST_PI, 1.0, TEST_PI / 2};
+    static const double azimuths[] = {0.0, PI_DOUBLE, 1.0, PI_DOUBLE / 2};
     for (int n = 0; n < 400; n++) {
         Surface s = any_surface(&random);
         s.base_color = (Rgb){hard(&random, 0, 1), hard(&random, 0, 1), hard(&random, 0, 1)};
@@ -575,7 +577,7 @@ static void engine_formulas_have_their_known_values(void **state) {
         enum { STEPS = 20000 };
         for (int j = 0; j < STEPS; j++) {
             float s2 = ((float)j + 0.5f) / STEPS;
-            sum += TEST_PI * (double)charlie_floored_d(alpha, dir(sqrt(s2), 0.0f, sqrt(1.0f - s2))) / STEPS;
+            sum += PI_DOUBLE * (double)charlie_floored_d(alpha, dir(sqrt(s2), 0.0f, sqrt(1.0f - s2))) / STEPS;
         }
         assert_true(fabs(sum - 1.0) < 2e-5);
     }
@@ -589,7 +591,7 @@ static double ggx_sum(double r, double v, int points) {
         double mirrored = 0.0, place = 0.5;
         for (int bit = 0; bit < 16; bit++, place *= 0.5) mirrored += (k >> bit & 1) ? place : 0.0;
         double nh = (sqrt)((1.0 - mirrored) / (1.0 + (a2 - 1.0) * mirrored));
-        double hx = (sqrt)(1.0 - nh * nh) * (cos)(2.0 * TEST_PI * k / points);
+        double hx = (sqrt)(1.0 - nh * nh) * (cos)(2.0 * PI_DOUBLE * k / points);
         double vh = (sqrt)(1.0 - v * v) * hx + v * nh, l = 2.0 * vh * nh - v;
         if (l > 0.0) sum += 4.0 / points * smith(r * r, (Pair){.v = v, .l = l}) * l * vh / nh;
     }

@@ -30,10 +30,10 @@ static double burley(const float *p, Vector o, Vector i) {
 static double d_ashikhmin(double alpha, Vector h) {
     double theta = polar(h), cot = 1.0 / tan(theta);
     double rim = 4.0 * (exp)(-cot * cot / (alpha * alpha)) / (pow)((sin)(theta), 4.0);
-    return (1.0 + rim) / (TEST_PI * (1.0 + 4.0 * alpha * alpha));
+    return (1.0 + rim) / (PI_DOUBLE * (1.0 + 4.0 * alpha * alpha));
 }
 static double d_charlie(double alpha, Vector h) {
-    return (2.0 + 1.0 / alpha) * (pow)((sin)(polar(h)), 1.0 / alpha) / (2.0 * TEST_PI);
+    return (2.0 + 1.0 / alpha) * (pow)((sin)(polar(h)), 1.0 / alpha) / (2.0 * PI_DOUBLE);
 }
 static double v_neubelt(Vector o, Vector i) { return 1.0 / (4.0 * (o.z + i.z - o.z * i.z)); }
 
@@ -64,7 +64,7 @@ static double charlie_khronos(const float *p, Vector o, Vector i) {
 static double ramp(double beta, double t) { return expm1(-beta * t) / expm1(-beta); }
 static double exponential(const float *p, Vector o, Vector i) {
     (void)i;
-    return ramp((double)p[0], 2.0 * (pow)((sin)(0.5 * polar(o)), 2.0)) / TEST_PI;
+    return ramp((double)p[0], 2.0 * (pow)((sin)(0.5 * polar(o)), 2.0)) / PI_DOUBLE;
 }
 
 /* The mean of x over a uniform light, by Simpson's rule. */
@@ -78,7 +78,7 @@ static double mean_ramp(double beta) {
     return sum;
 }
 static double exponential_lit(const float *p, Vector o, Vector i) {
-    return exponential(p, o, i) * exponential(p, i, o) * TEST_PI / mean_ramp((double)p[0]);
+    return exponential(p, o, i) * exponential(p, i, o) * PI_DOUBLE / mean_ramp((double)p[0]);
 }
 
 /* Heitz et al. 2015: D and the projected area of a flake by its matrix S = diag(1, 1, sigma^2); the layer as
@@ -87,7 +87,7 @@ static double patry(const float *p, Vector o, Vector i) {
     double s = (pow)((double)p[0], 4.0), density = (double)p[1];
     Vector h = halfway(o, i);
     double inverse = h.x * h.x + h.y * h.y + h.z * h.z / s;
-    double d = 1.0 / (TEST_PI * (sqrt)(s)*inverse * inverse);
+    double d = 1.0 / (PI_DOUBLE * (sqrt)(s)*inverse * inverse);
     double area = (sqrt)(o.x * o.x + o.y * o.y + s * o.z * o.z);
     double way = 1.0 / o.z + 1.0 / i.z, layer = -expm1(-density * way) / (way * o.z * i.z);
     return d / (4.0 * area) * layer;
@@ -104,7 +104,7 @@ static double silk(const float *p, Vector o, Vector i) {
     double ay = fmax((double)p[0] * (1.0 - (double)p[1]), 1.0 / 1024.0);
     Vector h = halfway(o, i);
     double slopes = 1.0 + (pow)(h.x / h.z / ax, 2.0) + (pow)(h.y / h.z / ay, 2.0);
-    double d = 1.0 / (TEST_PI * ax * ay * slopes * slopes * (pow)(h.z, 4.0));
+    double d = 1.0 / (PI_DOUBLE * ax * ay * slopes * slopes * (pow)(h.z, 4.0));
     return d / (1.0 + lambda_ggx(ax, ay, o) + lambda_ggx(ax, ay, i)) / (4.0 * o.z * i.z);
 }
 
@@ -114,7 +114,7 @@ static double spread_of_fabric(const float *p, Vector o, Vector i) {
     double a2 = (pow)((double)p[0], 2.0), tail = (double)p[1], theta = polar(h);
     double off = tail > 1.0 ? fmax(tail - 1.0, 1e-4) : fmin(tail - 1.0, -1e-4);
     double t = (pow)((sin)(theta), 2.0) + a2 * (1.5 - 0.5 * dot(i, h)) * (pow)((cos)(theta), 2.0);
-    return off * (1.0 - a2) / (TEST_PI * ((pow)(a2, -off) - 1.0)) * (pow)(t, -tail);
+    return off * (1.0 - a2) / (PI_DOUBLE * ((pow)(a2, -off) - 1.0)) * (pow)(t, -tail);
 }
 static double fabric(const float *p, Vector o, Vector i) {
     double alpha = (double)p[0], m = 0.25 + 0.5 * alpha;
@@ -135,12 +135,12 @@ static Around around(Vector w, Vector t, Vector n, Vector b) {
 static double sech(double x) { return 1.0 / cosh(x); }
 
 static double yarn(double width, double isotropic, Around o, Around i) {
-    double scale = width * (sqrt)(3.0) / TEST_PI, s = (sin)(o.theta) + (sin)(i.theta);
+    double scale = width * (sqrt)(3.0) / PI_DOUBLE, s = (sin)(o.theta) + (sin)(i.theta);
     double g = (pow)(sech(s / (2.0 * scale)), 2.0) / (4.0 * scale);
     double phi_d = o.phi - i.phi, co = (cos)(o.theta), ci = (cos)(i.theta);
     double surface = g * fabs((cos)(0.5 * phi_d)) / (4.0 * fmax(co, ci));
-    double volume = 1.0 / (4.0 * TEST_PI * (co + ci));
-    double sigma = 20.0 * TEST_PI / 180.0, u = (exp)(((cos)(phi_d)-1.0) / (sigma * sigma));
+    double volume = 1.0 / (4.0 * PI_DOUBLE * (co + ci));
+    double sigma = 20.0 * PI_DOUBLE / 180.0, u = (exp)(((cos)(phi_d)-1.0) / (sigma * sigma));
     double mo = (cos)(o.phi), mi = (cos)(i.phi), mask = (1.0 - u) * mo * mi + u * fmin(mo, mi);
     return ((1.0 - isotropic) * surface + isotropic * volume) * mask / (mo * mi);
 }
@@ -346,7 +346,7 @@ static void sample_weights_of_sheens_are_bounded(void **state) {
         int id;
         double bound;
     } rows[] = {
-        {LOBE_EXPONENTIAL, 1.0}, {LOBE_EXPONENTIAL_LIT, 1.5}, {LOBE_SILK, 1.0}, {LOBE_THREADS, TEST_PI}};
+        {LOBE_EXPONENTIAL, 1.0}, {LOBE_EXPONENTIAL_LIT, 1.5}, {LOBE_SILK, 1.0}, {LOBE_THREADS, PI_DOUBLE}};
     for (int r = 0; r < 4; r++) {
         Random random = {43};
         double most = 0.0;
@@ -394,9 +394,9 @@ static void threads_shift_their_color(void **state) {
     /* light from the normal, seen at 45 degrees along the warp and along the weft */
     Lobe lobe = lobe_default(LOBE_THREADS);
     Dir up = dir(0.0f, 0.0f, 1.0f);
-    double along_warp = weft_share(&lobe, direction(TEST_PI / 4.0, 0.0), up);
-    double along_weft = weft_share(&lobe, direction(TEST_PI / 4.0, TEST_PI / 2.0), up);
-    double between = weft_share(&lobe, direction(TEST_PI / 4.0, TEST_PI / 4.0), up);
+    double along_warp = weft_share(&lobe, direction(PI_DOUBLE / 4.0, 0.0), up);
+    double along_weft = weft_share(&lobe, direction(PI_DOUBLE / 4.0, PI_DOUBLE / 2.0), up);
+    double between = weft_share(&lobe, direction(PI_DOUBLE / 4.0, PI_DOUBLE / 4.0), up);
     print_message("share of the weft: %.3f along the warp, %.3f between, %.3f along the weft\n", along_warp,
                   between, along_weft);
     assert_true(fabs(along_warp - 0.285) < 1e-3 && fabs(along_weft - 0.715) < 1e-3);
@@ -404,7 +404,7 @@ static void threads_shift_their_color(void **state) {
 
     /* in a uniform light the same, near grazing: the slopes that face the viewer hide the other yarn */
     Albedo a = albedo_quadrature(&lobe, direction_cos(0.02, 0.0), 1e-5);
-    Albedo b = albedo_quadrature(&lobe, direction_cos(0.02, TEST_PI / 2.0), 1e-5);
+    Albedo b = albedo_quadrature(&lobe, direction_cos(0.02, PI_DOUBLE / 2.0), 1e-5);
     assert_float_equal(a.f90 / (a.f0 + a.f90), 0.135f, 1e-3f);
     assert_float_equal(b.f90 / (b.f0 + b.f90), 0.865f, 1e-3f);
 

@@ -31,25 +31,25 @@ static double root(double x) { return (sqrt)(x); }
 static double paper_d(int d, double alpha, Dir h) {
     double x2 = square((double)h.x), y2 = square((double)h.y), z2 = square((double)h.z), all = x2 + y2 + z2;
     double c2 = z2 / all, s2 = (x2 + y2) / all, a2 = square(alpha);
-    double rim = 1.0 / (TEST_PI * (1.0 + 4.0 * a2));
+    double rim = 1.0 / (PI_DOUBLE * (1.0 + 4.0 * a2));
     switch (d) {
     case D_BLINN_PHONG: /* log1p, since c2 has fewer digits than s2 near 1 */
-        return e_to((1.0 / a2 - 1.0) * (s2 < 0.5 ? log1p(-s2) : log(c2))) / (TEST_PI * a2);
-    case D_BECKMANN: return e_to(-s2 / c2 / a2) / (TEST_PI * a2 * square(c2));
-    case D_GGX: return a2 / (TEST_PI * square(c2 * a2 + s2));
+        return e_to((1.0 / a2 - 1.0) * (s2 < 0.5 ? log1p(-s2) : log(c2))) / (PI_DOUBLE * a2);
+    case D_BECKMANN: return e_to(-s2 / c2 / a2) / (PI_DOUBLE * a2 * square(c2));
+    case D_GGX: return a2 / (PI_DOUBLE * square(c2 * a2 + s2));
     case D_GGX_ANISO: {
         double q = x2 / all / square(wide(alpha)) + y2 / all / a2 + c2;
-        return 1.0 / (TEST_PI * wide(alpha) * alpha * square(q));
+        return 1.0 / (PI_DOUBLE * wide(alpha) * alpha * square(q));
     }
-    case D_GTR1: return alpha < 1.0 ? (a2 - 1.0) / (TEST_PI * log(a2) * (s2 + a2 * c2)) : 1.0 / TEST_PI;
+    case D_GTR1: return alpha < 1.0 ? (a2 - 1.0) / (PI_DOUBLE * log(a2) * (s2 + a2 * c2)) : 1.0 / PI_DOUBLE;
     case D_ASHIKHMIN: return rim * (1.0 + 4.0 * e_to(-c2 / s2 / a2) / square(s2));
-    case D_CHARLIE: return (2.0 + 1.0 / alpha) * power(root(s2), 1.0 / alpha) / (2.0 * TEST_PI);
+    case D_CHARLIE: return (2.0 + 1.0 / alpha) * power(root(s2), 1.0 / alpha) / (2.0 * PI_DOUBLE);
     case D_CHARLIE_FLOORED: { /* the norm from its two parts: the cap where sin^2 < 1/128, and beyond */
         double n = 0.5 / alpha, cap = power(1.0 / 128.0, n + 1.0);
-        return power(fmax(s2, 1.0 / 128.0), n) / (TEST_PI * (cap + (1.0 - cap) / (n + 1.0)));
+        return power(fmax(s2, 1.0 / 128.0), n) / (PI_DOUBLE * (cap + (1.0 - cap) / (n + 1.0)));
     }
     case D_INVERSE_GGX: return rim * (1.0 + 4.0 * square(a2) / square((c2 - a2 * c2) + a2));
-    case D_VELVET: return e_to(-c2 / s2 / a2) / (TEST_PI * a2 * square(s2));
+    case D_VELVET: return e_to(-c2 / s2 / a2) / (PI_DOUBLE * a2 * square(s2));
     default: return -1.0;
     }
 }
@@ -93,10 +93,10 @@ static double norm(int d, double alpha, double tested_alpha) {
     int turns = d == D_GGX_ANISO ? PHIS : 1;
     double sum = 0.0;
     for (int j = 0; j < THETAS; j++) {
-        double t = (j + 0.5) / THETAS, theta = stretch(t) * TEST_PI / 2.0;
-        double w = stretch_slope(t) / THETAS * TEST_PI * TEST_PI * (sin)(theta) * (cos)(theta) / turns;
+        double t = (j + 0.5) / THETAS, theta = stretch(t) * PI_DOUBLE / 2.0;
+        double w = stretch_slope(t) / THETAS * PI_DOUBLE * PI_DOUBLE * (sin)(theta) * (cos)(theta) / turns;
         for (int k = 0; k < turns; k++) {
-            Dir h = direction(theta, 2.0 * TEST_PI * k / turns);
+            Dir h = direction(theta, 2.0 * PI_DOUBLE * k / turns);
             sum += w * (double)spread(d, alpha, h);
         }
     }
@@ -140,12 +140,12 @@ static Cells cells_expected(int d, double alpha) {
         for (int k = 0; k < SECTORS; k++) {
             double sum = 0.0;
             for (int c = 0; c < STEPS * slices; c++) {
-                double t = (j + (c / slices + 0.5) / STEPS) / RINGS, theta = stretch(t) * TEST_PI / 2.0;
-                double phi = 2.0 * TEST_PI * (k + (c % slices + 0.5) / slices) / SECTORS;
+                double t = (j + (c / slices + 0.5) / STEPS) / RINGS, theta = stretch(t) * PI_DOUBLE / 2.0;
+                double phi = 2.0 * PI_DOUBLE * (k + (c % slices + 0.5) / slices) / SECTORS;
                 double cosine = (cos)(theta), sine = (sin)(theta);
                 sum += paper_d(d, alpha, direction(theta, phi)) * sine * cosine * stretch_slope(t);
             }
-            cells.share[j][k] = sum * TEST_PI * TEST_PI / (STEPS * slices * RINGS * SECTORS);
+            cells.share[j][k] = sum * PI_DOUBLE * PI_DOUBLE / (STEPS * slices * RINGS * SECTORS);
         }
     return cells;
 }
@@ -162,8 +162,8 @@ static Cells cells_seen(int d, double alpha, int count, bool regular) {
             fail_msg("D %s alpha %g u %g: a facet (%g %g %g)", weft_term_name(WEFT_TERM_D, d), alpha,
                      (double)u, (double)h.x, (double)h.y, (double)h.z);
         double theta = atan2(hypot((double)h.x, (double)h.y), (double)h.z);
-        double turn = atan2((double)h.y, (double)h.x) / (2.0 * TEST_PI);
-        int j = (int)(unstretch(theta / (TEST_PI / 2.0)) * RINGS);
+        double turn = atan2((double)h.y, (double)h.x) / (2.0 * PI_DOUBLE);
+        int j = (int)(unstretch(theta / (PI_DOUBLE / 2.0)) * RINGS);
         int k = (int)((turn < 0.0 ? turn + 1.0 : turn) * SECTORS);
         cells.share[j < RINGS ? j : RINGS - 1][k < SECTORS ? k : SECTORS - 1] += 1.0 / count;
     }
@@ -231,8 +231,8 @@ static void distributions_have_their_limits(void **state) {
         float alpha = 0.005f * (float)(pow)(200.0, n / 200.0), z = (float)(pow)(10.0, -5.0 - n / 20.0);
         beyond = fmax(beyond, (double)beckmann_d(alpha, dir(1.0f, 0.0f, z)));
         beyond = fmax(beyond, (double)velvet_d(alpha, dir(z, 0.0f, 1.0f)));
-        double d = (double)gtr1_d(1.0f, direction(TEST_PI / 400.0 * n, 0.0));
-        gtr1 = fmax(gtr1, fabs(d * TEST_PI - 1.0));
+        double d = (double)gtr1_d(1.0f, direction(PI_DOUBLE / 400.0 * n, 0.0));
+        gtr1 = fmax(gtr1, fabs(d * PI_DOUBLE - 1.0));
     }
     print_message("beckmann and velvet where they are 0: %.1e; gtr1 of 1 off by %.1e\n", beyond, gtr1);
     assert_true(beyond < 2e-14 && gtr1 < 7e-7);
@@ -288,7 +288,7 @@ static double paper_g(int v, double alpha, Dir wo, Dir wi) {
     }
     case V_SMITH_GGX_FAST:
         return 2.0 * o * i / (o * (i * (1.0 - alpha) + alpha) + i * (o * (1.0 - alpha) + alpha));
-    case V_SCHLICK_BECKMANN: k = alpha * root(2.0 / TEST_PI); break;
+    case V_SCHLICK_BECKMANN: k = alpha * root(2.0 / PI_DOUBLE); break;
     case V_SCHLICK_GGX: k = alpha / 2.0; break;
     case V_NEUBELT: return o * i / (o + i - o * i);
     case V_NEUBELT_CLAMPED: return fmin(o * i / (o + i - o * i), 4.0 * o * i);
@@ -337,7 +337,7 @@ static void visibility_terms_follow_the_formulas_of_their_papers(void **state) {
 static void visibility_terms_are_finite(void **state) {
     (void)state;
     static const double low[] = {1e-6, 2e-6, 1e-4, 0.1, 1.0},
-                        turns[] = {0.0, 1e-3, 1.0, TEST_PI - 1e-3, TEST_PI};
+                        turns[] = {0.0, 1e-3, 1.0, PI_DOUBLE - 1e-3, PI_DOUBLE};
     for (int v = 0; v < V_COUNT; v++) {
         double highest = 0.0;
         for (int n = 0; n < 5 * 5 * 5 * ALPHAS; n++) {
@@ -363,14 +363,14 @@ static double seen_share(int d, int v, double alpha, double cos_o) {
     Dir o = direction_cos(cos_o, 0.7), n = dir(0.0f, 0.0f, 1.0f);
     double sum = 0.0;
     for (int j = 0; j < THETAS; j++) {
-        double t = (j + 0.5) / THETAS, theta = stretch(t) * TEST_PI / 2.0;
+        double t = (j + 0.5) / THETAS, theta = stretch(t) * PI_DOUBLE / 2.0;
         for (int k = 0; k < PHIS; k++) {
-            Dir h = direction(theta, 2.0 * TEST_PI * (k + 0.5) / PHIS);
+            Dir h = direction(theta, 2.0 * PI_DOUBLE * (k + 0.5) / PHIS);
             double facing = fmax((double)dir_dot(o, h), 0.0);
             sum += paper_d(d, alpha, h) * facing * (sin)(theta)*stretch_slope(t);
         }
     }
-    sum *= TEST_PI / 2.0 * 2.0 * TEST_PI / (THETAS * PHIS);
+    sum *= PI_DOUBLE / 2.0 * 2.0 * PI_DOUBLE / (THETAS * PHIS);
     return 4.0 * (double)shadow(v, alpha, angles_between(o, n)) * sum; /* 4 V = G1 / cos_o */
 }
 

@@ -13,21 +13,20 @@
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "weft/arrays.h"
 #include "weft/lobe.h"
 
-static char folder[] = "/tmp/weft-lobe-file-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+    return scratch_cache(folder) && chdir(folder) == 0 ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    char line[80];
-    snprintf(line, sizeof line, "rm -r %s", folder);
-    return chdir("/") == 0 && system(line) == 0 ? 0 : -1;
+    return scratch_remove(folder) ? 0 : -1;
 }
 
 /* A Lambert that is so bright. In its text @ is the record, $ the name. */

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "shading/engine_tables.h"
 #include "shading/layer.h"
 #include "shading/lobe_tables.h"
@@ -28,13 +29,13 @@ static bool has_validator(void) { return system("command -v glslangValidator >/d
 
 /* Many fragment shaders, to be compiled by one call of the compiler. */
 typedef struct Batch {
-    char folder[32];
+    char folder[SCRATCH_SIZE];
     int count;
 } Batch;
 
 static void batch_begin(Batch *batch) {
-    *batch = (Batch){.folder = "/tmp/weft-test-text-XXXXXX"};
-    assert_non_null(mkdtemp(batch->folder));
+    *batch = (Batch){.count = 0};
+    assert_true(scratch_make(batch->folder));
 }
 
 static void batch_add(Batch *batch, const char *name, TextLanguage language, const char *bytes) {
@@ -58,8 +59,7 @@ static int batch_compile(Batch *batch) {
         "glslangValidator $v -S frag $f >log 2>&1 || { s=1; grep -v '^$' log | head -5; }; done; exit $s",
         batch->folder);
     int status = system(command);
-    snprintf(command, sizeof command, "rm -r %s", batch->folder);
-    assert_int_equal(system(command), 0);
+    assert_true(scratch_remove(batch->folder));
     return status;
 }
 
@@ -281,21 +281,19 @@ static void file_included_twice_stands_once(void **state) {
 }
 
 /* Files of a folder of the test's own, laid over the library's. */
-static char overlay[] = "/tmp/weft-test-overlay-XXXXXX";
+static char overlay[SCRATCH_SIZE];
 
 static int make_overlay(void **state) {
     (void)state;
     char path[128];
-    if (!mkdtemp(overlay)) return -1;
+    if (!scratch_make(overlay)) return -1;
     snprintf(path, sizeof path, "%s/shading", overlay);
     return mkdir(path, 0700);
 }
 
 static int remove_overlay(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", overlay);
-    return system(command);
+    return scratch_remove(overlay) ? 0 : -1;
 }
 
 static void write_overlay(const char *name, const char *bytes) {

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "scene/scene.h"
 #include "weft/weft.h"
 
@@ -65,7 +66,7 @@ static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
     Mesh *mesh = test_mesh(scene, (RINGS + 1) * ACROSS, 2 * SECTORS * (RINGS - 1));
     mesh->normal = arena_array(&scene->arena, mesh->vertex_count, 3 * sizeof(float));
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        float theta = (float)(k / ACROSS) * 3.14159265f / RINGS,
+        float theta = (float)(k / ACROSS) * PI_FLOAT / RINGS,
               phi = (float)(k % ACROSS) * 6.28318531f / SECTORS;
         Vec3 n = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
         Vec3 p = vec3_madd(centre, n, radius);

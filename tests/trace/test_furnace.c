@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "scenes.h"
 #include "weft/weft.h"
 
@@ -189,7 +190,7 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
                                                        .camera = "0,0,1000;0,0,0;0.13",
                                                        .background = WEFT_BACKGROUND_COLOR},
                                       512);
-        double light = 0.0, pixel = 2000.0 * tan(0.065 * 3.14159265358979 / 180.0) / 32.0;
+        double light = 0.0, pixel = 2000.0 * tan(0.065 * RADIANS) / 32.0;
         for (int k = 0; k < 32 * 32; k++) light += (double)((float *)image.pixels)[4 * k] * pixel * pixel;
         WeftLobe l = rough_lobe(lobe, 0.36f);
         double truth = 0.0;
@@ -197,7 +198,7 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
         for (int k = 0; k < STEPS; k++) {
             float e[3];
             weft_lobe_albedo(&l, sqrtf(((float)k + 0.5f) / STEPS), e);
-            truth += 3.14159265358979 * (double)e[0] / STEPS;
+            truth += PI_DOUBLE * (double)e[0] / STEPS;
         }
         printf("  sphere %-22s %.5f, by quadrature %.5f\n", info->id, light, truth);
         assert_true(fabs(light - truth) < 0.005 * truth);

@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "scene/shade.h"
 #include "scenes.h"
@@ -264,7 +265,7 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
                                                       .kind = LIGHT_DIRECTIONAL,
                                                       .direction = {0, 0, -1},
                                                       .color = {1, 1, 1},
-                                                      .intensity = 3.14159265f};
+                                                      .intensity = PI_FLOAT};
         scene_bounds(scene);
         char camera[64];
         snprintf(camera, sizeof camera, "0,0,%g;0,0,0;12", (double)(10.0f * scales[k]));
@@ -280,7 +281,7 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
         assert_int_equal(weft_render_run(r, 1, 0.0, NULL, NULL), WEFT_OK);
         assert_int_equal(weft_render_image(r, &image, NULL), WEFT_OK);
         int checked = 0;
-        double half = 10.0 * tan(6.0 * 3.14159265358979 / 180.0);
+        double half = 10.0 * tan(6.0 * RADIANS);
         for (int y = 0; y < 64; y++)
             for (int x = 0; x < 64; x++) {
                 /* the ray (0, 0, 10) + t (px, py, -10) meets the unit ball where t solves a quadratic */

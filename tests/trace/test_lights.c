@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "scenes.h"
 #include "trace/lights.h"
@@ -75,8 +76,8 @@ static void environment_samples_agree_with_its_pdf(void **state) {
             float value = 0.1f + (x > 60 && x < 64 && y > 10 && y < 15 ? 50.0f : 0.0f) +
                           0.3f * unit_float(hash32((uint32_t)(y * 96 + x)));
             for (int c = 0; c < 3; c++) ((float *)image.pixels)[3 * (96 * y + x) + c] = value;
-            double top = 3.14159265358979 * y / 48, bottom = 3.14159265358979 * (y + 1) / 48;
-            integral += (double)value * (cos(top) - cos(bottom)) * 2.0 * 3.14159265358979 / 96;
+            double top = PI_DOUBLE * y / 48, bottom = PI_DOUBLE * (y + 1) / 48;
+            integral += (double)value * (cos(top) - cos(bottom)) * 2.0 * PI_DOUBLE / 96;
         }
     set_map(scene, image);
     Lights *lights = build(scene);
@@ -97,7 +98,7 @@ static void environment_samples_agree_with_its_pdf(void **state) {
         float z = 1.0f - 2.0f * unit_float(hash32(7 * k + 1)),
               phi = 6.2831853f * unit_float(hash32(7 * k + 5)), r = sqrtf(1.0f - z * z);
         mass += (double)lights_environment(lights, vec3(r * cosf(phi), z, r * sinf(phi))).pdf * 4.0 *
-                3.14159265358979 / N;
+                PI_DOUBLE / N;
     }
     assert_true(fabs(mass - 1.0) < 0.08);
     lights_free(lights);

@@ -5,13 +5,14 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "base/random.h"
 #include "scene/tangents.h"
 #include "scenes.h"
 #include "shading/layer.h"
 #include "weft/weft.h"
 
-#define DEGREES (3.14159265f / 180.0f)
+#define DEGREES (PI_FLOAT / 180.0f)
 
 /* A square seen from far above, x to the right and y up, in light from 50 degrees over the right. It wears a
  * black base under white fibres; the map, where there is one, is one texel. */

@@ -104,13 +104,13 @@ static inline bool is_true(const json_t *state, const char *key) {
 
 /* The next state whose text `key` holds `part`. Release with json_decref. */
 static inline json_t *drive_until(Drive *drive, const char *key, const char *part) {
-    double start = seconds_now();
+    double start = clock_now();
     char why[256];
     for (;;) {
         bool ended = drive_ended(drive);
         json_t *state = drive_next(drive);
         if (state && strstr(word_of(state, key), part)) return state;
-        if (!state && (ended || seconds_now() - start > 100.0)) {
+        if (!state && (ended || clock_now() - start > 100.0)) {
             snprintf(why, sizeof why, "%s never was \"%s\"", key, part);
             drive_give_up(drive, why);
         }
@@ -121,7 +121,7 @@ static inline json_t *drive_until(Drive *drive, const char *key, const char *par
 
 /* The last state so far, after one was waited for that is at rest. */
 static inline json_t *drive_rest(Drive *drive) {
-    double start = seconds_now();
+    double start = clock_now();
     for (json_t *rest = NULL;;) {
         bool ended = drive_ended(drive);
         json_t *state = drive_next(drive);
@@ -132,15 +132,15 @@ static inline json_t *drive_rest(Drive *drive) {
         }
         if (state) json_decref(rest), json_decref(state), rest = NULL;
         if (rest && !state) return rest;
-        if (!state && (ended || seconds_now() - start > 100.0)) drive_give_up(drive, "it never came to rest");
+        if (!state && (ended || clock_now() - start > 100.0)) drive_give_up(drive, "it never came to rest");
         if (!state) sleep_seconds(0.05);
     }
 }
 
 /* It must end by itself, well, and without a word on standard error. */
 static inline void drive_finish_within(Drive *drive, double seconds) {
-    double start = seconds_now();
-    while (!drive_ended(drive) && seconds_now() - start < seconds) sleep_seconds(0.02);
+    double start = clock_now();
+    while (!drive_ended(drive) && clock_now() - start < seconds) sleep_seconds(0.02);
     if (!drive_ended(drive)) drive_give_up(drive, "it did not end");
     Ran ran = program_end(drive->child);
     if (ran.code != 0 || ran.err[0]) fail_msg("ended with %d: \"%s\"", ran.code, ran.err);

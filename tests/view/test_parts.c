@@ -13,21 +13,22 @@
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "view/brush.h"
 #include "view/paths.h"
 #include "view/viewer.h"
 
-static char folder[] = "/tmp/weft-parts-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return scratch_enter(folder) ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
     unlink("file");
-    return chdir("/") == 0 ? rmdir(folder) : -1;
+    return scratch_remove_empty(folder) ? 0 : -1;
 }
 
 static void assert_near(float a, float b, float within) {

@@ -34,8 +34,8 @@ static void stage_place(const json_t *state, double x, double y, int at[2]) {
 /* The next state at rest of which `holds` is true; the one before is let go. */
 static void wait_where(Drive *drive, json_t **now, bool (*holds)(const json_t *now, const json_t *before),
                        const char *what) {
-    double start = seconds_now();
-    for (json_t *state; seconds_now() - start < 60.0;) {
+    double start = clock_now();
+    for (json_t *state; clock_now() - start < 60.0;) {
         bool ended = drive_ended(drive);
         state = drive_next(drive);
         if (state && is_true(state, "rest") && holds(state, *now)) {

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "weft/weft.h"
 
 #define SHARED WEFT_SOURCE_DIR "/../shared/data/weave/"
@@ -395,18 +396,18 @@ static void broken_draft_files_are_errors_of_one_line(void **state) {
 
 /* Files. */
 
-static char folder[] = "/tmp/weft-weave-XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int folder_begin(void **state) {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return scratch_enter(folder) ? 0 : -1;
 }
 
 static int folder_end(void **state) {
     (void)state;
     static const char *const files[] = {"a.wif", "a.txt", "a.png", "a.svg", "a.pdf", "two.png", "three.png"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) unlink(files[k]);
-    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+    return scratch_remove_empty(folder) ? 0 : -1;
 }
 
 /* A draft written as a WIF and read again is the same cloth, with the same threads. */

@@ -1,25 +1,25 @@
-/* steady_clock.h - steady time, and waiting by it */
-#ifndef WEFT_VIEW_STEADY_CLOCK_H
-#define WEFT_VIEW_STEADY_CLOCK_H
+/* steady_clock.h - steady time, and waiting by it; includes nothing of weft, so that programs may include it */
+#ifndef WEFT_BASE_STEADY_CLOCK_H
+#define WEFT_BASE_STEADY_CLOCK_H
 
 #include <pthread.h>
 #include <time.h>
 
-/* Seconds since some moment before. */
-static inline double now(void) {
+/* Returns the seconds since some moment in the past, never less than before. */
+static inline double clock_now(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* So many seconds from now, for pthread_cond_timedwait. */
+/* Returns the time in so many seconds, for pthread_cond_timedwait. */
 static inline struct timespec clock_after(double seconds) {
-    double until = now() + seconds;
+    double until = clock_now() + seconds;
     time_t whole = (time_t)until;
     return (struct timespec){whole, (long)(1e9 * (until - (double)whole))};
 }
 
-/* A condition that is waited for by this clock. */
+/* Initialises a condition that is waited for by this clock. */
 static inline void clock_condition(pthread_cond_t *condition) {
     pthread_condattr_t steady;
     pthread_condattr_init(&steady);
