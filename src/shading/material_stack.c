@@ -1,15 +1,16 @@
 #include "shading/stack_steps.h"
 
 void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e) {
-    Choices converted = *choices;
+    Choices converted;
     Surface own;
-    if (convert_wanted(converted) || compose_evens(converted)) {
-        own = convert_surface(*surface, converted);
-        converted = convert_choices(converted);
+    if (convert_wanted(*choices) || compose_evens(*choices)) {
+        own = convert_surface(*surface, *choices);
+        converted = convert_choices(*choices);
         compose_surface(&own, converted);
         surface = &own;
+        choices = &converted;
     }
-    compose_stack(stack, surface, converted, e);
+    compose_stack(stack, surface, *choices, e);
 }
 
 void stack_see(const Stack *stack, const Dir *o, StackView *view) { stack_view(stack, *o, view); }
