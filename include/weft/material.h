@@ -55,10 +55,11 @@ typedef enum WeftAlphaMode { WEFT_ALPHA_OPAQUE = 0, WEFT_ALPHA_MASK, WEFT_ALPHA_
 
 /* A material in numbers. */
 typedef struct WeftMaterial {
-    WeftAlphaMode alpha_mode;          /* what opacity does */
-    float alpha_cutoff;                /* MASK: opacity below it is nothing, from it on everything */
-    int double_sided;                  /* 0: seen only from the front */
-    int unlit;                         /* not 0: base_color is shown as it is */
+    WeftAlphaMode alpha_mode; /* what opacity does */
+    float alpha_cutoff;       /* MASK: opacity below it is nothing, from it on everything */
+    int double_sided;         /* 0: seen only from the front */
+    int unlit;                /* not 0: base_color is shown as it is */
+    int cloth;                /* of the scene, counted from 1, in place of diffuse and specular; 0: none */
     int choices[WEFT_CHOICES_MAX];     /* as weft_material_choice_value counts; -1: auto */
     WeftInput inputs[WEFT_INPUTS_MAX]; /* in the order of weft_material_input_name */
 } WeftMaterial;

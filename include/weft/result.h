@@ -89,7 +89,8 @@ typedef enum WeftResult {
     M(DRAFT_COMPLETED, WARNING, "was completed")                                                             \
     M(LOBE_FILE, INPUT, "is not a lobe that can be taken")                                                   \
     M(LOBE_COMPILE, INPUT, "does not compile")                                                               \
-    M(COMPILER, RESOURCES, "needs a C compiler; install gcc or clang")
+    M(COMPILER, RESOURCES, "needs a C compiler; install gcc or clang")                                       \
+    M(YARN_NAME, USAGE, "is not a yarn")
 
 /* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK

@@ -14,7 +14,7 @@
 
 #include <stddef.h>
 
-#include "weft/result.h"
+#include "weft/image.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -92,6 +92,61 @@ WEFT_API WeftResult weft_draft_write(const WeftDraft *draft, const char *path, W
 
 /* Returns 1 if weft_draft_write knows the suffix, else 0. */
 WEFT_API int weft_draft_suffix_known(const char *path);
+
+/* The yarn of one system, as it lies in a cloth. What varies from thread to thread is 0 .. 1, or a little more.
+ */
+typedef struct WeftYarn {
+    float alpha;     /* of its fibres, as lobe yarn has it: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
+    float crimp;     /* steepest angle along the thread, where it dives below another, radians */
+    float roundness; /* slope at the edges of a thread */
+    float
+        twist; /* of the fibres about the thread, radians: 0 filament, below 0 like the stroke of a Z, above like an S's */
+    float white;             /* share of the light that one fibre reflects without its dye */
+    float width;             /* of a thread, in parts of the draft's; below 1 there are gaps */
+    float bulge;             /* how much wider the middle of a long float is */
+    float floats;            /* how level it lies: the power of its slope is 1 + floats (crossings - 1) */
+    float streaks;           /* of fibres: how far they turn and rise */
+    float dye, slub, wander; /* how far colour, thickness and place vary */
+} WeftYarn;
+
+/* The yarns that have a name, NULL past the end, and what each is. */
+WEFT_API const char *weft_yarn_name(int index);
+WEFT_API const char *weft_yarn_help(int index);
+
+/* A yarn by name. Fails with WEFT_MESSAGE_YARN_NAME. */
+WEFT_API WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error);
+
+/* A draft woven of yarns: at each place the highest thread is seen. Opaque; release with weft_cloth_free. */
+typedef struct WeftCloth WeftCloth;
+
+/* Weaves a draft, whose colours are the reflectance of the threads. What varies does so by seed. Fails with
+ * WEFT_MESSAGE_DESC (a number that no yarn can have) or _MEMORY. The draft may be freed. */
+WEFT_API WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], unsigned seed,
+                                      WeftCloth **out, WeftError *error);
+
+/* Releases a cloth. cloth may be NULL. */
+WEFT_API void weft_cloth_free(WeftCloth *cloth);
+
+/* The figures of a cloth. */
+typedef struct WeftClothInfo {
+    float share[2]; /* of the cloth as seen from above: warp, weft; the rest is gaps */
+    float size[2];  /* of the repeat, metres */
+} WeftClothInfo;
+
+WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
+
+/* Writes a cloth as textures that tile into a folder, which is made if it is not there: base_color.png (sRGB,
+ * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green),
+ * anisotropy.png (as KHR_materials_anisotropy has it), height.png, and material.json, which lays them on a
+ * surface whose texture coordinates span so many metres a unit. They hold whole repeats of at least 16
+ * threads; pixels (16 .. 8192) is their width. Fails with WEFT_MESSAGE_DESC, _FILE_WRITE or _MEMORY. */
+WEFT_API WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
+                                    WeftError *error);
+
+/* Draws a square of a cloth from above, lit from the upper left, as U8: `threads` of the warp over so many
+ * pixels, 1 .. 8192. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_cloth_draw(const WeftCloth *cloth, int pixels, float threads, WeftImage *out,
+                                    WeftError *error);
 
 #ifdef __cplusplus
 }

@@ -41,6 +41,20 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
     return true;
 }
 
+/* Gives the scene the cloth of the file, whose material then names it. */
+static bool adopt_cloth(WeftScene *scene, MaterialFile *file) {
+    if (!file->cloth) return true;
+    const size_t count = (size_t)scene->cloth_count;
+    WeftCloth **cloths = arena_array(&scene->arena, count + 1, sizeof(WeftCloth *));
+    if (!cloths) return false;
+    for (size_t k = 0; k < count; k++) cloths[k] = scene->cloths[k];
+    cloths[count] = file->cloth;
+    file->cloth = NULL;
+    scene->cloths = cloths;
+    file->material.cloth = ++scene->cloth_count;
+    return true;
+}
+
 /* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */
 static Material assigned(const Material *old, const MaterialFile *file) {
     static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
@@ -80,7 +94,8 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     const bool *selected = materials_matching(scene, material, &said);
     if (!selected && error) *error = said;
     if (!selected) return said.result;
-    if (!adopt_textures(scene, file)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file))
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
     return tangents_complete(scene, error);

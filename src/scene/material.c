@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/pi.h"
+#include "scene/cloth_base.h"
 #include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/texel.h"
@@ -177,6 +178,7 @@ float material_opacity(const WeftScene *scene, const Material *material, float u
     Lookup lookup = {.scene = scene, .uv = uv};
     const Input *input = &material->inputs[INPUT_opacity];
     float opacity = (input->texture ? read_SCALAR(&lookup, input) : plain_SCALAR(input)) * vertex_alpha;
+    if (material->cloth && cloth_is_gap(scene->cloths[material->cloth - 1], uv[0])) return 0.0f;
     if (material->alpha_mode == WEFT_ALPHA_MASK) return opacity >= material->alpha_cutoff ? 1.0f : 0.0f;
     return clamp(opacity, 0.0f, 1.0f);
 }

@@ -50,6 +50,8 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     if (result == WEFT_OK) {
         if (file.texture_count)
             warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its textures are left out: only its numbers count here");
+        if (file.cloth)
+            warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its weave is left out: only its numbers count here");
         *out = file.material;
         for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
     }

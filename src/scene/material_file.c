@@ -11,6 +11,7 @@
 #include "base/json.h"
 #include "base/mark.h"
 #include "base/pi.h"
+#include "scene/cloth_file.h"
 #include "scene/set.h"
 
 /* A file being read. The first failure stays. */
@@ -285,6 +286,8 @@ static void read_rest(Reader *r, const json_t *json) {
         if (!json_is_boolean(json)) refuse(r, "expected true or false");
         out->material.double_sided = json_is_true(json);
         out->sided_named = true;
+    } else if (strcmp(key, "weave") == 0) {
+        if (!out->cloth) r->result = cloth_from_json(json, r->name, r->folder, &out->cloth, r->log, r->error);
     } else if (strcmp(key, "unlit") == 0) {
         if (!json_is_boolean(json)) refuse(r, "expected true or false");
         out->material.unlit = json_is_true(json);
@@ -350,5 +353,6 @@ void material_file_free(MaterialFile *file) {
         weft_image_free(&file->images[k]);
         free(file->paths[k]);
     }
+    weft_cloth_free(file->cloth);
     *file = (MaterialFile){0};
 }

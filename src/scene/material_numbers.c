@@ -31,6 +31,7 @@ Material material_sound(const WeftMaterial *numbers) {
     material.alpha_cutoff = fmaxf(numbers->alpha_cutoff, 0.0f); /* below it is as good as 0 */
     material.double_sided = numbers->double_sided != 0;
     material.unlit = numbers->unlit != 0;
+    material.cloth = numbers->cloth;
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (is_choice(k, numbers->choices[k])) material.choices[k] = numbers->choices[k];
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -76,6 +77,8 @@ static WeftResult check_numbers(const WeftScene *scene, const WeftMaterial *m, W
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_mode", "there is no such mode");
     if (!isfinite(m->alpha_cutoff))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_cutoff", "it is not finite");
+    if (m->cloth < 0 || m->cloth > scene->cloth_count)
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, "cloth", "there is no such cloth");
     WeftResult result = numbers_sound(m, error);
     if (result != WEFT_OK) return result;
     for (int k = 0; k < INPUT_COUNT; k++) {

@@ -11,6 +11,7 @@
 #include "base/pi.h"
 #include "scene/scene.h"
 #include "shading/choice.h"
+#include "weave/weft_cloth.h"
 #include "weft/save.h"
 
 /* A file being written. The first failure stays. */
@@ -189,6 +190,8 @@ static void write_rest(Writer *w, const Material *material) {
     put(w, w->root, "alpha_mode", json_string(modes[material->alpha_mode]));
     put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());
+    const WeftCloth *cloth = material->cloth ? w->scene->cloths[material->cloth - 1] : NULL;
+    if (cloth && cloth->text) put(w, w->root, "weave", json_loads(cloth->text, 0, NULL));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 

@@ -24,6 +24,7 @@ WeftScene *scene_create(const char *name) {
 void weft_scene_free(WeftScene *scene) {
     if (!scene) return;
     for (int k = 0; k < scene->image_count; k++) weft_image_free(&scene->images[k]);
+    for (int k = 0; k < scene->cloth_count; k++) weft_cloth_free(scene->cloths[k]);
     weft_image_free(&scene->environment.image);
     arena_free(&scene->arena);
     free(scene);

@@ -13,6 +13,7 @@
 #include "scene/material.h"
 #include "scene/texture.h"
 #include "weft/scene.h"
+#include "weft/weave.h"
 
 /* No coordinate of a scene is larger, m: squares of coordinates must stay finite. A ray may start further
  * out, since a camera backs off to see a scene and a parallel one looks from beside its eye, but not beyond
@@ -93,6 +94,8 @@ struct WeftScene {
     WeftImage *images;
     Texture *textures;
     Material *materials;
+    WeftCloth **cloths; /* owned; NULL without any */
+    int cloth_count;
     const char **material_names; /* of its own materials: never NULL, may be empty */
     Mesh *meshes;
     Light *lights;

@@ -13,6 +13,17 @@ void stack_make(Stack *stack, const Surface *surface, const Choices *choices, Ta
     compose_stack(stack, surface, *choices, e);
 }
 
+void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90) {
+    const float about = 0.33f * rgb_mean(f0) + 0.67f * rgb_mean(f90);
+    stack->specular.normal = 0.0f;
+    stack->base_fresnel = BASE_FRESNEL_NONE;
+    stack->diffuse.lobe = *lobe;
+    stack->diffuse.f0 = f0;
+    stack->diffuse.f90 = f90;
+    stack->diffuse.normal = stack->diffuse.grazing = fmaxf(about, 1e-3f);
+    lobe_prepare(lobe, &stack->diffuse_prepared);
+}
+
 void stack_see(const Stack *stack, const Dir *o, StackView *view) { stack_view(stack, *o, view); }
 
 void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o) {

@@ -56,6 +56,8 @@ typedef struct SeenStack {
     StackView view;
 } SeenStack;
 void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o);
+/* Puts a lobe with two colours in the place of the diffuse and the specular one. */
+void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90);
 /* The view of a stack whose lobes have been put in by hand. */
 void seen_prepare(SeenStack *seen, Dir o);
 static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {

@@ -13,14 +13,15 @@ typedef struct PathMaterial {
     Material material; /* the scene's, without textures that a path never looks at */
     Surface plain;     /* all its textures left out */
     Choices choices;
-    bool textured;         /* has any, or a mesh that wears it has colours */
-    bool colored;          /* a mesh that wears it has colors */
-    bool texcoords[2];     /* the sets of texture coordinates that its textures use */
-    bool shines;           /* may send out light */
-    bool bent;             /* a normal map or anisotropy turns the shading frame */
-    TableRef sheen_e;      /* TABLE_NONE without a sheen */
-    Stack stack;           /* of plain, where no point has one of its own */
-    const StackKind *kind; /* NULL: shaded one vertex at a time */
+    bool textured;          /* has any, or a mesh that wears it has colours */
+    bool colored;           /* a mesh that wears it has colors */
+    bool texcoords[2];      /* the sets of texture coordinates that its textures use */
+    bool shines;            /* may send out light */
+    bool bent;              /* a normal map or anisotropy turns the shading frame */
+    const WeftCloth *cloth; /* of which the base is woven; NULL: of none */
+    TableRef sheen_e;       /* TABLE_NONE without a sheen */
+    Stack stack;            /* of plain, where no point has one of its own */
+    const StackKind *kind;  /* NULL: shaded one vertex at a time */
 } PathMaterial;
 
 typedef struct PathContext {

@@ -105,10 +105,13 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
             known->textured |= of->texture != 0;
             known->texcoords[of->texcoord] |= of->texture != 0;
         }
+        known->cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+        known->textured |= known->cloth != NULL;
+        known->texcoords[0] |= known->cloth != NULL;
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
-        known->kind = stack_kind(&known->stack, &known->choices);
+        known->kind = known->cloth ? NULL : stack_kind(&known->stack, &known->choices);
         known->shines = material_emits(material);
         known->bent =
             !known->kind || known->material.inputs[INPUT_normal].texture || known->plain.anisotropy > 0.0f;

@@ -1,6 +1,7 @@
 /* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
 #include "trace/chunk.h"
 
+#include "scene/cloth_base.h"
 #include "shading/frame.h"
 #include "shading/loop.h"
 #include "trace/sampler.h"
@@ -65,6 +66,9 @@ static const Stack *stack_at(Chunk *c, const PathMaterial *material, int k) {
     Dir position = dir(c->position[0][k], c->position[1][k], c->position[2][k]);
     surface = dust_accumulate(frame_surface(surface), normal, position);
     stack_make(&c->stack, &surface, &material->choices, material->sheen_e);
+    if (material->cloth)
+        cloth_base(material->cloth, (float[2]){c->textures.uv[0][0][k], c->textures.uv[0][1][k]}, c->side[k],
+                    &c->stack);
     return &c->stack;
 }
 

@@ -40,6 +40,9 @@ static void draft_written_in_another_form_reads_as_the_same(void **state) {
     free(text);
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.png"), 0, "");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.svg"), 0, "");
+    assert_ends(
+        LIST("weave", "twill.wif", "--close", "6", "--size", "32", "--yarn", "silk,wool", "-o", "cloth.png"),
+        0, "");
 }
 
 static void impossible_weave_commands_are_errors_of_one_line(void **state) {
@@ -60,6 +63,11 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     assert_ends(LIST("weave", "velvet"), 2, "is not a weave");
     assert_ends(LIST("weave", "plain", "-o", "plain.jpg"), 2, ".wif, .png");
     assert_ends(LIST("weave", "plain", "--sett", "0"), 2, "sett");
+    assert_ends(LIST("weave", "plain", "--yarn", "nettle"), 2, "nettle: is not a yarn");
+    assert_ends(LIST("weave", "plain", "--yarn", "silk,"), 2, "is not a yarn");
+    assert_ends(LIST("weave", "plain", "--close", "4", "-o", "plain.svg"), 2, "a cloth is drawn as .png");
+    assert_ends(LIST("weave", "plain", "--close", "0", "-o", "plain.png"), 2, "--close");
+    assert_ends(LIST("weave", "plain", "--bake", "none/there"), 4, "none/there");
     assert_ends(LIST("weave", "plain", "--sett", "a,b"), 2, "threads per centimetre");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.wif"), 2, "");
     wif_make("float.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n");

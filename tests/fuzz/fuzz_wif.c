@@ -40,6 +40,17 @@ static void check_round_trip(const WeftDraft *draft) {
     free(text);
 }
 
+/* A cloth of it is sound wherever it is looked at. */
+static void check_cloth(const WeftDraft *draft) {
+    WeftYarn yarn;
+    WeftCloth *cloth;
+    demand(weft_yarn_find("linen", &yarn, NULL) == WEFT_OK);
+    demand(weft_cloth_create(draft, (WeftYarn[2]){yarn, yarn}, 1, &cloth, NULL) == WEFT_OK);
+    const WeftClothInfo info = weft_cloth_info(cloth);
+    for (int t = 0; t < 2; t++) demand(info.share[t] >= 0.0f && info.share[t] <= 1.0f && info.size[t] > 0.0f);
+    weft_cloth_free(cloth);
+}
+
 static void take(WeftResult result, WeftDraft *draft, const WeftError *error) {
     demand((result == WEFT_OK) == (draft != NULL));
     if (!draft) {
@@ -48,6 +59,7 @@ static void take(WeftResult result, WeftDraft *draft, const WeftError *error) {
     }
     check_threads(draft);
     if ((long)draft->count[0] * draft->count[1] <= 4096) check_round_trip(draft);
+    if ((long)draft->count[0] * draft->count[1] <= 256) check_cloth(draft);
     weft_draft_free(draft);
 }
 

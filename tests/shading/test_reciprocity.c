@@ -71,10 +71,11 @@ static void anisotropic_lobes_depend_on_azimuth(void **state) {
         for (int k = 0; k < case_count(id); k++) { /* by some of its choices */
             Lobe lobe = case_lobe(id, k);
             int how = weft_lobe_param_find(id, "anisotropy"), stretch = weft_lobe_param_find(id, "stretch"),
-                tilt = weft_lobe_param_find(id, "tilt");
+                tilt = weft_lobe_param_find(id, "tilt"), crimp = weft_lobe_param_find(id, "crimp");
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
             if (tilt >= 0) lobe_set(&lobe, tilt, 0.7f);
+            if (crimp >= 0) lobe_set(&lobe, crimp, 0.1f); /* steep yarn draws its streak out to both directions */
             /* an eighth of a turn: a quarter may lay one yarn of threads over the other */
             Dir o = direction(0.02, 0.0), i = direction(0.8, 0.3);
             float f = lobe_eval(&lobe, angles_between(o, i));

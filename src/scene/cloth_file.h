@@ -1,0 +1,15 @@
+/* cloth_file.h - the weave of a material file: a draft and its yarns (docs/weave.md has the keys) */
+#ifndef WEFT_SCENE_CLOTH_FILE_H
+#define WEFT_SCENE_CLOTH_FILE_H
+
+#include <jansson.h>
+
+#include "weft/weave.h"
+
+/* Weaves {"draft": DRAFT, "warp": YARN, "weft": YARN, "metres": 1, "seed": 0}. name is the subject of errors,
+ * folder ("" or with a slash at its end) where the file of a draft lies; NULL: drafts are words alone. Fails
+ * with WEFT_MESSAGE_MATERIAL_FILE, _MEMORY and as weft_draft_read does. */
+WeftResult cloth_from_json(const json_t *json, const char *name, const char *folder, WeftCloth **out,
+                           const WeftLog *log, WeftError *error);
+
+#endif

@@ -1,0 +1,192 @@
+/* cloth.c - a draft becomes a cloth: its runs, the albedo of its fibres, and what is seen of either system */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "image/srgb.h"
+#include "shading/yarn_medium.h"
+#include "weave/weave_draft.h"
+#include "weave/weft_cloth.h"
+
+enum { LOOKS = 192 }; /* places along a side at which a cloth is looked at */
+
+/* Returns 1 where thread k of a system is on top at its crossing with thread c of the other. */
+static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
+    return threads == WEFT_WARP ? weft_draft_warp_up(draft, k, c) : !weft_draft_warp_up(draft, c, k);
+}
+
+/* Writes the runs of one thread: at each crossing how many came before in its run, and the run's length. */
+static void put_runs(WeftCloth *cloth, const WeftDraft *draft, WeftThreads threads, int k) {
+    const int count = draft->count[!threads], warps = draft->count[WEFT_WARP];
+    int start = 0;
+    while (start < count && on_top(draft, threads, k, start) == on_top(draft, threads, k, start + count - 1))
+        start++;
+    const bool endless = start == count;
+    for (int at = 0; at < count;) {
+        const int top = on_top(draft, threads, k, start + at);
+        int length = 1;
+        while (at + length < count && on_top(draft, threads, k, start + at + length) == top) length++;
+        for (int c = 0; c < length; c++) {
+            const int cross = (start + at + c) % count;
+            const size_t cell = threads == WEFT_WARP ? (size_t)cross * (size_t)warps + (size_t)k
+                                                     : (size_t)k * (size_t)warps + (size_t)cross;
+            float *run = cloth->runs + 4 * cell + 2 * threads;
+            run[0] = endless ? 0.0f : (float)c;
+            run[1] = endless ? 0.0f : top ? (float)length : -(float)length;
+        }
+        at += length;
+    }
+}
+
+/* Returns the albedo of fibres of which a cloth reflects so much: A E + rho(A) (1 - E), E of white fibres once
+ * met, by bisection. */
+static float albedo_of(float reflectance, float alpha) {
+    const float once = 0.328f - 0.111f * alpha;
+    float low = 0.0f, high = 1.0f;
+    for (int step = 0; step < 24; step++) {
+        const float a = 0.5f * (low + high);
+        if (a * once + yarn_reflectance(a) * (1.0f - once) < reflectance)
+            low = a;
+        else
+            high = a;
+    }
+    return 0.5f * (low + high);
+}
+
+static void put_albedos(WeftCloth *cloth, const WeftDraft *draft) {
+    float *albedo = cloth->albedos;
+    for (int t = 0; t < 2; t++)
+        for (int k = 0; k < draft->count[t]; k++)
+            for (int c = 0; c < 3; c++)
+                *albedo++ = albedo_of(srgb_decode(draft->threads[t][k].color[c]), cloth->yarns[t].alpha);
+}
+
+static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, float width) {
+    return (WeaveYarn){.alpha = yarn->alpha,
+                       .crimp = tanf(yarn->crimp),
+                       .roundness = yarn->roundness,
+                       .twist = yarn->twist,
+                       .white = yarn->white,
+                       .pitch = pitch,
+                       .cross_pitch = cross_pitch,
+                       .width = yarn->width * width,
+                       .bulge = yarn->bulge,
+                       .floats = yarn->floats,
+                       .streaks = yarn->streaks,
+                       .dye = yarn->dye,
+                       .slub = yarn->slub,
+                       .wander = yarn->wander};
+}
+
+/* Returns how many threads are looked at: about 48, in whole repeats where these are small. */
+static float looked_at(int count) { return (float)(count < 48 ? count * ((47 + count) / count) : 48); }
+
+/* Looks at some repeats, or at the first threads of a large one. */
+static void look_over(Weave *m) {
+    const int side = LOOKS;
+    const float across = looked_at(m->warps), along = looked_at(m->picks);
+    int seen[2] = {0, 0};
+    double open = 0.0, run[2] = {0.0, 0.0};
+    m->low = HUGE_VALF;
+    m->high = -HUGE_VALF;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < side * side; k++) {
+            const float x = ((float)(k % side) + 0.5f) / (float)side,
+                        y = ((float)(k / side) + 0.5f) / (float)side;
+            const WeavePoint p = weave_point(m, x * across, y * along);
+            if (p.height <= WEAVE_NONE) continue;
+            if (pass == 0) {
+                seen[p.weft]++;
+                run[p.weft] += (double)p.k;
+                m->low = fminf(m->low, p.height);
+                m->high = fmaxf(m->high, p.height);
+            } else
+                open += (double)weave_depth(m, p);
+        }
+    const int all = seen[0] + seen[1];
+    m->warp_share = (float)seen[0] / (float)(side * side);
+    m->weft_share = (float)seen[1] / (float)(side * side);
+    m->warp_run = seen[0] ? (float)(run[0] / (double)seen[0]) : 1.0f;
+    m->weft_run = seen[1] ? (float)(run[1] / (double)seen[1]) : 1.0f;
+    m->openness = all ? (float)(open / (double)all) : 1.0f;
+    if (!all) m->low = m->high = 0.0f;
+}
+
+static WeftResult yarn_check(const WeftYarn *y, WeftError *error) {
+    const struct {
+        const char *name;
+        float value, low, high;
+    } limits[] = {{"alpha", y->alpha, 0.05f, 1.0f},        {"crimp", y->crimp, 0.0f, 1.2f},
+                  {"roundness", y->roundness, 0.0f, 1.5f}, {"twist", y->twist, -1.5f, 1.5f},
+                  {"white", y->white, 0.0f, 1.0f},         {"width", y->width, 0.05f, 2.0f},
+                  {"bulge", y->bulge, 0.0f, 1.0f},         {"floats", y->floats, 0.0f, 8.0f},
+                  {"streaks", y->streaks, 0.0f, 2.0f},     {"dye", y->dye, 0.0f, 1.0f},
+                  {"slub", y->slub, 0.0f, 2.0f},           {"wander", y->wander, 0.0f, 2.0f}};
+    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++)
+        if (!(limits[k].value >= limits[k].low && limits[k].value <= limits[k].high))
+            return fail(error, WEFT_MESSAGE_DESC, "yarn", "%s is %g; %g to %g is possible", limits[k].name,
+                        (double)limits[k].value, (double)limits[k].low, (double)limits[k].high);
+    return WEFT_OK;
+}
+
+WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], unsigned seed, WeftCloth **out,
+                             WeftError *error) {
+    const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
+    double pitch[2] = {0.0, 0.0}, width[2] = {0.0, 0.0};
+    *out = NULL;
+    for (int t = 0; t < 2; t++)
+        if (yarn_check(&yarns[t], error) != WEFT_OK) return WEFT_USAGE;
+    WeftCloth *cloth = alloc_array(1, sizeof *cloth);
+    if (cloth) cloth->runs = alloc_array((size_t)warps * (size_t)picks, 4 * sizeof(float));
+    if (cloth) cloth->albedos = alloc_array((size_t)warps + (size_t)picks, 3 * sizeof(float));
+    if (!cloth || !cloth->runs || !cloth->albedos) {
+        weft_cloth_free(cloth);
+        return fail(error, WEFT_MESSAGE_MEMORY, draft->title, NULL);
+    }
+    for (int t = 0; t < 2; t++) {
+        cloth->yarns[t] = yarns[t];
+        for (int k = 0; k < draft->count[t]; k++) {
+            const WeftThread *thread = &draft->threads[t][k];
+            pitch[t] += (double)thread->spacing;
+            width[t] +=
+                fmin(fmax((double)thread->thickness, 0.3 * (double)thread->spacing), (double)thread->spacing);
+            put_runs(cloth, draft, (WeftThreads)t, k);
+        }
+        cloth->size[t] = pitch[t];
+        width[t] /= pitch[t];
+        pitch[t] /= (double)draft->count[t];
+    }
+    put_albedos(cloth, draft);
+    const double unit = 0.5 * (pitch[0] + pitch[1]);
+    const float warp = (float)(pitch[0] / unit), weft = (float)(pitch[1] / unit);
+    cloth->weave = (Weave){.warps = warps,
+                           .picks = picks,
+                           .warp = laid(&yarns[WEFT_WARP], warp, weft, (float)width[0]),
+                           .weft = laid(&yarns[WEFT_WEFT], weft, warp, (float)width[1]),
+                           .seed = (float)(seed % 289u),
+                           .runs = cloth->runs,
+                           .albedos = cloth->albedos};
+    look_over(&cloth->weave);
+    cloth_spread(cloth, 1.0);
+    *out = cloth;
+    return WEFT_OK;
+}
+
+void cloth_spread(WeftCloth *cloth, double metres) {
+    cloth->per_uv[WEFT_WARP] = (float)(metres * (double)cloth->weave.warps / cloth->size[WEFT_WARP]);
+    cloth->per_uv[WEFT_WEFT] = (float)(metres * (double)cloth->weave.picks / cloth->size[WEFT_WEFT]);
+}
+
+void weft_cloth_free(WeftCloth *cloth) {
+    if (!cloth) return;
+    free(cloth->runs);
+    free(cloth->albedos);
+    free(cloth->text);
+    free(cloth);
+}
+
+WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {
+    return (WeftClothInfo){.share = {cloth->weave.warp_share, cloth->weave.weft_share},
+                           .size = {(float)cloth->size[0], (float)cloth->size[1]}};
+}

@@ -1,0 +1,181 @@
+/* cloth_maps.c - a cloth as textures that tile, for renderers that know no threads */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/thread.h"
+#include "image/srgb.h"
+#include "shading/tone.h"
+#include "shading/yarn_medium.h"
+#include "weave/weft_cloth.h"
+
+enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
+enum { FINE = 2, CYCLE_LEAST = 16, SIDE_MAX = 8192 }; /* points along a texel's side; threads along a map's */
+
+static const struct {
+    const char *file;
+    int channels;
+} kinds[MAP_COUNT] = {{"base_color.png", 4},
+                      {"normal.png", 3},
+                      {"occlusion_roughness.png", 3},
+                      {"anisotropy.png", 3},
+                      {"height.png", 1}};
+
+typedef struct MapBake {
+    Weave weave; /* with a cycle */
+    int width, height;
+    WeftImage maps[MAP_COUNT];
+} MapBake;
+
+/* The mean over a texel. */
+typedef struct MapTexel {
+    float color[3], cover, slope[2], roughness, open, height;
+    float along[2]; /* of the fibres' direction at twice its angle, which has no sign */
+} MapTexel;
+
+/* Part of the light that fibres met once reflect, of all that they do (yarn_medium.h). */
+static float once_of(float alpha) { return 0.328f - 0.111f * alpha; }
+
+static void add_point(const Weave *m, float x, float y, MapTexel *t) {
+    const WeavePoint p = weave_point(m, x, y);
+    const float part = 1.0f / (FINE * FINE);
+    if (p.height <= WEAVE_NONE) {
+        t->height += part * m->low;
+        return;
+    }
+    const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, once = once_of(alpha);
+    for (int c = 0; c < 3; c++) {
+        const float a = weave_albedo(m, p, c);
+        t->color[c] += part * (a * once + yarn_reflectance(a) * (1.0f - once));
+    }
+    t->cover += part;
+    t->slope[0] += part * p.slope_x;
+    t->slope[1] += part * p.slope_y;
+    t->roughness += part * sqrtf(alpha);
+    t->open += part * weave_depth(m, p);
+    t->height += part * p.height;
+    const float across = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y;
+    t->along[0] += part * (p.fibre.x * p.fibre.x - p.fibre.y * p.fibre.y) / fmaxf(across, 1e-6f);
+    t->along[1] += part * 2.0f * p.fibre.x * p.fibre.y / fmaxf(across, 1e-6f);
+}
+
+static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
+
+static unsigned char *texel_at(MapBake *b, int map, int column, int row) {
+    const size_t pixel = (size_t)row * (size_t)b->width + (size_t)column;
+    return (unsigned char *)b->maps[map].pixels + pixel * (size_t)kinds[map].channels;
+}
+
+/* Highlights of fibres are drawn out across them: KHR_materials_anisotropy has that direction, as a vector, and
+ * a strength by which roughness grows that way. */
+static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
+    const float cover = fmaxf(t->cover, 1e-6f), x = t->slope[0] / cover, y = t->slope[1] / cover;
+    const float n = 1.0f / sqrtf(1.0f + x * x + y * y);
+    const float one = sqrtf(t->along[0] * t->along[0] + t->along[1] * t->along[1]) / cover;
+    const float angle = 0.5f * atan2f(t->along[1], t->along[0]) + PI / 2.0f;
+    unsigned char *to = texel_at(b, MAP_COLOR, column, row);
+    for (int c = 0; c < 3; c++) to[c] = byte_of(tone_encode(fminf(t->color[c] / cover, 1.0f)));
+    to[3] = byte_of(t->cover);
+    to = texel_at(b, MAP_NORMAL, column, row);
+    to[0] = byte_of(0.5f + 0.5f * x * n), to[1] = byte_of(0.5f + 0.5f * y * n),
+    to[2] = byte_of(0.5f + 0.5f * n);
+    to = texel_at(b, MAP_ROUGHNESS, column, row);
+    to[0] = byte_of(t->open / cover), to[1] = byte_of(t->roughness / cover), to[2] = 0;
+    to = texel_at(b, MAP_ANISOTROPY, column, row);
+    to[0] = byte_of(0.5f + 0.5f * cosf(angle)), to[1] = byte_of(0.5f + 0.5f * sinf(angle)),
+    to[2] = byte_of(0.9f * one);
+    const float span = fmaxf(b->weave.high - b->weave.low, 1e-6f);
+    *texel_at(b, MAP_HEIGHT, column, row) = byte_of((t->height - b->weave.low) / span);
+}
+
+static void bake_row(void *user, int row, int thread) {
+    MapBake *b = user;
+    (void)thread;
+    for (int column = 0; column < b->width; column++) {
+        MapTexel t = {.cover = 0.0f};
+        for (int k = 0; k < FINE * FINE; k++) {
+            const float x = ((float)column + ((float)(k % FINE) + 0.5f) / FINE) / (float)b->width;
+            const float y = 1.0f - ((float)row + ((float)(k / FINE) + 0.5f) / FINE) / (float)b->height;
+            add_point(&b->weave, x * b->weave.cycle_x, y * b->weave.cycle_y, &t);
+        }
+        put_texel(b, &t, column, row);
+    }
+}
+
+static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%.4000s/%s", folder, kinds[k].file);
+        result = weft_image_write_as(path, &b->maps[k], &(WeftImageWriting){.data = k != MAP_COLOR}, error);
+    }
+    return result;
+}
+
+/* A material file (docs/materials.md) that lays the maps on a cloth, one unit of whose texture coordinates
+ * spans so many metres. */
+static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const double size[2],
+                                 double metres, const char *folder, WeftError *error) {
+    char path[4096], place[96];
+    OutputFile file;
+    snprintf(path, sizeof path, "%.4000s/material.json", folder);
+    WeftResult result = output_open(&file, path, error);
+    if (result != WEFT_OK) return result;
+    const double white = 0.5 * (double)(b->weave.warp.white + b->weave.weft.white);
+    const bool gaps = cloth->weave.warp_share + cloth->weave.weft_share < 0.999f;
+    snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", metres / size[0], metres / size[1]);
+    fprintf(file.stream, "{\n    \"base_color\": {\"texture\": \"%s\", %s},\n", kinds[MAP_COLOR].file, place);
+    if (gaps)
+        fprintf(file.stream,
+                "    \"opacity\": {\"texture\": \"%s\", \"channel\": \"a\", %s},\n    \"alpha_mode\": "
+                "\"blend\",\n",
+                kinds[MAP_COLOR].file, place);
+    fprintf(file.stream, "    \"normal\": {\"texture\": \"%s\", %s},\n", kinds[MAP_NORMAL].file, place);
+    fprintf(file.stream, "    \"occlusion\": {\"texture\": \"%s\", \"channel\": \"r\", %s},\n",
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(file.stream, "    \"roughness\": {\"texture\": \"%s\", \"channel\": \"g\", %s},\n",
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(file.stream, "    \"anisotropy\": {\"texture\": \"%s\", \"channel\": \"b\", %s},\n",
+            kinds[MAP_ANISOTROPY].file, place);
+    fprintf(file.stream, "    \"anisotropy_direction\": {\"texture\": \"%s\", %s},\n",
+            kinds[MAP_ANISOTROPY].file, place);
+    fprintf(file.stream,
+            "    \"sheen_color\": %.3g,\n    \"sheen_roughness\": 0.6,\n    \"reflectance\": %.3g,\n"
+            "    \"double_sided\": true\n}\n",
+            0.5 * white, fmin((0.02 + 0.5 * white - 0.017) / 0.05, 1.0));
+    return output_commit(&file, error);
+}
+
+/* Whole repeats of at least CYCLE_LEAST threads. */
+static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
+
+WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
+                           WeftError *error) {
+    if (pixels < 16 || pixels > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
+    if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
+    MapBake bake = {.weave = cloth->weave, .width = pixels};
+    const int across = cycle_of(cloth->weave.warps), along = cycle_of(cloth->weave.picks);
+    const double size[2] = {cloth->size[0] * across / cloth->weave.warps,
+                            cloth->size[1] * along / cloth->weave.picks};
+    bake.weave.cycle_x = (float)across;
+    bake.weave.cycle_y = (float)along;
+    bake.height = (int)fmin(fmax(rint(pixels * size[1] / size[0]), 16.0), SIDE_MAX);
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
+        result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k],
+                                   error);
+    if (result == WEFT_OK) {
+        parallel_for(0, bake.height, bake_row, &bake);
+        result = write_maps(&bake, folder, error);
+    }
+    if (result == WEFT_OK) result = write_material(&bake, cloth, size, metres, folder, error);
+    for (int k = 0; k < MAP_COUNT; k++) weft_image_free(&bake.maps[k]);
+    return result;
+}

@@ -1,0 +1,52 @@
+/* yarns.c - the yarns that have a name */
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/pi.h"
+#include "weft/weave.h"
+
+#define DEGREES ((float)RADIANS)
+
+/* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander), crimp
+ * and twist in degrees. */
+#define YARNS(Y)                                                                                             \
+    Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, \
+      0.3f, 0.35f)                                                                                           \
+    Y("linen", "dry and straight, with slubs and small gaps", 0.3f, 20, 0.95f, -12, 0.05f, 0.86f, 0.05f,     \
+      1.2f, 0.3f, 0.16f, 0.9f, 0.7f)                                                                         \
+    Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f)     \
+    Y("silk", "filament with hardly any twist", 0.12f, 22, 0.9f, 0, 0.12f, 1.0f, 0.55f, 1.6f, 0.1f, 0.05f,   \
+      0.06f, 0.15f)                                                                                          \
+    Y("dupion", "raw silk of uneven thickness", 0.14f, 24, 0.95f, -4, 0.12f, 0.95f, 0.2f, 1.4f, 0.2f, 0.1f,  \
+      1.3f, 0.6f)                                                                                            \
+    Y("polyester", "smooth filament", 0.16f, 20, 0.9f, 0, 0.1f, 0.98f, 0.35f, 1.5f, 0.06f, 0.02f, 0.03f,     \
+      0.08f)
+
+static const struct {
+    const char *name, *help;
+    WeftYarn yarn;
+} yarns[] = {
+#define ROW(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub,     \
+            wander)                                                                                          \
+    {name,                                                                                                   \
+     help,                                                                                                   \
+     {alpha, (crimp)*DEGREES, roundness, (twist)*DEGREES, white, width, bulge, floats, streaks, dye, slub,   \
+      wander}},
+    YARNS(ROW)
+#undef ROW
+};
+
+const char *weft_yarn_name(int index) {
+    return index >= 0 && index < (int)(sizeof yarns / sizeof *yarns) ? yarns[index].name : NULL;
+}
+
+const char *weft_yarn_help(int index) { return weft_yarn_name(index) ? yarns[index].help : NULL; }
+
+WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error) {
+    for (size_t k = 0; k < sizeof yarns / sizeof *yarns; k++)
+        if (strcmp(yarns[k].name, name) == 0) {
+            *out = yarns[k].yarn;
+            return WEFT_OK;
+        }
+    return fail(error, WEFT_MESSAGE_YARN_NAME, name, "cotton, linen, wool, silk, dupion, polyester");
+}

@@ -1,0 +1,169 @@
+/* Yarn near and far: the far lobe is the mean of the near one, yarns hide as much of each other as is seen twice,
+ * and nothing is without bound. Figures are those of a sum over 200 x 200 points. */
+#include "cases.h"
+
+#include "base/pi.h"
+#include "shading/azimuth.h"
+#include "shading/lobes/woven.h"
+#include "shading/lobes/yarn.h"
+
+/* A yarn by the numbers of lobe woven; degrees. */
+typedef struct Shape {
+    float alpha, crimp, twist, floats;
+    double most; /* of the mean relative difference between near and far */
+} Shape;
+
+static const float degree = (float)RADIANS;
+
+static Woven woven_shape(const Shape *shape, float share) {
+    return (Woven){.alpha = shape->alpha,
+                   .share = share,
+                   .crimp = shape->crimp * degree,
+                   .azimuth = PI / 2.0f,
+                   .twist = shape->twist * degree,
+                   .roundness = 0.9f,
+                   .floats = shape->floats,
+                   .cross_crimp = 0.4f};
+}
+
+/* The point r, s of that yarn. */
+static Yarn point_of(const Woven *m, float r, float s) {
+    const float t = tanf(m->crimp), slope = t * s * powf(fabsf(s), m->floats - 1.0f), x = m->roundness * r;
+    const float n = 1.0f / sqrtf(1.0f + x * x + slope * slope), c = 1.0f / sqrtf(1.0f + slope * slope);
+    const float ct = cosf(m->twist), st = sinf(m->twist);
+    const Dir fibre = {-st * n / c, ct * c + st * x * slope * c * n, 0.0f};
+    return (Yarn){.alpha = m->alpha,
+                  .slope_x = x,
+                  .slope_y = slope,
+                  .azimuth = azimuth_of(fibre),
+                  .roundness = m->roundness,
+                  .crimp = t / sqrtf(m->floats),
+                  .cross_crimp = tanf(m->cross_crimp),
+                  .share = m->share};
+}
+
+typedef struct Mean {
+    double once, many, seen; /* of both kinds of light, and of P / V towards wo */
+} Mean;
+
+static Mean mean_of(const Woven *m, Dir o, Dir i, int side) {
+    Mean mean = {0.0, 0.0, 0.0};
+    for (int k = 0; k < side * side; k++) {
+        const float r = 2.0f * ((float)(k % side) + 0.5f) / (float)side - 1.0f;
+        const float s = 2.0f * ((float)(k / side) + 0.5f) / (float)side - 1.0f;
+        YarnPrepared p;
+        YarnView w;
+        yarn_prepare(point_of(m, r, s), &p);
+        yarn_view(&p, o, &w);
+        const LobeValue v = yarn_value(&p, &w, angles_between(o, i));
+        mean.once += (double)(v.f * (1.0f - v.s)) / (side * side);
+        mean.many += (double)(v.f * v.s) / (side * side);
+        mean.seen += (double)(w.p / w.seen) / (side * side);
+    }
+    return mean;
+}
+
+static LobeValue far_value(const Woven *m, Dir o, Dir i) {
+    WovenPrepared p;
+    WovenView w;
+    woven_prepare(*m, &p);
+    woven_view(&p, o, &w);
+    return woven_value(&p, &w, angles_between(o, i));
+}
+
+static Dir above(Random *random, double least) {
+    return direction_cos(least + (1.0 - least) * (double)random_unit(random),
+                         2.0 * PI_DOUBLE * (double)random_unit(random));
+}
+
+/* Over 100 pairs. */
+static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
+    (void)state;
+    static const Shape shapes[] = {{0.2f, 25, 0, 1, 0.014}, {0.4f, 25, 30, 1, 0.014},
+                                   {0.2f, 40, 0, 1, 0.014}, {0.3f, 40, 30, 1, 0.014},
+                                   {0.1f, 15, 0, 1, 0.014}, {0.12f, 35, 0, 4, 0.04}};
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
+        const Woven m = woven_shape(&shapes[k], 1.0f);
+        Random random = {k};
+        double apart = 0.0, sum = 0.0, many = 0.0;
+        for (int pair = 0; pair < 100; pair++) {
+            const Dir o = above(&random, 0.15), i = above(&random, 0.15);
+            const Mean near = mean_of(&m, o, i, test_short() ? 64 : 200);
+            const LobeValue far = far_value(&m, o, i);
+            apart += fabs((double)(far.f * (1.0f - far.s)) - near.once);
+            sum += near.once;
+            many = fmax(many, fabs((double)(far.f * far.s) / near.many - 1.0));
+        }
+        printf("alpha %.2f crimp %.0f twist %.0f floats %.0f: %.2f %% apart, %.2f %% in what was met again\n",
+               (double)shapes[k].alpha, (double)shapes[k].crimp, (double)shapes[k].twist,
+               (double)shapes[k].floats, 100.0 * apart / sum, 100.0 * many);
+        assert_true(apart / sum < shapes[k].most);
+        assert_true(many < (shapes[k].floats > 1.0f ? 0.05 : 2e-3)); /* hidden shares of floats are rough */
+    }
+}
+
+/* Of the slopes of its own family the mean of P / V is 1, whatever the direction, where slopes are uniform. */
+static void yarns_hide_what_would_be_seen_twice(void **state) {
+    (void)state;
+    static const Shape shape = {0.3f, 40, 0, 1, 0.0};
+    const Woven m = woven_shape(&shape, 1.0f);
+    for (int k = 0; k < 200; k++) {
+        const Dir o = direction_cos(0.02 + 0.98 * (k % 20) / 19.0, 0.63 * (k / 20));
+        assert_float_equal(mean_of(&m, o, dir(0.0f, 0.0f, 1.0f), 128).seen, 1.0, 1e-3);
+    }
+}
+
+/* The six fabrics of Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012:
+ * twist and steepest angle of warp and weft. */
+static const struct {
+    const char *name;
+    float twist[2], crimp[2], alpha;
+} irawan[] = {{"denim", {-30, -30}, {12, 38}, 0.4f},   {"shantung", {0, 0}, {50, 23}, 0.12f},
+              {"charmeuse", {0, 0}, {40, 60}, 0.1f},   {"cotton twill", {-30, -30}, {24, 36}, 0.4f},
+              {"gabardine", {30, 30}, {30, 30}, 0.5f}, {"polyester", {0, 0}, {22, 16}, 0.16f}};
+
+static void yarns_of_irawan_are_finite_down_to_the_horizon(void **state) {
+    (void)state;
+    Random random = {7};
+    for (size_t k = 0; k < sizeof irawan / sizeof *irawan; k++)
+        for (int t = 0; t < 2; t++)
+            for (int n = 0; n < 4000; n++) {
+                const Shape shape = {irawan[k].alpha, irawan[k].crimp[t], irawan[k].twist[t], 1, 0.0};
+                const Woven m = woven_shape(&shape, random_unit(&random));
+                const Dir o = direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)),
+                                            6.0 * (double)random_unit(&random));
+                const Dir i = direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)),
+                                            6.0 * (double)random_unit(&random));
+                const float r = 2.0f * random_unit(&random) - 1.0f, s = 2.0f * random_unit(&random) - 1.0f;
+                YarnPrepared p;
+                YarnView w;
+                yarn_prepare(point_of(&m, r, s), &p);
+                yarn_view(&p, o, &w);
+                const LobeValue near = yarn_value(&p, &w, angles_between(o, i)), far = far_value(&m, o, i);
+                assert_true(isfinite(near.f) && near.f >= 0.0f && near.s >= 0.0f && near.s <= 1.0f);
+                assert_true(isfinite(far.f) && far.f >= 0.0f && far.s >= 0.0f && far.s <= 1.0f);
+            }
+}
+
+static void value_is_the_same_both_ways_round(void **state) {
+    (void)state;
+    Random random = {11};
+    for (int k = 0; k < 2000; k++) {
+        const Shape shape = {0.1f + 0.8f * random_unit(&random), 60.0f * random_unit(&random),
+                             60.0f * random_unit(&random) - 30.0f, 1.0f + 5.0f * random_unit(&random), 0.0};
+        const Woven m = woven_shape(&shape, random_unit(&random));
+        const Dir o = above(&random, 0.01), i = above(&random, 0.01);
+        const double one = (double)far_value(&m, o, i).f, other = (double)far_value(&m, i, o).f;
+        assert_true(fabs(one - other) <= 2e-6 * fmax(one, other));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_far_lobe_is_the_mean_of_the_near_one),
+        cmocka_unit_test(yarns_hide_what_would_be_seen_twice),
+        cmocka_unit_test(yarns_of_irawan_are_finite_down_to_the_horizon),
+        cmocka_unit_test(value_is_the_same_both_ways_round),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,285 @@
+/* Cloth woven of yarns: what lies on top, what is seen of either system, what varies, and maps that tile. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "shading/weave_light.h"
+#include "weave/weft_cloth.h"
+#include "weft/weft.h"
+
+static WeftYarn yarn_of(const char *name) {
+    WeftYarn yarn;
+    WeftError error;
+    if (weft_yarn_find(name, &yarn, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return yarn;
+}
+
+/* The same yarn without anything that varies. */
+static WeftYarn even_yarn(const char *name) {
+    WeftYarn yarn = yarn_of(name);
+    yarn.streaks = yarn.dye = yarn.slub = yarn.wander = 0.0f;
+    return yarn;
+}
+
+static WeftCloth *woven(const char *notation, WeftYarn yarn, unsigned seed) {
+    WeftDraft *draft;
+    WeftCloth *cloth;
+    WeftError error;
+    if (weft_draft_parse(notation, &draft, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_cloth_create(draft, (WeftYarn[2]){yarn, yarn}, seed, &cloth, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    weft_draft_free(draft);
+    return cloth;
+}
+
+static const char *const drafts[] = {
+    "plain",    "twill 2/2 z",       "twill 3/1 s",   "satin 8/3",
+    "basket 2", "herringbone 2/2 8", "twill 2/1/1/1", "sateen 5/2; sett 40 20"};
+
+/* In the middle of a crossing lies the thread that the draft says, in every repeat. */
+static void the_draft_says_what_lies_on_top(void **state) {
+    (void)state;
+    for (size_t d = 0; d < sizeof drafts / sizeof *drafts; d++) {
+        WeftDraft *draft;
+        WeftError error;
+        WeftCloth *cloth = woven(drafts[d], yarn_of("cotton"), 3);
+        assert_int_equal(weft_draft_parse(drafts[d], &draft, &error), WEFT_OK);
+        for (int pick = -20; pick < 40; pick++)
+            for (int warp = -20; warp < 40; warp++) {
+                const WeavePoint p = weave_point(&cloth->weave, (float)warp + 0.5f, (float)pick + 0.5f);
+                if (p.weft == (bool)weft_draft_warp_up(draft, warp, pick))
+                    fail_msg("%s: warp %d, pick %d", drafts[d], warp, pick);
+            }
+        weft_draft_free(draft);
+        weft_cloth_free(cloth);
+    }
+}
+
+/* Of a warp satin hardly any weft is seen, less than its draft has; of a plain weave half is. */
+static void shares_are_of_what_is_seen(void **state) {
+    (void)state;
+    WeftCloth *satin = woven("satin 8/3", even_yarn("silk"), 0),
+              *plain = woven("plain", even_yarn("cotton"), 0);
+    const WeftClothInfo s = weft_cloth_info(satin), p = weft_cloth_info(plain);
+    assert_true(s.share[WEFT_WARP] > 0.875f && s.share[WEFT_WARP] < 0.99f);
+    assert_float_equal(p.share[WEFT_WARP], p.share[WEFT_WEFT], 0.02f);
+    assert_true(p.share[WEFT_WARP] + p.share[WEFT_WEFT] <= 1.0f);
+    weft_cloth_free(satin);
+    weft_cloth_free(plain);
+}
+
+static bool same_point(WeavePoint a, WeavePoint b) {
+    return a.weft == b.weft && fabsf(a.height - b.height) < 1e-4f && fabsf(a.slope_x - b.slope_x) < 1e-3f &&
+           fabsf(a.slope_y - b.slope_y) < 1e-3f && fabsf(a.fibre.x - b.fibre.x) < 1e-3f &&
+           fabsf(a.dye - b.dye) < 1e-3f;
+}
+
+/* Counts places at which the cloth is another one so many threads on. */
+static int changes(const Weave *m, float x, float y) {
+    int count = 0;
+    for (int k = 0; k < 400; k++) {
+        const float u = 7.77f + 0.31f * (float)(k % 20), v = 3.33f + 0.37f * (float)(k / 20);
+        count += !same_point(weave_point(m, u, v), weave_point(m, u + x, v + y));
+    }
+    return count;
+}
+
+static void variation_does_not_tile_unless_it_is_to(void **state) {
+    (void)state;
+    WeftCloth *even = woven("twill 2/2", even_yarn("wool"), 0),
+              *real = woven("twill 2/2", yarn_of("wool"), 0);
+    assert_int_equal(changes(&even->weave, 4.0f, 8.0f), 0);
+    assert_true(changes(&real->weave, 4.0f, 0.0f) > 300);
+    assert_true(changes(&real->weave, 0.0f, 4.0f) > 300);
+    assert_true(changes(&real->weave, 289.0f * 4.0f, 0.0f) > 300);
+    Weave tile = real->weave;
+    tile.cycle_x = 20.0f;
+    tile.cycle_y = 16.0f;
+    assert_true(changes(&tile, 4.0f, 0.0f) > 300);
+    assert_true(changes(&tile, 20.0f, 0.0f) < 4); /* rounding, at the very edge of a thread */
+    assert_true(changes(&tile, 0.0f, 16.0f) < 4);
+    assert_true(changes(&tile, -40.0f, 32.0f) < 4);
+    weft_cloth_free(even);
+    weft_cloth_free(real);
+}
+
+static void a_seed_makes_a_cloth(void **state) {
+    (void)state;
+    WeftCloth *one = woven("plain", yarn_of("linen"), 1), *again = woven("plain", yarn_of("linen"), 1),
+              *other = woven("plain", yarn_of("linen"), 2);
+    int apart = 0;
+    for (int k = 0; k < 300; k++) {
+        const float x = 0.37f * (float)k, y = 0.11f * (float)k;
+        assert_true(same_point(weave_point(&one->weave, x, y), weave_point(&again->weave, x, y)));
+        apart += !same_point(weave_point(&one->weave, x, y), weave_point(&other->weave, x, y));
+    }
+    assert_true(apart > 250);
+    weft_cloth_free(one);
+    weft_cloth_free(again);
+    weft_cloth_free(other);
+}
+
+/* A pick that never goes below is level, and every point is one of a yarn: finite, unit, white at the most. */
+static void every_point_is_sound(void **state) {
+    (void)state;
+    static const char *const yarns[] = {"cotton", "linen", "wool", "silk", "dupion", "polyester"};
+    for (size_t d = 0; d < sizeof drafts / sizeof *drafts; d++)
+        for (size_t n = 0; n < sizeof yarns / sizeof *yarns; n++) {
+            WeftCloth *cloth = woven(drafts[d], yarn_of(yarns[n]), (unsigned)n);
+            for (int k = 0; k < 500; k++) {
+                const float x = 1.618f * (float)k - 100.0f, y = 0.7071f * (float)k - 50.0f;
+                const WeavePoint p = weave_point(&cloth->weave, x, y);
+                if (p.height <= WEAVE_NONE) continue;
+                const Yarn yarn = weave_yarn(&cloth->weave, p);
+                const float length = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y + p.fibre.z * p.fibre.z;
+                assert_float_equal(length, 1.0f, 1e-4f);
+                /* along the yarn's surface */
+                assert_float_equal(p.fibre.x * p.slope_x + p.fibre.y * p.slope_y + p.fibre.z, 0.0f, 1e-4f);
+                assert_true(yarn.share >= 0.0f && yarn.share <= 1.0f && fabsf(p.slope_x) < 8.0f);
+                for (int c = 0; c < 3; c++) {
+                    const float a = weave_albedo(&cloth->weave, p, c);
+                    assert_true(a >= 0.0f && a <= 1.0f);
+                }
+            }
+            weft_cloth_free(cloth);
+        }
+}
+
+static void a_thread_without_end_is_level(void **state) {
+    (void)state;
+    static const char wif[] =
+        "[WIF]\nVersion=1.1\n[CONTENTS]\nWEAVING=yes\nWARP=yes\nWEFT=yes\nTHREADING=yes\n"
+        "LIFTPLAN=yes\n[WEAVING]\nShafts=2\nTreadles=2\n[WARP]\nThreads=2\n[WEFT]\n"
+        "Threads=2\n[THREADING]\n1=1\n2=2\n[LIFTPLAN]\n1=1,2\n2=1\n";
+    WeftDraft *draft;
+    WeftCloth *cloth;
+    WeftError error;
+    const WeftYarn yarn = even_yarn("cotton");
+    assert_int_equal(weft_draft_read_memory(wif, sizeof wif - 1, "endless", &draft, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){yarn, yarn}, 0, &cloth, &error), WEFT_OK);
+    for (int k = 0; k < 64; k++) { /* warp 1 is up at both picks */
+        const WeavePoint p = weave_point(&cloth->weave, 0.5f, 0.05f * (float)k);
+        if (!p.weft && p.thread == 0.0f) assert_float_equal(p.slope_y, 0.0f, 1e-6f);
+    }
+    weft_draft_free(draft);
+    weft_cloth_free(cloth);
+}
+
+static void numbers_that_no_yarn_has_are_refused_in_one_line(void **state) {
+    (void)state;
+    WeftDraft *draft;
+    WeftCloth *cloth;
+    WeftYarn yarn;
+    WeftError error;
+    assert_int_equal(weft_draft_parse("plain", &draft, &error), WEFT_OK);
+    assert_int_equal(weft_yarn_find("nettle", &yarn, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "nettle"));
+    const WeftYarn good = yarn_of("cotton");
+    const size_t count = sizeof good / sizeof(float);
+    for (size_t k = 0; k < count; k++) {
+        static const float wrong[] = {-9.0f, 99.0f, NAN, INFINITY};
+        for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+            WeftYarn bad = good;
+            memcpy((char *)&bad + k * sizeof(float), &wrong[w], sizeof(float));
+            assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){good, bad}, 0, &cloth, &error),
+                             WEFT_USAGE);
+            assert_null(cloth);
+            assert_null(strchr(error.text, '\n'));
+        }
+    }
+    weft_draft_free(draft);
+}
+
+static WeftImage read_map(const char *folder, const char *name) {
+    char path[256];
+    WeftImage image;
+    WeftError error;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+/* Returns the mean difference of two columns, in bytes. */
+static double apart(const WeftImage *image, int one, int other) {
+    const uint8_t *pixels = image->pixels;
+    double sum = 0.0;
+    for (int row = 0; row < image->height; row++)
+        for (int c = 0; c < image->channels; c++) {
+            const size_t at = (size_t)row * (size_t)image->width;
+            const int a = pixels[(at + (size_t)one) * (size_t)image->channels + (size_t)c];
+            const int b = pixels[(at + (size_t)other) * (size_t)image->channels + (size_t)c];
+            sum += a > b ? a - b : b - a;
+        }
+    return sum / image->height / image->channels;
+}
+
+/* Across the seam a map changes as much as from thread to thread elsewhere. */
+static void maps_repeat_without_a_seam(void **state) {
+    (void)state;
+    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png",
+                                        "anisotropy.png", "height.png"};
+    char folder[64];
+    WeftError error;
+    snprintf(folder, sizeof folder, "/tmp/weft-maps-%ld", (long)getpid());
+    WeftCloth *cloth = woven("twill 2/2; both 1#a08050", yarn_of("wool"), 5);
+    if (weft_cloth_bake(cloth, 256, 0.5, folder, &error) != WEFT_OK) fail_msg("%s", error.text);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        WeftImage map = read_map(folder, names[k]);
+        assert_int_equal(map.width, 256);
+        double inside = 0.0; /* between columns on both sides of a boundary of threads, which are 16 wide */
+        for (int c = 1; c < 16; c++) inside += apart(&map, 16 * c - 1, 16 * c) / 15.0;
+        assert_true(apart(&map, map.width - 1, 0) < 1.5 * inside + 0.5);
+        if (k == 1) assert_true(apart(&map, 8, 8 + 64) > 1.0); /* the draft comes again, its threads do not */
+        weft_image_free(&map);
+    }
+    assert_int_equal(weft_cloth_bake(cloth, 8, 0.5, folder, &error), WEFT_USAGE);
+    assert_int_equal(weft_cloth_bake(cloth, 64, -1.0, folder, &error), WEFT_USAGE);
+    assert_int_not_equal(weft_cloth_bake(cloth, 64, 0.5, "/proc/weft", &error), WEFT_OK);
+    char path[300];
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        assert_int_equal(unlink(path), 0);
+    }
+    snprintf(path, sizeof path, "%s/material.json", folder);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+    weft_cloth_free(cloth);
+}
+
+static void a_picture_shows_the_colours_of_its_threads(void **state) {
+    (void)state;
+    WeftCloth *cloth = woven("plain; both 1#c02020", yarn_of("cotton"), 0);
+    WeftImage image;
+    WeftError error;
+    assert_int_equal(weft_cloth_draw(cloth, 48, 6.0f, &image, &error), WEFT_OK);
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 48 * 48; k++)
+        for (int c = 0; c < 3; c++) sum[c] += ((const uint8_t *)image.pixels)[3 * k + c] / (48.0 * 48.0);
+    assert_true(sum[0] > 2.0 * sum[1] && sum[0] > 2.0 * sum[2] && sum[0] > 60.0);
+    weft_image_free(&image);
+    assert_int_equal(weft_cloth_draw(cloth, 0, 6.0f, &image, &error), WEFT_USAGE);
+    assert_int_equal(weft_cloth_draw(cloth, 64, NAN, &image, &error), WEFT_USAGE);
+    weft_cloth_free(cloth);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_draft_says_what_lies_on_top),
+        cmocka_unit_test(shares_are_of_what_is_seen),
+        cmocka_unit_test(variation_does_not_tile_unless_it_is_to),
+        cmocka_unit_test(a_seed_makes_a_cloth),
+        cmocka_unit_test(every_point_is_sound),
+        cmocka_unit_test(a_thread_without_end_is_level),
+        cmocka_unit_test(numbers_that_no_yarn_has_are_refused_in_one_line),
+        cmocka_unit_test(maps_repeat_without_a_seam),
+        cmocka_unit_test(a_picture_shows_the_colours_of_its_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
