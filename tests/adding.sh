@@ -1,7 +1,8 @@
 #!/bin/sh
-# Adds the lobe of docs/adding-a-lobe.md to a copy of the sources, by one file and one row as that page says, and asks
-# the program for it; and tests/lobes/toy.h likewise, of which the program as it was must say the same by --lobe. Then a
-# file without a row must fail shading/registry. Arguments: source folder, C compiler, program. Exit 77: skipped.
+# Adds to a copy of the sources what docs/adding-a-lobe.md and CONTRIBUTING.md print, and asks the program for it: a lobe,
+# a term, a profile and a verb; and tests/lobes/toy.h as a row, of which the program as it was must say the same by
+# --lobe. Then a file without a row must fail shading/registry. Arguments: source folder, C compiler, program. Exit 77:
+# skipped.
 set -eu
 source="$1"
 compiler="$2"
@@ -32,11 +33,12 @@ cd "$work/weft"
 listing 1 >src/shading/lobes/minnaert.h
 cp tests/lobes/toy.h src/shading/lobes/
 sed -i '/^wrap$/a minnaert\ntoy' src/shading/lobes.list
+tests/recipes.sh "$source" . >"$work/commands" || { cat "$work/commands"; fail "the recipes do not apply"; }
 
 # Unoptimised, and then with warnings off: gcc 12 sees less then, and warns of more.
 cmake -G Ninja -S . -B build -DCMAKE_C_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_C_FLAGS_RELWITHDEBINFO="-O0 -w" -DWEFT_ARRAY_OPTIMIZATION=-O0 >"$work/log" 2>&1 || { cat "$work/log"; fail "cmake failed"; }
-ninja -C build -j2 weft_cli test_shading_registry >"$work/log" 2>&1 || { tail -40 "$work/log"; fail "ninja failed"; }
+ninja -C build -j2 weft_cli test_shading_registry test_shading_terms test_shading_profiles >"$work/log" 2>&1 || { tail -40 "$work/log"; fail "ninja failed"; }
 weft() { build/weft "$@"; }
 
 # near WHAT NUMBER EXPECTED
@@ -60,6 +62,27 @@ for kind in sheen diffuse; do
 done
 script/docs build/weft >"$work/log"
 grep -q 'Minnaert, The reciprocity principle' docs/lobes/minnaert.md || fail "script/docs made no page"
+
+# The commands of the recipes, as they are printed, and what they must show.
+mkdir "$work/bin"
+ln -s "$work/weft/build/weft" "$work/bin/weft"
+mkdir "$work/made"
+(cd "$work/made" && PATH="$work/bin:$PATH" sh -e "$work/commands" >"$work/log" 2>&1) ||
+    { cat "$work/log"; fail "a command of CONTRIBUTING.md failed"; }
+grep -q 'Bidirectional Reflectance Spectroscopy' "$work/log" || fail "weft models v:lommel-seeliger shows no source"
+grep -q 'imagined textile mill' "$work/log" || fail "weft models profile:mill shows no page"
+grep -q 'Usage: weft mean IMAGE' "$work/log" || fail "weft mean --help shows no usage"
+grep -q 'mill' "$work/made/mill.glsl" || fail "weft export mill wrote no shader"
+weft --help | grep -q '^  mean ' || fail "weft --help does not list mean"
+weft mean "$work/made/term.png" | awk '{ exit !(NF >= 3 && $1 > 0 && $1 < 1) }' || fail "weft mean prints no colour"
+# shellcheck disable=SC2046 # four numbers
+set -- $(echo 60 0 0 0 | weft eval cook-torrance -p d=blinn-phong -p v=lommel-seeliger -p f=none)
+# shellcheck disable=SC2046
+near "V by hand, 1 / (4 (cos 60 + 1)), times D of implicit" "$1" \
+    "$(set -- $(echo 60 0 0 0 | weft eval cook-torrance -p d=blinn-phong -p v=implicit -p f=none); awk -v x="$1" 'BEGIN { print x * 4 * 0.25 / 1.5 }')"
+for name in terms profiles; do
+    "build/tests/test_shading_$name" >"$work/log" 2>&1 || { tail -40 "$work/log"; fail "shading/$name does not pass"; }
+done
 
 # The toy: as a row, and by --lobe.
 near_all() {

@@ -1,9 +1,9 @@
 /* terms.h - the terms by name: D, V and F to compose a lobe of (lobes/cook_torrance.h)
  *
- * Dialect, like the terms. A row of a list is one term: id, number, calls, a line of help. A new term needs a
- * file in terms/, and here its include, its number, the count and a row (CONTRIBUTING.md). C and GLSL, the
- * command line and the docs follow; tests/shading/test_terms.c needs the formula a second time. The numbers
- * are constants in GLSL, where a chain of conditions folds to one term. */
+ * Dialect, like the terms. A row of a list is one term: id, number, calls, a line of help. A new term needs a file in
+ * terms/, and here its include, its number, the count and a row; if its number is the last, the range in
+ * lobes/cook_torrance.h ends with it (CONTRIBUTING.md has an example). Tests need the formula a second time. The
+ * numbers are constants in GLSL, where a chain of conditions folds to one term. */
 #ifndef WEFT_SHADING_TERMS_H
 #define WEFT_SHADING_TERMS_H
 
