@@ -70,8 +70,8 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
 
 /* Writes the changes of a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
-    WeftMaterial was = *scene_state_material(&v->first, index);
-    const WeftMaterial *is = scene_state_material(&v->state, index);
+    WeftMaterial was = *scene_state_material(&v->edit->first, index);
+    const WeftMaterial *is = scene_state_material(&v->edit->state, index);
     for (int k = 0; weft_material_choice_name(k); k++) {
         if (is->choices[k] == was.choices[k]) continue;
         const char *id = is->choices[k] < 0 ? "auto" : weft_material_choice_value(k, is->choices[k]);
@@ -115,7 +115,7 @@ static void put_light(Line *line, const WeftLight *l) {
 }
 
 static void put_lights(Line *line, const Viewer *v) {
-    const SceneState *a = &v->first, *b = &v->state;
+    const SceneState *a = &v->edit->first, *b = &v->edit->state;
     if (a->light_count == b->light_count &&
         memcmp(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights) == 0)
         return;
@@ -141,27 +141,30 @@ static void put_view(Line *line, const Viewer *v) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none"};
     static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
     char camera[ORBIT_TEXT];
-    put(line, " --width %d --height %d --camera", v->request.view.width, v->request.view.height);
-    put_word(line, orbit_text(&v->orbit, camera));
-    if (v->background == WEFT_BACKGROUND_COLOR)
-        put(line, " --background %.9g,%.9g,%.9g", (double)v->background_color[0],
-            (double)v->background_color[1], (double)v->background_color[2]);
-    else if (v->background != WEFT_BACKGROUND_AUTO)
-        put(line, " --background %s", backs[v->background]);
-    if (v->floor.on)
-        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g", (double)v->floor.reflection,
-            (double)v->floor.roughness);
-    if (v->hide_lights) put(line, " --hide-lights");
-    if (differs(v->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->exposure);
-    if (v->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->tonemap]);
-    if (v->mode != MODE_LIVE) {
-        put(line, v->mode == MODE_DIFFERENCE ? " --engine both --spp %d" : " --spp %d",
-            v->traced.samples >= 1.0 ? (int)v->traced.samples : 64);
+    int width, height;
+    viewer_picture_size(v, &width, &height);
+    put(line, " --width %d --height %d --camera", width, height);
+    put_word(line, orbit_text(&v->camera->orbit, camera));
+    if (v->options->background == WEFT_BACKGROUND_COLOR)
+        put(line, " --background %.9g,%.9g,%.9g", (double)v->options->background_color[0],
+            (double)v->options->background_color[1], (double)v->options->background_color[2]);
+    else if (v->options->background != WEFT_BACKGROUND_AUTO)
+        put(line, " --background %s", backs[v->options->background]);
+    if (v->options->floor.on)
+        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g",
+            (double)v->options->floor.reflection, (double)v->options->floor.roughness);
+    if (v->options->hide_lights) put(line, " --hide-lights");
+    if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);
+    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL)
+        put(line, " --tonemap %s", curves[v->options->tonemap]);
+    if (v->options->mode != MODE_LIVE) {
+        put(line, v->options->mode == MODE_DIFFERENCE ? " --engine both --spp %d" : " --spp %d",
+            v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);
         return;
     }
     put(line, " --engine raster");
-    if (v->part != WEFT_PART_ALL) put(line, " --part %s", weft_part_name((int)v->part));
-    if (v->ambient != WEFT_AMBIENT_BEST) put(line, " --ambient %s", ambients[v->ambient]);
+    if (v->options->part != WEFT_PART_ALL) put(line, " --part %s", weft_part_name((int)v->options->part));
+    if (v->options->ambient != WEFT_AMBIENT_BEST) put(line, " --ambient %s", ambients[v->options->ambient]);
 }
 
 char *command_line(const Viewer *v, bool *lost) {
@@ -169,27 +172,28 @@ char *command_line(const Viewer *v, bool *lost) {
     bool gone = false;
     if (!line.text) return NULL;
     put(&line, "weft render");
-    put_word(&line, v->facts.path);
-    for (int k = 0; k < v->lobe_count; k++) {
+    put_word(&line, v->shown->facts.path);
+    for (int k = 0; k < v->opening->lobe_count; k++) {
         put(&line, " --lobe");
-        put_word(&line, v->lobes[k]);
+        put_word(&line, v->opening->lobes[k]);
     }
-    if (v->desc->options && v->desc->options[0] && strcmp(v->configured, v->facts.path) == 0)
+    if (v->desc->options && v->desc->options[0] && strcmp(v->opening->configured, v->shown->facts.path) == 0)
         put(&line, " %s", v->desc->options);
-    if (v->desc->materials && strcmp(v->configured, v->facts.path) == 0) { /* which the first look wears */
+    if (v->desc->materials &&
+        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* which the first look wears */
         put(&line, " --materials");
         put_word(&line, v->desc->materials);
     }
-    gone |= v->state.variant < 0 && v->first.variant >= 0;
-    if (v->state.variant != v->first.variant && v->state.variant >= 0) {
+    gone |= v->edit->state.variant < 0 && v->edit->first.variant >= 0;
+    if (v->edit->state.variant != v->edit->first.variant && v->edit->state.variant >= 0) {
         put(&line, " --variant");
-        put_word(&line, v->facts.variants[v->state.variant]);
+        put_word(&line, v->shown->facts.variants[v->edit->state.variant]);
     }
-    for (int k = 0; k < v->state.material_count && k < v->first.material_count; k++)
+    for (int k = 0; k < v->edit->state.material_count && k < v->edit->first.material_count; k++)
         put_material(&line, v, k, &gone);
-    for (int k = 0; k < STATE_NAPS; k++) gone |= v->state.naps[k] != NULL;
+    for (int k = 0; k < STATE_NAPS; k++) gone |= v->edit->state.naps[k] != NULL;
     put_lights(&line, v);
-    put_environment(&line, &v->state.environment);
+    put_environment(&line, &v->edit->state.environment);
     put_view(&line, v);
     put(&line, " -o picture.png");
     if (lost) *lost = gone;

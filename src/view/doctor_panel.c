@@ -21,10 +21,10 @@ static void draw_heading(Viewer *v, const WeftFinding *f, int k) {
     char label[256], engines[200], tip[700];
     snprintf(label, sizeof label, "%s: %s, %.96s###finding %d", weft_severity_name(f->severity),
              weft_finding_name((int)f->kind), f->subject, k);
-    bool chooses = f->of == WEFT_OF_MATERIAL && f->index < v->state.material_count;
-    if (ui_selectable(label, chooses && f->index == v->material) && chooses) {
-        v->material = f->index;
-        viewer_say(v, false, "%s", v->facts.materials[f->index]);
+    bool chooses = f->of == WEFT_OF_MATERIAL && f->index < v->edit->state.material_count;
+    if (ui_selectable(label, chooses && f->index == v->edit->material) && chooses) {
+        edit_choose_material(v, f->index);
+        viewer_say(v, false, "%s", v->shown->facts.materials[f->index]);
     }
     name_engines(f->engines, engines, sizeof engines);
     snprintf(tip, sizeof tip, "%s.\nIn the file: %s%s%s%s", weft_finding_help((int)f->kind), f->place,
@@ -53,11 +53,16 @@ static void draw_findings(Viewer *v, const WeftDoctor *doctor) {
     }
 }
 
-static bool is_file(const Viewer *v) { return strncmp(v->facts.path, "builtin:", 8) != 0; }
+static bool is_file(const Viewer *v) { return strncmp(v->shown->facts.path, "builtin:", 8) != 0; }
 
 bool doctor_busy(const Viewer *v) {
-    return v->panel == PANEL_DOCTOR && v->has_scene && is_file(v) &&
+    return v->options->panel == PANEL_DOCTOR && v->shown->any && is_file(v) &&
            !(v->examination && examination_done(v->examination));
+}
+
+void doctor_forget(Viewer *v) {
+    examination_free(v->examination);
+    v->examination = NULL;
 }
 
 void doctor_panel(Viewer *v) {
@@ -65,7 +70,7 @@ void doctor_panel(Viewer *v) {
         ui_dim("A built-in scene is no file: there is nothing to examine.");
         return;
     }
-    if (!v->examination) v->examination = examination_start(v->window, v->facts.path);
+    if (!v->examination) v->examination = examination_start(v->window, v->shown->facts.path);
     if (!v->examination || !examination_done(v->examination))
         ui_progress(-1.0f, "examining");
     else if (examination_doctor(v->examination))

@@ -7,12 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <epoxy/gl.h>
+
 #include "base/steady_clock.h"
 #include "view/opening.h"
+#include "view/rooms.h"
 
-static void add_warnings(Viewer *v, const char *lines) {
-    size_t used = strlen(v->warnings);
-    if (lines) snprintf(v->warnings + used, sizeof v->warnings - used, "%s", lines);
+void requests_due(Viewer *v) { v->rooms->requests.ask = true; }
+void requests_forget_probe(Viewer *v) { v->rooms->requests.has_probe = false; }
+void requests_forget(Viewer *v) { scene_state_free(&v->rooms->requests.sent); }
+void requests_end(Viewer *v) {
+    if (v->window) glDeleteTextures(1, &v->rooms->requests.reference_texture);
+}
+
+void viewer_picture_size(const Viewer *v, int *width, int *height) {
+    *width = (int)fmaxf(v->frame->stage.width, 16.0f);
+    *height = (int)fmaxf(v->frame->stage.height, 16.0f);
 }
 
 static bool same_request(const FrameRequest *a, const FrameRequest *b) {
@@ -29,41 +39,40 @@ static bool same_request(const FrameRequest *a, const FrameRequest *b) {
 
 /* Both states and how they are seen; the states are borrowed. */
 static FrameRequest make_request(const Viewer *v) {
-    FrameRequest request = {.scene = v->scene,
-                            .edited = v->side,
-                            .split = v->split,
-                            .at = v->split_at,
-                            .tonemap = v->tonemap,
-                            .exposure = v->exposure};
-    request.state = v->side == 0 || v->split == SPLIT_NONE ? v->state : v->other;
-    request.other = v->side == 0 || v->split == SPLIT_NONE ? v->other : v->state;
-    request.view.width = (int)fmaxf(v->stage.width, 16.0f);
-    request.view.height = (int)fmaxf(v->stage.height, 16.0f);
+    FrameRequest request = {.scene = v->shown->number,
+                            .edited = v->edit->side,
+                            .split = v->edit->split,
+                            .at = v->options->split_at,
+                            .tonemap = v->options->tonemap,
+                            .exposure = v->options->exposure};
+    request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
+    request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
+    viewer_picture_size(v, &request.view.width, &request.view.height);
     static const float dark[3] = {0.0219f, 0.0219f, 0.0246f};
-    bool color = v->background == WEFT_BACKGROUND_COLOR;
-    request.view.background = color ? WEFT_BACKGROUND_TRANSPARENT : v->background;
-    request.view.floor = v->floor;
-    request.view.hide_lights = v->hide_lights;
-    request.view.part = v->part;
-    request.view.ambient = v->ambient;
-    request.reference = v->mode != MODE_LIVE;
-    request.compare = v->mode == MODE_DIFFERENCE;
-    if (v->mode != MODE_LIVE) {
+    bool color = v->options->background == WEFT_BACKGROUND_COLOR;
+    request.view.background = color ? WEFT_BACKGROUND_TRANSPARENT : v->options->background;
+    request.view.floor = v->options->floor;
+    request.view.hide_lights = v->options->hide_lights;
+    request.view.part = v->options->part;
+    request.view.ambient = v->options->ambient;
+    request.reference = v->options->mode != MODE_LIVE;
+    request.compare = v->options->mode == MODE_DIFFERENCE;
+    if (v->options->mode != MODE_LIVE) {
         request.split = SPLIT_NONE;
         request.edited = 0;
-        request.state = v->state;
+        request.state = v->edit->state;
         request.view.part = WEFT_PART_ALL;
     }
     request.laid_behind = color && request.view.part == WEFT_PART_ALL;
-    memcpy(request.behind, request.laid_behind ? v->background_color : dark, sizeof request.behind);
-    orbit_text(&v->orbit, request.camera);
+    memcpy(request.behind, request.laid_behind ? v->options->background_color : dark, sizeof request.behind);
+    orbit_text(&v->camera->orbit, request.camera);
     return request;
 }
 
 static void request_reference(Viewer *v, const FrameRequest *request) {
     ReferenceRequest t;
     memset(&t, 0, sizeof t); /* compared byte by byte */
-    t.wanted = v->mode != MODE_LIVE && v->has_scene;
+    t.wanted = v->options->mode != MODE_LIVE && v->shown->any;
     t.desc.width = request->view.width, t.desc.height = request->view.height;
     t.desc.background = request->view.background;
     t.desc.floor = request->view.floor;
@@ -71,51 +80,49 @@ static void request_reference(Viewer *v, const FrameRequest *request) {
     snprintf(t.camera, sizeof t.camera, "%s", request->camera);
     t.tonemap = request->tonemap, t.exposure = request->exposure;
     memcpy(t.behind, request->behind, sizeof t.behind);
-    t.difference = v->mode == MODE_DIFFERENCE;
+    t.difference = v->options->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
     reference_request(v->reference, &t);
-    bool moved = strcmp(v->request.camera, request->camera) != 0 ||
-                 v->request.view.width != request->view.width ||
-                 v->request.view.height != request->view.height ||
-                 v->request.reference != request->reference || !scene_state_same(&v->state, &v->sent);
-    if (moved) v->traced.samples = 0.0; /* until there are some of this view */
+    bool moved = strcmp(v->rooms->requests.request.camera, request->camera) != 0 ||
+                 v->rooms->requests.request.view.width != request->view.width ||
+                 v->rooms->requests.request.view.height != request->view.height ||
+                 v->rooms->requests.request.reference != request->reference ||
+                 !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    if (moved) v->rooms->requests.traced.samples = 0.0; /* until there are some of this view */
 }
 
 /* Returns true if the picture shown is of the latest request but could be drawn more finely. */
 bool requests_can_refine(const Viewer *v) {
-    return v->has_scene && v->rendered.number == v->requested && v->rendered.texture &&
-           v->rendered.effort < EFFORT_SMOOTH;
+    return v->shown->any && v->rooms->requests.rendered.number == v->rooms->requests.requested &&
+           v->rooms->requests.rendered.texture && v->rooms->requests.rendered.effort < EFFORT_SMOOTH;
 }
 
 /* Sends what is wanted where it is something else than before. */
 void requests_send(Viewer *v) {
-    if (!v->has_scene || v->stage.width < 1.0f) return;
+    if (!v->shown->any || v->frame->stage.width < 1.0f) return;
     FrameRequest request = make_request(v);
-    bool changed = v->ask || !same_request(&request, &v->request) || !scene_state_same(&v->state, &v->sent);
-    if (changed) v->changed = clock_now();
-    bool finer = requests_can_refine(v) && clock_now() - v->changed > 0.12;
+    bool changed = v->rooms->requests.ask || !same_request(&request, &v->rooms->requests.request) ||
+                   !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    if (changed) v->rooms->requests.changed = clock_now();
+    bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
     if (!changed && !finer) return;
-    request.effort = finer ? (Effort)(v->rendered.effort + 1) : EFFORT_COARSE;
-    v->requested = renderer_request(v->renderer, &request);
+    request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
+    v->rooms->requests.requested = renderer_request(v->renderer, &request);
     request_reference(v, &request);
-    scene_state_free(&v->sent);
-    if (!scene_state_copy(&v->sent, &v->state)) v->sent = (SceneState){0};
+    scene_state_free(&v->rooms->requests.sent);
+    if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
+        v->rooms->requests.sent = (SceneState){0};
     request.state = request.other = (SceneState){0};
-    v->request = request;
-    v->ask = false;
-    if (changed) v->has_probe = false;
+    v->rooms->requests.request = request;
+    v->rooms->requests.ask = false;
+    if (changed) v->rooms->requests.has_probe = false;
 }
 
 /* The place of a camera of the scene is known once a frame was drawn through it. */
 void requests_read_camera(Viewer *v) {
-    const RenderedFrame *p = &v->rendered;
-    if (!v->orbit.name[0] || p->number != v->requested || !p->texture) return;
-    memcpy(v->orbit.eye, p->eye, sizeof p->eye);
-    memcpy(v->orbit.target, p->target, sizeof p->target);
-    if (p->fov > 0.0f) v->orbit.fov = p->fov;
-    if (v->at_home || !p->focused) return;
-    v->at_home = true;
-    opening_home(v, p->eye, p->target);
+    const RenderedFrame *p = &v->rooms->requests.rendered;
+    if (!v->camera->orbit.name[0] || p->number != v->rooms->requests.requested || !p->texture) return;
+    camera_found(v, p);
 }
 
 /* A newer picture is waited for a little: of what was just asked for, or of the frame before, while the
@@ -123,65 +130,27 @@ void requests_read_camera(Viewer *v) {
  * behind. */
 void requests_wait_frame(Viewer *v) {
     double until = clock_now() + 0.04;
-    unsigned before = v->rendered.number;
-    renderer_take_frame(v->renderer, &v->rendered);
-    bool waits = v->has_scene && !v->late && v->mode == MODE_LIVE;
-    while (waits && v->rendered.number == before && before != v->requested && clock_now() < until) {
+    unsigned before = v->rooms->requests.rendered.number;
+    renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
+    bool waits = v->shown->any && !v->rooms->requests.late && v->options->mode == MODE_LIVE;
+    while (waits && v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested &&
+           clock_now() < until) {
         window_wait(v->window, 0.004);
-        renderer_take_frame(v->renderer, &v->rendered);
+        renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
     }
-    v->late = v->rendered.number == before && before != v->requested;
+    v->rooms->requests.late =
+        v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested;
 }
 
 void requests_take_reference(Viewer *v) {
     ReferenceFrame picture;
     if (!reference_take_frame(v->reference, &picture)) return;
     if (picture.image.pixels) {
-        viewer_upload(&v->reference_texture, &picture.image);
-        v->reference_width = picture.image.width, v->reference_height = picture.image.height;
+        viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
-    v->traced = picture;
+    v->rooms->requests.traced = picture;
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
-}
-
-/* A step of its own. */
-static void keep_step(Viewer *v) {
-    history_close(&v->history);
-    history_keep(&v->history, &v->state);
-    history_close(&v->history);
-}
-
-static bool lit_by(const SceneState *state, const char *path) {
-    return state->environment.kind == ENVIRONMENT_FILE && strcmp(state->environment.path, path) == 0;
-}
-
-/* A file that was read again makes no step of history, since its earlier contents are gone. */
-static void take_light(Viewer *v, const EnvironmentState *environment) {
-    if (!lit_by(&v->state, environment->path)) keep_step(v);
-    if (lit_by(&v->other, environment->path))
-        environment_state_take_source(&v->other.environment, environment);
-    environment_state_take_source(&v->state.environment, environment);
-    viewer_accept_state(v);
-}
-
-/* RenderEvent keep what was there, to be released with them. */
-static void take_maps(Viewer *v, RenderEvent *event) {
-    const Facts was = v->facts;
-    v->facts.maps = event->maps.maps, v->facts.map_count = event->maps.map_count;
-    v->facts.thumbs = event->maps.thumbs;
-    event->maps.maps = was.maps, event->maps.thumbs = was.thumbs;
-    viewer_show_maps(v);
-}
-
-static void take_assigned(Viewer *v, RenderEvent *event) {
-    EnvironmentState environment = v->state.environment;
-    if (!scene_state_same(&v->state, &event->state)) keep_step(v);
-    scene_state_free(&v->state);
-    v->state = event->state;
-    v->state.environment = environment;
-    event->state_changed = false;
-    viewer_accept_state(v);
 }
 
 void requests_take_events(Viewer *v) {
@@ -189,44 +158,41 @@ void requests_take_events(Viewer *v) {
     while (renderer_take_event(v->renderer, &event)) {
         if (event.text[0]) viewer_say(v, event.failed, "%s", event.text);
         if (event.kind == TASK_SCENE) opening_take(v, &event);
-        if (event.scene != v->scene) { /* of one that is gone */
+        if (event.scene != v->shown->number) { /* of one that is gone */
             render_event_free(&event);
             continue;
         }
-        if (event.maps.maps) take_maps(v, &event);
-        if (event.state_changed && event.kind == TASK_LIGHT)
-            take_light(v, &event.state.environment);
-        else if (event.state_changed)
-            take_assigned(v, &event);
-        if (event.kind == TASK_BIND_MAPS && !event.failed) folders_keep(&v->folders, event.path, -1);
+        if (event.maps.maps) opening_take_maps(v, &event);
+        if (event.state_changed && event.kind == TASK_LIGHT) {
+            edit_take_light(v, &event.state.environment);
+        } else if (event.state_changed) {
+            edit_take_assigned(v, &event.state);
+            event.state_changed = false;
+        }
+        if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
         if (event.coverage) opening_varied(v, &event.coverage);
         if (event.kind == TASK_PROBE && !event.failed) {
-            v->probe = event.probe;
-            v->has_probe = event.probe.hit;
+            v->rooms->requests.probe = event.probe;
+            v->rooms->requests.has_probe = event.probe.hit;
         }
         if (event.kind == TASK_PICK && !event.failed && event.stamp) stage_picked(v, &event);
-        if (event.kind == TASK_PROFILES && event.image.pixels) {
-            viewer_upload(&v->profiles_texture, &event.image);
-            v->profiles_width = event.image.width, v->profiles_height = event.image.height;
-            weft_image_free(&v->profiles);
-            v->profiles = event.image;
-            event.image = (WeftImage){0};
-            v->profiles_made = true;
-        }
+        if (event.kind == TASK_PROFILES && event.image.pixels) dialogs_take_profiles(v, &event.image);
         render_event_free(&event);
     }
     char *warnings = renderer_take_warnings(v->renderer);
-    add_warnings(v, warnings);
+    opening_warn(v, warnings);
     free(warnings);
-    if (strcmp(v->shader_complaint, v->rendered.complaint) != 0) {
-        memcpy(v->shader_complaint, v->rendered.complaint, sizeof v->shader_complaint);
-        if (v->shader_complaint[0])
-            viewer_say(v, true, "shader: %s", v->shader_complaint);
+    if (strcmp(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint) != 0) {
+        memcpy(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint,
+               sizeof v->rooms->requests.shader_complaint);
+        if (v->rooms->requests.shader_complaint[0])
+            viewer_say(v, true, "shader: %s", v->rooms->requests.shader_complaint);
         else
             viewer_say(v, false, "shaders compile again");
     }
-    if (strcmp(v->failure, v->rendered.failure) != 0) {
-        memcpy(v->failure, v->rendered.failure, sizeof v->failure);
-        viewer_say(v, v->failure[0] != '\0', "%s", v->failure);
+    if (strcmp(v->rooms->requests.failure, v->rooms->requests.rendered.failure) != 0) {
+        memcpy(v->rooms->requests.failure, v->rooms->requests.rendered.failure,
+               sizeof v->rooms->requests.failure);
+        viewer_say(v, v->rooms->requests.failure[0] != '\0', "%s", v->rooms->requests.failure);
     }
 }

@@ -4,6 +4,14 @@
 
 #include "view/viewer.h"
 
+/* A request is due although nothing that is drawn has changed yet. */
+void requests_due(Viewer *v);
+
+/* Forgets what was asked of the scene before: its state, which is released, or the point that was probed. */
+void requests_forget(Viewer *v);
+void requests_forget_probe(Viewer *v);
+void requests_end(Viewer *v);
+
 /* Sends what is wanted where it is something else than before, or can be drawn better now. */
 void requests_send(Viewer *v);
 

@@ -275,18 +275,20 @@ static void draw_passport(const Inspection *self) {
 
 static void draw_probe(const Viewer *v) {
     char text[512];
-    if (!v->has_probe) {
+    if (!v->requests->has_probe) {
         ui_dim("Choose the tool Probe (P) and click on the picture.\n\n\n\n\n");
         return;
     }
-    const Probe *p = &v->probe;
+    const Probe *p = &v->requests->probe;
     const float(*c)[3] = p->value;
     snprintf(
         text, sizeof text,
         "%s\nvalue     %.4f %.4f %.4f\ndiffuse   %.4f %.4f %.4f\nspecular  %.4f %.4f %.4f\nsheen     %.4f "
         "%.4f "
         "%.4f\nbase      %.3f %.3f %.3f\nroughness %.3f   normal %.3f %.3f %.3f\nuv %.4f %.4f   %.3f m away",
-        p->material >= 0 && p->material < v->facts.info.material_count ? v->facts.materials[p->material] : "",
+        p->material >= 0 && p->material < v->shown->facts.info.material_count
+            ? v->shown->facts.materials[p->material]
+            : "",
         (double)c[WEFT_PART_ALL][0], (double)c[WEFT_PART_ALL][1], (double)c[WEFT_PART_ALL][2],
         (double)c[WEFT_PART_DIFFUSE][0], (double)c[WEFT_PART_DIFFUSE][1], (double)c[WEFT_PART_DIFFUSE][2],
         (double)c[WEFT_PART_SPECULAR][0], (double)c[WEFT_PART_SPECULAR][1], (double)c[WEFT_PART_SPECULAR][2],
@@ -307,8 +309,8 @@ void inspect_panel(Viewer *v) {
         v->inspection->angle = 45.0f;
     }
     Inspection *self = v->inspection;
-    if (v->material >= v->state.material_count) return;
-    refresh(self, scene_state_material(&v->state, v->material));
+    if (v->edit->material >= v->edit->state.material_count) return;
+    refresh(self, scene_state_material(&v->edit->state, v->edit->material));
     if (ui_section("Lobes", true)) {
         ui_slider("light from", &angles, &self->angle);
         ui_tip("The angle between light and normal.");

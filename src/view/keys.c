@@ -15,7 +15,7 @@ static void with_control(Viewer *v, const UiPress *p) {
     case 's': viewer_save(v, NULL); break;
     case 'c': p->shift ? viewer_copy_command(v) : viewer_copy_material(v); break;
     case 'v': viewer_paste_material(v); break;
-    case 'q': v->ending = true; break;
+    case 'q': viewer_quit(v); break;
     default: break;
     }
 }
@@ -23,34 +23,31 @@ static void with_control(Viewer *v, const UiPress *p) {
 static void plain(Viewer *v, const UiPress *p) {
     switch (p->letter) {
     case 'f': viewer_frame_selection(v); break;
-    case 'c': viewer_split(v, v->split == SPLIT_NONE ? SPLIT_LINE : SPLIT_NONE); break;
+    case 'c': viewer_split(v, v->edit->split == SPLIT_NONE ? SPLIT_LINE : SPLIT_NONE); break;
     case 'x': viewer_swap(v); break;
-    case 'p':
-        v->tool = v->tool == TOOL_PROBE ? TOOL_ORBIT : TOOL_PROBE;
-        if (v->tool == TOOL_PROBE) v->panel = PANEL_INSPECT;
-        break;
-    case 'g': v->floor.on = !v->floor.on; break;
-    case 'h': v->hide_lights = !v->hide_lights; break;
+    case 'p': viewer_tool(v, v->options->tool == TOOL_PROBE ? TOOL_ORBIT : TOOL_PROBE); break;
+    case 'g': viewer_toggle_floor(v); break;
+    case 'h': viewer_toggle_lights(v); break;
     case 'm': viewer_next_material(v, p->shift ? -1 : 1); break;
-    case 'b': v->tool = v->tool == TOOL_BRUSH ? TOOL_ORBIT : TOOL_BRUSH; break;
+    case 'b': viewer_tool(v, v->options->tool == TOOL_BRUSH ? TOOL_ORBIT : TOOL_BRUSH); break;
     default: break;
     }
-    if (p->key >= '1' && p->key <= '9') v->part = (WeftPart)(p->key - '1');
+    if (p->key >= '1' && p->key <= '9') viewer_part(v, (WeftPart)(p->key - '1'));
 }
 
 static void named(Viewer *v, const UiPress *p) {
     switch (p->key) {
     case GLFW_KEY_TAB: viewer_mode(v, p->shift ? MODE_DIFFERENCE : MODE_REFERENCE); break;
     case GLFW_KEY_HOME: viewer_reset_camera(v); break;
-    case GLFW_KEY_F1: v->help_open = !v->help_open; break;
+    case GLFW_KEY_F1: dialogs_toggle_help(v); break;
     case GLFW_KEY_F6: ui_go_to_next_panel(); break;
     case GLFW_KEY_F10: ui_go_to_menus(); break;
-    case GLFW_KEY_F8: v->warnings_open = !v->warnings_open; break;
+    case GLFW_KEY_F8: dialogs_toggle_warnings(v); break;
     case GLFW_KEY_F12: viewer_shot(v, NULL); break;
     case GLFW_KEY_ESCAPE:
-        v->tool = TOOL_ORBIT;
-        v->help_open = v->warnings_open = false;
-        v->mode = MODE_LIVE;
+        viewer_tool(v, TOOL_ORBIT);
+        dialogs_close_windows(v);
+        viewer_show_mode(v, MODE_LIVE);
         break;
     default: break;
     }
@@ -58,15 +55,15 @@ static void named(Viewer *v, const UiPress *p) {
 
 /* '?' is asked for as it is typed: it lies elsewhere on every keyboard. */
 static void typed(Viewer *v) {
-    for (int k = 0; k < v->input.typed_count; k++)
-        if (v->input.typed[k] == '?') v->help_open = !v->help_open;
+    for (int k = 0; k < v->frame->input.typed_count; k++)
+        if (v->frame->input.typed[k] == '?') dialogs_toggle_help(v);
 }
 
 void keys_input(Viewer *v) {
     if (ui_types()) return;
     typed(v);
-    for (int k = 0; k < v->input.pressed_count; k++) {
-        const UiPress *p = &v->input.pressed[k];
+    for (int k = 0; k < v->frame->input.pressed_count; k++) {
+        const UiPress *p = &v->frame->input.pressed[k];
         if (p->again || ui_wants_keys()) continue;
         if (p->control)
             with_control(v, p);

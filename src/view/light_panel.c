@@ -17,43 +17,45 @@ static const char *const kind_helps[] = {
 static const char *light_name(const void *user, int k) {
     static char text[64];
     const Viewer *v = user;
-    snprintf(text, sizeof text, "%d: %s", k + 1, kinds[v->state.lights[k].kind]);
+    snprintf(text, sizeof text, "%d: %s", k + 1, kinds[v->edit->state.lights[k].kind]);
     return text;
 }
 
 /* A new one shines from beside and above the eye onto what is looked at. */
 static void add_light(Viewer *v, WeftLightKind kind) {
-    if (v->state.light_count == STATE_LIGHTS) {
+    if (v->edit->state.light_count == STATE_LIGHTS) {
         viewer_say(v, true, "no more than %d lights", STATE_LIGHTS);
         return;
     }
     WeftLight light;
-    float right[3], up[3], forward[3], far = 0.6f * v->reach;
+    float right[3], up[3], forward[3], far = 0.6f * v->camera->reach;
     memset(&light, 0, sizeof light); /* compared byte by byte */
     light.kind = kind;
-    orbit_axes(&v->orbit, right, up, forward);
+    orbit_axes(&v->camera->orbit, right, up, forward);
     for (int k = 0; k < 3; k++) light.direction[k] = 0.6f * forward[k] + 0.5f * right[k];
     light.direction[1] -= 0.6f;
     float n = hypotf(hypotf(light.direction[0], light.direction[1]), light.direction[2]);
     for (int k = 0; k < 3; k++) light.direction[k] /= fmaxf(n, 1e-6f);
-    for (int k = 0; k < 3; k++) light.position[k] = v->home[k] - far * light.direction[k];
+    for (int k = 0; k < 3; k++) light.position[k] = v->camera->home[k] - far * light.direction[k];
     float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f
                   : kind == WEFT_LIGHT_POLYGON   ? 12.0f
                                                  : 3.0f * far * far;
     for (int k = 0; k < 3; k++) light.color[k] = color;
     if (kind == WEFT_LIGHT_POLYGON) light.size[0] = light.size[1] = 0.4f * far, light.corners = 4;
     if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
-    v->light = v->state.light_count;
-    v->state.lights[v->state.light_count++] = light;
+    SceneState *state = edit_state(v);
+    edit_choose_light(v, state->light_count);
+    state->lights[state->light_count++] = light;
 }
 
 static void remove_light(Viewer *v) {
-    WeftLight *lights = v->state.lights;
-    v->state.light_count--;
-    memmove(lights + v->light, lights + v->light + 1,
-            (size_t)(v->state.light_count - v->light) * sizeof *lights);
-    memset(&lights[v->state.light_count], 0, sizeof *lights);
-    if (v->light > 0) v->light--;
+    SceneState *state = edit_state(v);
+    WeftLight *lights = state->lights;
+    int light = v->edit->light;
+    state->light_count--;
+    memmove(lights + light, lights + light + 1, (size_t)(state->light_count - light) * sizeof *lights);
+    memset(&lights[state->light_count], 0, sizeof *lights);
+    if (light > 0) edit_choose_light(v, light - 1);
 }
 
 /* Colour and strength: the greatest channel is the strength. */
@@ -112,8 +114,9 @@ static void draw_shape(WeftLight *l) {
 }
 
 static void draw_lights(Viewer *v) {
-    bool hidden = v->hide_lights;
-    if (ui_checkbox("Hide polygon lights", &hidden)) v->hide_lights = hidden;
+    bool hidden = v->options->hide_lights;
+    if (ui_checkbox("Hide polygon lights", &hidden) && hidden != v->options->hide_lights)
+        viewer_toggle_lights(v);
     ui_tip("They shine, but the camera looks through them.");
     for (int k = 0; k < 4; k++) {
         char label[32];
@@ -122,15 +125,16 @@ static void draw_lights(Viewer *v) {
         if (ui_button(label)) add_light(v, (WeftLightKind)k);
         ui_tip(kind_helps[k]);
     }
-    if (!v->state.light_count) {
+    if (!v->edit->state.light_count) {
         ui_dim("No light of its own: only the environment lights the scene.");
         return;
     }
-    if (v->light >= v->state.light_count) v->light = v->state.light_count - 1;
-    const UiChoices lights = {v->state.light_count, light_name, NULL, v};
-    ui_choice("light", &lights, &v->light);
+    if (v->edit->light >= v->edit->state.light_count) edit_choose_light(v, v->edit->state.light_count - 1);
+    int light = v->edit->light;
+    const UiChoices lights = {v->edit->state.light_count, light_name, NULL, v};
+    if (ui_choice("light", &lights, &light)) edit_choose_light(v, light);
     ui_tip("The light that is edited; its handle in the picture moves it.");
-    WeftLight *l = &v->state.lights[v->light];
+    WeftLight *l = &edit_state(v)->lights[v->edit->light];
     draw_color(l);
     draw_place(l);
     draw_shape(l);
@@ -155,7 +159,7 @@ static void draw_environment(Viewer *v) {
                          strength = {0.0f, 4.0f, 1.0f, NULL, false};
     static const float grey[3] = {1.0f, 1.0f, 1.0f};
     const UiChoices rows = {3, environment_name, environment_help, NULL};
-    EnvironmentState *a = &v->state.environment;
+    EnvironmentState *a = &edit_state(v)->environment;
     int kind = (int)a->kind;
     if (ui_choice("source", &rows, &kind)) {
         if (kind == ENVIRONMENT_FILE && !a->path[0]) {
@@ -210,7 +214,9 @@ void light_panel(Viewer *v) {
     if (ui_section("Environment (HDRI, IBL)###Environment", true)) {
         draw_environment(v);
         const UiChoices rows = {5, ambient_name, ambient_help, NULL};
-        int ambient = (int)v->ambient;
-        if (ui_choice("by OpenGL", &rows, &ambient)) v->ambient = (WeftAmbient)ambient;
+        ViewOptions options = *v->options;
+        int ambient = (int)options.ambient;
+        if (ui_choice("by OpenGL", &rows, &ambient)) options.ambient = (WeftAmbient)ambient;
+        options_set(v, &options);
     }
 }

@@ -130,22 +130,21 @@ static void draw_chooser(Viewer *v, int k, bool has_map) {
     snprintf(label, sizeof label, "...###%s choose", weft_material_input_name(k));
     ui_beside();
     if (ui_small_button(label)) {
-        v->dropped_input = k;
-        viewer_dialog(v, "Choose a map");
+        dialogs_choose_map(v, k);
     }
     ui_tip(has_map ? "Another picture in the place of this map." : "A picture that multiplies the value.");
 }
 
 static void draw_thumb(const Viewer *v, int texture, const char *name) {
-    int count = v->facts.thumbs.height / FACTS_THUMB;
+    int count = v->shown->facts.thumbs.height / FACTS_THUMB;
     char label[96];
     UiBox box;
     float side = ui_line_height() - 5.0f * ui_scale();
-    if (texture > count || !v->thumbs) return;
+    if (texture > count || !v->shown->maps_texture) return;
     snprintf(label, sizeof label, "##%s thumb", name);
     ui_canvas(label, side, side, &box);
-    ui_tip(v->facts.maps[texture - 1]);
-    ui_picture_part(v->thumbs, box, 0.0f, (float)(texture - 1) / (float)count, 1.0f,
+    ui_tip(v->shown->facts.maps[texture - 1]);
+    ui_picture_part(v->shown->maps_texture, box, 0.0f, (float)(texture - 1) / (float)count, 1.0f,
                     (float)texture / (float)count);
     ui_same_line();
 }
@@ -161,7 +160,7 @@ static void draw_map(const Viewer *v, WeftInput *input, const char *name) {
     ui_tip("Takes the map away.");
     ui_same_line();
     snprintf(label, sizeof label, "times %.60s",
-             texture <= v->facts.map_count ? v->facts.maps[texture - 1] : "a map");
+             texture <= v->shown->facts.map_count ? v->shown->facts.maps[texture - 1] : "a map");
     ui_text(label);
     ui_indent_end();
 }
@@ -201,14 +200,14 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
 /* Returns the name of a material, marked if nothing uses it. */
 static const char *material_name(const void *user, int k) {
     static char text[FACTS_NAME + 16];
-    const Facts *facts = &((const Viewer *)user)->facts;
+    const Facts *facts = &((const Viewer *)user)->shown->facts;
     bool unused = facts->coverage && facts->coverage[k] < 0.0f;
     snprintf(text, sizeof text, "%s%s", facts->materials[k], unused ? " (unused)" : "");
     return text;
 }
 static const char *material_help(const void *user, int k) {
     static char text[160];
-    const Facts *facts = &((const Viewer *)user)->facts;
+    const Facts *facts = &((const Viewer *)user)->shown->facts;
     float coverage = facts->coverage ? facts->coverage[k] : 0.0f;
     snprintf(text, sizeof text, "The material that is edited; a click on the picture chooses what is there.");
     if (coverage < 0.0f) snprintf(text, sizeof text, "Nothing uses it now: it is there for a variant.");
@@ -220,7 +219,7 @@ static const char *material_help(const void *user, int k) {
     return text;
 }
 static const char *variant_name(const void *user, int k) {
-    return k ? ((const Viewer *)user)->facts.variants[k - 1] : "none";
+    return k ? ((const Viewer *)user)->shown->facts.variants[k - 1] : "none";
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
 static const char *preset_help(const void *user, int k) {
@@ -228,20 +227,22 @@ static const char *preset_help(const void *user, int k) {
 }
 
 static void draw_which(Viewer *v) {
-    const UiChoices materials = {v->state.material_count, material_name, material_help, v};
-    const UiChoices variants = {v->facts.info.variant_count + 1, variant_name, NULL, v};
-    int count = 0, variant = v->state.variant + 1, preset = scene_state_preset(&v->state, v->material);
+    const UiChoices materials = {v->edit->state.material_count, material_name, material_help, v};
+    const UiChoices variants = {v->shown->facts.info.variant_count + 1, variant_name, NULL, v};
+    int count = 0, variant = v->edit->state.variant + 1,
+        preset = scene_state_preset(&v->edit->state, v->edit->material);
     while (weft_preset_name(count)) count++;
     const UiChoices presets = {count + 1, preset_name, preset_help, v};
-    ui_choice("material", &materials, &v->material);
-    if (v->facts.info.variant_count) {
-        if (ui_choice("variant", &variants, &variant)) v->state.variant = variant - 1;
+    int material = v->edit->material;
+    if (ui_choice("material", &materials, &material)) edit_choose_material(v, material);
+    if (v->shown->facts.info.variant_count) {
+        if (ui_choice("variant", &variants, &variant)) edit_state(v)->variant = variant - 1;
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
-        viewer_task(v, TASK_ASSIGN, path, v->material, -1);
+        viewer_task(v, TASK_ASSIGN, path, v->edit->material, -1);
     }
 }
 
@@ -249,14 +250,14 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     if (ui_button("Copy")) viewer_copy_material(v);
     ui_tip("Keeps this material to be pasted onto another (Ctrl+C).");
     ui_same_line();
-    ui_disabled(!v->has_copied);
-    if (ui_button("Paste")) *m = v->copied;
+    ui_disabled(!v->edit->has_copied);
+    if (ui_button("Paste")) *m = v->edit->copied;
     ui_disabled_end();
     ui_tip("Puts the copied material here (Ctrl+V).");
     ui_same_line();
-    if (ui_button("Reset") && v->material < v->first.material_count) {
-        *m = *scene_state_material(&v->first, v->material);
-        scene_state_set_preset(&v->state, v->material, 0);
+    if (ui_button("Reset") && v->edit->material < v->edit->first.material_count) {
+        *m = *scene_state_material(&v->edit->first, v->edit->material);
+        scene_state_set_preset(edit_state(v), v->edit->material, 0);
     }
     ui_tip("Back to the value of the file.");
     ui_same_line();
@@ -280,7 +281,7 @@ static void draw_plausible(Viewer *v, const WeftMaterial *m) {
     WarningLines lines = {.count = 0};
     char label[64];
     const WeftLog log = {on_warning, &lines};
-    weft_material_plausible(m, v->facts.materials[v->material], &log);
+    weft_material_plausible(m, v->shown->facts.materials[v->edit->material], &log);
     snprintf(label, sizeof label,
              lines.count ? "Plausibility: %d to look at###Plausibility" : "Plausibility: good###Plausibility",
              lines.count);
@@ -319,13 +320,13 @@ static void draw_models(WeftMaterial *m) {
 }
 
 void material_panel(Viewer *v) {
-    if (v->material >= v->state.material_count) v->material = 0;
-    if (!v->state.material_count) {
+    if (v->edit->material >= v->edit->state.material_count) edit_choose_material(v, 0);
+    if (!v->edit->state.material_count) {
         ui_dim("this scene has no materials");
         return;
     }
     draw_which(v);
-    WeftMaterial m = *scene_state_material(&v->state, v->material);
+    WeftMaterial m = *scene_state_material(&v->edit->state, v->edit->material);
     draw_buttons(v, &m);
     draw_plausible(v, &m);
     for (int g = 0; g < GROUPS; g++) {
@@ -334,5 +335,5 @@ void material_panel(Viewer *v) {
         if (g == SHEEN) draw_choice(&m, weft_material_choice_find(sheen_choice));
         draw_inputs(v, &m, g);
     }
-    viewer_set_material(v, v->material, &m);
+    viewer_set_material(v, v->edit->material, &m);
 }

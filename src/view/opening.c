@@ -7,36 +7,42 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/examine.h"
+#include <epoxy/gl.h>
+
+#include "view/frame_requests.h"
 #include "view/paths.h"
+#include "view/rooms.h"
 #include "view/survey.h"
 
 enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
 
 /* The files of scene, light and lobes; those of textures are the renderer's to watch. */
 static void watch_files(Viewer *v) {
-    file_watch_clear(v->file_watch);
-    if (strncmp(v->facts.path, "builtin:", 8) != 0) file_watch_add(v->file_watch, v->facts.path, WATCH_SCENE);
-    if (v->state.environment.kind == ENVIRONMENT_FILE)
-        file_watch_add(v->file_watch, v->state.environment.path, WATCH_LIGHT);
-    for (int k = 0; k < v->lobe_count; k++) file_watch_add(v->file_watch, v->lobes[k], WATCH_LOBES + k);
-    snprintf(v->watched, sizeof v->watched, "%s", v->state.environment.path);
+    file_watch_clear(v->rooms->opening.file_watch);
+    if (strncmp(v->rooms->shown.facts.path, "builtin:", 8) != 0)
+        file_watch_add(v->rooms->opening.file_watch, v->rooms->shown.facts.path, WATCH_SCENE);
+    if (v->edit->state.environment.kind == ENVIRONMENT_FILE)
+        file_watch_add(v->rooms->opening.file_watch, v->edit->state.environment.path, WATCH_LIGHT);
+    for (int k = 0; k < v->rooms->opening.lobe_count; k++)
+        file_watch_add(v->rooms->opening.file_watch, v->rooms->opening.lobes[k], WATCH_LOBES + k);
+    snprintf(v->rooms->opening.watched, sizeof v->rooms->opening.watched, "%s",
+             v->edit->state.environment.path);
 }
 
 /* It is watched from now on. */
 static void keep_lobe(Viewer *v, const char *path) {
-    for (int k = 0; k < v->lobe_count; k++)
-        if (strcmp(v->lobes[k], path) == 0) return;
-    if (v->lobe_count == STATE_LOBES) return;
-    snprintf(v->lobes[v->lobe_count++], STATE_PATH, "%s", path);
-    if (v->has_scene) watch_files(v);
+    for (int k = 0; k < v->rooms->opening.lobe_count; k++)
+        if (strcmp(v->rooms->opening.lobes[k], path) == 0) return;
+    if (v->rooms->opening.lobe_count == STATE_LOBES) return;
+    snprintf(v->rooms->opening.lobes[v->rooms->opening.lobe_count++], STATE_PATH, "%s", path);
+    if (v->rooms->shown.any) watch_files(v);
 }
 
 /* A scene that nobody waits for; its lobe is taken all the same, or was not. */
 static void leave(Viewer *v) {
     Loaded loaded;
-    loader_finish(v->leaving, &loaded);
-    v->leaving = NULL;
+    loader_finish(v->rooms->opening.leaving, &loaded);
+    v->rooms->opening.leaving = NULL;
     if (loaded.taken)
         keep_lobe(v, loaded.lobe);
     else if (loaded.lobe[0])
@@ -46,22 +52,25 @@ static void leave(Viewer *v) {
 
 /* Another one takes its place; it may take a while to stop, which is not waited for. */
 static void let_go(Viewer *v) {
-    if (v->leaving) leave(v);
-    loader_stop(v->loader);
-    v->leaving = v->loader;
-    v->loader = NULL;
+    if (v->rooms->opening.leaving) leave(v);
+    loader_stop(v->rooms->opening.loader);
+    v->rooms->opening.leaving = v->rooms->opening.loader;
+    v->rooms->opening.loader = NULL;
 }
 
 static void start_reading(Viewer *v, const char *path, const char *lobe, bool again) {
-    if (v->loader) let_go(v);
-    bool configured = !v->configured[0] || strcmp(v->configured, path) == 0;
-    if (!v->configured[0]) snprintf(v->configured, sizeof v->configured, "%s", path);
+    if (v->rooms->opening.loader) let_go(v);
+    bool configured = !v->rooms->opening.configured[0] || strcmp(v->rooms->opening.configured, path) == 0;
+    if (!v->rooms->opening.configured[0])
+        snprintf(v->rooms->opening.configured, sizeof v->rooms->opening.configured, "%s", path);
     Folders folders = {0};
-    if (configured && !v->has_scene && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
-    const Reading reading = {path, lobe, again, configured, again ? &v->folders : &folders, viewer_aspect(v)};
-    v->loader = loader_start(v->window, v->desc, &reading);
-    if (v->loader) return;
-    v->opened = WEFT_RESOURCES;
+    if (configured && !v->rooms->shown.any && v->desc->materials)
+        folders_keep(&folders, v->desc->materials, -1);
+    const Reading reading = {
+        path, lobe, again, configured, again ? &v->rooms->shown.folders : &folders, viewer_aspect(v)};
+    v->rooms->opening.loader = loader_start(v->window, v->desc, &reading);
+    if (v->rooms->opening.loader) return;
+    v->rooms->opening.opened = WEFT_RESOURCES;
     viewer_say(v, true, "%.300s: out of memory", path);
 }
 
@@ -70,19 +79,22 @@ void opening_start(Viewer *v, const char *path, bool again) { start_reading(v, p
 /* With the scene that is being read, that is with the renderer, or that is there. */
 void opening_lobe(Viewer *v, const char *path) {
     bool again = true;
-    const char *scene = v->facts.path;
-    if (v->loader) {
-        scene = loader_path(v->loader, &again);
-    } else if (v->has_pending) {
-        scene = v->pending.path;
-        again = v->pending.again;
+    const char *scene = v->rooms->shown.facts.path;
+    if (v->rooms->opening.loader) {
+        scene = loader_path(v->rooms->opening.loader, &again);
+    } else if (v->rooms->opening.has_pending) {
+        scene = v->rooms->opening.pending.path;
+        again = v->rooms->opening.pending.again;
     }
     start_reading(v, scene, path, again);
 }
 
-void opening_begin(Viewer *v) {
+bool opening_begin(Viewer *v) {
+    v->rooms->opening.file_watch = file_watch_start();
+    if (!v->rooms->opening.file_watch) return false;
     for (const char *const *lobe = v->desc->lobes; lobe && *lobe; lobe++) keep_lobe(v, *lobe);
     opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
+    return true;
 }
 
 /* Guesses the input that an image is for by its name, such as "velvet_normal.png". */
@@ -99,20 +111,16 @@ static int guess_input(const char *path) {
 
 void viewer_open(Viewer *v, const char *path) {
     PathKind kind = path_kind(path);
-    if (!v->has_scene && kind != PATH_SCENE) {
+    if (!v->rooms->shown.any && kind != PATH_SCENE) {
         viewer_say(v, true, "%.300s: open a scene first", path);
         return;
     }
     switch (kind) {
     case PATH_SCENE: opening_start(v, path, false); break;
     case PATH_LIGHT: viewer_light_by(v, path); break;
-    case PATH_MATERIAL: viewer_task(v, TASK_ASSIGN, path, v->material, -1); break;
+    case PATH_MATERIAL: viewer_task(v, TASK_ASSIGN, path, v->edit->material, -1); break;
     case PATH_LOBE: opening_lobe(v, path); break;
-    case PATH_PICTURE:
-        snprintf(v->dropped, sizeof v->dropped, "%s", path);
-        v->dropped_input = guess_input(path);
-        viewer_dialog(v, "Use a picture");
-        break;
+    case PATH_PICTURE: dialogs_ask_use(v, path, guess_input(path)); break;
     case PATH_FOLDER:
         if (path_is_cubemap(path))
             viewer_light_by(v, path);
@@ -122,55 +130,66 @@ void viewer_open(Viewer *v, const char *path) {
     case PATH_UNKNOWN:
         viewer_say(
             v, true,
-            "%.300s: is no scene (.gltf .glb), light (.hdr .exr), material (.json), lobe (.h) or picture",
+            "%.300s: is not a scene (.gltf .glb), light (.hdr .exr), material (.json), lobe (.h) or picture",
             path);
         break;
     }
 }
 
-void opening_home(Viewer *v, const float eye[3], const float target[3]) {
-    memcpy(v->home, target, sizeof v->home);
-    v->reach = 0.0f;
-    for (int k = 0; k < 3; k++) v->reach = hypotf(v->reach, eye[k] - target[k]);
-    v->reach = fmaxf(0.5f * v->reach, 1e-3f);
-}
-
-/* Sets the first camera, and the size of things until the renderer knows the centre of the picture. */
-static void start_seeing(Viewer *v, const Loaded *loaded) {
-    if (!orbit_at(&v->orbit, loaded->scene, loaded->camera, viewer_aspect(v))) {
-        viewer_say(v, true, "%.100s: %s", loaded->camera, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
-        orbit_at(&v->orbit, loaded->scene, "auto", viewer_aspect(v));
-    }
-    v->at_home = false;
-    opening_home(v, v->orbit.eye, v->orbit.target);
-}
-
 /* Keeps the edits when the scene is read again; maps are those of the file. */
 static void keep_edits(const Viewer *v, SceneState *state) {
     for (int k = 0; k < state->material_count; k++) {
-        if (scene_state_same_material(&v->state, &v->first, k)) continue;
-        WeftMaterial m = *scene_state_material(&v->state, k);
+        if (scene_state_same_material(&v->edit->state, &v->edit->first, k)) continue;
+        WeftMaterial m = *scene_state_material(&v->edit->state, k);
         for (int i = 0; i < WEFT_INPUTS_MAX; i++)
             if (m.inputs[i].texture) m.inputs[i].texture = scene_state_material(state, k)->inputs[i].texture;
         scene_state_set_material(state, k, &m);
-        scene_state_set_preset(state, k, scene_state_preset(&v->state, k));
+        scene_state_set_preset(state, k, scene_state_preset(&v->edit->state, k));
     }
-    state->variant = v->state.variant;
-    state->light_count = v->state.light_count;
-    memcpy(state->lights, v->state.lights, sizeof state->lights);
-    state->environment = v->state.environment;
-    scene_state_take_naps(state, &v->state);
+    state->variant = v->edit->state.variant;
+    state->light_count = v->edit->state.light_count;
+    memcpy(state->lights, v->edit->state.lights, sizeof state->lights);
+    state->environment = v->edit->state.environment;
+    scene_state_take_naps(state, &v->edit->state);
 }
 
-void opening_forget(Viewer *v) {
-    scene_state_free(&v->state);
-    scene_state_free(&v->first);
-    scene_state_free(&v->before);
-    scene_state_free(&v->sent);
-    scene_state_free(&v->other);
-    history_free(&v->history);
-    history_free(&v->other_history);
-    facts_free(&v->facts);
+static void forget_scene(Viewer *v) {
+    edit_forget(v);
+    requests_forget(v);
+    facts_free(&v->rooms->shown.facts);
+}
+
+static void show_maps(Viewer *v) {
+    ShownRoom *shown = &v->rooms->shown;
+    if (shown->facts.thumbs.pixels) viewer_upload(&shown->maps_texture, &shown->facts.thumbs);
+}
+
+/* The event keeps what was there, to be released with it. */
+void opening_take_maps(Viewer *v, RenderEvent *event) {
+    Facts *facts = &v->rooms->shown.facts;
+    const Facts was = *facts;
+    facts->maps = event->maps.maps, facts->map_count = event->maps.map_count;
+    facts->thumbs = event->maps.thumbs;
+    event->maps.maps = was.maps, event->maps.thumbs = was.thumbs;
+    show_maps(v);
+}
+
+void opening_keep_folder(Viewer *v, const char *path) { folders_keep(&v->rooms->shown.folders, path, -1); }
+
+void opening_warn(Viewer *v, const char *lines) {
+    char *warnings = v->rooms->shown.warnings;
+    size_t used = strlen(warnings);
+    if (lines) snprintf(warnings + used, sizeof v->rooms->shown.warnings - used, "%s", lines);
+}
+
+void opening_end(Viewer *v) {
+    OpeningRoom *opening = &v->rooms->opening;
+    if (opening->loader) loader_finish(opening->loader, NULL);
+    if (opening->leaving) loader_finish(opening->leaving, NULL);
+    if (opening->has_pending) loaded_free(&opening->pending);
+    file_watch_stop(opening->file_watch);
+    if (v->window) glDeleteTextures(1, &v->rooms->shown.maps_texture);
+    forget_scene(v);
 }
 
 /* The material that is seen largest, of those with a sheen where one is seen: a backdrop is larger than what
@@ -189,106 +208,109 @@ static int largest_seen(const SceneState *state, const float *coverage) {
 
 /* Those of the panels, of a scene that is another one. */
 static void choose_first(Viewer *v, const SceneState *state) {
-    v->material = largest_seen(state, v->facts.coverage);
-    v->light = 0;
-    v->has_probe = v->has_copied = false;
-    v->save_path[0] = v->shot_path[0] = '\0';
+    edit_choose_material(v, largest_seen(state, v->rooms->shown.facts.coverage));
+    edit_choose_light(v, 0);
+    edit_forget_copy(v);
+    requests_forget_probe(v);
+    dialogs_forget_paths(v);
 }
 
 /* The choice goes to what the variant has put on, and away from what nothing wears any more. */
 void opening_varied(Viewer *v, float **coverage) {
-    int count = v->state.material_count;
-    const float *is = *coverage, *was = v->facts.coverage;
+    int count = v->edit->state.material_count;
+    const float *is = *coverage, *was = v->rooms->shown.facts.coverage;
     char *put_on = calloc((size_t)count + 1, 1);
     for (int k = 0; k < count && put_on && was; k++) put_on[k] = (char)(was[k] < 0.0f && is[k] >= 0.0f);
     int other = put_on ? survey_largest(is, count, put_on) : -1;
-    if (other < 0 && v->material < count && is[v->material] < 0.0f) other = survey_largest(is, count, NULL);
-    if (other >= 0) v->material = other;
+    if (other < 0 && v->edit->material < count && is[v->edit->material] < 0.0f)
+        other = survey_largest(is, count, NULL);
+    if (other >= 0) edit_choose_material(v, other);
     free(put_on);
-    free(v->facts.coverage);
-    v->facts.coverage = *coverage;
+    free(v->rooms->shown.facts.coverage);
+    v->rooms->shown.facts.coverage = *coverage;
     *coverage = NULL;
 }
 
 bool opening_watch(Viewer *v, double seconds) {
-    if (v->has_scene && strcmp(v->watched, v->state.environment.path) != 0) watch_files(v);
-    if (v->loader || v->has_pending) return false;
-    int changed = file_watch_poll(v->file_watch, seconds);
-    if (changed == WATCH_SCENE) opening_start(v, v->facts.path, true);
-    if (changed == WATCH_LIGHT) viewer_light_by(v, v->state.environment.path);
-    if (changed >= WATCH_LOBES) opening_lobe(v, v->lobes[changed - WATCH_LOBES]);
+    if (v->rooms->shown.any && strcmp(v->rooms->opening.watched, v->edit->state.environment.path) != 0)
+        watch_files(v);
+    if (v->rooms->opening.loader || v->rooms->opening.has_pending) return false;
+    int changed = file_watch_poll(v->rooms->opening.file_watch, seconds);
+    if (changed == WATCH_SCENE) opening_start(v, v->rooms->shown.facts.path, true);
+    if (changed == WATCH_LIGHT) viewer_light_by(v, v->edit->state.environment.path);
+    if (changed >= WATCH_LOBES) opening_lobe(v, v->rooms->opening.lobes[changed - WATCH_LOBES]);
     return changed >= 0;
 }
 
 /* The scene that was read goes to the renderer; it is shown once that can draw it. */
 static void hand_over(Viewer *v, Loaded *loaded) {
-    if (v->has_pending) loaded_free(&v->pending);
-    if (!loaded->again || !v->has_scene) start_seeing(v, loaded);
-    renderer_set_scene(v->renderer, loaded->scene, &loaded->state, &loaded->folders, ++v->scenes);
+    if (v->rooms->opening.has_pending) loaded_free(&v->rooms->opening.pending);
+    if (!loaded->again || !v->rooms->shown.any) camera_begin(v, loaded->scene, loaded->camera);
+    renderer_set_scene(v->renderer, loaded->scene, &loaded->state, &loaded->folders,
+                       ++v->rooms->opening.scenes);
     loaded->scene = NULL;
-    v->pending = *loaded;
-    v->has_pending = true;
+    v->rooms->opening.pending = *loaded;
+    v->rooms->opening.has_pending = true;
     *loaded = (Loaded){0};
 }
 
 static void show_scene(Viewer *v, Loaded *loaded) {
     SceneState state, before;
-    bool again = loaded->again && v->has_scene && loaded->state.material_count == v->state.material_count &&
-                 strcmp(loaded->path, v->facts.path) == 0;
+    bool again = loaded->again && v->rooms->shown.any &&
+                 loaded->state.material_count == v->edit->state.material_count &&
+                 strcmp(loaded->path, v->rooms->shown.facts.path) == 0;
     if (!scene_state_copy(&state, &loaded->state)) return;
     if (again) keep_edits(v, &state);
     if (!scene_state_copy(&before, &state)) {
         scene_state_free(&state);
         return;
     }
-    opening_forget(v);
-    examination_free(v->examination); /* of the file as it was */
-    v->examination = NULL;
-    v->state = state;
-    v->before = before;
-    v->first = loaded->state;
-    v->facts = loaded->facts;
-    v->folders = loaded->folders;
-    viewer_show_maps(v);
+    forget_scene(v);
+    doctor_forget(v);
+    edit_begin(v, &state, &before, &loaded->state);
+    v->rooms->shown.facts = loaded->facts;
+    v->rooms->shown.folders = loaded->folders;
+    show_maps(v);
     loaded->state = (SceneState){0};
     loaded->facts = (Facts){0};
-    v->split = SPLIT_NONE;
-    v->side = 0;
-    if (!again) choose_first(v, &v->state);
-    v->has_scene = v->ask = true;
-    v->profiles_made = false;
-    snprintf(v->warnings, sizeof v->warnings, "%s", loaded->warnings ? loaded->warnings : "");
-    settings_opened(&v->settings, v->facts.path);
+    if (!again) choose_first(v, &v->edit->state);
+    v->rooms->shown.any = true;
+    requests_due(v);
+    dialogs_take_profiles(v, NULL);
+    snprintf(v->rooms->shown.warnings, sizeof v->rooms->shown.warnings, "%s",
+             loaded->warnings ? loaded->warnings : "");
+    viewer_opened(v, v->rooms->shown.facts.path);
     watch_files(v);
 }
 
 /* The renderer has taken the scene, or could not: then the old one stays. */
 void opening_take(Viewer *v, const RenderEvent *event) {
-    if (!v->has_pending || event->scene != v->scenes) return;
-    Loaded loaded = v->pending;
-    v->has_pending = false;
+    if (!v->rooms->opening.has_pending || event->scene != v->rooms->opening.scenes) return;
+    Loaded loaded = v->rooms->opening.pending;
+    v->rooms->opening.has_pending = false;
     if (!event->failed) {
         char title[300];
         show_scene(v, &loaded);
-        v->scene = event->scene;
-        viewer_say(v, false, "%.200s: %lld triangles, %d materials%s%.200s", v->facts.path,
-                   v->facts.info.triangle_count, v->facts.info.material_count,
-                   v->folders.count ? ", maps of " : "", v->folders.count ? v->folders.paths[0] : "");
-        if (loaded.lobe[0]) viewer_say(v, false, "%.300s: read, and the scene again", loaded.lobe);
-        snprintf(title, sizeof title, "weft - %.200s", path_name(v->facts.path));
+        v->rooms->shown.number = event->scene;
+        viewer_say(v, false, "%.200s: %lld triangles, %d materials%s%.200s", v->rooms->shown.facts.path,
+                   v->rooms->shown.facts.info.triangle_count, v->rooms->shown.facts.info.material_count,
+                   v->rooms->shown.folders.count ? ", maps of " : "",
+                   v->rooms->shown.folders.count ? v->rooms->shown.folders.paths[0] : "");
+        if (loaded.lobe[0]) viewer_say(v, false, "%.300s: read again, with the scene", loaded.lobe);
+        snprintf(title, sizeof title, "weft - %.200s", path_name(v->rooms->shown.facts.path));
         window_title(v->window, title);
     }
-    v->opened = event->result;
+    v->rooms->opening.opened = event->result;
     loaded_free(&loaded);
 }
 
 void opening_poll(Viewer *v) {
     Loaded loaded;
-    if (v->leaving && loader_done(v->leaving)) leave(v);
-    if (!v->loader || !loader_done(v->loader)) return;
-    loader_finish(v->loader, &loaded);
-    v->loader = NULL;
-    v->opened = loaded.result;
+    if (v->rooms->opening.leaving && loader_done(v->rooms->opening.leaving)) leave(v);
+    if (!v->rooms->opening.loader || !loader_done(v->rooms->opening.loader)) return;
+    loader_finish(v->rooms->opening.loader, &loaded);
+    v->rooms->opening.loader = NULL;
+    v->rooms->opening.opened = loaded.result;
     if (loaded.taken) keep_lobe(v, loaded.lobe);
     if (loaded.scene)
         hand_over(v, &loaded);

@@ -4,8 +4,8 @@
 
 #include "view/viewer.h"
 
-/* Begins with the scene and the lobes that the window starts with. */
-void opening_begin(Viewer *v);
+/* Begins with the scene and the lobes that the window starts with; false where memory is short. */
+bool opening_begin(Viewer *v);
 
 /* Begins to read a scene; again: the one that is shown, whose file has changed. */
 void opening_start(Viewer *v, const char *path, bool again);
@@ -25,10 +25,16 @@ void opening_take(Viewer *v, const RenderEvent *event);
 /* Takes over the coverage of the state's materials after a variant has changed them. */
 void opening_varied(Viewer *v, float **coverage);
 
-/* Sets the centre of the scene, and its size: half the distance of the camera. */
-void opening_home(Viewer *v, const float eye[3], const float target[3]);
+/* Takes over the maps of the state that a task has made. */
+void opening_take_maps(Viewer *v, RenderEvent *event);
 
-/* Releases all that is of the scene. */
-void opening_forget(Viewer *v);
+/* A folder whose maps the scene uses from now on. */
+void opening_keep_folder(Viewer *v, const char *path);
+
+/* Adds lines to the warnings; lines may be NULL. */
+void opening_warn(Viewer *v, const char *lines);
+
+/* Gives up what is being read, and releases all that is of the scene. */
+void opening_end(Viewer *v);
 
 #endif

@@ -32,7 +32,7 @@ void renderer_post(Renderer *self, RenderEvent *event) {
 
 /* ---- scenes ---- */
 
-enum { FOLDERS = 1 << 24 }; /* id of the first folder in the file watch; lower ids are textures */
+enum { FOLDERS = 1 << 24 }; /* id of the first folder in the file watch; smaller ids are textures */
 
 void renderer_watch_files(Renderer *self) {
     file_watch_clear(self->file_watch);
@@ -54,9 +54,9 @@ static void drop_scene(Renderer *self) {
     self->scene = NULL;
 }
 
-/* The scene before stays where this one cannot be drawn. */
-static void take_scene(Renderer *self, WeftScene *scene, SceneState *state, const Folders *folders,
-                       unsigned number) {
+/* Replaces the scene. If the new one cannot be drawn, the old one stays; an event reports either. */
+static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, const Folders *folders,
+                          unsigned number) {
     const WeftRasterDesc desc = {.adopt = 1, .shader_dir = self->shader_dir, .occlusion = self->occlusion};
     const WeftLog log = renderer_log(self);
     WeftError error = {0};
@@ -79,9 +79,7 @@ static void take_scene(Renderer *self, WeftScene *scene, SceneState *state, cons
         self->naps = (BoundNaps){0};
         self->refusal[0] = '\0';
         self->started = false;
-        self->smooth_seconds = 8.0;
-        self->smooth_known = false;
-        self->coarse = 4; /* these until they are known */
+        self->coarse = 4; /* these are guesses until pictures have been timed */
         self->coarse_seconds = 1.0;
         self->whole_seconds = 2.0;
         self->smooth_seconds = 8.0;
@@ -97,7 +95,8 @@ static void take_scene(Renderer *self, WeftScene *scene, SceneState *state, cons
 
 /* ---- the thread ---- */
 
-static bool reload_changed(Renderer *self) {
+/* Reads again one file that has changed: a texture, or a folder of maps. Returns true if there was one. */
+static bool reload_file(Renderer *self) {
     int texture = self->started ? file_watch_poll(self->file_watch, clock_now()) : -1;
     if (texture < 0) return false;
     if (texture >= FOLDERS) {
@@ -120,10 +119,10 @@ static bool reload_changed(Renderer *self) {
     return true;
 }
 
-/* Returns true if a result of background work or a changed file calls for a new picture. */
-static bool has_changed(Renderer *self) {
+/* Takes over changed files, changed shaders and finished background work. Returns true if the picture is now old. */
+static bool reload_changes(Renderer *self) {
     if (!self->raster) return false;
-    if (reload_changed(self)) return true;
+    if (reload_file(self)) return true;
     if (self->shader_dir && weft_raster_refresh(self->raster) > 0) return true;
     return weft_raster_info(self->raster).made != 0;
 }
@@ -154,9 +153,9 @@ void frame_request_free(FrameRequest *request) {
     scene_state_free(&request->other);
 }
 
-/* The first of these that is due: a scene, a picture, a task, a sheet. False where there is nothing to do.
- * The lock is held before and after. */
-static bool step(Renderer *self) {
+/* Does the most urgent pending work: a new scene, then a frame, then a task, then one more picture of a profile sheet.
+ * Returns false if nothing is pending or memory is short. The lock is held on entry and on return, not in between. */
+static bool render_next(Renderer *self) {
     bool requested = self->requested && self->raster && self->request.scene == self->scene_number;
     if (self->pending_scene) {
         WeftScene *scene = self->pending_scene;
@@ -165,7 +164,7 @@ static bool step(Renderer *self) {
         unsigned number = self->pending_number;
         self->pending_scene = NULL;
         pthread_mutex_unlock(&self->lock);
-        take_scene(self, scene, &state, &folders, number);
+        replace_scene(self, scene, &state, &folders, number);
     } else if (requested && (self->number != self->drawn_number || self->stale || !self->started)) {
         unsigned number = self->number;
         if (number != self->drawn_number) {
@@ -203,10 +202,10 @@ static void *work(void *user) {
         snprintf(self->rendered.failure, sizeof self->rendered.failure,
                  "cannot create a second OpenGL context");
     while (!self->quit && good) {
-        if (step(self)) continue;
+        if (render_next(self)) continue;
         wait_a_little(self);
         pthread_mutex_unlock(&self->lock);
-        bool changed = has_changed(self);
+        bool changed = reload_changes(self);
         pthread_mutex_lock(&self->lock);
         self->stale |= changed;
     }
@@ -290,7 +289,7 @@ void renderer_add_task(Renderer *self, const Task *task) {
     pthread_mutex_lock(&self->lock);
     bool picking =
         task->kind == TASK_PICK && self->task_count && self->tasks[self->task_count - 1].kind == TASK_PICK;
-    if (picking) self->task_count--; /* only the latest counts */
+    if (picking) self->task_count--; /* a newer pick replaces the last one */
     if (self->task_count < TASKS) self->tasks[self->task_count++] = *task;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);

@@ -1,9 +1,10 @@
 /* renderer.h - the thread that owns the scene and draws it, so that the window never waits for a shader, a
  * table or a file
  *
- * The window says what it wants to see, as often as it likes: the renderer takes the latest, brings the scene
- * to it and hands over a finished picture as a texture that both contexts share. What is done once (a file to
- * write, a pixel to look at) is a task: tasks are done in their order and answered by events. */
+ * The window requests frames as often as it likes. The renderer works on the latest request only: it applies the
+ * requested state to the scene and returns a finished picture as a texture that both OpenGL contexts share. Work that
+ * is done once, such as writing a file or probing a pixel, is a task. Tasks are done in order and answered by
+ * events. */
 #ifndef WEFT_VIEW_RENDERER_H
 #define WEFT_VIEW_RENDERER_H
 
@@ -19,26 +20,26 @@ typedef struct Renderer Renderer;
 /* The arrangement of two states in one picture. */
 typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
 
-/* The quality of a picture: fewer pixels while the mouse moves if all would take long, then all pixels, then
- * smooth edges. */
+/* The quality of a picture: coarse has fewer pixels, if all would take long while the mouse moves; whole has all
+ * pixels; smooth has antialiased edges too. */
 typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
 /* A request for a picture. It holds only values that change the picture. */
 typedef struct FrameRequest {
     unsigned scene;          /* number of the scene (renderer_set_scene) */
-    int edited;              /* tasks are done to `state` (0) or to `other` (1) */
-    SceneState state, other; /* `other` on the right, where they share it; empty otherwise */
+    int edited;              /* the state that tasks change: 0 is `state`, 1 is `other` */
+    SceneState state, other; /* `other` is the right side of a split picture; empty without a split */
     Split split;
     float at;            /* SPLIT_LINE: share of the width that is left of it */
     WeftRasterView view; /* size, background, part, ambient; the camera is the text below */
     char camera[ORBIT_TEXT];
-    float behind[3];  /* light of the display, where the picture is transparent */
-    bool laid_behind; /* also in pictures that are saved */
+    float behind[3];  /* linear colour behind transparent pixels, after tone mapping */
+    bool laid_behind; /* saved pictures have this colour too; otherwise they stay transparent */
     WeftTonemap tonemap;
     float exposure;
-    Effort effort;  /* the least that is asked for */
-    bool reference; /* nothing is to be drawn: the path tracer does it */
-    bool compare;   /* a linear copy is to be handed to the path tracer */
+    Effort effort;  /* the least acceptable quality */
+    bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
+    bool compare;   /* a linear copy of the picture goes to the path tracer */
 } FrameRequest;
 
 /* Copies a request; the copy shares the parts of its states. Returns false if memory is short, and leaves
@@ -47,14 +48,14 @@ bool frame_request_copy(FrameRequest *copy, const FrameRequest *request);
 void frame_request_free(FrameRequest *request); /* frees its states */
 
 typedef enum TaskKind {
-    TASK_SHOT,      /* a picture of `view`'s size to `path` */
-    TASK_SAVE,      /* the scene, or material `index`, to `path` */
-    TASK_PROBE,     /* what is at x, y of the request's picture */
-    TASK_PICK,      /* the same without the parts of its light */
-    TASK_PROFILES,  /* small pictures with material `index` under every profile */
+    TASK_SHOT,      /* writes a picture of `width` x `height` to `path` */
+    TASK_SAVE,      /* writes the scene, or material `index`, to `path` */
+    TASK_PROBE,     /* describes the point at x, y of the request's picture, with the parts of its light */
+    TASK_PICK,      /* describes the point without its light */
+    TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
     TASK_ASSIGN,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
     TASK_BIND_MAPS, /* the maps of folder `path` on material `index`, -1: the cloth */
-    TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that lights the scene from far away */
+    TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
     TASK_SCENE,     /* an event only: another scene was taken, or failed */
     TASK_SURVEY     /* an event only: a variant has changed which meshes use the materials */
 } TaskKind;
@@ -67,8 +68,8 @@ typedef struct Task {
     float x, y;
     int width, height;
     bool transparent, reference;
-    bool nap;       /* TASK_PICK: with the nap that the material has by itself */
-    unsigned stamp; /* comes back with its event */
+    bool nap;       /* TASK_PICK: the event has the material's own nap map too */
+    unsigned stamp; /* copied to the event */
 } Task;
 
 /* The parts of a pixel. */
@@ -89,10 +90,10 @@ typedef struct RenderEvent {
     char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder */
     unsigned stamp;
     Probe probe;
-    WeftImage image;    /* TASK_PROFILES: U8 RGB; TASK_PICK: a nap, where none was brushed; owned */
-    bool state_changed; /* and `state` is what the scene is configured as now; owned */
+    WeftImage image;    /* TASK_PROFILES: U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
+    bool state_changed; /* `state` is then the state of the scene after the task; owned */
     SceneState state;
-    Facts maps;      /* where they are others: the maps alone; owned */
+    Facts maps;      /* if the maps changed: only the maps are filled in; owned */
     float *coverage; /* TASK_SURVEY: survey.h; owned, may be NULL */
     int index;
 } RenderEvent;
@@ -103,20 +104,20 @@ typedef struct RenderedFrame {
     int width, height;
     unsigned scene;      /* number of the scene that is shown */
     unsigned number;     /* of the request it shows */
-    bool focused;        /* `target` is what is in the middle of the picture */
-    Effort effort;       /* how well it is drawn; a coarse one's texture is stretched */
+    bool focused;        /* `target` is the surface point in the middle of the picture */
+    Effort effort;       /* quality; a coarse picture has a smaller texture, which is stretched */
     float seconds;       /* s, for this picture */
     float whole_seconds; /* s, for a picture with all pixels */
     float eye[3], target[3], fov;
     int programs, compiled;
-    bool busy;           /* more is to come: shaders, or what the background looks for */
-    char complaint[512]; /* shader text that does not compile */
-    char failure[512];   /* why there is no newer picture */
+    bool busy;           /* shaders, tables or occlusion are still being computed */
+    char complaint[512]; /* the compiler's message about changed shader text; "" if all compiles */
+    char failure[512];   /* the reason why there is no newer picture */
     char driver[128];
 } RenderedFrame;
 
-/* window and reference must outlive the renderer. shader_dir may be NULL. NULL where memory or a context
- * is short. */
+/* Starts the thread. window and reference must outlive the renderer; shader_dir may be NULL. Returns NULL if memory or
+ * threads are short. Without a second OpenGL context the frame has a `failure`. */
 Renderer *renderer_start(Window *window, ReferenceView *reference, const char *shader_dir, int occlusion);
 void renderer_stop(Renderer *renderer);
 
@@ -126,24 +127,25 @@ void renderer_stop(Renderer *renderer);
 void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *state, const Folders *folders,
                         unsigned number);
 
-/* Copies the request; returns its number. */
+/* Copies the request and returns its number, or the number of the request before if memory is short. */
 unsigned renderer_request(Renderer *renderer, const FrameRequest *request);
 void renderer_add_task(Renderer *renderer, const Task *task);
 
-/* The newest picture; its texture stays as it is until the next call. True where it is another one. */
+/* Copies the newest picture; returns true if it is newer than the last. Its texture stays as it is until the next
+ * call. */
 bool renderer_take_frame(Renderer *renderer, RenderedFrame *rendered);
 
-/* Returns true if a picture or an event waits. */
+/* Returns true if a picture or an event is ready to be taken. */
 bool renderer_has_output(Renderer *renderer);
 
-/* The oldest event; false where there is none. Release with render_event_free. */
+/* Takes the oldest event; returns false if there is none. Release with render_event_free. */
 bool renderer_take_event(Renderer *renderer, RenderEvent *event);
 void render_event_free(RenderEvent *event);
 
 /* Returns true if all requests and tasks are done. */
 bool renderer_is_idle(Renderer *renderer);
 
-/* Warnings that were said since the last call, one line each; NULL: none. Release with free. */
+/* Returns the warnings since the last call, one a line, or NULL if there are none. Release with free. */
 char *renderer_take_warnings(Renderer *renderer);
 
 #endif

@@ -1,4 +1,4 @@
-/* renderer_state.h - the inside of the renderer: what its thread has at hand, for the files that are its parts */
+/* renderer_state.h - the renderer's data, for the files that run in its thread: renderer.c, frame.c, tasks.c */
 #ifndef WEFT_VIEW_RENDERER_STATE_H
 #define WEFT_VIEW_RENDERER_STATE_H
 
@@ -24,7 +24,7 @@ struct Renderer {
     unsigned number;
     bool requested, quit, working;
     WeftScene *pending_scene;              /* the scene to be taken over */
-    unsigned pending_number, scene_number; /* of it, and of the one at hand */
+    unsigned pending_number, scene_number; /* numbers of that scene and of the current one */
     SceneState pending_state;
     Folders pending_folders;
     Task tasks[TASKS];
@@ -39,20 +39,20 @@ struct Renderer {
     WeftScene *scene;
     WeftRaster *raster;
     WeftPick *pick;
-    SceneState is;            /* what the scene is configured as */
-    EnvironmentState refused; /* a light from a file that could not be had, and why; "": none */
-    char refusal[512];
-    unsigned readings; /* of files of lights, that were asked for */
+    SceneState is;            /* the state of the scene now */
+    EnvironmentState refused; /* an environment whose file cannot be read */
+    char refusal[512];        /* the reason; "": none was refused */
+    unsigned readings;        /* how often files of environments were read */
     BoundNaps naps;
     FrameRequest drawn;
     unsigned drawn_number;
-    bool stale; /* a picture of the same request would be another one */
+    bool stale; /* the same request would give another picture now */
     bool started;
     Folders folders;       /* folders of maps in use, and watched */
-    int surveyed;          /* variant of which the window knows who wears what */
+    int surveyed;          /* variant whose use of materials was sent to the window */
     FileWatch *file_watch; /* of the files of textures, and of those folders */
-    int coarse;            /* pixels a side that become one while the hand moves */
-    double coarse_seconds, whole_seconds, smooth_seconds; /* s, that pictures of each effort take */
+    int coarse;            /* side of the block of pixels that a coarse picture draws as one */
+    double coarse_seconds, whole_seconds, smooth_seconds; /* s, that a picture of each effort took */
     bool smooth_known, surprised;
     Study study; /* the sheet under way */
     unsigned textures[RING], targets[RING];
@@ -61,24 +61,24 @@ struct Renderer {
 
 /* renderer.c */
 WeftLog renderer_log(Renderer *renderer);                   /* of warnings, for renderer_take_warnings */
-void renderer_post(Renderer *renderer, RenderEvent *event); /* takes them over */
+void renderer_post(Renderer *renderer, RenderEvent *event); /* takes the event over */
 void renderer_watch_files(
-    Renderer *renderer); /* the files of the scene's textures, the folders worn, no others */
+    Renderer *renderer); /* watches the scene's texture files and the folders of maps in use, no others */
 
-/* frame.c: brings the scene to a state, and draws a request into the next texture. A light from a file that
- * cannot be read leaves the one before; frame_refusal then returns the reason, and the file is left alone
+/* frame.c: applies a state to the scene, and draws a request into the next texture. If the file of an environment
+ * cannot be read, the one before stays; frame_refusal then returns the reason, and the file is not read again
  * until it has changed. */
 WeftResult frame_apply_state(Renderer *renderer, const SceneState *state, WeftError *error);
-const char *frame_refusal(const Renderer *renderer, const SceneState *state); /* NULL: it does not */
+const char *frame_refusal(const Renderer *renderer, const SceneState *state); /* NULL: nothing was refused */
 /* The state shown in the panels. */
 const SceneState *frame_edited_state(const FrameRequest *request);
 void frame_draw(Renderer *renderer, const FrameRequest *request, unsigned number);
 
 /* tasks.c */
-void tasks_survey(Renderer *renderer, const FrameRequest *request); /* of who wears what, to the window */
+void tasks_survey(Renderer *renderer, const FrameRequest *request); /* sends which materials are used */
 void tasks_do(Renderer *renderer, const Task *task, const FrameRequest *request);
 void tasks_study(Renderer *renderer); /* draws one more picture of the sheet under way */
-/* A file whose picture does not come whole leaves the one before, until it changes again. */
+/* Reads a texture file again. If it cannot be read, the picture before stays until the file changes again. */
 WeftResult tasks_reload(Renderer *renderer, int texture, WeftError *error);
 
 #endif

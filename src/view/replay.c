@@ -174,8 +174,8 @@ static void add_drag(Replay *self, const Viewer *v, int button, const float way[
     enum { STEPS = 12 };
     for (int k = 0; k <= STEPS; k++) {
         float t = (float)k / STEPS;
-        float x = v->stage.x + v->stage.width * (way[0] + t * (way[2] - way[0]));
-        float y = v->stage.y + v->stage.height * (way[1] + t * (way[3] - way[1]));
+        float x = v->frame->stage.x + v->frame->stage.width * (way[0] + t * (way[2] - way[0]));
+        float y = v->frame->stage.y + v->frame->stage.height * (way[1] + t * (way[3] - way[1]));
         add_event(self, (Event){.kind = EVENT_MOVE, .x = x, .y = y});
         if (k == 0) add_pause(self, 1);
         if (k == 0) add_button(self, button, true);
@@ -206,10 +206,10 @@ static int button_of(const char *name) { return is(name, "right") ? 1 : is(name,
 /* Waits: true while it goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
-    bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->has_scene && ++self->tries > 4
-                : strncmp(what, "samples ", 8) == 0 ? v->traced.samples >= atof(what + 8)
+    bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
+                : strncmp(what, "samples ", 8) == 0 ? v->requests->traced.samples >= atof(what + 8)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(viewer_shows(v)))
-                : strncmp(what, "message ", 8) == 0 ? strstr(v->message, what + 8) != NULL
+                : strncmp(what, "message ", 8) == 0 ? strstr(v->frame->message, what + 8) != NULL
                 : strncmp(what, "seconds ", 8) == 0 ? clock_now() - start > atof(what + 8)
                                                     : ++self->tries > atoi(what);
     if (done) self->since = 0.0, self->tries = 0;
@@ -223,13 +223,6 @@ static bool write_command(const Viewer *v, const char *path) {
     if (file) good = fclose(file) == 0 && good;
     free(line);
     return good;
-}
-
-/* A picture of the size of the stage. */
-static void scene_shot(Viewer *v, const char *path) {
-    v->shot_width = (int)v->stage.width, v->shot_height = (int)v->stage.height;
-    v->shot_traced = v->mode == MODE_REFERENCE;
-    viewer_shot(v, path);
 }
 
 /* Events of mouse and keyboard. False where the word is none. */
@@ -256,8 +249,8 @@ static bool do_input(Replay *self, Viewer *v, const char *word, char *rest, bool
     } else if (is(word, "move")) {
         *good = sscanf(rest, "%f %f", &way[0], &way[1]) == 2;
         add_event(self, (Event){.kind = EVENT_MOVE,
-                                .x = v->stage.x + way[0] * v->stage.width,
-                                .y = v->stage.y + way[1] * v->stage.height});
+                                .x = v->frame->stage.x + way[0] * v->frame->stage.width,
+                                .y = v->frame->stage.y + way[1] * v->frame->stage.height});
     } else if (is(word, "press"))
         add_button(self, button_of(rest), true);
     else if (is(word, "release"))
@@ -289,17 +282,17 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
     else if (is(word, "save"))
         viewer_save(v, rest);
     else if (is(word, "picture"))
-        scene_shot(v, rest);
+        viewer_shot_stage(v, rest);
     else if (is(word, "window"))
         add_window(self, rest);
     else if (is(word, "command"))
         *good = write_command(v, rest);
     else if (is(word, "camera"))
-        snprintf(v->orbit.name, sizeof v->orbit.name, "%s", rest);
+        camera_stand_at(v, rest);
     else if (is(word, "stay"))
         self->stay = true;
     else if (is(word, "quit"))
-        v->ending = true;
+        viewer_quit(v);
     else
         return false;
     return true;
@@ -342,11 +335,11 @@ bool replay_acts(const Replay *self) { return self->count > 0; }
 
 bool replay_step(Replay *self, Viewer *v, char why[512]) {
     if (self->count) return do_motion(self, v, why);
-    while (!self->count && !v->ending) {
+    while (!self->count && !v->frame->ending) {
         char *line = self->next, copy[1200];
         size_t length = strcspn(line, "\n");
         if (!*line) {
-            if (!self->stay) v->ending = true;
+            if (!self->stay) viewer_quit(v);
             return true;
         }
         snprintf(copy, sizeof copy, "%.*s", (int)(length < 1100 ? length : 1100), line);

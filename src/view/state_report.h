@@ -4,9 +4,9 @@
 
 #include "view/viewer.h"
 
-/* Prints an object in one line on standard output where the window has come to rest since the last one:
+/* Prints an object in one line on standard output, when the window has come to rest:
  * scene, camera, materials, lights, message, rates, memory, and every control that is shown with its place.
  */
-void report_state(Viewer *v, bool idle);
+void report_state(const Viewer *v);
 
 #endif

@@ -16,7 +16,7 @@
 #include "scratch.h"
 #include "view/brush.h"
 #include "view/paths.h"
-#include "view/viewer.h"
+#include "view/rooms.h"
 
 static char folder[SCRATCH_SIZE];
 
@@ -628,29 +628,29 @@ static void map_replaced_by_a_folder_is_not_in_the_command_line(void **state) {
     static const ViewDesc desc = {.materials = "maps"};
     WeftScene *scene;
     WeftError error;
-    Viewer *v = calloc(1, sizeof *v);
+    Viewer *v = viewer_create(&desc);
     assert_non_null(v);
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    v->desc = &desc;
-    v->orbit = cameras[1];
+    v->rooms->camera.orbit = cameras[1];
     WeftMaterial m;
     assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
     m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
     assert_int_equal(weft_scene_put_material(scene, 0, &m, NULL), WEFT_OK);
-    assert_true(scene_state_read(&v->first, scene) && scene_state_copy(&v->state, &v->first));
+    assert_true(scene_state_read(&v->rooms->edit.first, scene) &&
+                scene_state_copy(&v->rooms->edit.state, &v->rooms->edit.first));
     for (int k = 0; k < 3; k++) {
         bool lost = false;
         if (k == 1) m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
         if (k == 2) m.inputs[weft_material_input_find("roughness")].texture = 0;
-        assert_true(scene_state_set_material(&v->state, 0, &m));
+        assert_true(scene_state_set_material(&v->rooms->edit.state, 0, &m));
         char *line = command_line(v, &lost);
         assert_non_null(strstr(line, " --materials maps "));
         assert_int_equal(strstr(line, " --set 0.roughness=") != NULL, k == 2);
         assert_int_equal(lost, k == 1);
         free(line);
     }
-    scene_state_free(&v->first);
-    scene_state_free(&v->state);
+    scene_state_free(&v->rooms->edit.first);
+    scene_state_free(&v->rooms->edit.state);
     weft_scene_free(scene);
     free(v);
 }
@@ -660,22 +660,22 @@ static void copied_command_line_is_read_by_a_shell_as_meant(void **state) {
     static const char *const names[] = {"plain.glb", "it's a file.glb", "$HOME `x` \"y\" \\z;&|*?~#!.glb",
                                         "''",        "tab\there.glb",   "-o"};
     static const ViewDesc desc = {.options = NULL};
-    Viewer *v = calloc(1, sizeof *v);
+    Viewer *v = viewer_create(&desc);
     assert_non_null(v);
-    v->desc = &desc;
-    v->orbit = cameras[1];
-    v->request.view.width = 320, v->request.view.height = 200;
-    v->state.environment = environment_state_studio();
-    v->state.environment.kind = ENVIRONMENT_FILE;
-    v->first.environment = v->state.environment;
+    v->rooms->camera.orbit = cameras[1];
+    v->rooms->frame.stage = (UiBox){.width = 320.0f, .height = 200.0f};
+    v->rooms->edit.state.environment = environment_state_studio();
+    v->rooms->edit.state.environment.kind = ENVIRONMENT_FILE;
+    v->rooms->edit.first.environment = v->rooms->edit.state.environment;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        snprintf(v->facts.path, sizeof v->facts.path, "%s", names[k]);
-        snprintf(v->state.environment.path, sizeof v->state.environment.path, "%s", names[k]);
+        snprintf(v->rooms->shown.facts.path, sizeof v->rooms->shown.facts.path, "%s", names[k]);
+        snprintf(v->rooms->edit.state.environment.path, sizeof v->rooms->edit.state.environment.path, "%s",
+                 names[k]);
         bool lost = true;
         char *line = command_line(v, &lost), shell[2048], word[512], camera[ORBIT_TEXT];
         const char *const expected[] = {
             "render",   names[k],   "--env", names[k],     "--width",
-            "320",      "--height", "200",   "--camera",   orbit_text(&v->orbit, camera),
+            "320",      "--height", "200",   "--camera",   orbit_text(&v->rooms->camera.orbit, camera),
             "--engine", "raster",   "-o",    "picture.png"};
         assert_non_null(line);
         assert_false(lost);

@@ -19,10 +19,10 @@ static double resident(void) {
 }
 
 static json_t *material_json(const Viewer *v, int index) {
-    const WeftMaterial *m = scene_state_material(&v->state, index);
+    const WeftMaterial *m = scene_state_material(&v->edit->state, index);
     json_t *object = json_object();
-    int preset = scene_state_preset(&v->state, index);
-    json_object_set_new(object, "name", json_string(v->facts.materials[index]));
+    int preset = scene_state_preset(&v->edit->state, index);
+    json_object_set_new(object, "name", json_string(v->shown->facts.materials[index]));
     json_object_set_new(object, "preset", json_string(preset ? weft_preset_name(preset - 1) : ""));
     for (int k = 0; weft_material_choice_name(k); k++) {
         const char *id = m->choices[k] < 0 ? "auto" : weft_material_choice_value(k, m->choices[k]);
@@ -56,52 +56,53 @@ static json_t *controls_json(void) {
     return object;
 }
 
-void report_state(Viewer *v, bool idle) {
+void report_state(const Viewer *v) {
     static const char *const modes[] = {"live", "truth", "difference"};
     char camera[ORBIT_TEXT];
-    if (!idle) return;
     json_t *materials = json_array();
-    for (int k = 0; k < v->state.material_count; k++) json_array_append_new(materials, material_json(v, k));
+    for (int k = 0; k < v->edit->state.material_count; k++)
+        json_array_append_new(materials, material_json(v, k));
     bool lost = false;
-    char *command = v->has_scene ? command_line(v, &lost) : NULL;
+    char *command = v->shown->any ? command_line(v, &lost) : NULL;
     json_t *root = json_object();
-    json_object_set_new(root, "frame", json_integer(v->frame));
-    json_object_set_new(root, "clock", json_real(v->clock));
+    json_object_set_new(root, "frame", json_integer(v->frame->number));
+    json_object_set_new(root, "clock", json_real(v->frame->clock));
     json_object_set_new(root, "rest", json_boolean(viewer_is_idle(v)));
-    json_object_set_new(root, "scene", json_string(v->has_scene ? v->facts.path : ""));
-    json_object_set_new(root, "camera", json_string(orbit_text(&v->orbit, camera)));
-    json_object_set_new(
-        root, "eye",
-        json_pack("[f,f,f]", (double)v->orbit.eye[0], (double)v->orbit.eye[1], (double)v->orbit.eye[2]));
-    json_object_set_new(root, "mode", json_string(modes[v->mode]));
+    json_object_set_new(root, "scene", json_string(v->shown->any ? v->shown->facts.path : ""));
+    json_object_set_new(root, "camera", json_string(orbit_text(&v->camera->orbit, camera)));
+    json_object_set_new(root, "eye",
+                        json_pack("[f,f,f]", (double)v->camera->orbit.eye[0], (double)v->camera->orbit.eye[1],
+                                  (double)v->camera->orbit.eye[2]));
+    json_object_set_new(root, "mode", json_string(modes[v->options->mode]));
     json_object_set_new(root, "shows", json_string(shows_name(viewer_shows(v))));
-    json_object_set_new(root, "split", json_integer((int)v->split));
-    json_object_set_new(root, "part", json_string(weft_part_name((int)v->part)));
-    json_object_set_new(root, "material", json_integer(v->material));
+    json_object_set_new(root, "split", json_integer((int)v->edit->split));
+    json_object_set_new(root, "part", json_string(weft_part_name((int)v->options->part)));
+    json_object_set_new(root, "material", json_integer(v->edit->material));
     json_object_set_new(root, "materials", materials);
-    json_object_set_new(root, "lights", json_integer(v->state.light_count));
-    json_object_set_new(root, "rotation", json_real((double)v->state.environment.rotation));
-    json_object_set_new(root, "samples", json_real(v->traced.samples));
-    json_object_set_new(root, "relmse", json_real(v->traced.compared ? v->traced.difference.relmse : -1.0));
-    json_object_set_new(root, "message", json_string(v->message));
-    json_object_set_new(root, "complaint", json_string(v->shader_complaint));
-    json_object_set_new(root, "variant", json_integer(v->has_scene ? v->state.variant : -1));
+    json_object_set_new(root, "lights", json_integer(v->edit->state.light_count));
+    json_object_set_new(root, "rotation", json_real((double)v->edit->state.environment.rotation));
+    json_object_set_new(root, "samples", json_real(v->requests->traced.samples));
+    json_object_set_new(
+        root, "relmse",
+        json_real(v->requests->traced.compared ? v->requests->traced.difference.relmse : -1.0));
+    json_object_set_new(root, "message", json_string(v->frame->message));
+    json_object_set_new(root, "complaint", json_string(v->requests->shader_complaint));
+    json_object_set_new(root, "variant", json_integer(v->shown->any ? v->edit->state.variant : -1));
     json_object_set_new(root, "lost", json_boolean(lost));
     json_object_set_new(root, "command", json_string(command ? command : ""));
-    json_object_set_new(root, "driver", json_string(v->rendered.driver));
-    json_object_set_new(root, "picture", json_integer((json_int_t)v->rendered.number));
-    json_object_set_new(root, "picture_ms", json_real(1e3 * v->picture_seconds));
-    json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame_seconds));
-    json_object_set_new(root, "worst_ms", json_real(1e3 * v->worst_seconds));
+    json_object_set_new(root, "driver", json_string(v->requests->rendered.driver));
+    json_object_set_new(root, "picture", json_integer((json_int_t)v->requests->rendered.number));
+    json_object_set_new(root, "picture_ms", json_real(1e3 * v->frame->picture_seconds));
+    json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame->frame_seconds));
+    json_object_set_new(root, "worst_ms", json_real(1e3 * v->frame->worst_seconds));
     json_object_set_new(root, "resident_mib", json_real(resident()));
-    json_object_set_new(root, "stage", box_json(&v->stage));
-    json_object_set_new(root, "help", json_boolean(v->help_open));
+    json_object_set_new(root, "stage", box_json(&v->frame->stage));
+    json_object_set_new(root, "help", json_boolean(v->dialogs->help));
     json_object_set_new(root, "untold", untold_json());
     json_object_set_new(root, "controls", controls_json());
     char *text = json_dumps(root, JSON_COMPACT);
     if (text) puts(text);
     fflush(stdout);
-    v->worst_seconds = 0.0;
     free(text);
     free(command);
     json_decref(root);
