@@ -126,7 +126,7 @@ static double fit_error(const Form *form, const Samples *samples, const Pair *pa
     size_t n = (size_t)samples->count;
     float *block = malloc(6 * n * sizeof *block);
     double x[SEARCH_MOST];
-    if (!block) return NAN;
+    if (!block) return (double)NAN;
     Fit fit = {form, samples, pairs, {block, block + n, block + 2 * n}, block + 3 * n};
     Search search = {.error = error_at, .user = &fit, .grid = 600, .descents = 4, .most = 1000};
     for (int k = 0; k < NUMBERS; k++) {

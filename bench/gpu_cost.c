@@ -384,7 +384,11 @@ int main(void) {
     gpu_begin(&gpu);
     printf(
         "# What lobes and terms cost on a GPU\n\n"
-        "Made by `build/release/bench/bench_gpu_cost > docs/cost.md`, without a GPU: %s %s compiles each\n"
+        "Use these tables to choose a BRDF for a real-time budget: they have the instructions, cycles and "
+        "registers of "
+        "every\n"
+        "lobe and term in a shader. Made by `build/release/bench/bench_gpu_cost > docs/cost.md`, without a "
+        "GPU: %s %s compiles each\n"
         "text for %s and says what it made.\n\n"
         "* Instructions and cycles are what the text adds to a shader that only reads the same numbers. A\n"
         "  lobe's are of f and, where it has two colours, the share of the second, the half vector\n"

@@ -53,10 +53,11 @@ twice=$(find src -name '*.h' ! -path '*/tables/*' -exec basename {} \; | sort | 
 [ -z "$twice" ] || found "two headers of one name: $twice"
 
 # So has a type: a typedef or a record of the dialect, whichever file it is in.
-types=$(sources | while read -r file; do
-    code "$file" | sed -nE 's/^typedef (struct|enum|union) [A-Za-z0-9_]+ \{.*/&/; s/^typedef (struct|enum|union) ([A-Za-z0-9_]+).*/\2/p; s/^STRUCT\(([A-Za-z0-9_]+)\).*/\1/p' |
-        sort -u
-done | sort | uniq -d)
+types=$(sources | xargs perl -0777 -ne '
+    s{/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"}{ }gs;
+    my %own;
+    $own{$1} = 1 while /^(?:typedef (?:struct|enum|union) |STRUCT\()(\w+)/gm;
+    print "$_\n" for keys %own;' | sort | uniq -d)
 for type in $types; do
     # A handle is declared in one file and defined in another.
     defined=$(sources | xargs grep -lE "^(typedef )?struct $type \{|^typedef (enum|union) $type \{|^STRUCT\($type\)" | wc -l)

@@ -67,8 +67,8 @@ typedef struct WeftMaterial {
 /* The material that a file is without one: a grey dielectric without a sheen, all choices auto. */
 WEFT_API void weft_material_default(WeftMaterial *out);
 
-/* The material of a file (docs/materials.md) or of "preset:NAME", without its textures, of which a warning
- * tells. Fails with WEFT_MESSAGE_MATERIAL_FILE, _PRESET_NAME and with what reading a file can fail with. */
+/* The material of a file (docs/materials.md) or of "preset:NAME", without its textures, which a
+ * warning names. Fails with WEFT_MESSAGE_MATERIAL_FILE, _PRESET_NAME and with what reading a file can fail with. */
 WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log,
                                        WeftError *error);
 

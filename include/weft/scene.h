@@ -129,8 +129,8 @@ WEFT_API WeftResult weft_scene_set_environment_placement(WeftScene *scene, float
 
 /* Scales what the diffuse lobe and dust reflect of the environment's light, and what the specular, sheen and
  * coat lobes do, where it is reflected first: neither the background nor what is reflected on. Finite, >= 0,
- * 1 of a fresh scene; others than 1 are an artist's wish, which no light does. A render or raster of the
- * scene is told of it as of any light. Fails with WEFT_MESSAGE_DESC, and nothing is changed. */
+ * 1 of a fresh scene; other values are an artist's choice, which no light has. A raster or
+ * render sees the change as that of any light. Fails with WEFT_MESSAGE_DESC, and nothing is changed. */
 WEFT_API WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
                                                      WeftError *error);
 

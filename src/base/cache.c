@@ -57,7 +57,7 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
     char path[CACHE_PATH_SIZE];
     OutputFile file;
     if (!cache_path(path, key, suffix)) {
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, "$HOME", "it is no absolute path");
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, "$HOME", "it is not an absolute path; set $XDG_CACHE_HOME");
         return;
     }
     make_folders(path);

@@ -88,7 +88,7 @@ static bool check_once(const Varied *varied, int k) {
     for (int j = 0; j < k; j++) {
         item_at(varied->values, varied->separator, j, other);
         if (strcmp(item, other) != 0) continue;
-        report(WEFT_USAGE, "%s: %s stands there twice", varied->option, item);
+        report(WEFT_USAGE, "%s: %s is listed twice", varied->option, item);
         return false;
     }
     return true;

@@ -37,7 +37,7 @@ static int outputs_check(const Options *options) {
         if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy"))
             result = output_probe(path);
         else
-            result = report(WEFT_USAGE, "%s: the errors of an audit are a .png, .exr or .npy", path);
+            result = report(WEFT_USAGE, "%s: an audit writes its errors as .png, .exr or .npy", path);
     return result;
 }
 

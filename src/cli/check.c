@@ -162,7 +162,7 @@ static int check_run(const Options *options) {
     const char *page = option_text(options, "--html");
     if (check.header && (check.json || page))
         return report(WEFT_USAGE, "--header: does not go with --json or --html");
-    if (check.lines && option_given(options, "-p")) return report(WEFT_USAGE, "-p: does not go with all");
+    if (check.lines && option_given(options, "-p")) return report(WEFT_USAGE, "-p: does not go with \"all\"");
     int result = page ? output_probe(page) : 0; /* before minutes of measuring */
     if (result == 0) result = check.lines ? add_all(&check) : add_one(&check, options->operands[0]);
     if (result == 0 && check.json) {

@@ -37,7 +37,7 @@ static int output_check(Diff *diff) {
     if (!path) return 0;
     if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy"))
         return output_probe(path);
-    return report(WEFT_USAGE, "%s: how pictures differ is a .png, .exr or .npy", path);
+    return report(WEFT_USAGE, "%s: a difference is written as .png, .exr or .npy", path);
 }
 
 static int images_read(Diff *diff) {

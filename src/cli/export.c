@@ -49,7 +49,7 @@ static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
 static int read_right(Export *self, const char *typed) {
     int result = self->descs->lobe ? model_parse(typed, &self->right) : WEFT_USAGE;
     if (!self->descs->lobe || (result == 0 && self->right.kind != MODEL_LOBE))
-        return report(WEFT_USAGE, "%.200s: two lobes stand side by side, and nothing else", typed);
+        return report(WEFT_USAGE, "%.200s: a Shadertoy shows two lobes side by side, and only lobes", typed);
     self->descs->right = &self->right.lobe;
     return result;
 }

@@ -206,9 +206,11 @@ static int material_write(const Fitting *fitting) {
     WeftResult result = sayable_fit(fitting, &again, &material, &error);
     if (result != WEFT_OK) return report_error(&error);
     if (!weft_fitted_material(&again.fitted[0], &material))
-        return report(WEFT_FAILED, "%s: no fit could be said by a material's inputs", fitting->material);
+        return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material",
+                      fitting->material);
     if (weft_fitted_notes(&again.fitted[0]) & WEFT_FITTED_BRIGHT)
-        report(0, "warning: %s: a colour is above 1: more light may leave than came", fitting->material);
+        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives",
+               fitting->material);
     result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_put_material(scene, 0, &material, &error);
     if (result == WEFT_OK) result = weft_scene_save_material(scene, 0, fitting->material, &error);
@@ -221,11 +223,11 @@ static int outputs_check(Fitting *fitting) {
     fitting->material = option_text(fitting->options, "-o");
     fitting->plot = option_text(fitting->options, "--plot");
     if (fitting->material && !path_ends(fitting->material, ".json"))
-        return report(WEFT_USAGE, "%s: a material is a .json", fitting->material);
+        return report(WEFT_USAGE, "%s: a material is written as .json", fitting->material);
     if (fitting->plot && !path_ends(fitting->plot, ".png"))
-        return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
+        return report(WEFT_USAGE, "%s: slices are written as .png", fitting->plot);
     if (fitting->plot && !path_ends(fitting->path, ".binary"))
-        return report(WEFT_USAGE, "%s: slices are drawn of a .binary, which has no gaps", fitting->path);
+        return report(WEFT_USAGE, "%s: slices need a measurement without gaps, a .binary", fitting->path);
     if (fitting->material) result = output_probe_other(fitting->options, fitting->material);
     if (result == 0 && fitting->plot) result = output_probe_other(fitting->options, fitting->plot);
     return result;

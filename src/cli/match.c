@@ -172,7 +172,7 @@ static int output_check(const Match *match) {
     const char *path = option_text(match->options, "-o");
     if (!path) return 0;
     if (path_ends(path, ".json") && match->to.kind == MODEL_LOBE)
-        return report(WEFT_USAGE, "%s: a lobe is no material; .png writes pictures", path);
+        return report(WEFT_USAGE, "%s: a lobe is not a material; write pictures as .png", path);
     if (path_ends(path, ".json") || path_ends(path, ".png")) return output_probe_other(match->options, path);
     return report(WEFT_USAGE, "%s: a match is written as .png (pictures) or .json (a material)", path);
 }

@@ -282,7 +282,8 @@ static int show(const char *id, const Kind *only, Json *json) {
 static int show_of_kind(const char *text, const char *colon, Json *json) {
     const Kind *kind = kind_prefixed(text, (int)(colon - text));
     if (!kind)
-        return report(WEFT_USAGE, "%.200s: has no kind before the colon that `weft models` lists", text);
+        return report(WEFT_USAGE, "%.200s: the word before the colon is not a kind that `weft models` lists",
+                      text);
     if (!colon[1] && !json) print_kind(kind);
     if (!colon[1] && json) json_kind(json, kind, NULL);
     if (!colon[1]) return 0;

@@ -120,9 +120,9 @@ int kind_find(const Kind *kind, const char *id) {
     return -1;
 }
 
-/* "; several are called so: a, b" where more than one id begins with id and a dash. */
+/* "; several have this name: a, b" where more than one id begins with id and a dash. */
 static const char *several_hint(const Kind *kind, const char *id, char *buffer, size_t size) {
-    size_t length = strlen(id), used = (size_t)snprintf(buffer, size, "; several are called so: ");
+    size_t length = strlen(id), used = (size_t)snprintf(buffer, size, "; several have this name: ");
     int found = 0;
     for (int k = 0; kind->name(k) && used < size; k++) {
         const char *name = kind->name(k);

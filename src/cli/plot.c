@@ -114,7 +114,7 @@ static int models_read(Plot *plot) {
         int result = model_read(plot->options->operands[k + 1], model);
         if (result != 0) return result;
         if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)
-            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes are sampled by themselves",
+            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes have samples to plot",
                           model->words);
         plot->models[k] = (WeftPlotModel){.reflection = model->reflection,
                                           .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
@@ -207,8 +207,8 @@ const Verb verb_plot = {
     .lists = plot_lists,
     .notes = "A model is " MODEL_FORM ": a lobe, an engine profile, preset:NAME or a\n"
              "material file, a material of a scene as scene.glb:MATERIAL, or a measured BRDF\n"
-             "in MERL's format (.binary). Up to eight stand in one figure. Colours are told\n"
-             "apart by all kinds of eyes, and lines by their dashes too. docs/plots.md shows\n"
+             "in MERL's format (.binary). Up to eight stand in one figure. Their colours stay\n"
+             "distinct for colour-blind readers, and so do the dashes of their lines. docs/plots.md shows\n"
              "each kind.\n\n"
              "Examples\n"
              "  weft plot polar charlie-neubelt:alpha=0.25 ashikhmin-neubelt -o polar.svg\n"

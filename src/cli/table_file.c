@@ -120,7 +120,8 @@ static int png_write(const TableFile *file, const char *path) {
     const double scale = file->scale > 0.0 ? file->scale : scale_for(file->high);
     const int channels = image_channels(table);
     if (file->low < 0.0f || (double)file->high > scale)
-        return report(WEFT_USAGE, "%s: holds 0 to %g, and the table %g to %g; another --scale, or .exr", path,
+        return report(WEFT_USAGE,
+                      "%s: holds 0 to %g, and the table %g to %g; give another --scale, or write .exr", path,
                       scale, (double)file->low, (double)file->high);
     WeftImage image;
     WeftError error;
@@ -193,7 +194,7 @@ static int writer_find(const char *path) {
 
 bool table_suffix_check(const char *path) {
     if (writer_find(path) >= 0) return true;
-    report(WEFT_USAGE, "%s: has no suffix of those a table can have: .h .png .exr .dds .npy .csv .txt", path);
+    report(WEFT_USAGE, "%s: is not a table file; write .h .png .exr .dds .npy .csv .txt", path);
     return false;
 }
 

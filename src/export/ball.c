@@ -66,7 +66,7 @@ void draft_ball(const Draft *draft, Buffer *out) {
     put_line(out, "const vec3 cloth = vec3(0.82, 0.3, 0.24); /* colour of the cloth */");
     put_line(out, "const vec3 sun = vec3(%s);", desc->fold_pi ? "1.0" : "3.14159265");
     put_line(out, "const bool halves = %s;", halves ? "true" : "false");
-    put_line(out, "\n/* What is shown: the left or the right half's model. */");
+    put_line(out, "\n/* Shades with the model of the left or of the right half. */");
     put_line(out, "vec3 shown(bool right, float roughness, vec3 wo, vec3 wi) {");
     if (halves) {
         put_line(out, "    if (right) {");

@@ -49,7 +49,7 @@ static void put_rough(Text *text, const WeftLobe *lobe, const LobeNames *own) {
     else if (strcmp(p->name, "roughness") != 0)
         snprintf(value, sizeof value, "mix(%s, %s, roughness)", number(p->low).text, number(p->high).text);
     text_line(text,
-              "\n/* The same with %s from an artist's roughness, 0 to 1. */\n"
+              "\n/* Makes one with %s from an artist's roughness, 0 to 1. */\n"
               "%s %s_rough(float roughness) {\n    %s m = %s_default();\n    m.%s = clamp(%s, %s, %s);\n"
               "    return m;\n}",
               p->name, own->record, own->prefix, own->record, own->prefix, p->name, value,

@@ -139,12 +139,12 @@ static void put_layer(Text *text, int layer) {
         for (char *c = name; *c; c++) *c = (char)(*c == '-' ? '_' : *c - 'a' + 'A');
         text_line(text, "const int LAYER_%s = %d;", name, k);
     }
-    text_line(
-        text,
-        "const int LAYER_BY_MAX = %d;\nconst int LAYER_BY_CHANNEL = %d;\n\n"
-        "/* What of the base is left for wo and wi: c the sheen's colour, e_o e_i e_avg its albedo. */\n"
-        "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
-        LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
+    text_line(text,
+              "const int LAYER_BY_MAX = %d;\nconst int LAYER_BY_CHANNEL = %d;\n\n"
+              "/* The part of the base that is left for wo and wi: c is the sheen's colour, e_o e_i e_avg "
+              "its albedo. */\n"
+              "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
+              LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
     text_define(text, "layer_asks_wi(layer)", rules[layer].asks_wi);
     text_define(text, "layer_asks_average(layer)", rules[layer].asks_average);
 }

@@ -14,7 +14,7 @@
 
 #include <stdio.h>
 
-#include "fibre/fit.h"
+#include "fibre/slab_fit.h"
 
 typedef enum FibreStage {
     FIBRE_WHITE,

@@ -6,7 +6,7 @@
 #ifndef WEFT_FIBRE_FITTED_TABLE_H
 #define WEFT_FIBRE_FITTED_TABLE_H
 
-#include "fibre/fit.h"
+#include "fibre/slab_fit.h"
 
 /* Describes a table and the command that made it. */
 typedef struct FibreTableDesc {

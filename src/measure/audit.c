@@ -36,7 +36,7 @@ static WeftResult check(const WeftAuditDesc *desc, AuditWork *work, WeftError *e
         return fail(error, WEFT_MESSAGE_DESC, "table", "%d x %d; at most %d texels are audited", image->width,
                     image->height, WEFT_BAKE_TEXELS_MAX);
     if (desc->lobe && !lobe_of(desc->lobe, &work->lobe))
-        return fail(error, WEFT_MESSAGE_DESC, "table", "there is no such lobe to compare it with");
+        return fail(error, WEFT_MESSAGE_DESC, "table", "the lobe to compare it with does not exist");
     if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
     return WEFT_OK;

@@ -36,7 +36,7 @@ const char *weft_severity_name(WeftSeverity severity) {
     return (unsigned)severity < sizeof names / sizeof *names ? names[severity] : NULL;
 }
 
-/* The list in the file that things of a kind are in. */
+/* Returns the name of the list in the file that has the things of a kind. */
 static const char *list_name(WeftFindingOf of) {
     static const char *const names[] = {"", "materials", "meshes", "images"};
     return names[of];
@@ -53,7 +53,7 @@ static void name_subject(const WeftDoctor *doctor, WeftFinding *finding) {
         snprintf(finding->subject, sizeof finding->subject, "%s", name);
     else
         snprintf(finding->subject, sizeof finding->subject, "%s[%d]", list_name(finding->of), finding->index);
-    for (char *c = finding->subject; *c; c++) /* no name breaks a line */
+    for (char *c = finding->subject; *c; c++) /* control characters must not break the line */
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
 }
 
@@ -68,11 +68,11 @@ static void name_place(WeftFinding *finding, const char *path) {
         snprintf(to, room, "/%s/%d%s%s", list_name(finding->of), finding->index, slash, path);
 }
 
-/* Room for one finding more. */
+/* Makes room for one more finding; returns false if there are too many or memory is short. */
 static bool make_room(WeftDoctor *doctor) {
     enum { FINDINGS_MAX = 10000 };
     if (doctor->count < doctor->room) return true;
-    if (doctor->count >= FINDINGS_MAX) return false; /* nobody reads on */
+    if (doctor->count >= FINDINGS_MAX) return false; /* more than anyone would read */
     size_t room = doctor->room ? 2 * (size_t)doctor->room : 32;
     WeftFinding *items = realloc_array(doctor->items, room, sizeof *items);
     if (items) doctor->items = items;
@@ -119,7 +119,7 @@ void doctor_soften(WeftDoctor *doctor) {
     doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
 }
 
-/* Returns true where a warning begins with the path of an image's own file, of which fail.c gives so much. */
+/* Returns true if a warning begins with the path of the image's file. fail.c cuts the path off at GIVEN characters. */
 static bool begins_with_path(const WeftDoctor *doctor, int image, const char *text) {
     enum { GIVEN = 200 };
     char path[GIVEN * 4];
@@ -133,8 +133,8 @@ static bool begins_with_path(const WeftDoctor *doctor, int image, const char *te
     return strncmp(text, path, length) == 0 && text[length] == ':';
 }
 
-/* The image of the file that a warning is about, -1 where it names none: the path of its own file, or "ASSET:
- * images[3]: ...". */
+/* Returns the index of the image that a warning names, by the path of its file or as "ASSET: images[3]: ..."; -1 if it
+ * names none. */
 static int image_named(const WeftDoctor *doctor, const char *text) {
     for (int k = 0; k < (int)doctor->asset.image_count; k++)
         if (begins_with_path(doctor, k, text)) return k;
@@ -142,9 +142,9 @@ static int image_named(const WeftDoctor *doctor, const char *text) {
     return images ? atoi(images + strlen("images[")) : -1;
 }
 
-/* Warnings of the reader: those of an image become findings, all go on to the caller but of an image that was
- * not read, since that is all there is to say. */
-static void hear(void *user, WeftMessage message, const char *text) {
+/* Receives the warnings of the reader. A warning about an image becomes a finding. All warnings go on to the caller's
+ * log, except those about an unread image, of which the finding says everything. */
+static void on_warning(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
     bool absent = message == WEFT_MESSAGE_FILE_OPEN || message == WEFT_MESSAGE_GLTF_URI,
          unread = absent || message_result(message) == WEFT_INPUT;
@@ -161,13 +161,13 @@ static void hear(void *user, WeftMessage message, const char *text) {
     if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }
 
-/* Reading is short beside what comes after, and is no part of it. */
+/* Reading takes little time beside the checks and does not count in the progress. */
 static int report_progress(void *user, double fraction) {
     const WeftDoctor *doctor = user;
     return doctor->progress ? doctor->progress(doctor->user, doctor->examining ? fraction : 0.0) : 0;
 }
 
-/* False where the caller wants no more. */
+/* Reports progress; returns false if the caller wants to stop. */
 static bool goes_on(WeftDoctor *doctor, size_t done) {
     Asset *asset = &doctor->asset;
     return asset_progress(asset, 0.0, 1.0, done, asset->material_count + asset->mesh_count);
@@ -189,15 +189,15 @@ static void examine(WeftDoctor *doctor) {
         check_mesh(doctor, m);
 }
 
-/* A finding on its way to its place. */
+/* A finding while the list is sorted. */
 typedef struct Found {
     WeftFinding item;
     Repair repair;
     int at;
 } Found;
 
-/* Asset, materials, meshes, images; each in the order of the file, and the gravest of a thing first. */
-static int order(const void *left, const void *right) {
+/* Orders findings by asset, materials, meshes, images; then by index in the file; then the gravest first. */
+static int compare_findings(const void *left, const void *right) {
     const Found *x = left, *y = right;
     const WeftFinding *a = &x->item, *b = &y->item;
     if (a->of != b->of) return (int)a->of - (int)b->of;
@@ -212,7 +212,7 @@ static void sort(WeftDoctor *doctor) {
     doctor->failed |= !found;
     if (!found) return;
     for (int k = 0; k < doctor->count; k++) found[k] = (Found){doctor->items[k], doctor->repairs[k], k};
-    qsort(found, (size_t)doctor->count, sizeof *found, order);
+    qsort(found, (size_t)doctor->count, sizeof *found, compare_findings);
     for (int k = 0; k < doctor->count; k++) {
         doctor->items[k] = found[k].item;
         doctor->repairs[k] = found[k].repair;
@@ -234,7 +234,7 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
     doctor->progress = progress;
     doctor->user = user;
     doctor->scene->srgb = srgb_table();
-    doctor->own = (WeftLog){hear, doctor};
+    doctor->own = (WeftLog){on_warning, doctor};
     doctor->asset = (Asset){.error = &doctor->error,
                             .scene = doctor->scene,
                             .examined = true,
@@ -303,7 +303,7 @@ WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor) {
 
 static WeftResult fix_once(const WeftDoctor *doctor, const char *path, WeftError *error) {
     Rewrite rewrite;
-    Asset asset = doctor->asset; /* a copy: a failure here is not the doctor's */
+    Asset asset = doctor->asset; /* a copy, so that a failure here leaves the doctor as it is */
     WeftResult result = rewrite_begin(&rewrite, &asset, error);
     for (int k = 0; k < doctor->count && result == WEFT_OK; k++)
         result = doctor_repair(doctor, &rewrite, k, error);
@@ -318,7 +318,8 @@ static bool can_fix(const WeftDoctor *doctor) {
     return any;
 }
 
-/* A sheen that was switched on may need more: so what was written is examined again. */
+/* A repair may switch a sheen on, which then has findings of its own. So the written file is examined and repaired
+ * again, in ROUNDS rounds at most. */
 WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
     enum { ROUNDS = 4 };
     WeftResult result = fix_once(doctor, path, error);

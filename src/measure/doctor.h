@@ -1,4 +1,4 @@
-/* doctor.h - an asset under examination: what the checks look at, and where they put what they find */
+/* doctor.h - an asset under examination: the data that the checks read, and the list that they add findings to */
 #ifndef WEFT_MEASURE_DOCTOR_H
 #define WEFT_MEASURE_DOCTOR_H
 
@@ -29,33 +29,33 @@ typedef struct Pixels {
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
 
-typedef struct Energy Energy; /* of doctor_energy.c, as what all of them share is */
+typedef struct Energy Energy; /* both of doctor_energy.c */
 typedef struct EnergyTables EnergyTables;
 
 struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
-    WeftLog log;           /* of the caller, behind the doctor's own */
+    WeftLog log;           /* the caller's, to which `own` passes warnings on */
     WeftLog own;           /* the log of the asset */
-    WeftProgress progress; /* of the caller; NULL: nobody watches */
+    WeftProgress progress; /* the caller's, may be NULL */
     void *user;
-    bool examining; /* before, the file is read */
+    bool examining; /* false while the file is being read */
     WeftError error;
     WeftFinding *items;
     Repair *repairs;
     int count, room;
     Pixels *pixels;   /* of the scene's images */
-    Energy *energies; /* of the materials whose light was measured */
+    Energy *energies; /* one for each set of material numbers that was measured */
     int energy_count, energy_room;
-    EnergyTables *energy_tables; /* NULL until they are asked for */
-    bool failed;                 /* memory gave out */
+    EnergyTables *energy_tables; /* NULL until the first measurement */
+    bool failed;                 /* memory was short */
 };
 
 /* The place of a finding. */
 typedef struct Place {
     WeftFindingOf of;
     int index;
-    const char *path; /* below the thing, "extensions/NAME/key"; NULL: the thing itself */
+    const char *path; /* within the thing, such as "extensions/NAME/key"; NULL: the thing itself */
 } Place;
 
 /* Notes a finding; words is a printf format, engines and figure as in weft/doctor.h, repair may be NULL. */
@@ -66,8 +66,7 @@ __attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, Weft
 /* Adds advice to the last finding; fix is a printf format. */
 __attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, const char *fix, ...);
 
-/* The finding noted last is a note that nothing repairs: of a material that is no cloth it may well be meant.
- */
+/* Makes the last finding a note without a repair: on a material that is no cloth the value may be intended. */
 void doctor_soften(WeftDoctor *doctor);
 
 /* The value at "a/b/c" below an object; NULL where there is none. */
@@ -80,8 +79,8 @@ const char *doctor_key(const char *path);
 json_t *doctor_list(const WeftDoctor *doctor, const char *name);
 json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
 
-/* count numbers at a path; false, and out as it was, where they are not there. One number may stand by
- * itself. */
+/* Reads `count` numbers at a path, as an array or, if count is 1, as a number. Returns false and leaves `out` alone if
+ * they are not there. */
 bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 
 /* The index of the texture that a textureInfo names; -1: none that there is. */
@@ -91,11 +90,12 @@ int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 
-/* The pixel nearest to u, v, each in [0, 1): its numbers, and of a colour what they mean as linear ones. */
+/* Read the pixel nearest to u, v, each in [0, 1): as plain numbers, or as a linear colour. */
 void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
 void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
 
-/* The mean of a factor, clamped to 0 .. 1, times its texture: of a colour linear; of a number its channel. */
+/* Return the mean of a factor, clamped to 0 .. 1, times its texture: a linear colour, or one channel. absent: the
+ * factor's default. */
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]);
 float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
@@ -106,7 +106,7 @@ unsigned doctor_engine(const char *profile);
 unsigned doctor_engines(void);
 extern const char *const doctor_readers[]; /* their ids, NULL last */
 
-/* A material with a sheen, as far as it is looked at. */
+/* The numbers of a material that the checks of sheens read. */
 typedef struct Cloth {
     int index;
     json_t *json, *sheen;    /* sheen: NULL: none */

@@ -1,13 +1,12 @@
 /* doctor_energy.c - energy of a sheen in each engine that reads glTF, measured on the engine's profile
  *
- * The material is taken with the means of its textures. E is the share of light that comes back, all of it
- * towards one cosine. Under the rules of these engines the base keeps a part that depends on the cosines of
- * wo and wi alone, so that
+ * Textures count by their means. E(wo) is the directional albedo of the material. The layer rules of these engines
+ * dim the base by a factor, keep, that depends on the cosines of wo and wi alone. Hence
  *
- *   E(wo) = over + sum of keep(wo, z) base(wo, z) over slices z of wi + c E_sheen(wo)
+ *   E(wo) = over + sum_z keep(wo, z) base(wo, z) + c E_sheen(wo),  z: slices of cos_i
  *
- * where `over` is the coat's. The base is sampled once for a material and an engine, slot by slot, and holds
- * for every roughness of the sheen that is tried after. */
+ * where `over` is the light of the coat and c the colour of the sheen. The base is sampled once for a material and an
+ * engine, slot by slot, and serves every roughness of the sheen. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,12 +22,12 @@
 #include "shading/frame.h"
 #include "weft/material.h"
 
-/* From the face to 87 degrees; beyond, a pixel of cloth is a sliver. */
+/* From 37 to 87 degrees off the normal; steeper cloth covers next to no pixels. */
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};
 enum { COSINES = sizeof cosines / sizeof *cosines, AT_60 = 1, READERS = 5 };
 
 /* The albedo of a material in an engine, with its sheen and without: E of the strongest channel, and
- * luminance. / */
+ * luminance. */
 typedef struct Answer {
     float with[COSINES], without[COSINES];
     float light_with[COSINES], light_without[COSINES];
@@ -39,10 +38,10 @@ typedef struct Answer {
 struct Energy {
     MaterialKey key;
     Answer answers[READERS];
-    float least; /* the roughness from which no engine gains, as least_roughness has it */
+    float least; /* the roughness from which on no engine gains energy (least_roughness) */
 };
 
-/* The material as numbers; color: of the sheen. */
+/* Makes a material of the mean numbers, with this sheen, under a profile; false if its numbers cannot be read. */
 static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float color[3], float roughness,
                        const char *profile, WeftMaterial *out) {
     WeftError error;
@@ -57,10 +56,10 @@ static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float
 
 enum { SLICES = 24, DRAWS = 128 };
 
-/* The light that a material returns towards one cosine, below its sheen by the cosine that the light comes in
- * with, and above it. */
+/* The light that a material returns towards one cosine: of the coat, and of the slots below the sheen by slices of
+ * cos_i. */
 typedef struct Base {
-    float over[3], below[SLICES][3], z[SLICES]; /* z: mean cosine */
+    float over[3], below[SLICES][3], z[SLICES]; /* z: mean cos_i of a slice */
 } Base;
 
 /* A material under one engine. */
@@ -71,10 +70,10 @@ typedef struct Case {
     Base base[COSINES];
 } Case;
 
-/* Tables that all materials share: E of the white sheens by hundredths of roughness, and the one that a rule
- * asks for. */
+/* Tables that all materials share: E of white sheens at hundredths of roughness, and the albedo table that a layer rule
+ * reads. */
 struct EnergyTables {
-    float white[READERS][101][COSINES]; /* 0: not known yet */
+    float white[READERS][101][COSINES]; /* 0: not computed yet */
     AlbedoTable keep;
 };
 
@@ -83,7 +82,7 @@ static Dir seen_from(Dir along, int k) {
     return dir(s * along.x, -s * along.y, z);
 }
 
-/* The surface with a sheen, as stack_make takes it. */
+/* Returns the surface of a case with a sheen, as stack_make reads it. */
 static Surface surface_of(const Case *self, const float color[3], float roughness) {
     Surface surface = self->bare;
     surface.sheen_color = (Rgb){color[0], color[1], color[2]};
@@ -97,7 +96,7 @@ static void see(const Case *self, const float color[3], float roughness, TableRe
     seen_make(seen, &surface, &self->choices, table, o);
 }
 
-/* Samples what one slot reflects, each draw as that slot spreads its light. */
+/* Adds the light that one slot of the bare material reflects, by importance sampling of that slot. */
 static void base_add(const SeenStack *whole, int slot, Base *base) {
     SeenStack one = *whole;
     float *const picks[] = {&one.view.select_p.diffuse, &one.view.select_p.specular, &one.view.select_p.coat};
@@ -125,8 +124,8 @@ static void base_add(const SeenStack *whole, int slot, Base *base) {
         if (counts[k]) base->z[k] = (float)(heights[k] / counts[k]);
 }
 
-/* The case of a material under an engine, which knows nothing of what else glTF's extras may choose. False
- * where it has no sound numbers. */
+/* Makes the case of a material under an engine. Choices in glTF's extras do not count, since engines do not read them.
+ * Returns false if a number is not finite. */
 static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, Case *self) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
     WeftMaterial numbers, plain;
@@ -150,8 +149,7 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
     return true;
 }
 
-/* The table of E that the layer rule asks for, over all roughnesses; TABLE_NONE where an engine has its own.
- */
+/* Returns the table of E that the layer rule reads, over all roughnesses; TABLE_NONE if the engine has a formula. */
 static TableRef keep_table(EnergyTables *tables, const Case *self) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     const Dir n = dir(0.0f, 0.0f, 1.0f);
@@ -167,8 +165,7 @@ static TableRef keep_table(EnergyTables *tables, const Case *self) {
     return albedo_table_ref(&tables->keep);
 }
 
-/* E of a white lobe alone, whose first parameter follows from roughness: looked up between hundredths, each
- * of which is measured once. */
+/* Returns E of the white lobe at a roughness, interpolated between hundredths, each of which is integrated once. */
 static float white_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     const float at = fminf(fmaxf(roughness, 0.0f), 1.0f) * 100.0f;
@@ -184,7 +181,7 @@ static float white_albedo(EnergyTables *tables, const Case *self, int reader, fl
     return mix(*memory[0], *memory[1], at - (float)low);
 }
 
-/* E of the white sheen by itself under an engine: the lobe's, times what the engine puts on it. */
+/* Returns E of the white sheen alone under an engine: that of the lobe times the engine's own factors. */
 static float sheen_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     SeenStack seen;
@@ -196,7 +193,7 @@ static float luminance_of(const float e[3]) { return 0.2126f * e[0] + 0.7152f * 
 
 static float most_of(const float e[3]) { return fmaxf(e[0], fmaxf(e[1], e[2])); }
 
-/* Puts the sheen of a roughness on a case. */
+/* Computes the albedos of a case with a sheen of that colour and roughness. */
 static Answer answer_of(EnergyTables *tables, const Case *self, int reader, const float color[3],
                         float roughness) {
     const TableRef table = keep_table(tables, self);
@@ -399,7 +396,7 @@ static const Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *ke
     return NULL;
 }
 
-/* Room for one more, in the list; NULL where memory is short. */
+/* Adds one to the list; returns NULL if memory is short. */
 static Energy *energy_add(WeftDoctor *doctor) {
     if (doctor->energy_count == doctor->energy_room) {
         size_t room = doctor->energy_room ? 2 * (size_t)doctor->energy_room : 8;
@@ -412,7 +409,7 @@ static Energy *energy_add(WeftDoctor *doctor) {
     return &doctor->energies[doctor->energy_count++];
 }
 
-/* Returns false for a material without sound numbers. */
+/* Measures a material in all engines; returns false if a number is not finite. */
 static bool energy_measure(const WeftDoctor *doctor, const Cloth *cloth, Energy *energy) {
     EnergyTables *tables = doctor->energy_tables;
     Case cases[READERS];
@@ -424,7 +421,7 @@ static bool energy_measure(const WeftDoctor *doctor, const Cloth *cloth, Energy 
     return true;
 }
 
-/* Measured once for all that have the same numbers. */
+/* Returns the energy of a material, measured once for all with the same numbers; NULL if that fails. */
 static const Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
     MaterialKey key;
     if (!key_of(doctor, cloth, &key)) return NULL;

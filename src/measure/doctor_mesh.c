@@ -1,4 +1,4 @@
-/* doctor_mesh.c - meshes: what their materials need of them, and open edges */
+/* doctor_mesh.c - meshes: attributes that their materials need, and open edges */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,7 +124,7 @@ static uint32_t *weld(Corner *corners, size_t count, Arena *arena) {
     return place;
 }
 
-/* The share of edges that have a triangle on one side alone. */
+/* Returns the fraction of edges that only one triangle has. */
 static double open_share(const uint32_t *place, size_t corners, Arena *arena) {
     uint64_t *edges = arena_array(arena, corners, sizeof *edges);
     size_t count = 0, open = 0, all = 0;
@@ -141,7 +141,7 @@ static double open_share(const uint32_t *place, size_t corners, Arena *arena) {
     return (double)open / (double)all;
 }
 
-/* The corners of a primitive's triangles behind those that are there; false where they cannot be had. */
+/* Appends the corners of a primitive's triangles; returns false if they cannot be read. */
 static bool gather(WeftDoctor *doctor, const Primitive *p, Corner *corners, size_t *count, size_t most,
                    Arena *arena) {
     size_t vertices = doctor->asset.accessors[p->position].count;

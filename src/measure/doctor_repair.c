@@ -1,4 +1,4 @@
-/* doctor_repair.c - findings repaired: values of the JSON, and pictures whose channel was wrong */
+/* doctor_repair.c - repairs findings: values of the JSON, and pictures with the wrong channel */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "image/codec.h"
 #include "measure/doctor.h"
 
-/* A step of a JSON pointer: the value, made where it is not there and `make` says so. */
+/* Follows one step of a JSON pointer; adds the value if it is missing and `make` is true. */
 static json_t *step(json_t *from, const char *key, bool make) {
     if (json_is_array(from)) return json_array_get(from, (size_t)strtoul(key, NULL, 10));
     if (!json_object_get(from, key) && make) json_object_set_new(from, key, json_object());

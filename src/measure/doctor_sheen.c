@@ -1,4 +1,4 @@
-/* doctor_sheen.c - a sheen and what is beside it: metal, glass, a coat; and what the file says it uses */
+/* doctor_sheen.c - sheens together with metal, glass or a coat; and the extensions that the file declares */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +24,7 @@ static void declare(WeftDoctor *doctor, const char *name) {
             strcmp(doctor->repairs[k].extension, name) == 0)
             return;
     Repair repair = {.act = REPAIR_DECLARE};
-    if (strlen(name) >= sizeof repair.extension) return; /* none that is registered */
+    if (strlen(name) >= sizeof repair.extension) return; /* no registered extension has so long a name */
     memcpy(repair.extension, name, strlen(name) + 1);
     doctor_found(
         doctor, WEFT_FINDING_EXTENSION_UNDECLARED, (Place){WEFT_OF_ASSET, 0, "extensionsUsed"}, 0,
@@ -34,7 +34,7 @@ static void declare(WeftDoctor *doctor, const char *name) {
     doctor_advise(doctor, "add %s to extensionsUsed", name);
 }
 
-/* Every extension anywhere below a value of a file, which is as deep as JSON may be. */
+/* Reports every undeclared extension below a value. The reader limits the depth of JSON. */
 static void declare_below(WeftDoctor *doctor, json_t *value) {
     const char *key, *name;
     json_t *part, *extension;

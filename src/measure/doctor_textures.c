@@ -46,7 +46,7 @@ typedef struct FirstUse {
     const char *color, *data;
 } FirstUse;
 
-/* Those of all images of the file; owned, NULL where memory is short. */
+/* Returns the uses of all images of the file; owned by the caller, NULL if memory is short. */
 static FirstUse *first_uses(const WeftDoctor *doctor) {
     FirstUse *first = alloc_array(doctor->asset.image_count, sizeof *first);
     for (int m = 0; first && m < (int)doctor->asset.material_count; m++) {
@@ -61,7 +61,7 @@ static FirstUse *first_uses(const WeftDoctor *doctor) {
     return first;
 }
 
-/* The encoded bytes of an image of the file; owned: to be freed. */
+/* Returns the encoded bytes of an image of the file. Release with free. */
 static Span image_bytes(WeftDoctor *doctor, int image, unsigned char **owned) {
     json_t *item = doctor_item(doctor, "images", image), *view = json_object_get(item, "bufferView");
     const char *uri = json_string_value(json_object_get(item, "uri"));

@@ -156,7 +156,7 @@ static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
     if (!cloth->sheen) doctor_soften(doctor);
 }
 
-/* The mean reflectance of a material where it is metal; 1 where it nowhere is. Base colour and metalness are
+/* Returns the mean reflectance of a material where it is metal, 1 if it is metal nowhere. Base colour and metalness are
  * looked up at the same places of an even grid, since a texture may have paint beside chrome, and the mean of
  * both is neither. A texture transform or another set of coordinates would move one against the other: then
  * the means of the whole have to do. */

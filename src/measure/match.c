@@ -9,8 +9,8 @@
 #include "measure/material_search.h"
 #include "measure/reflection.h"
 
-/* The only lobe that walks is fibre-walk. */
-static WeftResult walks(const char *id, WeftError *error) {
+/* Refuses a lobe that is evaluated by random walks, which is fibre-walk alone. */
+static WeftResult walks_refused(const char *id, WeftError *error) {
     return fail(error, WEFT_MESSAGE_DESC, id,
                 "is an estimate by random walks; match fibre, which is its mean");
 }
@@ -19,7 +19,7 @@ static WeftResult short_of_memory(WeftError *error) {
     return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
 }
 
-/* The directions with what is to be met. */
+/* Chooses the directions of a metric and evaluates FROM there. */
 static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftBrdfMetric metric,
                                WeftError *error) {
     char number[16];
@@ -54,7 +54,7 @@ WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *fr
     return result;
 }
 
-/* The error of a lobe as it is. */
+/* Sets the distance of a lobe with its present parameters. */
 static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *distance,
                                 WeftError *error) {
     WeftReflection *to;
@@ -94,8 +94,8 @@ static WeftResult match_lobe(const WeftReflection *from, WeftBrdfMetric metric, 
     *out = (WeftMatch){.copied = 0.0};
     snprintf(number, sizeof number, "%d", lobe->lobe);
     if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, number, NULL);
-    if (info->traits & WEFT_LOBE_REFERENCE) return walks(info->id, error);
-    if (reflection_walks(from)) return walks(reflection_walks(from), error);
+    if (info->traits & WEFT_LOBE_REFERENCE) return walks_refused(info->id, error);
+    if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
     if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, item_progress, lobe, out, error);
     samples_free(&samples);
@@ -113,7 +113,7 @@ static WeftResult material_matched(const Samples *samples, const int *held, Item
     WeftMaterial changed = *material;
     WeftMatch found = {.copied = 0.0};
     WeftResult result = weft_reflection_create(material, &copy, error);
-    if (result == WEFT_OK && reflection_walks(copy)) result = walks(reflection_walks(copy), error);
+    if (result == WEFT_OK && reflection_walks(copy)) result = walks_refused(reflection_walks(copy), error);
     if (result == WEFT_OK) result = distance_of(samples, copy, WEFT_PART_ALL, &out->copied, error);
     weft_reflection_free(copy);
     out->matched = out->copied;
@@ -131,7 +131,7 @@ WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, con
                           WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
-    if (reflection_walks(from)) return walks(reflection_walks(from), error);
+    if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
     if (result == WEFT_OK) result = material_matched(&samples, held, item_progress, material, out, error);
     samples_free(&samples);

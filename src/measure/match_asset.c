@@ -1,4 +1,4 @@
-/* match_asset.c - the sheens of a glTF file, rewritten for another engine */
+/* match_asset.c - converts the sheens of a glTF file for another engine */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ static int place_of(int channel, int channels) {
     return channels < 3 ? 0 : channel;
 }
 
-/* The mean of a channel over a texture's pixels; those of a colour are sRGB. */
+/* Returns the mean of a channel over a texture's pixels. Integers of a colour are decoded from sRGB. */
 static double texture_mean(WeftImage image, int channel, bool color) {
     double sum = 0.0;
     size_t pixels = (size_t)image.width * (size_t)image.height;
@@ -63,14 +63,14 @@ typedef struct Mean {
 
 /* One material of the asset. */
 typedef struct MatchJob {
-    double means[FACTORS][3]; /* what the textures of its factors are on average; 1 without one */
-    int search;               /* of its average; -1: it has no sheen */
+    double means[FACTORS][3]; /* mean of each factor's texture; 1 without a texture */
+    int search;               /* number of its search; -1: it has no sheen */
 } MatchJob;
 
-/* One search, for all materials whose averages are the same numbers. */
+/* One search, for all materials whose mean numbers are equal. */
 typedef struct AverageSearch {
-    MaterialKey key;      /* of the average */
-    WeftMaterial average; /* then the match */
+    MaterialKey key;      /* of `average` */
+    WeftMaterial average; /* the material with mean numbers; after the search the match */
     WeftMatch found;
     WeftResult result;
     WeftError error;
@@ -80,12 +80,12 @@ typedef struct AssetSearch {
     WeftScene *scene;
     int from, to, held[WEFT_INPUTS_MAX];
     WeftBrdfMetric metric;
-    WeftProgress progress; /* NULL: nobody */
+    WeftProgress progress; /* may be NULL */
     void *user;
     LoopWatch watch;
-    Mean (*means)[2][4];     /* of a texture, as numbers and as a colour, by channel */
-    MatchJob *jobs;          /* of `count` materials */
-    AverageSearch *searches; /* at most as many */
+    Mean (*means)[2][4];     /* by texture; as plain numbers or as sRGB colours; by channel */
+    MatchJob *jobs;          /* `count`, one a material */
+    AverageSearch *searches; /* `search_count`, at most `count` */
     WeftAssetMatch *matches;
     int count, search_count;
 } AssetSearch;
@@ -106,7 +106,7 @@ static void means_of(AssetSearch *self, const WeftMaterial *material, double mea
     }
 }
 
-/* The material as it is on average, without textures; and back to factors. */
+/* Multiplies the factors by the means of their textures and removes the textures. */
 static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++)
         for (int c = 0; c < 3; c++) {
@@ -116,6 +116,7 @@ static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) material->inputs[k].texture = 0;
 }
 
+/* Divides the numbers by the means again. Returns 1 if a factor would exceed 1 and was clipped. */
 static int to_factors(WeftMaterial *material, double means[FACTORS][3]) {
     int clipped = 0;
     for (int f = 0; f < FACTORS; f++)
@@ -181,7 +182,7 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     return result;
 }
 
-/* Only what has a factor is free. */
+/* Holds every input that has no factor in a glTF file. */
 static void hold_rest(int held[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
         held[k] = 1;
@@ -190,7 +191,7 @@ static void hold_rest(int held[WEFT_INPUTS_MAX]) {
     }
 }
 
-/* The number of the search for what is so on average: one that there is, or a new one. */
+/* Returns the number of the search for these mean numbers, which is added if there is none yet. */
 static int search_for(AssetSearch *self, const WeftMaterial *average) {
     const MaterialKey key = material_key(average);
     int k = 0;
@@ -203,7 +204,7 @@ static int search_for(AssetSearch *self, const WeftMaterial *average) {
     return k;
 }
 
-/* The materials, and the searches that they need. */
+/* Lists the materials and the searches that they need. */
 static WeftResult plan(AssetSearch *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->count && result == WEFT_OK; k++) {
@@ -253,7 +254,7 @@ static WeftResult search_all(AssetSearch *self, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Hands each material what was found for it, as factors. */
+/* Writes the result of each search to its materials, as factors. */
 static void hand_out(AssetSearch *self) {
     for (int k = 0; k < self->count; k++) {
         WeftAssetMatch *match = &self->matches[k];
@@ -296,7 +297,7 @@ static WeftResult asset_write(const AssetSearch *self, Asset *asset, const char 
     return result;
 }
 
-/* Reading is short beside what comes after, and is no part of it. */
+/* Reading takes little time beside the searches and does not count in the progress. */
 static int while_reading(void *user, double fraction) {
     AssetSearch *self = user;
     (void)fraction;

@@ -260,7 +260,8 @@ static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog
     }
     free(entries);
     if (result == WEFT_OK && map_set->unknown[0])
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no map is called so: %s", map_set->unknown);
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no input has a map of this name: %s",
+             map_set->unknown);
     if (result == WEFT_OK && !map_set->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
     return result;

@@ -58,7 +58,7 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
     if (by)
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "write layer=%.*s and layer_by=%s", (int)(by - id),
                     id, by + strlen(",by="));
-    if (several) return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "several are called so: %s", several);
+    if (several) return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "several have this name: %s", several);
     return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "`weft models` lists what %s may be", name);
 }
 

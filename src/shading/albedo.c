@@ -4,11 +4,11 @@
 #include "base/thread.h"
 #include "shading/lobe_tables.h"
 
-/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the creases of a table that f is
- * mixed from, and at the plane of incidence. Each piece is integrated by the double-exponential rule, whose
- * nodes crowd towards the ends of an interval: that is where the lobes have their peaks (mirror direction,
- * horizon, backscatter), however narrow. x = 1 / (1 + exp(-pi sinh t)),  dx/dt = pi cosh t x (1 - x) Hidetosi
- * Takahasi, Masatake Mori, "Double Exponential Formulas for Numerical Integration", 1974. */
+/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the creases of a table that f reads, and at
+ * the plane of incidence. Each piece is integrated by the double-exponential rule, whose nodes crowd towards the ends
+ * of an interval: x = 1 / (1 + exp(-pi sinh t)), dx/dt = pi cosh t x (1 - x). There the lobes have their peaks (mirror
+ * direction, horizon, backscatter), however narrow. Hidetosi Takahasi, Masatake Mori, "Double Exponential Formulas
+ * for Numerical Integration", 1974. */
 enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
 
 typedef struct QuadratureRule {
@@ -20,7 +20,7 @@ typedef struct QuadratureRule {
 
 static QuadratureRule rule_make(double step) {
     QuadratureRule rule = {0};
-    const double reach = 3.1; /* x(-3.1) is 9e-16 */
+    const double reach = 3.1; /* x(-3.1) is 8e-16 */
     int half = (int)(reach / step);
     for (int k = -half; k <= half; k++) {
         double t = k * step, q = PI_DOUBLE * sinh(t);
@@ -36,8 +36,8 @@ static QuadratureRule rule_make(double step) {
     return rule;
 }
 
-/* The integrand of a lobe: f times 1 - share and times share; or, given the colours w, f in these: the
- * albedos of a tinted one, the f0 of one whose f0 makes its F. */
+/* The integrand of a lobe. Without w it has two parts, f (1 - s) and f s. With w it is f in three colours: albedos of a
+ * tinted lobe, or values of f0 for a lobe whose F is computed from f0. */
 typedef struct Asked {
     const Lobe *lobe;
     const float *w; /* NULL: two parts */
@@ -97,8 +97,8 @@ static Sum ring(const Asked *asked, Dir wo, const QuadratureRule *rule, double s
     return sum;
 }
 
-/* Angles from the horizon, rising, between which f is smooth in theta_i: 0, those of the columns of a table
- * that is read by cos_i, the mirror angle and pi / 2. */
+/* Angles above the horizon, ascending, between which f is smooth in theta_i: 0, the columns of a table that is read by
+ * cos_i, the mirror angle, and pi / 2. */
 enum { PIECES_MOST = LOBE_CREASES_MOST + 2 };
 typedef struct Pieces {
     int count;
@@ -126,7 +126,7 @@ static Sum hemisphere(const Asked *asked, Dir wo, const QuadratureRule *rule) {
         double low = pieces.edge[piece - 1], width = pieces.edge[piece] - low;
         if (width < 1e-9) continue;
         for (int k = 0; k < rule->count; k++) {
-            /* from the horizon, where the cosine needs its digits; the last piece from the normal */
+            /* measured from the horizon, so that small cosines keep their digits; the last piece from the normal */
             bool steep = piece == pieces.count;
             double a = steep ? width * rule->x[k] : low + width * rule->rest[k];
             double sin_i = steep ? (sin)(a) : (cos)(a), cos_i = steep ? (cos)(a) : (sin)(a);
@@ -153,7 +153,7 @@ static Sum quadrature(const Asked *asked, Dir wo, double tolerance, double *erro
 
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error) {
     if (weft_lobe_info(lobe->id)->traits & TRAIT_REFERENCE) {
-        *error = tolerance; /* of walks: a standard error */
+        *error = tolerance; /* a standard error of walks */
         return (Albedo){lobe_walked_albedo(lobe, wo, (int)(4.0 / tolerance)), 0.0f};
     }
     Sum e = quadrature(&(Asked){lobe, NULL}, wo, tolerance, error);
@@ -185,7 +185,7 @@ typedef struct Fill {
     const Lobe *lobe;
 } Fill;
 
-/* The colours, beside white, that the maps of a tinted lobe are made from: the last is 0 in the limit. */
+/* The colours beside white for which E of a tinted lobe is integrated; the last stands for the limit 0. */
 static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
 /* Returns the tilt of the lobe's fibres; 0 for a lobe without one. */
@@ -202,14 +202,14 @@ static int tilts_of(const Lobe *lobe, bool scaled) {
 
 enum { ACROSS = TABLE_HEADINGS / 2 + 1 }; /* heading 0 of the greatest tilt, from the last map */
 
-/* E of a lobe with azimuth 0 towards wo at that heading. */
+/* Returns E of a lobe with azimuth 0 towards a wo of that heading. */
 static float towards(const Lobe *lobe, float heading, float cos_o, double tolerance) {
     float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), side = sqrt(1.0f - heading * heading);
     Albedo e = albedo_quadrature(lobe, dir(s * heading, s * side, cos_o), tolerance);
     return e.f0 + e.f90;
 }
 
-/* One texel of all maps by heading. A lobe that takes walks takes as many for them together as for one E. */
+/* Fills one texel of all maps by heading. A lobe of walks takes as many walks for all of them as for one E. */
 static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, float cos_o) {
     int tilt = weft_lobe_param_find(lobe.id, "tilt"), map = table->maps - table->tilts * TABLE_HEADINGS;
     float most = lobe.params[tilt];
@@ -223,8 +223,8 @@ static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, fl
     }
 }
 
-/* The mean over azimuths of what is known at five headings, for the last column: exact for what is a
- * polynomial of the fifth degree in the heading. */
+/* Replaces the last column of the maps of one tilt by their mean over azimuths. The weights are exact for polynomials
+ * of degree 5 in the heading. */
 static void average_headings(AlbedoTable *table, int map, int row) {
     static const float weights[TABLE_HEADINGS] = {1.0f / 6, 1.0f / 3, 0.0f, 1.0f / 3, 1.0f / 6};
     float mean = 0.0f;
@@ -260,7 +260,7 @@ static void fill_column(void *user, int column, int thread) {
     }
 }
 
-/* 2 integral of E mu dmu with mu = x^4, by the midpoint rule over x on what lies between the nodes. */
+/* Returns 2 integral of E mu dmu, mu = x^4, of the interpolated row by the midpoint rule over x. */
 static double row_average(const AlbedoTable *table, int row) {
     enum { STEPS = 8 * ALBEDO_MU };
     TableRef one = {.texels = table->e[row], .rows = 1, .columns = ALBEDO_MU};
@@ -272,13 +272,13 @@ static double row_average(const AlbedoTable *table, int row) {
     return sum;
 }
 
-/* log of r^2 = ((1 - q) / (1 - w q))^2 at w_1 = 7/8, less a quarter of that at w_2 = 1/2: what is left of the
- * two when e is eliminated, since (1 - w_1) / (1 - w_2) = 1/4. It falls as q grows. */
+/* Returns log r^2 at w_1 = 7/8 minus a quarter of log r^2 at w_2 = 1/2, r = (1 - q) / (1 - w q). Since
+ * (1 - w_1) / (1 - w_2) = 1/4, this combination of the two equations contains no e. It decreases with q. */
 static double without_e(double q) {
     return 1.5 * log1p(-q) - 2.0 * log1p(-0.875 * q) + 0.5 * log1p(-0.5 * q);
 }
 
-/* E of white and of the three colours w becomes E, s, q and e:
+/* Replaces E of white and of the three colours w by E, s, q and e:
  *
  *   E(w) / w -> (1 - s) E(1) for w -> 0,   (E(w) / E(1) - (1 - s) w) / (s w^2) = r^2 exp((1 - w) e) */
 static void solve_maps(float *map[ALBEDO_MAPS]) {

@@ -14,34 +14,34 @@ typedef struct Albedo {
     float f0, f90; /* f90 is 0 without TRAIT_TWO_COLORS */
 } Albedo;
 
-/* E for wo, z > 0, to `tolerance` absolute. Of a lobe with TRAIT_REFERENCE it is the mean of 4 / tolerance
- * walks, with a standard error of sqrt(tolerance) / 4 at most: 0.0025 where 1e-4 is asked for. */
+/* Returns E for wo, z > 0, to the absolute error `tolerance`. For a lobe with TRAIT_REFERENCE it is the mean of
+ * 4 / tolerance walks, with a standard error of at most sqrt(tolerance) / 4: 0.0025 if tolerance is 1e-4. */
 Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 
-/* Works as albedo_quadrature, with an error estimate: the change that the last halving of the step made. That is
- * above `tolerance` where the finest step was not enough. */
+/* Works as albedo_quadrature. *error is the change that the last halving of the step made; it exceeds `tolerance` if
+ * the finest step was not enough. */
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
-/* Returns true where colour is no factor and no share either: for a tinted lobe, and where f0 makes F. */
+/* Returns true if E of a colour is not f0 E0 + f90 E90: for a tinted lobe, and if F is computed from f0. */
 bool albedo_asks_color(const Lobe *lobe);
 
-/* E of such a lobe in the colour w: of each channel by itself. */
+/* Computes E of such a lobe for the three channels w of a colour. */
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
 
-/* E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, ALBEDO_MU nodes uniform in y, and over one
- * parameter, ALBEDO_ROWS nodes uniform in its eighth root, or one row where it is held fixed: so E bends
- * about equally everywhere, though it changes fastest near grazing at low alpha, and for some diffuse lobes
- * as sin(theta_o) near the normal.
+/* A table has E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, at ALBEDO_MU nodes uniform in y, and
+ * over one parameter, at ALBEDO_ROWS nodes uniform in its eighth root, or in one row if the parameter is fixed. With
+ * this spacing E curves about equally everywhere, though it changes fastest near grazing at low alpha, and for some
+ * diffuse lobes as sin(theta_o) near the normal.
  *
- * For a tinted lobe there are three maps more, from which E(w) of any colour follows by the law of its f:
+ * A tinted lobe has three more maps, from which E(w) of any colour w follows by the same law as its f:
  *
  *   E(w) = E(1) c(w),  c: tint_color with s, q_o = q_i = q and e of these maps
  *
- * which is right at w = 1, at 7/8, at 1/2 and, as a slope, at 0.
+ * This is exact at w = 1, 7/8 and 1/2, and in its slope at 0.
  *
- * Of a lobe whose fibres lean, one with the parameters tilt > 0 and azimuth, these are for wo across the nap,
- * whatever the azimuth; and there are maps more of E by heading (table.h), for the tilt of the lobe or for
- * TABLE_TILTS of them. */
+ * If the fibres of a lobe lean (it has the parameters tilt > 0 and azimuth), these maps are for wo across the nap,
+ * whatever the azimuth. Further maps have E by heading (table.h), for the tilt of the lobe or for TABLE_TILTS
+ * tilts. */
 enum {
     ALBEDO_MU = 40,
     ALBEDO_ROWS = 32,
@@ -54,26 +54,26 @@ typedef struct AlbedoTable {
     int rows;
     float low, high;           /* the range asked for */
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */
-    int maps;                  /* all, of `rows` rows each */
-    int tilts;                 /* with maps for headings: 0, 1 or TABLE_TILTS */
-    /* E, then s, q and e. The last column: on cosine average, 2 integral of E mu dmu, and s, q, e of that; of
-     * E by heading the average over azimuths too. */
+    int maps;                  /* number of all maps, of `rows` rows each */
+    int tilts;                 /* number of tilts with maps for headings: 0, 1 or TABLE_TILTS */
+    /* Maps of E, s, q and e, then of E by heading. The last column has the cosine-weighted average, 2 integral of
+     * E mu dmu, with s, q and e for it; for E by heading the average is over azimuths too. */
     float e[ALBEDO_MAPS_MOST * ALBEDO_ROWS][ALBEDO_MU + 1];
 } AlbedoTable;
 
-/* Fills the table for a lobe as its parameter 0 runs over low .. high (equal: one row), the others as given.
- * Runs on `threads` threads (0: all). */
+/* Fills the table for a lobe with parameter 0 from low to high (one row if they are equal), the others as given.
+ * Uses `threads` threads, 0 for all. */
 void albedo_table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
-/* Works as albedo_table_fill, for a sheen whose tilt a texture scales from 0 to that of the lobe. */
+/* Works as albedo_table_fill, for a sheen whose tilt a texture scales, from 0 to the tilt of the lobe. */
 void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, float high, int threads);
 
 /* Returns true if the table is the lobe's for parameter 0 over low .. high and, if scaled, for all tilts. */
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled);
 
-/* The table for table.h to read, which clamps to its ends; it must outlive the reference. Off the nodes it is
- * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3, but for the lobes that
- * tests/shading/test_energy names, whose E has creases. Of fibres that lean, a white base under rule
+/* Returns the table as table.h reads it, clamped to its ends; it must outlive the reference. Between nodes it is
+ * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3, except for the lobes that
+ * tests/shading/test_energy names, whose E has creases. With fibres that lean, a white base under rule
  * albedo-view is within 0.08 of 1, and 0.03 for one tilt and alpha >= 0.5 (tests/shading/test_leaning). */
 TableRef albedo_table_ref(const AlbedoTable *table);
 

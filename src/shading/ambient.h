@@ -36,7 +36,7 @@ FN float ambient_schlick_half(float cos_o) {
     return q2 * (0.02f + 0.008f * q2);
 }
 
-/* Returns the transmittance of the specular interface for the diffuse lobe, on cosine average over wi. */
+/* Returns the transmittance of the specular interface for the diffuse lobe, averaged over wi with the cosine. */
 FN Rgb ambient_base_transmittance(const Stack *m, const StackView *w) {
     float cos_o = w->o.z;
     Rgb f = rgb_grey(0.0f);
@@ -53,7 +53,7 @@ FN Rgb ambient_interface_transmittance(const Stack *m, const StackView *w) {
     return stack_interface_at(m, w, s);
 }
 
-/* The transmittance of the layers above three slots, on cosine average over wi. */
+/* The transmittance of the layers above three slots, averaged over wi with the cosine. */
 STRUCT(AmbientTransmittance) { Rgb diffuse, specular, sheen; };
 
 FN AmbientTransmittance ambient_transmittance(const Stack *m, const StackView *w) {
@@ -78,7 +78,7 @@ STRUCT(AmbientSlot) {
     float lights_scale; /* factor on the lights still to be added, 0 for none */
 };
 
-/* colors, e: of the slot. scale: of the slot in the view. light: for a lobe of colour 1. factor: for artists. */
+/* Applies the colours of a slot to its light. scale: that of the slot in the view. factor: that of the source. */
 FN AmbientSlot ambient_slot(SlotColors colors, SheenE e, float scale, SlotLight light, float factor) {
     AmbientSlot a;
     a.reflected = rgb_scale(rgb_scale(ambient_apply_colors(colors, e, light.reflected), scale), factor);
@@ -86,8 +86,8 @@ FN AmbientSlot ambient_slot(SlotColors colors, SheenE e, float scale, SlotLight 
     return a;
 }
 
-/* Returns the environment lights that the slots `only` reflect. view: the view of the stack, with the scales of these
- * lights. */
+/* Returns the light that the slots `only` reflect of the environment lights. view: the view of the stack, whose scales
+ * are those for these lights. */
 FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only, AmbientSource s,
                               float occlusion) {
     Rgb sum = rgb_grey(0.0f);

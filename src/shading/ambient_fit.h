@@ -14,7 +14,7 @@ typedef struct AmbientFit {
     float root_low, root_high;
     float finest; /* the greatest log2 kappa */
     float
-        denser; /* log2 of the lobe's density over that of a lobe of its width about one axis; mean over its light */
+        denser; /* log2 of the lobe's pdf over that of a lobe of equal width about one axis, averaged over its light */
     bool turning; /* there are planes for AMBIENT_SIDES headings */
     float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
 } AmbientFit;
@@ -44,8 +44,8 @@ void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]);
 /* A lobe whose `denser` exceeds this is a ring or a streak, which one axis and one width describe badly. */
 #define AMBIENT_DENSER 2.5f
 
-/* Returns the strategy with the least error for a lobe (docs/environment.md). turning: it depends on azimuth. dense: its
- * `denser` exceeds AMBIENT_DENSER. */
+/* Returns the strategy with the least error for a lobe (docs/environment.md). turning: the lobe depends on azimuth.
+ * dense: its `denser` exceeds AMBIENT_DENSER. */
 int ambient_strategy(int lobe, bool turning, bool dense);
 
 #endif

@@ -1,30 +1,30 @@
-/* ambient_source.h - the light of an environment, as a material asks for it, for callers in C
+/* ambient_source.h - the functions through which a material reads an environment, for callers in C
  *
  *   ambient_radiance(s, w, kappa)  radiance about w: mean of L(i) weighted by exp(kappa (i . w - 1))
  *   ambient_irradiance(s, w)       mean of L(i) weighted by max(i . w, 0)
- *   ambient_light(s, k)            light k of those that stand for the brightest of L
- *   ambient_light_count(s)               how many there are
- *   ambient_light_visibility(s, k, occlusion)  the part of light k that is seen, where that part of the sky is: no more is
- *                                  known of it in C
- *   ambient_nearest_light(s, w)    the number of the light nearest to w; -1 if there is none
- *   ambient_point(s, k)            point k of those that the lights are divided into, for lobes that are so
- *                                  narrow that the shape of a light shows
- *   ambient_point_count(s)         how many there are
+ *   ambient_light(s, k)            light k of the directional lights that replace the brightest parts of L
+ *   ambient_light_count(s)         number of these lights
+ *   ambient_light_visibility(s, k, occlusion)
+ *                                  visible part of light k, 0 to 1; in C it is `occlusion`, the visible part of the sky
+ *   ambient_nearest_light(s, w)    number of the light nearest to w; -1 if there is none
+ *   ambient_point(s, k)            point k of those that the lights are divided into, for lobes so narrow that they
+ *                                  show the shape of a light
+ *   ambient_point_count(s)         number of these points
  *   ambient_sky_visibility(s, w, cos_i, occlusion)
- *                                  the part of the sky about w that is seen, where that part of the
- *                                  cosine-weighted sky is; cos_i is that of its look-up's axis to the normal
+ *                                  visible part of the sky about w, if `occlusion` is that of the cosine-weighted sky;
+ *                                  cos_i is the cosine of the look-up's axis to the normal
  *   ambient_bent_direction(s, w, kappa, open)
- *                                  the mean direction of what is seen about w, which of a weight as wide as
- *                                  kappa is the part `open`; the cosine's kappa is 4
- *   ambient_light_kappa(s)          log2 of the kappa of a weight as wide as what a light stands for
- *   ambient_residual(s, w, kappa)      what the lights leave of L, which is smooth, weighted as radiance is
- *   ambient_baked(s, k)             coefficients k of tables that are baked (ambient.h)
- *   ambient_diffuse(s)             a factor on what the diffuse lobe and dust reflect of it all, 1 in C
- *   ambient_reflection(s)          the same of every other lobe
+ *                                  mean direction of the visible sky in a filter of that kappa about w, of which the
+ *                                  part `open` is visible; a cosine about the normal has kappa 4
+ *   ambient_light_kappa(s)         log2 of the kappa of a filter as wide as the region that a light replaces
+ *   ambient_residual(s, w, kappa)  L without its lights, which is smooth, filtered as radiance is
+ *   ambient_baked(s, k)            coefficients k of the baked tables (ambient_table.h)
+ *   ambient_diffuse(s)             factor on the light that the diffuse lobe and dust reflect, 1 in C
+ *   ambient_reflection(s)          factor on the light that every other lobe reflects, 1 in C
  *
- * ambient_residual takes kappa 0 for the weight of irradiance. Directions are unit, in the shading frame
- * (angles.h). So L = residual + lights, and radiance and irradiance are of L. In GLSL a source is a Frame, and
- * whoever draws provides these functions in this file's place (raster/gl_environment.h). */
+ * ambient_residual with kappa 0 has the weight of irradiance. Directions are unit, in the shading frame (angles.h).
+ * L = residual + lights; radiance and irradiance are of L. In GLSL a source is a Frame, and the program that draws
+ * provides these functions in place of this file (raster/gl_environment.h). */
 #ifndef WEFT_SHADING_AMBIENT_SOURCE_H
 #define WEFT_SHADING_AMBIENT_SOURCE_H
 
@@ -34,7 +34,7 @@
 STRUCT(AmbientLight) {
     Dir w;
     Rgb color;     /* irradiance on a surface that faces it */
-    float density; /* 1/sr: one direction per solid angle of a point of it, or of the point that it is */
+    float density; /* 1/sr: 1 over the solid angle of one point of the light, or of this point */
     int light;     /* number of the light, or of the light that a point is part of */
 };
 

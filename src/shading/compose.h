@@ -1,7 +1,7 @@
 /* compose.h - makes a stack from inputs and choices, its view for wo, and evaluates it
  *
- * A profile, or else a workflow, makes the stack; then come the choices that were made, in place of what it
- * says. */
+ * A profile, or else a workflow, makes the stack. The choices of a material then replace the parts of it that
+ * they name. */
 #ifndef WEFT_SHADING_COMPOSE_H
 #define WEFT_SHADING_COMPOSE_H
 
@@ -22,7 +22,7 @@ FN float compose_ior(const Surface *s) {
     return s->ior > 0.0f ? max(s->ior, 1.0f) : (1.0f + root) / max(1.0f - root, 0.1f);
 }
 
-/* A lobe of facets as the composition that it is. */
+/* Returns a facet lobe as the cook-torrance of the same D and V, other lobes as they are. */
 FN Lobe compose_facets(Lobe lobe) {
     Proxy p = lobe_proxy(&lobe);
     if (lobe_is_composed(lobe.id) || p.fit != PROXY_FACETS) return lobe;
@@ -35,7 +35,7 @@ FN Lobe compose_facets(Lobe lobe) {
     return m;
 }
 
-/* A composition with terms of one's own choice; what is not chosen stays. */
+/* Replaces the terms of a cook-torrance lobe; a negative number leaves a term as it is. */
 FN Lobe compose_terms(Lobe lobe, int d, int v, int f, const Surface *s) {
     Lobe m = lobe;
     if (d >= 0) m.params[COOK_TORRANCE_D] = to_float(d);
@@ -46,20 +46,20 @@ FN Lobe compose_terms(Lobe lobe, int d, int v, int f, const Surface *s) {
     return m;
 }
 
-/* A distribution that knows no direction is laid on a base that is not brushed: it is as wide as the
- * roughness says, which for workflow disney is sqrt(alpha_x alpha_y), and anisotropy is not read. */
+/* Returns true if an isotropic D is chosen for the highlight. The inputs are then read as without anisotropy: the
+ * highlight has the width of the roughness alone, which for workflow disney is sqrt(alpha_x alpha_y). */
 FN bool compose_evens(Choices c) { return c.d >= 0 && c.d != D_GGX_ANISO; }
 FN void compose_surface(Surface *s, Choices c) {
     if (compose_evens(c)) s->anisotropy = 0.0f;
 }
 
-/* Returns true where terms of the sheen are chosen, or the lobe that is made of terms. */
+/* Returns true if terms are chosen for the sheen, or the lobe cook-torrance, which is made of terms. */
 FN bool compose_sheen_is_free(Choices c) {
     return lobe_is_composed(c.sheen_lobe) || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
 }
 
-/* A sheen of free terms. What is not chosen is that of the workflow's or profile's sheen where that is such a
- * composition and stays, and else of charlie-neubelt. */
+/* Returns a sheen of chosen terms. A term that is not chosen is that of the workflow's or profile's sheen if that is a
+ * cook-torrance and no other lobe was chosen, otherwise that of charlie-neubelt. */
 FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     Lobe m = lobe;
     if (c.sheen_lobe >= 0 || !lobe_is_composed(lobe.id)) {
@@ -90,7 +90,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     if (c.layer >= 0) m->layer = c.layer;
     m->amount = min(s->sheen, 1.0f);
     if (layer_asks_average(c.layer) && !albedo_is_own(m->albedo)) {
-        m->albedo = ALBEDO_TABLE; /* these ask for more than engines' own formulas know */
+        m->albedo = ALBEDO_TABLE; /* these rules need E(wi) and its average; engines' formulas have neither */
         m->albedo_coord = m->sheen.lobe.params[0];
     }
     if (c.layer_by >= 0) m->combine = c.layer_by;
@@ -105,7 +105,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     }
 }
 
-/* E of the white sheen towards a direction. */
+/* Returns E of the white sheen towards w. */
 #define COMPOSE_ALBEDO(name, index, own_table, formula)                                                      \
     if (m->albedo == index) return sheen_e_of(formula);
 FN SheenE stack_albedo(const Stack *m, Dir w) {
@@ -115,22 +115,22 @@ FN SheenE stack_albedo(const Stack *m, Dir w) {
     return table_sheen_nap(m->table, w, m->nap, m->rows);
 }
 
-/* Dust over all of it, where dust_accumulate found some. */
+/* Adds the slot of dust if dust_accumulate found some at this point. */
 FN void compose_dust(Stack *m, const Surface *s) {
     if (s->dust <= DUST_LEAST) return;
     m->dust_amount = s->dust;
     slot_even(&m->dust, lobe_rough(DUST_LOBE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
-    m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust takes from what is below too */
+    m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust dims the slots below too */
 }
 
-/* Prepares the lobes of a stack and finds the place of E in its table, once the lobes are chosen. */
+/* Prepares the lobes of a stack, once they are chosen, and finds the rows of the albedo table for the sheen. */
 FN void stack_prepare(Stack *m) {
     stack_prepare_lobes(m);
     if (HAS_SHEEN(m) && albedo_is_own(m->albedo) && SHEEN_IS_OWN(m->table))
         m->rows = table_rows(m->table, m->albedo_coord);
 }
 
-/* The stack of a surface whose inputs are those of its workflow and stay as they are. */
+/* Makes the stack of a surface whose inputs need no conversion from another workflow. */
 FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_begin(m, s, c);
     compose_choices(m, s, c);
@@ -144,9 +144,9 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     }
 }
 
-/* The stack of a surface. e is the table of E of the sheen's lobe over its first parameter, where the stack
- * without it has an `albedo` of ALBEDO_TABLE or ALBEDO_KHRONOS. s.dust is what lies at this point:
- * dust_accumulate says. */
+/* Makes the stack of a surface. e: the table of E of the sheen's lobe over its first parameter; only a stack whose
+ * `albedo` is ALBEDO_TABLE or ALBEDO_KHRONOS reads it. s->dust: the amount at this point, as dust_accumulate
+ * returns it. */
 FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     Choices d = convert_choices(c);
     Surface t = convert_surface(*s, c);
@@ -157,7 +157,7 @@ FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
 FN void view_coat(const Stack *m, StackView *w) {
     w->coat_o = stack_to_coat(m, w->o);
     if (m->coat_rule == COAT_BARE) return;
-    float cosine = w->coat_o.z, f = 0.0f; /* a coat turned away by its normal map is not seen */
+    float cosine = w->coat_o.z, f = 0.0f; /* stays 0 where the coat's normal map faces away */
     float s = m->coat_rule == COAT_GAUSSIAN ? schlick_gaussian_s(cosine) : schlick_s(cosine);
     if (cosine > 1e-4f) f = m->coat_weight * mix(0.04f, 1.0f, s);
     w->coat_transmittance = 1.0f - f;
@@ -180,7 +180,7 @@ FN void view_dust(const Stack *m, StackView *w) {
     w->select_p.name = 1.0f;
 #define COMPOSE_VIEW(name, index, what)                                                                      \
     if (m->view == index) what;
-/* All but what the layer rule asks for and the chances of sampling. */
+/* Sets all of a view but E of the sheen, the base scale and the selection probabilities. */
 FN void view_begin(const Stack *m, Dir o, StackView *w) {
     w->o = o;
     w->coat_o = o;
@@ -212,7 +212,7 @@ FN void view_base_scale(const Stack *m, StackView *w) {
     if (HAS_LAYERED_SHEEN(m)) w->base_scale = stack_base_scale(m, w, w->e_o);
 }
 
-/* A floor keeps every lobe reachable, so that no weight is unbounded: here before what dims it, and below. */
+/* Returns a slot's weight before dimming. The floor of 1e-3 keeps every slot reachable: f cos / pdf is bounded. */
 FN float select_p_of(const Slot *s, float schlick, float weight, float scale) {
     return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * weight, 1e-3f) : 0.0f;
 }
@@ -223,8 +223,8 @@ FN float select_p_of(const Slot *s, float schlick, float weight, float scale) {
 #define SELECT_P_USED(name, NAME, Name, wo)  +(p.name > 0.0f ? 1.0f : 0.0f)
 #define SELECT_P_SCALE(name, NAME, Name, wo) w->select_p.name = p.name > 0.0f ? most * p.name + least : 0.0f;
 
-/* The chance of each lobe to be sampled; before, what of it wo decides. Of n slots that are used each gets
- * (p / sum 15/16 + 1/64) / (15/16 + n/64). */
+/* Sets the selection probabilities. On entry select_p has the factors that depend on wo. Each of n used slots gets
+ * (15/16 p / sum + 1/64) / (15/16 + n/64), which is at least 1/65. */
 FN void view_select_p(const Stack *m, StackView *w) {
     float s = schlick_s(w->o.z), base_scale = 1.0f;
     Scales p;
@@ -264,11 +264,11 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
-/* Works as stack_value, for some of the slots. The others still dim these. */
+/* Works as stack_value, for the slots `only`. The other slots still dim them. */
 FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
                              const Angles *coat) {
     bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
-    Rgb f = rgb_grey(0.0f), through = f; /* by the interface that lies over all of diffuse and sheen */
+    Rgb f = rgb_grey(0.0f), through = f; /* transmittance of the interface over diffuse and sheen */
     float pdf = 0.0f;
     LobeReflected v;
     if (below_f) through = stack_interface_transmittance(m, w, a);
@@ -326,7 +326,7 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     return sum;
 }
 
-/* f cos and pdf for wi, both above the horizon. coat: the same pair in the coat's frame. */
+/* Returns f cos_i and the pdf of wi. Both directions are above the horizon. coat: the pair in the coat's frame. */
 FN StackValue stack_value(const Stack *m, const StackView *w, const Angles *a, const Angles *coat) {
     Slots only = slots_of(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
     return stack_value_of(m, w, only, a, coat);

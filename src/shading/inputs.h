@@ -1,7 +1,7 @@
 /* inputs.h - the inputs and choices of a material
  *
- * SURFACE_INPUTS lists its numbers and textures, SURFACE_CHOICES what it is made from: records, --set,
- * material files, docs, sliders and uniforms come from these two lists. */
+ * SURFACE_INPUTS lists its numbers and textures, SURFACE_CHOICES the ids that choose its models. The records, --set,
+ * material files, docs, menus and sliders are made from these two lists. */
 #ifndef WEFT_SHADING_INPUTS_H
 #define WEFT_SHADING_INPUTS_H
 

@@ -18,7 +18,7 @@ WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error) {
     char text[SEVERAL_SIZE];
     const char *several = choice_several(CHOICE_sheen_lobe, id, text);
     if (k < 0 && several)
-        return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "several are called so: %s", several);
+        return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "several have this name: %s", several);
     if (k < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "`weft models` lists them");
     *out = (WeftLobe){.lobe = k, .f0 = {1.0f, 1.0f, 1.0f}, .f90 = {1.0f, 1.0f, 1.0f}};
     memcpy(out->params, lobe_default(k).params, sizeof out->params);

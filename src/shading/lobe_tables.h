@@ -1,13 +1,13 @@
 /* lobe_tables.h - tables that lobes read themselves, whatever the material: made once, at the first need
  *
- * In GLSL the flattener (text/) puts in its place the same functions, for layers of the one array texture. */
+ * In GLSL the flattener (text/) supplies the same functions, which read layers of one array texture. */
 #ifndef WEFT_SHADING_LOBE_TABLES_H
 #define WEFT_SHADING_LOBE_TABLES_H
 
 #include "shading/table.h"
 
-/* T(name, index). charlie_neubelt: E of that lobe over all of its alphas. ltc_fibre: z, q, b and E, below
- * each other; low and high are roots of alpha. fibre: A, h, g and k likewise; low and high are log2 alpha. */
+/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. Planes one after another: ltc_fibre
+ * z, q, b, E and ltc_ggx (ltc_table.h), low and high roots of alpha; fibre A, h, g, k, low and high log2 alpha. */
 #define LOBE_TABLES(T)                                                                                       \
     T(charlie_neubelt, 0)                                                                                    \
     T(ltc_fibre, 1)                                                                                          \
@@ -15,12 +15,12 @@
     T(ltc_ggx, 3)
 #define LOBE_TABLE_COUNT 4
 
-/* Read-only after lobe_tables_make, which any number of threads may call at once; whoever makes a Lobe has.
- */
+/* Read-only once made. Any number of threads may call lobe_tables_make at once; the functions that return a Lobe
+ * call it first. */
 extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 void lobe_tables_make(void);
 
-/* Makes the tables that a lobe reads, and all that need no computing. */
+/* Makes the tables that a lobe reads, and those that only have to be unpacked. */
 void lobe_tables_make_for(int id);
 
 #define LOBE_TABLE_GET(name, index)                                                                          \

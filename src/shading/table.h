@@ -1,11 +1,11 @@
 /* table.h - directional albedo looked up: weft's own tables and those that engines ship
  *
- * A table has cos_o along its columns and one shape parameter down its rows. Texels are fetched one by one
- * and mixed here, so that C and GPU agree: a GPU's filter has 8 bits of fraction.
+ * A table has cos_o along its columns and one shape parameter down its rows; a map is `rows` such rows. Texels are
+ * fetched one by one and interpolated here, so that C and GPU agree: a GPU's filter has 8 bits of fraction.
  *
- * Where fibres lean, E depends on the azimuth too. Then there are maps for the headings (nap.h) -1, -1/2, 0,
- * 1/2 and 1 below the others, and five such sets, for 0, 1/16, 1/4, 9/16 and all of the tilt, where a texture
- * scales it. */
+ * If fibres lean, E depends on the azimuth too. Then five more maps follow, for the headings (nap.h) -1, -1/2, 0, 1/2
+ * and 1. If a texture scales the tilt, there are five sets of five, for 0, 1/16, 1/4, 9/16 and 1 times the greatest
+ * tilt. */
 #ifndef WEFT_TABLE_H
 #define WEFT_TABLE_H
 
@@ -14,10 +14,10 @@
 
 #define TABLE_NONE 0 /* E is 0 */
 #define TABLE_ROOTS                                                                                          \
-    1 /* weft's: nodes uniform in y and the parameter's eighth root, bicubic; cos_o = (1 - (1 - y)^2)^4 */
+    1 /* weft's: bicubic; nodes uniform in y, cos_o = (1 - (1 - y)^2)^4, and in the parameter's eighth root */
 #define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
 #define TABLE_TINTED 3 /* TABLE_ROOTS of a tinted lobe, with three maps more below: s, q and e (albedo.h) */
-#define TABLE_PLANES 4 /* a lobe's own, planes below each other: lobe_tables.h */
+#define TABLE_PLANES 4 /* read by a lobe's own code, one plane after another (lobe_tables.h) */
 
 #define TABLE_HEADINGS 5
 #define TABLE_TILTS    5
@@ -25,21 +25,21 @@
 STRUCT(TableRef) {
     Table texels;
     int kind;
-    int rows, columns; /* of a map; weft's have one column more, E on cosine average */
+    int rows, columns; /* of a map; weft's have one column more, the cosine-weighted average of E */
     float low, high;   /* weft's: eighth roots of the parameter in the first and the last row */
-    int tilts;         /* with maps for headings: 0 where nothing leans, 1 or TABLE_TILTS */
-    float tilt;        /* the greatest, radians */
+    int tilts;         /* number of tilts with maps for headings: 0 without a lean, 1 or TABLE_TILTS */
+    float tilt;        /* the greatest tilt, radians */
 };
 
-/* The cubic through four neighbouring nodes whose slope at a node is that between its neighbours; beyond its
- * ends the table goes on as a parabola. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating Splines",
- * 1974. */
+/* Weights of four neighbouring nodes: the cubic whose slope at a node is that between its two neighbours. At an end of
+ * the table a parabola extrapolates the missing node. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating
+ * Splines", 1974. */
 STRUCT(Taps) {
     int first;
     float a, b, c, d; /* weights of nodes first .. first + 3 */
 };
 
-/* x in nodes; count >= 4 of them. */
+/* x: the position, in nodes. count: number of nodes, at least 4. */
 FN Taps table_taps(float x, int count) {
     float k = clamp(floor(x), 0.0f, to_float(count - 2));
     float t = clamp(x - k, 0.0f, 1.0f), s = 1.0f - t;
@@ -73,16 +73,16 @@ FN float table_row(TableRef m, int row, Taps x) {
            x.d * table_texel(m.texels, m.columns + 1, row, x.first + 3);
 }
 
-/* Returns the place of the parameter among the rows. */
+/* Returns the position of parameter p, in rows. */
 FN float table_height(TableRef m, float p) {
     float root = sqrt(sqrt(sqrt(max(p, 0.0f))));
     return m.rows > 1 ? (root - m.low) / (m.high - m.low) * to_float(m.rows - 1) : 0.0f;
 }
 
-/* The place of a cosine and a parameter in weft's maps. */
+/* A position in weft's maps: x from the cosine, y from the parameter. */
 STRUCT(TablePlace) { Taps x, y; };
 
-/* The parameter's part of it, which may be kept. */
+/* Returns the y of a position, which is the same for all directions. */
 FN Taps table_rows(TableRef m, float p) { return table_taps(table_height(m, p), m.rows < 4 ? 4 : m.rows); }
 
 FN TablePlace table_place(TableRef m, float cos_o, Taps rows) {
@@ -104,7 +104,7 @@ FN float table_roots(TableRef m, float cos_o, float p) {
     return max(table_map(m, 0, table_place(m, cos_o, table_rows(m, p))), 0.0f);
 }
 
-/* E on cosine average, or what another map has of it. */
+/* Returns the cosine-weighted average over wo of a map: of E, if it is the first. */
 FN float table_map_average(TableRef m, int map, Taps y) {
     if (m.rows < 2) return table_texel(m.texels, m.columns + 1, map, m.columns);
     int row = map * m.rows + y.first;
@@ -126,13 +126,13 @@ FN float table_linear(TableRef m, float cos_o, float p) {
     return mix(low, high, y - y0);
 }
 
-/* A shader knows what kind of table its sheen has, and says so in place of these. */
+/* A shader whose kind of table is fixed defines these as constants. */
 #ifndef SHEEN_KIND
 #define SHEEN_KIND(m)  (m).kind
 #define SHEEN_TILTS(m) (m).tilts
 #endif
 
-/* E of a white sheen, and how a colour changes it; tint_none where colour is a factor. */
+/* E of a white sheen, and how colour changes it (tint.h): tint_none if E of a colour is the colour times E. */
 STRUCT(SheenE) {
     float e;
     Tint tint;
@@ -145,7 +145,7 @@ FN SheenE sheen_e_of(float e) {
     return x;
 }
 
-/* Works as sheen_e_of, with the colour values of a table's maps. */
+/* Works as sheen_e_of, with the tint that a table's maps s, q and e store. */
 FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
     SheenE x;
     x.e = e;
@@ -156,12 +156,12 @@ FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
     return x;
 }
 
-/* E of a sheen of that colour, over the colour. */
+/* Returns E of a sheen of that colour, divided by the colour. */
 FN float sheen_e_in(SheenE x, float color) {
     return IS_TINTED(x.tint) ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
 }
 
-/* Tests whether the table is one of weft's own: its rows may be kept, and it has the average of E. */
+/* Tests whether the table is one of weft's own, which alone have averages and positions (table_rows). */
 #define SHEEN_IS_OWN(m) (SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED)
 
 FN SheenE table_sheen_at(TableRef m, TablePlace at) {
@@ -170,17 +170,17 @@ FN SheenE table_sheen_at(TableRef m, TablePlace at) {
     return sheen_e_tinted(e, table_map(m, 1, at), table_map(m, 2, at), table_map(m, 3, at));
 }
 
-/* E of one that is not, p being whatever its engine puts there. */
+/* Returns E from an engine's table. p: the parameter as that engine defines it. */
 FN float table_engine(TableRef m, float cos_o, float p) {
     return SHEEN_KIND(m) == TABLE_LINEAR ? table_linear(m, cos_o, p) : 0.0f;
 }
 
-/* E towards a direction of that cosine, for parameter p of the lobe. */
+/* Returns E of the sheen at cos_o, for parameter p of the lobe. */
 FN SheenE table_sheen(TableRef m, float cos_o, float p) {
     if (!SHEEN_IS_OWN(m)) return sheen_e_of(table_engine(m, cos_o, p));
     return table_sheen_at(m, table_place(m, cos_o, table_rows(m, p)));
 }
-/* E of any table, the sheen's or not. */
+/* Returns E from any table, whether it is the sheen's or not. */
 FN float table_albedo(TableRef m, float cos_o, float p) {
     if (m.kind == TABLE_LINEAR) return table_linear(m, cos_o, p);
     if (m.kind == TABLE_NONE) return 0.0f;
@@ -190,13 +190,13 @@ FN float table_albedo(TableRef m, float cos_o, float p) {
 /* Returns the index of the first map for headings. */
 FN int table_headings(TableRef m) { return SHEEN_KIND(m) == TABLE_TINTED ? 4 : 1; }
 
-/* Returns the place of a tilt among those of the maps. They are uniform in its root, since E changes most as
- * fibres begin to lean. */
+/* Returns the position of a tilt among the tilts that have maps. These are uniform in the root of the tilt, since E
+ * changes fastest as fibres begin to lean. */
 FN Taps table_tilt(TableRef m, float tilt) {
     return table_taps(sqrt(max(tilt, 0.0f) / m.tilt) * to_float(SHEEN_TILTS(m) - 1), SHEEN_TILTS(m));
 }
 
-/* E at a heading, of the tilt whose maps begin there. */
+/* Returns E at a heading, from the five maps of one tilt. map: the first of these. */
 FN float table_at_heading(TableRef m, int map, Taps heading, TablePlace at) {
     int k = map + heading.first;
     return heading.a * table_map(m, k, at) + heading.b * table_map(m, k + 1, at) +
@@ -214,8 +214,8 @@ FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
            t.d * table_at_heading(m, map + 3 * TABLE_HEADINGS, h, at);
 }
 
-/* E towards w of a sheen with a nap, of a table of weft's whose rows are known. Colour changes it as it does
- * across the nap. */
+/* Returns E towards w of a sheen with a nap, from one of weft's tables. rows: table_rows of the parameter. The tint is
+ * that of a direction across the nap. */
 FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, Taps rows) {
     TablePlace at = table_place(m, w.z, rows);
     SheenE x = table_sheen_at(m, at);
@@ -223,7 +223,7 @@ FN SheenE table_sheen_nap(TableRef m, Dir w, Nap nap, Taps rows) {
     return x;
 }
 
-/* E on cosine average, 2 integral of E(mu) mu dmu; of other tables it counts as 0. */
+/* Returns the cosine-weighted average of E, 2 integral of E(mu) mu dmu; 0 if the table is an engine's. */
 FN SheenE table_sheen_average(TableRef m, Taps rows) {
     if (!SHEEN_IS_OWN(m)) return sheen_e_of(0.0f);
     float e = max(table_map_average(m, 0, rows), 0.0f);
@@ -232,7 +232,7 @@ FN SheenE table_sheen_average(TableRef m, Taps rows) {
                           table_map_average(m, 3, rows));
 }
 
-/* Returns the average E of a sheen with a nap, over the azimuth too, which the first maps hold. */
+/* Returns that average for a sheen with a nap, over azimuths too; the first map of each tilt stores it. */
 FN SheenE table_sheen_nap_average(TableRef m, Nap nap, Taps rows) {
     SheenE x = table_sheen_average(m, rows);
     if (!SHEEN_IS_OWN(m) || SHEEN_TILTS(m) < 1) return x;

@@ -231,7 +231,7 @@ static void check_options_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("check", "ggx", "lambert"), 2, "");
     assert_complaint(NULL, LIST("check", "ggx", "--max-albedo", "much"), 2, "--max-albedo");
     assert_complaint(NULL, LIST("check", "ggx", "--threads", "-1"), 2, "--threads");
-    assert_complaint(NULL, LIST("check", "all", "-p", "alpha=1"), 2, "does not go with all");
+    assert_complaint(NULL, LIST("check", "all", "-p", "alpha=1"), 2, "does not go with \"all\"");
     assert_complaint(NULL, LIST("check", "three", "-p", "alpha=1"), 2, "is for lobes");
     assert_complaint(NULL, LIST("check", "three", "--header"), 2, "is for lobes");
     assert_complaint(NULL, LIST("check", "ggx", "--header", "--json"), 2, "does not go with");

@@ -153,7 +153,7 @@ static void mistyped_material_option_is_named_in_its_error(void **state) {
     refused(LIST("--profile=kronos"), 2, "did you mean khronos?");
     refused(LIST("--profile=khronos,"), 2, "--profile: \"\" is not a profile");
     refused(LIST("--profile="), 2, "--profile: \"\"");
-    refused(LIST("--sheen=ggx,patry, ggx"), 2, "--sheen: ggx stands there twice");
+    refused(LIST("--sheen=ggx,patry, ggx"), 2, "--sheen: ggx is listed twice");
     refused(LIST("--set=*.layer=reciprocal,by=channel"), 2, "layer_by");
     refused(LIST("--set=*.rougness=1"), 2, "did you mean roughness?");
     refused(LIST("--set=*.=1"), 2, "\"\" is not a parameter");
@@ -165,7 +165,7 @@ static void mistyped_material_option_is_named_in_its_error(void **state) {
     refused(LIST("--workflow=cloth", "--profile=three"), 2, "--workflow or --profile");
     refused(LIST("--sheen=ggx,patry", "--layer=seed,additive", "--set=*.roughness=0,1"), 2,
             "--set: has several values, and so have --sheen and --layer");
-    refused(LIST("--set=*.roughness=0,1,0"), 2, "--set: 0 stands there twice");
+    refused(LIST("--set=*.roughness=0,1,0"), 2, "--set: 0 is listed twice");
     refused(LIST("--set=*.roughness=0,,1"), 2, "value 2 of 3 is empty");
     refused(LIST("--set=*.roughness=0,x"), 2, "x: is not a value");
     refused(LIST("--set=*.roughness=0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8", "--set=*.metallic=0,1,2,3,4,5,6,7,8"),

@@ -270,7 +270,7 @@ static void terms_given_to_cook_torrance_make_a_lobe(void **state) {
 
 static void ambiguous_names_are_refused(void **state) {
     (void)state;
-    static const char several[] = "several are called so: charlie-neubelt, charlie-conty-kulla";
+    static const char several[] = "several have this name: charlie-neubelt, charlie-conty-kulla";
     assert_complaint("", LIST("eval", "charlie"), 2, several);
     assert_complaint("", LIST("eval", "ashikhmin"), 2, "ashikhmin-neubelt, ashikhmin-conty-kulla");
     assert_complaint("", LIST("eval", "charlie-v"), 2, "charlie-v: is not a lobe");

@@ -213,7 +213,7 @@ static void match_options_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "fuzz"), 2, "fuzz");
     assert_complaint(NULL, LIST("match", "ggx", "three", "--hold", "fuzz"), 2, "fuzz");
     assert_complaint(NULL, LIST("match", "ggx", "fibre-walk"), 2, "mean");
-    assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.json"), 2, "no material");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.json"), 2, "not a material");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.txt"), 2, ".png");
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three"), 2, "-o");
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "two", "-o", "a.glb"), 2, "two");

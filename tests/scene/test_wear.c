@@ -256,7 +256,7 @@ static void maps_of_the_principled_model_are_bound_by_name(void **state) {
         snprintf(file, sizeof file, "%s/mask.png", spelling ? "b" : "a");
         draw(file, 4, 1);
         assert_int_equal(weft_scene_bind_maps(scene, NULL, path, &count, &log, &error), WEFT_OK);
-        assert_non_null(strstr(last_said, "no map is called so: flakes.png, mask.png"));
+        assert_non_null(strstr(last_said, "no input has a map of this name: flakes.png, mask.png"));
         weft_scene_free(scene);
     }
 }

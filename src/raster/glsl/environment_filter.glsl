@@ -4,7 +4,7 @@
  *
  * Only texels within `reach` of d are asked: beyond it w is below a three-thousandth. */
 uniform highp sampler2D source;
-uniform highp mat3 face;  /* its axes as columns: towards the right, down, and out */
+uniform highp mat3 face;  /* axes of the face as columns: towards the right, down, and out */
 uniform highp vec4 how;   /* texels across the face, level of the source, kappa, cosine of reach */
 uniform highp float reach; /* radians */
 out highp vec4 texel;

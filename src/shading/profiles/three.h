@@ -18,7 +18,7 @@
  * base has Fdez-Aguera's scattering; lights of an area have no sheen.
  *   Departures: nothing is added to roughness where the normal changes from pixel to pixel; alpha of the
  * sheen is at least 0.005 (there 1e-8).
- *   Substitute: Ess is made anew by the procedure that the table states. Of the texels shipped those at cos_o
+ *   Substitute: Ess is made anew by the procedure that the table states. The shipped texels at cos_o
  * 1/32 are up to .015 less, all others within .009 (ten of them in tests/shading/test_profiles). F0 without
  * an ior is weft's. */
 #ifndef WEFT_PROFILE_THREE_H

@@ -4,7 +4,7 @@
  *
  *   Epic Games, Unreal Engine 4, 2014, D_InvGGX of its shaders, for the shading model Cloth, where it stands
  * for "asperity scattering". The same upside-down d_ggx in place of the exponential of d_ashikhmin; no paper
- * tells of it. Its name for the idea: Jan Koenderink, Sylvia Pont, "The Secret of Velvety Skin", 2003.
+ * describes it. Its name for the idea: Jan Koenderink, Sylvia Pont, "The Secret of Velvety Skin", 2003.
  *   alpha: alpha = roughness^2 (its argument a2 is alpha^2). */
 #ifndef WEFT_D_INVERSE_GGX_H
 #define WEFT_D_INVERSE_GGX_H

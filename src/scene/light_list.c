@@ -1,4 +1,4 @@
-/* lights.c - the lights of a scene: to add, to read, to change, to take away
+/* light_list.c - the lights of a scene: to add, to read, to change, to take away
  *
  * A viewer drags lights for minutes: lists keep their memory when they shrink, and a polygon's vertices are
  * written in place. */

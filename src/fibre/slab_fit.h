@@ -1,12 +1,12 @@
-/* fit.h - a closed form made to agree with slabs: least absolute error by reweighted Gauss-Newton
+/* slab_fit.h - a closed form made to agree with slabs: least absolute error by reweighted Gauss-Newton
  *
  * A form has local numbers theta, which hold for one slab, and these are linear in the coefficients that are
  * sought: theta[q] = fixed[q] + sum of coefficients[column] * basis. The error of a slab is what is printed
  * everywhere, integral of |f - f_true| mu over R, for each direction; the albedo's own error is weighed in,
  * and heavily where the form would reflect more than 0.96 of what it receives, so that what it
  * does between the directions of the fit stays below 1. */
-#ifndef WEFT_FIBRE_FIT_H
-#define WEFT_FIBRE_FIT_H
+#ifndef WEFT_FIBRE_SLAB_FIT_H
+#define WEFT_FIBRE_SLAB_FIT_H
 
 #include "fibre/solver_reference.h"
 

@@ -1,4 +1,4 @@
-/* tables.c - the tables that a text reads: as samplers of one channel each, or as arrays in the text */
+/* draft_tables.c - the tables that a text reads: as samplers of one channel each, or as arrays in the text */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

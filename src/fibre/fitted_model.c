@@ -1,5 +1,5 @@
-#include "base/pi.h"
 #include "fibre/fitted_model.h"
+#include "base/pi.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "fibre/fit.h"
+#include "fibre/slab_fit.h"
 
 #include <math.h>
 #include <stdlib.h>
